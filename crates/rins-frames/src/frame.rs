@@ -1,0 +1,119 @@
+//! The frames, and vectors resolved in them.
+
+use core::fmt::Debug;
+use core::marker::PhantomData;
+use core::ops::{Add, AddAssign, Mul, Neg, Sub};
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::rotation_vector::cross_matrix;
+
+/// A frame of reference.
+pub trait Frame: Copy + Debug + 'static {}
+
+macro_rules! frames {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name {}
+        impl Frame for $name {}
+    )*};
+}
+
+frames! {
+    /// `n`: east, north, up at the turntable (wander angle zero).
+    Nav,
+    /// `s`: the body frame at table angle zero; its z is the spin axis. It does not turn.
+    Table,
+    /// `b`: fixed to the IMU: right, front, up; its z is the spin axis.
+    Body,
+}
+
+/// A vector resolved in frame `F`, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct InFrame<F> {
+    pub(crate) components: Vector3<f64>,
+    frame: PhantomData<F>,
+}
+
+impl<F: Frame> InFrame<F> {
+    /// The vector with these components.
+    pub const fn new(x: f64, y: f64, z: f64) -> Self {
+        Self::from_components(Vector3::new(x, y, z))
+    }
+
+    /// The vector that is zero in every frame.
+    pub const fn zeros() -> Self {
+        Self::new(0.0, 0.0, 0.0)
+    }
+
+    /// Claims that `components` are resolved in `F`: the one way in from bare numbers.
+    pub const fn from_components(components: Vector3<f64>) -> Self {
+        Self { components, frame: PhantomData }
+    }
+
+    /// The bare components, for a kernel or a state vector: the one way out.
+    pub const fn components(&self) -> &Vector3<f64> {
+        &self.components
+    }
+
+    /// The vector product `self × other`.
+    #[must_use]
+    pub fn cross(&self, other: &Self) -> Self {
+        Self::from_components(self.components.cross(&other.components))
+    }
+
+    /// The scalar product.
+    pub fn dot(&self, other: &Self) -> f64 {
+        self.components.dot(&other.components)
+    }
+
+    /// The length.
+    pub fn norm(&self) -> f64 {
+        self.components.norm()
+    }
+
+    /// The matrix `[v×]`, so that `v.cross_matrix() * w` is `v × w`.
+    pub fn cross_matrix(&self) -> Matrix3<f64> {
+        cross_matrix(&self.components)
+    }
+}
+
+impl<F: Frame> Add for InFrame<F> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::from_components(self.components + other.components)
+    }
+}
+
+impl<F: Frame> AddAssign for InFrame<F> {
+    fn add_assign(&mut self, other: Self) {
+        self.components += other.components;
+    }
+}
+
+impl<F: Frame> Sub for InFrame<F> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self::from_components(self.components - other.components)
+    }
+}
+
+impl<F: Frame> Neg for InFrame<F> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::from_components(-self.components)
+    }
+}
+
+impl<F: Frame> Mul<f64> for InFrame<F> {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self::from_components(self.components * factor)
+    }
+}

@@ -1,0 +1,39 @@
+//! Frames of reference, the rotations between them, and the Earth they stand on.
+//!
+//! **What it does.** A vector carries the frame that it is resolved in, a rotation the two frames
+//! that it joins, so that a wrong order or a forgotten transpose does not compile. Beside them
+//! stand the WGS84 Earth (radii, normal gravity, Earth and transport rate) and unit constants.
+//!
+//! **What it does not do.** Points, positions and poses are left out, and so is a units crate:
+//! every number is in SI units and radians.
+//!
+//! ```
+//! use rins_frames::{Body, Dcm, InFrame, Nav, Table};
+//! let nav_from_table = Dcm::<Nav, Table>::about_x(0.3);
+//! let table_from_body = Dcm::<Table, Body>::about_z(1.0);
+//! let up_in_nav: InFrame<Nav> = nav_from_table * table_from_body * InFrame::<Body>::new(0.0, 0.0, 1.0);
+//! assert!((up_in_nav.components().z - 0.3_f64.cos()).abs() < 1e-15);
+//! ```
+//!
+//! Frames cannot be mixed:
+//! ```compile_fail,E0308
+//! use rins_frames::{Body, Dcm, InFrame, Nav, Table};
+//! let nav_from_table = Dcm::<Nav, Table>::identity();
+//! let wrong: InFrame<Nav> = nav_from_table * InFrame::<Body>::new(0.0, 0.0, 1.0);
+//! ```
+#![no_std]
+
+mod dcm;
+mod earth;
+mod euler;
+mod frame;
+mod increments;
+mod rotation_vector;
+pub mod units;
+
+pub use dcm::{Dcm, NotARotation};
+pub use earth::{EARTH_RATE, Site};
+pub use euler::EulerAngles;
+pub use frame::{Body, Frame, InFrame, Nav, Table};
+pub use increments::{Increments, Rates};
+pub use rotation_vector::cross_matrix;

@@ -1,0 +1,48 @@
+//! A run as it was recorded: increments, and what the table said of itself.
+
+use rins_frames::Increments;
+
+/// The samples of one run, in order of time, all in SI units.
+///
+/// Sample `k` covers the interval that ends at `times[k]`. Every list is as long as `times`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// The end of each sample's interval \[s\], strictly increasing.
+    pub times: Vec<f64>,
+    /// What the IMU delivered over each interval.
+    pub increments: Vec<Increments>,
+    /// The table angle at the end of each interval, unwrapped \[rad\].
+    pub table_angle: Option<Vec<f64>>,
+    /// The mean commanded table rate over each interval \[rad/s\].
+    pub table_rate: Option<Vec<f64>>,
+    /// The temperature at the end of each interval \[°C\].
+    pub temperature: Option<Vec<f64>>,
+}
+
+impl Recording {
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// The samples from index `first` up to, not including, `end`.
+    ///
+    /// # Panics
+    /// If `first..end` is not a range of this recording.
+    #[must_use]
+    pub fn slice(&self, first: usize, end: usize) -> Self {
+        let of = |list: &Option<Vec<f64>>| list.as_ref().map(|list| list[first..end].to_vec());
+        Self {
+            times: self.times[first..end].to_vec(),
+            increments: self.increments[first..end].to_vec(),
+            table_angle: of(&self.table_angle),
+            table_rate: of(&self.table_rate),
+            temperature: of(&self.temperature),
+        }
+    }
+}
