@@ -1,0 +1,113 @@
+//! What a perfect IMU on a tilted table measures on the rotating Earth.
+
+use nalgebra::Vector3;
+use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
+
+use crate::station::Station;
+use crate::turntable::{Piece, Profile};
+
+/// Nodes and weights of five-point Gauss-Legendre quadrature on [-1, 1].
+const GAUSS: [(f64, f64); 5] = [
+    (0.0, 0.568888888888888889),
+    (0.538469310105683091, 0.478628670499366468),
+    (-0.538469310105683091, 0.478628670499366468),
+    (0.906179845938663993, 0.236926885056189088),
+    (-0.906179845938663993, 0.236926885056189088),
+];
+
+/// The largest turn \[rad\] over which the quadrature is used at once: its error there,
+/// about 0.25¹¹ (5!)⁴ / (11 (10!)³), is 10⁻¹⁹.
+const LARGEST_TURN: f64 = 0.25;
+
+/// A table on the Earth, and the motion it makes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrueMotion {
+    /// Where the table stands.
+    pub station: Station,
+    /// The attitude of the axis frame, which does not move.
+    pub nav_from_table: Dcm<Nav, Table>,
+    /// The table's motion.
+    pub profile: Profile,
+}
+
+/// One interval of true motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrueSample {
+    /// The end of the interval \[s\].
+    pub time: f64,
+    /// What a perfect IMU measures over it.
+    pub increments: Increments,
+    /// The table angle at its end \[rad\].
+    pub angle: f64,
+    /// The mean table rate over it \[rad/s\].
+    pub mean_rate: f64,
+}
+
+impl TrueMotion {
+    /// The increments of a perfect IMU from time `from` to `to` \[s\], exact to rounding.
+    ///
+    /// `ω_ib^b = Rz(ζ)ᵀ ω_ie^s + ζ' z` (eq. (2)) and `f^b = -Rz(ζ)ᵀ g^s` are integrated over the
+    /// true table angle ζ(t) by quadrature whose error lies below the last digit.
+    pub fn increments(&self, from: f64, to: f64) -> Increments {
+        let table_from_nav = self.nav_from_table.inverse();
+        let earth_rate = table_from_nav * self.station.site.earth_rate();
+        let reaction = table_from_nav * -self.station.gravity_vector();
+        let (mut cos, mut sin) = (0.0, 0.0);
+        for (piece, begin, end) in self.profile.pieces_within(from, to) {
+            let (c, s) = integrals(piece, begin, end);
+            cos += c;
+            sin += s;
+        }
+        let turn = self.profile.angle(to) - self.profile.angle(from);
+        let interval = to - from;
+        let integral = |vector: InFrame<Table>| {
+            let v = vector.components();
+            Vector3::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin, v.z * interval)
+        };
+        Increments {
+            angle: InFrame::from_components(integral(earth_rate) + Vector3::z() * turn),
+            velocity: InFrame::from_components(integral(reaction)),
+            interval,
+        }
+    }
+
+    /// The whole profile in intervals of `interval` \[s\]; a last part of an interval is left out.
+    pub fn samples(&self, interval: f64) -> impl Iterator<Item = TrueSample> {
+        // Half a nanosecond a day: a duration of n intervals must not lose its last one to rounding.
+        let count = (self.profile.duration() / interval * (1.0 + 1e-12)).floor();
+        let mut sample = 0.0;
+        core::iter::from_fn(move || {
+            if sample >= count {
+                return None;
+            }
+            let (from, to) = (sample * interval, (sample + 1.0) * interval);
+            sample += 1.0;
+            let angle = self.profile.angle(to);
+            Some(TrueSample {
+                time: to,
+                increments: Increments { interval, ..self.increments(from, to) },
+                angle,
+                mean_rate: (angle - self.profile.angle(from)) / interval,
+            })
+        })
+    }
+}
+
+/// `∫ cos ζ dt` and `∫ sin ζ dt` over a part of a piece.
+fn integrals(piece: &Piece, begin: f64, end: f64) -> (f64, f64) {
+    let fastest = piece.rate_at(begin).abs().max(piece.rate_at(end).abs());
+    let parts = (fastest * (end - begin) / LARGEST_TURN).ceil().max(1.0);
+    let half = (end - begin) / parts / 2.0;
+    let (mut cos, mut sin) = (0.0, 0.0);
+    let mut part = 0.0;
+    while part < parts {
+        let middle = begin + half * (2.0 * part + 1.0);
+        for (node, weight) in GAUSS {
+            let (s, c) = piece.angle_at(middle + half * node).sin_cos();
+            cos += weight * half * c;
+            sin += weight * half * s;
+        }
+        part += 1.0;
+    }
+    (cos, sin)
+}
