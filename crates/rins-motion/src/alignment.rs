@@ -1,0 +1,153 @@
+//! Static alignment: level from gravity, north from the Earth's rotation.
+
+use nalgebra::{Matrix3, Vector3};
+use rins_frames::{Body, Dcm, InFrame, Nav, Rates};
+
+use crate::station::Station;
+
+/// The specific force \[m/s²\] below which there is no gravity to level by.
+const LEAST_GRAVITY: f64 = 1.0;
+
+/// The azimuth sigma \[rad\] above which north has not been found.
+const LARGEST_AZIMUTH_SIGMA: f64 = 0.5;
+
+/// How well an IMU at rest measured its mean rates: 1σ of each axis, noise and sensor errors together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanUncertainty {
+    /// Of each gyro's mean \[rad/s\].
+    pub angular_rate: f64,
+    /// Of each accelerometer's mean \[m/s²\].
+    pub specific_force: f64,
+}
+
+/// An attitude found at rest, and how well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alignment {
+    /// The attitude, `C_b^n`.
+    pub nav_from_body: Dcm<Nav, Body>,
+    /// The covariance of its error `φ`, resolved in n \[rad²\].
+    pub covariance: Matrix3<f64>,
+}
+
+/// What an IMU at rest says of the place where it stands, without being told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceSeen {
+    /// The magnitude of the mean specific force \[m/s²\].
+    pub gravity: f64,
+    /// The magnitude of the mean angular rate \[rad/s\].
+    pub earth_rate: f64,
+    /// The latitude between the two \[rad\].
+    pub latitude: f64,
+    /// Its 1σ \[rad\].
+    pub latitude_sigma: f64,
+}
+
+/// Why no attitude could be found.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AlignmentError {
+    /// There is no specific force to level by.
+    #[error("the mean specific force is {specific_force} m/s², too little to level by")]
+    NoGravity {
+        /// Its magnitude \[m/s²\].
+        specific_force: f64,
+    },
+    /// The Earth's rotation is lost in the gyros' errors.
+    #[error(
+        "the gyros cannot find north: the azimuth would have a sigma of {azimuth_sigma:.2} rad; \
+         give the attitude, or better gyros"
+    )]
+    NorthNotFound {
+        /// The 1σ that the azimuth would have \[rad\].
+        azimuth_sigma: f64,
+    },
+}
+
+/// What the mean rates of an IMU at rest say of the place.
+pub fn place_seen(mean: &Rates, sigma: &MeanUncertainty) -> PlaceSeen {
+    let (f, w) = (mean.specific_force, mean.angular_rate);
+    let (gravity, earth_rate) = (f.norm(), w.norm());
+    let horizontal = f.cross(&w).norm() / gravity;
+    PlaceSeen {
+        gravity,
+        earth_rate,
+        latitude: (f.dot(&w) / gravity).atan2(horizontal),
+        latitude_sigma: (sigma.angular_rate / earth_rate).hypot(sigma.specific_force / gravity),
+    }
+}
+
+/// The attitude of an IMU at rest: up is against gravity, and the Earth's rate has no east component.
+///
+/// The covariance follows from `C~ f~ ∥ up` and `(C~ ω~)_E = 0`: with the error `φ` of
+/// `C~ = (I - φ×) C`, `φ_E = -δf_N/g`, `φ_N = δf_E/g` and
+/// `φ_U = (φ_N Ω sin L - δω_E) / (Ω cos L)`. A mean rate error along east cannot be told from azimuth.
+///
+/// # Errors
+/// [`AlignmentError`] if there is no gravity, or if north would not be found to half a radian.
+pub fn align(
+    mean: &Rates,
+    sigma: &MeanUncertainty,
+    station: &Station,
+) -> Result<Alignment, AlignmentError> {
+    let f = mean.specific_force.components();
+    let specific_force = f.norm();
+    if specific_force.is_nan() || specific_force < LEAST_GRAVITY {
+        return Err(AlignmentError::NoGravity { specific_force });
+    }
+    let covariance = covariance(sigma, station);
+    let azimuth_sigma = covariance[(2, 2)].sqrt();
+    let up = f / specific_force;
+    let east = mean.angular_rate.components().cross(&up);
+    let horizontal = east.norm();
+    if azimuth_sigma.is_nan() || azimuth_sigma > LARGEST_AZIMUTH_SIGMA || horizontal <= 0.0 {
+        return Err(AlignmentError::NorthNotFound { azimuth_sigma });
+    }
+    let east = east / horizontal;
+    Ok(Alignment { nav_from_body: from_axes(&east, &up), covariance })
+}
+
+/// The attitude of an IMU at rest whose yaw is known otherwise.
+///
+/// # Errors
+/// [`AlignmentError::NoGravity`] if there is none to level by.
+pub fn level(mean: &Rates, yaw: f64) -> Result<Dcm<Nav, Body>, AlignmentError> {
+    let f = mean.specific_force.components();
+    let specific_force = f.norm();
+    if specific_force.is_nan() || specific_force < LEAST_GRAVITY {
+        return Err(AlignmentError::NoGravity { specific_force });
+    }
+    let up = f / specific_force;
+    // Body x, projected onto the level, gives any east; turning it about up gives the yaw wanted.
+    let seed = if up.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+    let east = (seed - up * up.dot(&seed)).normalize();
+    let any = from_axes(&east, &up);
+    let turn = yaw - any.euler_angles().yaw;
+    Ok(Dcm::<Nav, Nav>::about_z(turn) * any)
+}
+
+/// What an alignment's attitude leaves of the mean rates: measured minus predicted.
+///
+/// The gyro part is the bias found, less the share along east that the azimuth has taken; of the
+/// accelerometer part only the component along up is left.
+pub fn residual(mean: &Rates, nav_from_body: Dcm<Nav, Body>, station: &Station) -> Rates {
+    let body_from_nav = nav_from_body.inverse();
+    Rates {
+        angular_rate: mean.angular_rate - body_from_nav * station.site.earth_rate(),
+        specific_force: mean.specific_force + body_from_nav * station.gravity_vector(),
+    }
+}
+
+fn covariance(sigma: &MeanUncertainty, station: &Station) -> Matrix3<f64> {
+    let earth_rate: InFrame<Nav> = station.site.earth_rate();
+    let (north, up) = (earth_rate.components().y, earth_rate.components().z);
+    let tilt = sigma.specific_force / station.gravity;
+    let by_force = Matrix3::new(0.0, -tilt, 0.0, tilt, 0.0, 0.0, tilt * up / north, 0.0, 0.0);
+    let azimuth = sigma.angular_rate / north;
+    by_force * by_force.transpose() + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, azimuth * azimuth))
+}
+
+fn from_axes(east: &Vector3<f64>, up: &Vector3<f64>) -> Dcm<Nav, Body> {
+    let north = up.cross(east);
+    let rows = [east.transpose(), north.transpose(), up.transpose()];
+    Dcm::from_matrix(Matrix3::from_rows(&rows)).expect("three orthonormal rows are a rotation")
+}

@@ -1,0 +1,168 @@
+//! When an IMU stands still, and what it measures on average then.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+use rins_frames::units::DEG_PER_SECOND;
+use rins_frames::{InFrame, Rates};
+
+use crate::recording::Recording;
+
+/// The stretch over which rest is judged \[s\].
+const WINDOW: f64 = 1.0;
+
+/// A table that turns more slowly than this \[rad/s\] stands still: 3.6″ a second.
+const SLOWEST_TABLE_RATE: f64 = 0.001 * DEG_PER_SECOND;
+
+/// Without a table, a mean rate above this \[rad/s\] is a turn rather than a gyro bias.
+const LARGEST_BIAS: f64 = 1.0 * DEG_PER_SECOND;
+
+/// A window moves if its scatter is so many times that of the quietest tenth of all windows.
+const SCATTER_RATIO: f64 = 4.0;
+
+/// The mean rates over a stretch of rest, and how far they scatter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestMean {
+    /// The means.
+    pub rates: Rates,
+    /// The stretch's length \[s\].
+    pub duration: f64,
+    /// The 1σ of each gyro's mean that the scatter of its parts' means shows \[rad/s\].
+    pub angular_rate_sigma: Vector3<f64>,
+    /// The same of each accelerometer's mean \[m/s²\].
+    pub specific_force_sigma: Vector3<f64>,
+}
+
+impl RestMean {
+    /// The means over samples `span` of a recording, or `None` if the span is empty or outside.
+    ///
+    /// Their sigma is that of `n` batch means over √n, which holds for white noise and for drifts
+    /// that are short against the span; a constant bias does not show in it.
+    pub fn of(recording: &Recording, span: Range<usize>) -> Option<Self> {
+        const BATCHES: usize = 20;
+        let samples = recording.increments.get(span).filter(|samples| !samples.is_empty())?;
+        let (rates, duration) = mean(samples);
+        let size = samples.len().div_ceil(BATCHES);
+        let batches: Vec<Rates> = samples.chunks_exact(size).map(|batch| mean(batch).0).collect();
+        let count = batches.len() as f64;
+        let spread = |of: fn(&Rates) -> Vector3<f64>| {
+            let square = |sum: Vector3<f64>, batch: &Rates| {
+                let off = of(batch) - of(&rates);
+                sum + off.component_mul(&off)
+            };
+            let variance = batches.iter().fold(Vector3::zeros(), square) / (count - 1.0).max(1.0);
+            variance.map(|variance| (variance / count.max(1.0)).sqrt())
+        };
+        Some(Self {
+            rates,
+            duration,
+            angular_rate_sigma: spread(|rates| *rates.angular_rate.components()),
+            specific_force_sigma: spread(|rates| *rates.specific_force.components()),
+        })
+    }
+}
+
+/// The stretches of at least `shortest` \[s\] over which the IMU stood still, as ranges of samples.
+///
+/// Where the table's angle or rate is known, it must stand; the IMU's own scatter over a second
+/// must in any case be near that of the quietest seconds.
+pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
+    let windows = windows(recording);
+    let quiet = |of: fn(&Window) -> f64| {
+        let mut scatter: Vec<f64> =
+            windows.iter().filter(|window| window.stands).map(of).collect();
+        scatter.sort_by(f64::total_cmp);
+        scatter.get(scatter.len() / 10).map_or(0.0, |quiet| quiet * SCATTER_RATIO)
+    };
+    let gyro = quiet(|window| window.gyro_scatter);
+    let accel = quiet(|window| window.accel_scatter);
+    let at_rest = |window: &Window| {
+        window.stands && window.gyro_scatter <= gyro && window.accel_scatter <= accel
+    };
+
+    let mut spans: Vec<Range<usize>> = Vec::new();
+    for window in windows.iter().filter(|window| at_rest(window)) {
+        match spans.last_mut() {
+            Some(last) if last.end == window.span.start => last.end = window.span.end,
+            _ => spans.push(window.span.clone()),
+        }
+    }
+    spans.retain(|span| {
+        let lasting: f64 =
+            recording.increments[span.clone()].iter().map(|sample| sample.interval).sum();
+        lasting >= shortest * (1.0 - 1e-9)
+    });
+    spans
+}
+
+struct Window {
+    span: Range<usize>,
+    stands: bool,
+    gyro_scatter: f64,
+    accel_scatter: f64,
+}
+
+fn windows(recording: &Recording) -> Vec<Window> {
+    let mut windows = Vec::new();
+    let mut start = 0;
+    let mut elapsed = 0.0;
+    for (index, sample) in recording.increments.iter().enumerate() {
+        elapsed += sample.interval;
+        if elapsed >= WINDOW * (1.0 - 1e-9) {
+            windows.push(window(recording, start..index + 1));
+            start = index + 1;
+            elapsed = 0.0;
+        }
+    }
+    windows
+}
+
+fn window(recording: &Recording, span: Range<usize>) -> Window {
+    let samples = &recording.increments[span.clone()];
+    let (rates, duration) = mean(samples);
+    let scatter = |of: fn(&Rates) -> Vector3<f64>| {
+        let sum: f64 =
+            samples.iter().map(|sample| (of(&sample.rates()) - of(&rates)).norm_squared()).sum();
+        (sum / samples.len() as f64).sqrt()
+    };
+    let table_rate = recording
+        .table_rate
+        .as_ref()
+        .map(|rate| rate[span.clone()].iter().fold(0.0, |most: f64, rate| most.max(rate.abs())))
+        .or_else(|| recording.table_angle.as_ref().map(|angle| slope(&angle[span.clone()], duration)));
+    Window {
+        stands: match table_rate {
+            Some(rate) => rate.abs() < SLOWEST_TABLE_RATE,
+            None => rates.angular_rate.norm() < LARGEST_BIAS,
+        },
+        gyro_scatter: scatter(|rates| *rates.angular_rate.components()),
+        accel_scatter: scatter(|rates| *rates.specific_force.components()),
+        span,
+    }
+}
+
+/// The mean slope of equally spaced readings: the last third's mean less the first third's.
+///
+/// A difference of two readings would carry the encoder's noise in full.
+fn slope(angle: &[f64], duration: f64) -> f64 {
+    let third = (angle.len() / 3).max(1);
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let apart = duration * (angle.len() - third) as f64 / angle.len() as f64;
+    let change = mean(&angle[angle.len() - third..]) - mean(&angle[..third]);
+    if apart > 0.0 { change / apart } else { 0.0 }
+}
+
+fn mean(samples: &[rins_frames::Increments]) -> (Rates, f64) {
+    let mut duration = 0.0;
+    let (mut angle, mut velocity) = (Vector3::zeros(), Vector3::zeros());
+    for sample in samples {
+        angle += sample.angle.components();
+        velocity += sample.velocity.components();
+        duration += sample.interval;
+    }
+    let rates = Rates {
+        angular_rate: InFrame::from_components(angle / duration),
+        specific_force: InFrame::from_components(velocity / duration),
+    };
+    (rates, duration)
+}
