@@ -1,5 +1,6 @@
 //! A rate table's motion, what a perfect IMU on it measures, and navigation from what one delivers.
 mod alignment;
+mod inspection;
 mod recording;
 mod rest;
 mod station;
@@ -10,6 +11,7 @@ mod turntable;
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
+pub use inspection::{CHANNELS, Inspection, RestSeen, Suspicion, Timing, inspect};
 pub use recording::Recording;
 pub use rest::{RestMean, rest_spans};
 pub use station::Station;
