@@ -1,0 +1,124 @@
+//! The deterministic errors of a whole IMU, and their inverse.
+
+use rins_frames::Increments;
+
+use crate::axis::Triad;
+use crate::triad::{CompensationError, TriadCompensation, TriadError};
+
+/// The errors of a gyro and an accelerometer triad (eq. (1), once for each). The default has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ImuError {
+    /// The gyros' errors: biases in rad/s.
+    pub gyro: TriadError,
+    /// The accelerometers' errors: biases in m/s².
+    pub accel: TriadError,
+}
+
+impl ImuError {
+    /// What an IMU with these errors delivers where `truth` happens.
+    #[must_use]
+    pub fn measure(&self, truth: &Increments) -> Increments {
+        let interval = truth.interval;
+        Increments {
+            angle: self.gyro.measured_increment(&truth.angle, interval),
+            velocity: self.accel.measured_increment(&truth.velocity, interval),
+            interval,
+        }
+    }
+
+    /// The exact inverse of these errors.
+    ///
+    /// # Errors
+    /// [`ImuCompensationError`] if either triad cannot be inverted.
+    pub fn compensation(&self) -> Result<Compensation, ImuCompensationError> {
+        let of = |error: &TriadError, triad| {
+            error.compensation().map_err(|reason| ImuCompensationError { triad, reason })
+        };
+        Ok(Compensation {
+            gyro: of(&self.gyro, Triad::Gyro)?,
+            accel: of(&self.accel, Triad::Accel)?,
+        })
+    }
+}
+
+/// Which triad cannot be compensated, and why.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the {triad} errors cannot be undone")]
+pub struct ImuCompensationError {
+    /// The triad.
+    pub triad: Triad,
+    /// Why its errors cannot be undone.
+    #[source]
+    pub reason: CompensationError,
+}
+
+/// The exact inverse of an [`ImuError`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compensation {
+    /// The gyros' inverse.
+    pub gyro: TriadCompensation,
+    /// The accelerometers' inverse.
+    pub accel: TriadCompensation,
+}
+
+impl Compensation {
+    /// What happened where the IMU delivered `measured`.
+    #[must_use]
+    pub fn compensate(&self, measured: &Increments) -> Increments {
+        let interval = measured.interval;
+        Increments {
+            angle: self.gyro.true_increment(&measured.angle, interval),
+            velocity: self.accel.true_increment(&measured.velocity, interval),
+            interval,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::axis::Axis;
+    use proptest::prelude::*;
+    use rins_frames::InFrame;
+
+    proptest! {
+        #[test]
+        fn compensating_a_measurement_yields_the_truth(
+            parameters in prop::array::uniform24(-0.01..0.01_f64),
+            angle in [-0.1..0.1_f64, -0.1..0.1_f64, -0.1..0.1_f64],
+            velocity in [-0.2..0.2_f64, -0.2..0.2_f64, -0.2..0.2_f64],
+        ) {
+            let triad = |p: &[f64]| TriadError {
+                bias: nalgebra::Vector3::from_column_slice(&p[..3]),
+                matrix: nalgebra::Matrix3::from_column_slice(&p[3..]),
+            };
+            let error = ImuError { gyro: triad(&parameters[..12]), accel: triad(&parameters[12..]) };
+            let truth = Increments {
+                angle: InFrame::from_components(angle.into()),
+                velocity: InFrame::from_components(velocity.into()),
+                interval: 0.02,
+            };
+            let undone = error.compensation().unwrap().compensate(&error.measure(&truth));
+            // Relative to the signal, or to the bias where that is the larger.
+            prop_assert!((undone.angle - truth.angle).norm() <= 1e-15 * (truth.angle.norm() + 1e-3));
+            prop_assert!(
+                (undone.velocity - truth.velocity).norm() <= 1e-15 * (truth.velocity.norm() + 1e-3)
+            );
+        }
+    }
+
+    #[test]
+    fn refusal_names_the_triad() {
+        let error = ImuError {
+            accel: TriadError::default().with_scale(Axis::Z, -1.0),
+            ..ImuError::default()
+        };
+        let refusal = error.compensation().unwrap_err();
+        assert_eq!(refusal.triad, Triad::Accel);
+        assert_eq!(refusal.to_string(), "the accelerometer errors cannot be undone");
+        assert_eq!(
+            refusal.reason.to_string(),
+            "axis z has a scale error of -1, so its reading carries nothing"
+        );
+    }
+}

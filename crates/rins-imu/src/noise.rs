@@ -1,0 +1,14 @@
+//! The random errors of an IMU.
+
+mod imu;
+mod model;
+mod normal;
+mod process;
+mod quantiser;
+mod seed;
+mod source;
+
+pub use imu::{ImuNoise, ImuNoiseError, ImuNoiseSource};
+pub use model::{GaussMarkov, NoiseError, NoiseModel, Quantisation, Span};
+pub use seed::{NormalStream, Seed, Sensor};
+pub use source::TriadNoise;

@@ -1,0 +1,73 @@
+//! The random errors of a whole IMU.
+
+use rins_frames::Increments;
+
+use super::model::{NoiseError, NoiseModel, Span};
+use super::seed::Seed;
+use super::source::TriadNoise;
+use crate::axis::Triad;
+
+/// The random errors of a gyro and an accelerometer triad. The default is none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ImuNoise {
+    /// The gyros', in rad/s and its multiples.
+    pub gyro: NoiseModel,
+    /// The accelerometers', in m/s² and its multiples.
+    pub accel: NoiseModel,
+}
+
+/// Which triad's noise model describes no noise, and why.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the {triad} noise is impossible")]
+pub struct ImuNoiseError {
+    /// The triad.
+    pub triad: Triad,
+    /// What is wrong with it.
+    #[source]
+    pub reason: NoiseError,
+}
+
+/// A source of the random errors of an IMU.
+#[derive(Clone, Debug)]
+pub struct ImuNoiseSource {
+    gyro: TriadNoise,
+    accel: TriadNoise,
+}
+
+impl ImuNoise {
+    /// The source of this noise in the run of `seed`; flicker noise is made for times within `span`.
+    ///
+    /// # Errors
+    /// [`ImuNoiseError`] if a figure is negative, not finite, or zero where it must not be.
+    pub fn source(&self, span: &Span, seed: Seed) -> Result<ImuNoiseSource, ImuNoiseError> {
+        let of = |model, triad| {
+            TriadNoise::new(model, span, triad, seed)
+                .map_err(|reason| ImuNoiseError { triad, reason })
+        };
+        Ok(ImuNoiseSource {
+            gyro: of(&self.gyro, Triad::Gyro)?,
+            accel: of(&self.accel, Triad::Accel)?,
+        })
+    }
+}
+
+impl ImuNoiseSource {
+    /// What the IMU delivers over its next interval where a noiseless one delivers `increments`.
+    #[must_use]
+    pub fn corrupt(&mut self, increments: &Increments) -> Increments {
+        let interval = increments.interval;
+        Increments {
+            angle: self.gyro.corrupt(&increments.angle, interval),
+            velocity: self.accel.corrupt(&increments.velocity, interval),
+            interval,
+        }
+    }
+
+    /// The noise of one triad.
+    pub fn triad(&self, triad: Triad) -> &TriadNoise {
+        match triad {
+            Triad::Gyro => &self.gyro,
+            Triad::Accel => &self.accel,
+        }
+    }
+}

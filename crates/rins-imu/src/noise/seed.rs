@@ -1,0 +1,145 @@
+//! Which random numbers belong to which sensor of which run.
+
+use rand_pcg::Pcg64;
+
+use super::normal::standard_normal;
+use crate::axis::{Axis, Triad};
+
+/// What the random numbers of a run follow from.
+///
+/// Each [`Sensor`] has a generator of its own: PCG64 (XSL-RR 128/64) on the stream
+/// `256 run + code`, so that no two sensors of one campaign ever share one, started from a state
+/// hashed out of seed, run and code. No numbers depend on which other sensors there are, on the order in
+/// which runs are made, or on the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Seed {
+    /// Chosen once for a campaign.
+    pub seed: u64,
+    /// The index of a run within it.
+    pub run: u64,
+}
+
+/// One of the sensors that have random numbers of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Sensor {
+    /// A gyro or an accelerometer: codes 0 to 2 and 3 to 5.
+    Inertial(Triad, Axis),
+    /// The table's angle encoder: code 6.
+    Encoder,
+}
+
+impl Sensor {
+    /// The number that tells this sensor's stream from the others'; it will not change.
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Inertial(Triad::Gyro, axis) => axis as u8,
+            Self::Inertial(Triad::Accel, axis) => 3 + axis as u8,
+            Self::Encoder => 6,
+        }
+    }
+}
+
+impl Seed {
+    /// The first run of a campaign.
+    pub const fn new(seed: u64) -> Self {
+        Self { seed, run: 0 }
+    }
+
+    /// The standard normal numbers of a sensor, from the first.
+    ///
+    /// ```
+    /// use rins_imu::{Seed, Sensor};
+    /// let seed = Seed { seed: 42, run: 3 };
+    /// let (mut one, mut same) = (seed.stream(Sensor::Encoder), seed.stream(Sensor::Encoder));
+    /// assert_eq!(one.sample(), same.sample());
+    /// ```
+    pub fn stream(self, sensor: Sensor) -> NormalStream {
+        let code = sensor.code();
+        let words = [self.seed, self.run, u64::from(code)];
+        let hash = words.into_iter().fold(0, |hash: u64, word| scrambled(hash.wrapping_add(word)));
+        let (high, low) = (scrambled(hash), scrambled(scrambled(hash)));
+        let state = u128::from(high) << 64 | u128::from(low);
+        NormalStream(Pcg64::new(state, u128::from(self.run) << 8 | u128::from(code)))
+    }
+}
+
+/// One step of `SplitMix64` (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+const fn scrambled(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}
+
+/// Independent standard normal numbers, the same on every machine.
+#[derive(Clone, Debug)]
+pub struct NormalStream(Pcg64);
+
+impl NormalStream {
+    /// The next number; one step of the generator makes one.
+    #[inline]
+    pub fn sample(&mut self) -> f64 {
+        standard_normal(&mut self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_pcg::rand_core::Rng;
+    use rins_testing::assert_close;
+    use std::collections::HashSet;
+
+    fn all_sensors() -> impl Iterator<Item = Sensor> {
+        let of = |triad| Axis::ALL.map(|axis| Sensor::Inertial(triad, axis));
+        of(Triad::Gyro).into_iter().chain(of(Triad::Accel)).chain([Sensor::Encoder])
+    }
+
+    /// The first outputs for seed 42, run 7, made by a `PCG64` and a `SplitMix64` written in Python
+    /// from their papers (`tests/data/pcg64_reference.py`).
+    #[test]
+    fn bits_are_those_of_a_generator_written_apart() {
+        let seed = Seed { seed: 42, run: 7 };
+        let first = |sensor| seed.stream(sensor).0.next_u64();
+        assert_eq!(first(Sensor::Inertial(Triad::Gyro, Axis::X)), 0x0d55_a118_42e2_ac16);
+        assert_eq!(first(Sensor::Inertial(Triad::Accel, Axis::Z)), 0x75ce_9d9b_94e4_5eea);
+        assert_eq!(first(Sensor::Encoder), 0xb7cd_97f7_6724_c42d);
+    }
+
+    #[test]
+    fn sensors_runs_and_seeds_have_different_numbers() {
+        let mut seen = HashSet::new();
+        for (seed, run) in (0..20).flat_map(|seed| (0..20).map(move |run| (seed, run))) {
+            for sensor in all_sensors() {
+                assert!(seen.insert(Seed { seed, run }.stream(sensor).0.next_u64()));
+            }
+        }
+    }
+
+    #[test]
+    fn streams_are_uncorrelated() {
+        const COUNT: usize = 20_000;
+        let mut streams: Vec<_> = all_sensors()
+            .map(|sensor| Seed::new(1).stream(sensor))
+            .chain([
+                Seed::new(2).stream(Sensor::Encoder),
+                Seed { seed: 1, run: 1 }.stream(Sensor::Encoder),
+            ])
+            .collect();
+        let numbers: Vec<Vec<f64>> = streams
+            .iter_mut()
+            .map(|stream| (0..COUNT).map(|_| stream.sample()).collect())
+            .collect();
+        for (place, one) in numbers.iter().enumerate() {
+            for other in &numbers[place + 1..] {
+                for lag in 0..3 {
+                    let pairs = one.iter().zip(&other[lag..]);
+                    let correlation = pairs.map(|(a, b)| a * b).sum::<f64>() / COUNT as f64;
+                    // Five sigma; 108 correlations are looked at.
+                    assert_close!(correlation, 0.0, 5.0 / (COUNT as f64).sqrt());
+                }
+            }
+        }
+    }
+}

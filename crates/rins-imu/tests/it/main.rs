@@ -1,0 +1,3 @@
+//! The statistics of the noise against what its coefficients mean.
+mod allan;
+mod noise;
