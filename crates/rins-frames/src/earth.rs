@@ -44,6 +44,15 @@ impl Site {
     }
 
     /// Normal gravity, downwards \[m/s²\]: Somigliana's formula, carried up to second order in height.
+    ///
+    /// NIMA TR8350.2, eqs. (4-1) and (4-3). The second leaves out squares of the flattening, and is
+    /// off the exact normal gravity by up to 1e-10 m/s² a metre of height.
+    ///
+    /// ```
+    /// use rins_frames::Site;
+    /// let pole = Site { latitude: std::f64::consts::FRAC_PI_2, longitude: 0.0, height: 0.0 };
+    /// assert!((pole.normal_gravity() - 9.8321849378).abs() < 1e-9);
+    /// ```
     pub fn normal_gravity(&self) -> f64 {
         let sin = ComplexField::sin(self.latitude);
         let square = sin * sin;
@@ -61,6 +70,15 @@ impl Site {
     }
 
     /// The rate of the geographic frame over the Earth, `ω_en^n` \[rad/s\], at this velocity \[m/s\].
+    ///
+    /// Its vertical component grows without bound towards the poles, where east is not defined.
+    ///
+    /// A velocity resolved in another frame does not compile:
+    /// ```compile_fail,E0308
+    /// use rins_frames::{Body, InFrame, Site};
+    /// let site = Site { latitude: 0.6, longitude: 0.0, height: 0.0 };
+    /// let rate = site.transport_rate(&InFrame::<Body>::new(0.0, 100.0, 0.0));
+    /// ```
     pub fn transport_rate(&self, velocity: &InFrame<Nav>) -> InFrame<Nav> {
         let v = velocity.components();
         let east = v.x / (self.transverse_radius() + self.height);

@@ -2,13 +2,28 @@
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
-use core::ops::{Add, AddAssign, Mul, Neg, Sub};
+use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::rotation_vector::cross_matrix;
 
 /// A frame of reference.
+///
+/// A frame is an empty enum, of which no value exists:
+/// ```compile_fail,E0423
+/// let nav = rins_frames::Nav;
+/// ```
+/// A frame of your own is two lines:
+/// ```
+/// use rins_frames::{Body, Dcm, Frame, InFrame};
+/// #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// enum Camera {}
+/// impl Frame for Camera {}
+///
+/// let camera_from_body = Dcm::<Camera, Body>::about_x(0.0);
+/// assert_eq!(camera_from_body * InFrame::new(1.0, 2.0, 3.0), InFrame::new(1.0, 2.0, 3.0));
+/// ```
 pub trait Frame: Copy + Debug + 'static {}
 
 macro_rules! frames {
@@ -30,6 +45,30 @@ frames! {
 }
 
 /// A vector resolved in frame `F`, in SI units.
+///
+/// ```
+/// use rins_frames::{InFrame, Nav};
+/// let (east, north) = (InFrame::<Nav>::new(1.0, 0.0, 0.0), InFrame::<Nav>::new(0.0, 1.0, 0.0));
+/// let up = InFrame::<Nav>::new(0.0, 0.0, 1.0);
+/// assert_eq!(east.cross(&north), up);
+/// assert_eq!((east * 3.0 - north * 4.0).norm(), 5.0);
+/// ```
+///
+/// Vectors of two frames have no sum:
+/// ```compile_fail,E0308
+/// use rins_frames::{Body, InFrame, Nav};
+/// let sum = InFrame::<Nav>::new(1.0, 0.0, 0.0) + InFrame::<Body>::new(0.0, 1.0, 0.0);
+/// ```
+/// no vector product:
+/// ```compile_fail,E0308
+/// use rins_frames::{Body, InFrame, Table};
+/// let product = InFrame::<Table>::zeros().cross(&InFrame::<Body>::zeros());
+/// ```
+/// and bare numbers claim a frame by name or not at all:
+/// ```compile_fail,E0308
+/// use rins_frames::{InFrame, Nav};
+/// let velocity: InFrame<Nav> = nalgebra::Vector3::new(1.0, 0.0, 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct InFrame<F> {
@@ -99,6 +138,12 @@ impl<F: Frame> Sub for InFrame<F> {
 
     fn sub(self, other: Self) -> Self {
         Self::from_components(self.components - other.components)
+    }
+}
+
+impl<F: Frame> SubAssign for InFrame<F> {
+    fn sub_assign(&mut self, other: Self) {
+        self.components -= other.components;
     }
 }
 

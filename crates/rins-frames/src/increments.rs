@@ -3,6 +3,30 @@
 use crate::frame::{Body, InFrame};
 
 /// The integrals of angular rate and specific force over an interval, resolved in the (turning) body.
+///
+/// ```
+/// use rins_frames::{InFrame, Rates};
+/// let rates = Rates {
+///     angular_rate: InFrame::new(0.0, 0.0, 0.25),
+///     specific_force: InFrame::new(0.0, 0.0, 9.75),
+/// };
+/// let increments = rates.over(0.5);
+/// assert_eq!(increments.angle, InFrame::new(0.0, 0.0, 0.125));
+/// assert_eq!(increments.rates(), rates);
+/// ```
+///
+/// A rate is no increment:
+/// ```compile_fail,E0308
+/// use rins_frames::{InFrame, Increments, Rates};
+/// fn integrate(_: Increments) {}
+/// integrate(Rates { angular_rate: InFrame::zeros(), specific_force: InFrame::zeros() });
+/// ```
+/// and nothing that is resolved in another frame is what an IMU delivers:
+/// ```compile_fail,E0308
+/// use rins_frames::{InFrame, Increments, Nav};
+/// let gravity = InFrame::<Nav>::new(0.0, 0.0, -9.8);
+/// Increments { angle: InFrame::zeros(), velocity: gravity, interval: 0.01 };
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Increments {
     /// `∫ ω_ib^b dt` \[rad\].
@@ -14,6 +38,13 @@ pub struct Increments {
 }
 
 /// The means of angular rate and specific force over an interval, resolved in the (turning) body.
+///
+/// An increment is no rate:
+/// ```compile_fail,E0308
+/// use rins_frames::{InFrame, Increments, Rates};
+/// fn compensate(_: Rates) {}
+/// compensate(Increments { angle: InFrame::zeros(), velocity: InFrame::zeros(), interval: 0.01 });
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     /// The mean of `ω_ib^b` \[rad/s\].
@@ -23,7 +54,7 @@ pub struct Rates {
 }
 
 impl Increments {
-    /// These increments as means over their interval.
+    /// These increments as means over their interval, which must not be zero for them to be finite.
     pub fn rates(&self) -> Rates {
         Rates {
             angular_rate: self.angle * (1.0 / self.interval),

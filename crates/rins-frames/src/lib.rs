@@ -4,6 +4,9 @@
 //! that it joins, so that a wrong order or a forgotten transpose does not compile. Beside them
 //! stand the WGS84 Earth (radii, normal gravity, Earth and transport rate) and unit constants.
 //!
+//! A rotation is a [`Dcm`], or a [`Quaternion`] where four numbers are better than nine. Sines and
+//! roots come from the `libm` crate whatever the features, so that every machine gets the same bits.
+//!
 //! **What it does not do.** Points, positions and poses are left out, and so is a units crate:
 //! every number is in SI units and radians.
 //!
@@ -16,7 +19,7 @@
 //! ```
 //!
 //! Frames cannot be mixed:
-//! ```compile_fail,E0308
+//! ```compile_fail,E0277
 //! use rins_frames::{Body, Dcm, InFrame, Nav, Table};
 //! let nav_from_table = Dcm::<Nav, Table>::identity();
 //! let wrong: InFrame<Nav> = nav_from_table * InFrame::<Body>::new(0.0, 0.0, 1.0);
@@ -28,6 +31,7 @@ mod earth;
 mod euler;
 mod frame;
 mod increments;
+mod quaternion;
 mod rotation_vector;
 pub mod units;
 
@@ -36,4 +40,5 @@ pub use earth::{EARTH_RATE, Site};
 pub use euler::EulerAngles;
 pub use frame::{Body, Frame, InFrame, Nav, Table};
 pub use increments::{Increments, Rates};
+pub use quaternion::{NotAUnitQuaternion, Quaternion};
 pub use rotation_vector::cross_matrix;

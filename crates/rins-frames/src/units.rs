@@ -1,4 +1,9 @@
 //! Units as factors: `0.05 * DEG_PER_HOUR` is in SI units.
+//!
+//! ```
+//! use rins_frames::{EARTH_RATE, units::DEG_PER_HOUR};
+//! assert!((EARTH_RATE / DEG_PER_HOUR - 15.041).abs() < 1e-3);
+//! ```
 
 use core::f64::consts::PI;
 

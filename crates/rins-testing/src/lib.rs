@@ -1,11 +1,29 @@
-//! For the workspace's own tests: strategies over physical quantities, and `assert_close!`.
+//! For the workspace's own tests: strategies over physical quantities, `assert_close!`, and the
+//! bounds that a statistic must keep.
 #![expect(clippy::missing_panics_doc, reason = "tests are meant to panic")]
 
-use proptest::prelude::*;
+mod statistics;
+mod strategies;
+
+pub use statistics::{
+    assert_chi_squared, assert_standard_normal, chi_squared_mean_bounds, is_chi_squared,
+    standard_normal_defect,
+};
+pub use strategies::{
+    any_direction, any_euler_angles, any_latitude, any_matrix, any_rotation_vector,
+    small_rotation_vector,
+};
 
 /// Asserts that two numbers differ by at most a tolerance, and prints all three if not.
 ///
 /// A tolerance of zero fails: it would hide a comparison that was never made.
+///
+/// ```
+/// rins_testing::assert_close!(0.1 + 0.2, 0.3, 1e-15);
+/// ```
+/// ```should_panic
+/// rins_testing::assert_close!(1.0, 1.0, 0.0);
+/// ```
 #[macro_export]
 macro_rules! assert_close {
     ($got:expr, $want:expr, $within:expr $(,)?) => {{
@@ -17,25 +35,4 @@ macro_rules! assert_close {
             (got - want).abs(),
         );
     }};
-}
-
-/// Any rotation vector of up to half a turn \[rad\].
-pub fn any_rotation_vector() -> impl Strategy<Value = [f64; 3]> {
-    ([-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64], 0.0..3.1_f64).prop_filter_map(
-        "a direction needs a length",
-        |(direction, angle)| {
-            let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
-            (length > 1e-3).then(|| direction.map(|x| x / length * angle))
-        },
-    )
-}
-
-/// Any latitude that is not within a degree of a pole \[rad\].
-pub fn any_latitude() -> impl Strategy<Value = f64> {
-    -1.55..1.55_f64
-}
-
-/// Any roll, pitch and yaw short of gimbal lock \[rad\].
-pub fn any_euler_angles() -> impl Strategy<Value = [f64; 3]> {
-    [-3.1..3.1_f64, -1.5..1.5_f64, -3.1..3.1_f64]
 }

@@ -1,0 +1,3 @@
+//! The crate against what was published, or written apart.
+
+mod earth;
