@@ -1,2 +1,55 @@
-//! x
-fn main(){}
+//! The workspace's own commands: `cargo xtask`.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+mod ci;
+mod doc;
+mod manifest;
+mod tidy;
+
+/// How a command ends when it cannot do its work.
+type Result<T, E = Box<dyn Error>> = std::result::Result<T, E>;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", about = "The workspace's own commands")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Everything that CI runs after `cargo test --workspace`
+    Ci(ci::Options),
+    /// Build the book into target/book and check its equations and links
+    Doc,
+    /// Check the rules of CONTRIBUTING.md that rustc and clippy cannot
+    Tidy,
+}
+
+fn main() -> ExitCode {
+    let root = root();
+    let done = match Arguments::parse().command {
+        Command::Ci(options) => ci::run(&root, &options),
+        Command::Doc => doc::run(&root),
+        Command::Tidy => tidy::run(&root),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The workspace's root, wherever the command was started.
+fn root() -> PathBuf {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.parent().expect("xtask/ lies in the workspace").to_path_buf()
+}

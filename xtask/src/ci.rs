@@ -1,0 +1,187 @@
+//! Everything that CI runs after the tests, one step after another.
+
+use std::fmt;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use clap::Args;
+
+use crate::Result;
+use crate::manifest::{Manifest, crate_folders, examples};
+
+/// Which steps to run, and whether to run them at all.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Run only the steps with these names
+    steps: Vec<String>,
+    /// Name the steps and their commands, and run none
+    #[arg(long)]
+    list: bool,
+}
+
+/// A name, an environment variable with its value, and a command.
+type Row = (&'static str, Option<(&'static str, &'static str)>, &'static str);
+
+/// The steps that are the same whatever crates there are; what only looks at the sources comes first.
+const STEPS: &[Row] = &[
+    ("tidy", None, "cargo xtask tidy"),
+    ("format", None, "cargo fmt --all --check"),
+    ("lint", None, "cargo clippy --quiet --workspace --all-targets -- -D warnings"),
+    (
+        "lint-book",
+        None,
+        "cargo clippy --quiet -p xtask --features book --all-targets -- -D warnings",
+    ),
+    ("test-book", None, "cargo test --quiet --profile tool -p xtask --features book --bin book"),
+    ("doc", Some(("RUSTDOCFLAGS", "-D warnings")), "cargo doc --quiet --workspace --no-deps"),
+    ("book", None, "cargo xtask doc"),
+    ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
+    ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),
+    ("benches", None, "cargo bench --quiet --workspace --no-run"),
+    ("demo", None, "cargo run --quiet --release -- demo -o target/ci/demo"),
+];
+
+/// What the demo writes: a new folder, since it replaces none.
+const DEMO: &str = "target/ci/demo";
+
+/// Packages outside `crates/`, which are never published.
+const UNPUBLISHED: [&str; 2] = ["rins-tests", "xtask"];
+
+/// A command that has to succeed; no word of it holds a blank.
+#[derive(Debug)]
+struct Step {
+    name: String,
+    environment: Option<(&'static str, &'static str)>,
+    command: String,
+}
+
+/// The command as one would type it.
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((key, value)) = self.environment {
+            write!(f, "{key}='{value}' ")?;
+        }
+        f.write_str(&self.command)
+    }
+}
+
+impl Step {
+    fn run(&self, root: &Path) -> Result<()> {
+        println!("== {}: {self}", self.name);
+        let start = Instant::now();
+        let mut words = self.command.split(' ');
+        let program = words.next().unwrap_or_default();
+        let status = Command::new(program)
+            .args(words)
+            .envs(self.environment)
+            .current_dir(root)
+            .status()
+            .map_err(|error| format!("{program}: {error}"))?;
+        let seconds = start.elapsed().as_secs_f64();
+        if !status.success() {
+            let name = &self.name;
+            return Err(format!(
+                "{name} failed after {seconds:.1} s ({status}); repeat it with\n  {self}"
+            )
+            .into());
+        }
+        println!("== {}: passed in {seconds:.1} s", self.name);
+        Ok(())
+    }
+}
+
+/// Runs the chosen steps up to the first that fails.
+pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
+    let steps = chosen(steps(root)?, &options.steps)?;
+    if options.list {
+        for step in &steps {
+            println!("{:24} {step}", step.name);
+        }
+        return Ok(());
+    }
+    if root.join(DEMO).exists() {
+        fs::remove_dir_all(root.join(DEMO))?;
+    }
+    fs::create_dir_all(root.join(DEMO).with_file_name(""))?;
+    let start = Instant::now();
+    for step in &steps {
+        step.run(root)?;
+    }
+    println!("== {} steps passed in {:.0} s", steps.len(), start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// All steps, in the order in which they run.
+fn steps(root: &Path) -> Result<Vec<Step>> {
+    let fixed = STEPS.iter().map(|&(name, environment, command)| Step {
+        name: name.into(),
+        environment,
+        command: command.into(),
+    });
+    let mut steps: Vec<Step> = fixed.collect();
+    let mut unpublished = UNPUBLISHED.map(str::to_owned).to_vec();
+    for folder in crate_folders(root)? {
+        let Manifest { name, published, .. } = Manifest::read(&folder.join("Cargo.toml"))?;
+        steps.extend(examples(&folder).into_iter().map(|example| Step {
+            name: format!("example-{example}"),
+            environment: None,
+            command: format!("cargo run --quiet --package {name} --example {example}"),
+        }));
+        if !published {
+            unpublished.push(name);
+        }
+    }
+    let mut command = "cargo package --quiet --workspace --allow-dirty".to_owned();
+    for name in unpublished {
+        command.push_str(" --exclude ");
+        command.push_str(&name);
+    }
+    steps.push(Step { name: "package".into(), environment: None, command });
+    Ok(steps)
+}
+
+/// The steps with these names, or all where none is named.
+fn chosen(steps: Vec<Step>, names: &[String]) -> Result<Vec<Step>> {
+    if let Some(unknown) = names.iter().find(|name| !steps.iter().any(|step| step.name == **name)) {
+        return Err(format!("no step is called {unknown}: see cargo xtask ci --list").into());
+    }
+    let is_chosen = |step: &Step| names.is_empty() || names.contains(&step.name);
+    Ok(steps.into_iter().filter(is_chosen).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(command: &str) -> Step {
+        Step { name: "a step".into(), environment: Some(("A", "b c")), command: command.into() }
+    }
+
+    #[test]
+    fn failed_step_says_how_to_repeat_it() {
+        let error = step("cargo no-such-command").run(&crate::root()).unwrap_err().to_string();
+        assert!(error.starts_with("a step failed"), "{error}");
+        assert!(error.ends_with("  A='b c' cargo no-such-command"), "{error}");
+        assert!(step("cargo --version").run(&crate::root()).is_ok());
+    }
+
+    #[test]
+    fn steps_are_chosen_by_name() {
+        let all = || steps(&crate::root()).unwrap();
+        assert_eq!(chosen(all(), &[]).unwrap().len(), all().len());
+        let picked = chosen(all(), &["package".into(), "tidy".into()]).unwrap();
+        let names: Vec<_> = picked.iter().map(|step| step.name.as_str()).collect();
+        assert_eq!(names, ["tidy", "package"], "steps keep their order");
+        assert!(chosen(all(), &["pakage".into()]).unwrap_err().to_string().contains("pakage"));
+    }
+
+    #[test]
+    fn what_is_not_published_is_not_packaged() {
+        let steps = steps(&crate::root()).unwrap();
+        let package = &steps.last().unwrap().command;
+        assert!(package.contains("--exclude rins-testing"), "{package}");
+        assert!(!package.contains("--exclude rins-frames"), "{package}");
+    }
+}
