@@ -1,0 +1,139 @@
+//! Which scenarios can be simulated.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use rins_imu::{ImuNoiseError, TriadError};
+
+use crate::scenario::{Encoder, Scenario, TableRecord};
+
+/// The most samples of a run: 8 gigabytes of them, or 11 days at 100 Hz.
+const MOST_SAMPLES: f64 = 1e8;
+
+/// Why a scenario cannot be simulated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScenarioError {
+    /// A figure is infinite, not a number, or outside of what it may be.
+    #[error("{quantity} is {value}; it must be {expected}")]
+    Quantity {
+        /// Which figure.
+        quantity: &'static str,
+        /// Its value, in SI units and radians.
+        value: f64,
+        /// What it may be.
+        expected: &'static str,
+    },
+    /// The run holds no sample.
+    #[error("a profile of {duration} s holds no whole interval of {interval} s")]
+    TooShort {
+        /// The profile's duration \[s\].
+        duration: f64,
+        /// The interval \[s\].
+        interval: f64,
+    },
+    /// The run holds more samples than can be kept.
+    #[error("the run would hold {n_samples} samples; shorten it or lengthen the interval")]
+    TooLong {
+        /// How many samples it would have.
+        n_samples: f64,
+    },
+    /// The table makes more than one turn within an interval.
+    #[error(
+        "at {time} s the table turns at {rate} rad/s, more than one turn a sample of {interval} s"
+    )]
+    TooFast {
+        /// When \[s\].
+        time: f64,
+        /// The rate \[rad/s\].
+        rate: f64,
+        /// The interval \[s\].
+        interval: f64,
+    },
+    /// There is no memory for the run.
+    #[error("there is no memory for the {n_samples} samples of the run")]
+    OutOfMemory {
+        /// How many samples it would have.
+        n_samples: usize,
+    },
+    /// A noise model is impossible.
+    #[error(transparent)]
+    Noise(#[from] ImuNoiseError),
+}
+
+impl Scenario {
+    /// Whether this scenario can be simulated, but for its noise; if so, the number of samples or one more.
+    pub(crate) fn check(&self) -> Result<usize, ScenarioError> {
+        self.check_place()?;
+        self.check_sensors()?;
+        self.check_sampling()
+    }
+
+    fn check_place(&self) -> Result<(), ScenarioError> {
+        let site = self.station.site;
+        demand("latitude", site.latitude, "within ±π/2", |x| x.abs() <= FRAC_PI_2)?;
+        finite("longitude", site.longitude)?;
+        // From the deepest mine to beyond any aircraft: the normal gravity is a series in height.
+        demand("height", site.height, "within ±100 km", |x| x.abs() <= 1e5)?;
+        demand("gravity", self.station.gravity, "positive", |x| x > 0.0)?;
+        let attitude = self.nav_from_table.matrix();
+        attitude.iter().try_for_each(|&x| finite("an element of the axis attitude", x))
+    }
+
+    fn check_sensors(&self) -> Result<(), ScenarioError> {
+        let all_finite = |quantity, error: &TriadError| {
+            error.bias.iter().chain(&error.matrix).try_for_each(|&x| finite(quantity, x))
+        };
+        all_finite("a gyro error", &self.imu_error.gyro)?;
+        all_finite("an accelerometer error", &self.imu_error.accel)?;
+        if let Some(temperature) = self.temperature {
+            finite("temperature", temperature)?;
+        }
+        let TableRecord::Angle(Encoder { noise, resolution, zero }) = self.table else {
+            return Ok(());
+        };
+        demand("encoder noise", noise, "at least zero", |x| x >= 0.0)?;
+        demand("encoder resolution", resolution.unwrap_or(1.0), "positive", |x| x > 0.0)?;
+        finite("encoder zero", zero)
+    }
+
+    fn check_sampling(&self) -> Result<usize, ScenarioError> {
+        let (interval, duration) = (self.interval, self.profile.duration());
+        demand("interval", interval, "positive", |x| x > 0.0)?;
+        let n_samples = (duration / interval).ceil();
+        if n_samples > MOST_SAMPLES {
+            return Err(ScenarioError::TooLong { n_samples });
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it lies between zero and the most samples"
+        )]
+        let n_samples = n_samples as usize;
+        // Twice a sample, since a rate may last less than an interval.
+        for half in 0..=2 * n_samples {
+            let time = 0.5 * interval * half as f64;
+            let rate = self.profile.rate(time);
+            if rate.abs() * interval > TAU {
+                return Err(ScenarioError::TooFast { time, rate, interval });
+            }
+        }
+        Ok(n_samples)
+    }
+}
+
+fn finite(quantity: &'static str, value: f64) -> Result<(), ScenarioError> {
+    demand(quantity, value, "a finite number", |_| true)
+}
+
+fn demand(
+    quantity: &'static str,
+    value: f64,
+    expected: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<(), ScenarioError> {
+    if value.is_finite() && holds(value) {
+        Ok(())
+    } else {
+        Err(ScenarioError::Quantity { quantity, value, expected })
+    }
+}
