@@ -1,1 +1,36 @@
-//! Placeholder.
+//! Self-calibration of a single-axis rotational inertial navigation system.
+//!
+//! **What it does.** [`calibrate`] runs the 12-state filter of the paper (‹nie2019›, eqs.
+//! (10)-(21), with its printed signs corrected) over a recording of an IMU that turns on a fixed
+//! table, closed loop: it estimates the gyro errors tied to the spin axis, `M_xz`, `M_yz` and `S_z`,
+//! and tells how well, in which combination with the gyro biases this schedule shows them, whether
+//! the innovations agree with the model, and what compensating the estimates does to free inertial
+//! navigation. The parts are public too: [`SpinAxisFilter`] takes one sample at a time,
+//! [`Consistency`] judges any whitened innovations, [`navigate_freely`] any recording.
+//!
+//! **What it does not do.** Any other sensor error is left where it is. Where the data hold more than
+//! the three, the consistency figures say that the model does not fit, not what is missing.
+//!
+//! Numbers are in SI units and radians; errors are computed minus true ([`layout`]).
+
+mod calibration;
+mod consistency;
+mod dynamics;
+mod filter;
+mod history;
+pub mod layout;
+mod navigation;
+mod parameter;
+mod separability;
+mod setup;
+
+pub use calibration::{
+    AttitudeSource, Calibration, CalibrationError, EstimatePoint, calibrate, table_angles,
+};
+pub use consistency::Consistency;
+pub use filter::{
+    AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading,
+};
+pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};
+pub use parameter::{Parameter, ParameterKind, Partner};
+pub use setup::{AxisAttitude, Setup, TableSpec};

@@ -1,2 +1,57 @@
-//! Placeholder.
-fn main() {}
+//! The `rins` command: simulates, checks, aligns, navigates and calibrates an IMU on a rate table.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::args::{Arguments, Command};
+use crate::outcome::Outcome;
+
+mod args;
+mod commands;
+mod outcome;
+mod progress;
+mod report;
+mod view;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let delivered = run(&arguments.command).and_then(|outcome| deliver(&arguments, &outcome));
+    match delivered {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("rins: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: &Command) -> anyhow::Result<Outcome> {
+    match command {
+        Command::Demo(_) => commands::demo::run(),
+        Command::Init(init) => commands::init::run(init),
+        Command::Simulate(simulate) => commands::simulate::run(simulate),
+        Command::Check(input) => commands::check::run(&input.rig),
+        Command::Align(input) => commands::align::run(&input.rig),
+        Command::Navigate(navigate) => commands::navigate::run(navigate),
+        Command::Calibrate(calibrate) => commands::calibrate::run(calibrate),
+    }
+}
+
+/// Writes the output folder first: what is printed then names files that exist.
+fn deliver(arguments: &Arguments, outcome: &Outcome) -> anyhow::Result<()> {
+    let written = outcome.write(arguments.command.destination(), arguments.overwrite())?;
+    if arguments.json {
+        println!("{}", serde_json::to_string(&outcome.json)?);
+    } else {
+        print!("{}", outcome.text);
+        if let Some(place) = written {
+            println!("\n{place}");
+        }
+    }
+    match &outcome.failure {
+        Some(failure) => Err(anyhow::anyhow!("{failure}")),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,109 @@
+//! Whether the innovations are what the model says: white, and of unit variance.
+
+use nalgebra::SVector;
+use rustfft::{FftPlanner, num_complex::Complex};
+use statrs::function::erf::erfc;
+
+use crate::filter::MEASUREMENTS;
+
+/// What the whitened innovations say of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Consistency {
+    /// The mean normalised innovation squared; [`MEASUREMENTS`] if the model is right.
+    pub nis_mean: f64,
+    /// What it should be.
+    pub nis_dof: usize,
+    /// How probable a mean so far off is, if the model is right (two-sided).
+    pub nis_p: f64,
+    /// How probable innovations so far from white are, if the model is right.
+    pub whiteness_p: f64,
+    /// For each channel the RMS of its whitened innovation; 1 if the model is right.
+    pub channel_rms: [f64; MEASUREMENTS],
+    /// For each channel the largest distance of its cumulative periodogram from a straight line.
+    pub periodogram_distance: [f64; MEASUREMENTS],
+}
+
+impl Consistency {
+    /// The significance below which [`Self::fits`] says no, of either test.
+    pub const SIGNIFICANCE: f64 = 0.005;
+
+    /// The consistency of whitened innovations in order of time; `None` if there are fewer than 8.
+    pub fn of(innovations: &[SVector<f64, MEASUREMENTS>]) -> Option<Self> {
+        const FEWEST: usize = 8;
+        if innovations.len() < FEWEST {
+            return None;
+        }
+        let count = innovations.len() as f64;
+        let sum: f64 = innovations.iter().map(SVector::norm_squared).sum();
+        let dof = MEASUREMENTS as f64;
+        // The sum is chi-squared with so many degrees of freedom that it is normal.
+        let off = (sum - count * dof) / (2.0 * count * dof).sqrt();
+        let mut channel_rms = [0.0; MEASUREMENTS];
+        let mut distance = [0.0; MEASUREMENTS];
+        let mut least_p = 1.0_f64;
+        for channel in 0..MEASUREMENTS {
+            let series: Vec<f64> = innovations.iter().map(|nu| nu[channel]).collect();
+            channel_rms[channel] = (series.iter().map(|nu| nu * nu).sum::<f64>() / count).sqrt();
+            let (largest, p) = cumulative_periodogram(&series);
+            distance[channel] = largest;
+            least_p = least_p.min(p);
+        }
+        Some(Self {
+            nis_mean: sum / count,
+            nis_dof: MEASUREMENTS,
+            nis_p: erfc(off.abs() / std::f64::consts::SQRT_2),
+            whiteness_p: (least_p * dof).min(1.0),
+            channel_rms,
+            periodogram_distance: distance,
+        })
+    }
+
+    /// Whether neither test speaks against the model.
+    pub fn fits(&self) -> bool {
+        self.nis_p >= Self::SIGNIFICANCE && self.whiteness_p >= Self::SIGNIFICANCE
+    }
+}
+
+/// Bartlett's test: the largest distance of the normalised cumulative periodogram from that of
+/// white noise, and the probability of a larger one (Kolmogorov's distribution).
+///
+/// The mean is left in as the lowest frequency, since a constant innovation is no noise either.
+fn cumulative_periodogram(series: &[f64]) -> (f64, f64) {
+    let mut spectrum: Vec<Complex<f64>> = series.iter().map(|&x| Complex::new(x, 0.0)).collect();
+    FftPlanner::new().plan_fft_forward(spectrum.len()).process(&mut spectrum);
+    let power: Vec<f64> = spectrum[..spectrum.len() / 2].iter().map(Complex::norm_sqr).collect();
+    let total: f64 = power.iter().sum();
+    if total <= 0.0 {
+        return (1.0, 0.0);
+    }
+    let count = power.len() as f64;
+    let mut sum = 0.0;
+    let mut largest = 0.0_f64;
+    for (index, power) in power.iter().enumerate() {
+        let expected = index as f64 / count;
+        largest = largest.max((sum / total - expected).abs());
+        sum += power;
+        largest = largest.max((sum / total - expected - 1.0 / count).abs());
+    }
+    (largest, kolmogorov(largest * count.sqrt()))
+}
+
+/// The probability that Kolmogorov's statistic exceeds `x`.
+fn kolmogorov(x: f64) -> f64 {
+    // Below this the probability is 1 to ten digits and the series converges slowly.
+    if x < 0.2 {
+        return 1.0;
+    }
+    let mut sum = 0.0;
+    let mut sign = 1.0;
+    for term in 1..=100 {
+        let term = f64::from(term);
+        let part = (-2.0 * term * term * x * x).exp();
+        sum += sign * part;
+        sign = -sign;
+        if part < 1e-18 {
+            break;
+        }
+    }
+    (2.0 * sum).clamp(0.0, 1.0)
+}

@@ -1,0 +1,123 @@
+//! The command line.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use rins_io::Overwrite;
+
+/// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
+///
+/// A run is described by a rig file (rig.toml): what was measured, where, and what the data sheets
+/// say. `rins init LOG` drafts one. Start with `rins demo`.
+#[derive(Debug, Parser)]
+#[command(name = "rins", version, max_term_width = 100)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+    /// Print the result as one JSON object on standard output
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    /// Replace results that exist
+    #[arg(long, global = true)]
+    pub(crate) force: bool,
+}
+
+impl Arguments {
+    pub(crate) const fn overwrite(&self) -> Overwrite {
+        if self.force { Overwrite::Force } else { Overwrite::Refuse }
+    }
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Calibrate, compensate and re-navigate an embedded run: nothing to prepare
+    Demo(Demo),
+    /// Draft a rig file from a log; guesses are marked for you to confirm
+    Init(Init),
+    /// Write a measured-looking run (run.csv, rig.toml, truth.json) from a scenario
+    Simulate(Simulate),
+    /// Say what is in a run: rate, gaps, rest, gravity, Earth rate, suspected mistakes
+    Check(Input),
+    /// Find the attitude from a rest: level from gravity, north from the Earth's rotation
+    Align(Input),
+    /// Navigate freely from rest, with or without a calibration
+    Navigate(Navigate),
+    /// Estimate sensor errors from a run on the table, and show what compensating them gains
+    Calibrate(Calibrate),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Demo {
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR", default_value = "rins-demo")]
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Init {
+    /// The log: CSV text or a PSINS text log
+    pub(crate) log: PathBuf,
+    /// Where to write the rig file; without it, it is printed
+    #[arg(short, long, value_name = "RIG")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Simulate {
+    /// The scenario file: a rig file plus [truth]
+    pub(crate) scenario: PathBuf,
+    /// Folder for the run
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: PathBuf,
+    /// Use this seed in place of the scenario's
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Input {
+    /// The rig file
+    pub(crate) rig: PathBuf,
+    /// Folder for result.json and report.html
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Navigate {
+    #[command(flatten)]
+    pub(crate) input: Input,
+    /// Compensate the readings with this calibration first
+    #[arg(long, value_name = "FILE")]
+    pub(crate) calibration: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Calibrate {
+    #[command(flatten)]
+    pub(crate) input: Input,
+    /// The error model to estimate
+    #[arg(long, value_enum, default_value_t = Model::Paper12)]
+    pub(crate) model: Model,
+}
+
+/// The error models that can be estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Model {
+    /// Position, velocity, attitude, `M_xz`, `M_yz` and `S_z`
+    Paper12,
+}
+
+impl Command {
+    /// Where results go, if anywhere.
+    pub(crate) fn destination(&self) -> Option<&Path> {
+        match self {
+            Self::Demo(demo) => Some(&demo.output),
+            Self::Init(init) => init.output.as_deref(),
+            Self::Simulate(simulate) => Some(&simulate.output),
+            Self::Check(input) | Self::Align(input) => input.output.as_deref(),
+            Self::Navigate(navigate) => navigate.input.output.as_deref(),
+            Self::Calibrate(calibrate) => calibrate.input.output.as_deref(),
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! `rins align`: attitude from a rest, and what the sensors say of the place.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use nalgebra::Vector3;
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
+use rins_frames::{Body, Dcm, EulerAngles, Nav, Rates};
+use rins_io::Loaded;
+use rins_motion::{
+    AlignmentError, MeanUncertainty, PlaceSeen, RestMean, align, level, place_seen, residual,
+    rest_spans,
+};
+use serde_json::{Value, json};
+
+use crate::commands::setup::{load, shown};
+use crate::outcome::Outcome;
+use crate::report::{Cell, Column, Item, Report, Section, Table};
+use crate::view::table::aligned;
+use crate::view::euler_json;
+
+/// The shortest rest that is aligned on \[s\].
+const SHORTEST_REST: f64 = 5.0;
+
+/// An attitude found from a rest.
+#[derive(Debug)]
+pub(crate) struct Found {
+    /// The body's attitude over the rest.
+    pub(crate) nav_from_body: Dcm<Nav, Body>,
+    /// The 1σ of the error about east, north and up \[rad\]; no third if north was not found.
+    sigma: (f64, f64, Option<f64>),
+    /// Why north was not found.
+    hidden: Option<AlignmentError>,
+    /// The samples of the rest.
+    pub(crate) span: std::ops::Range<usize>,
+    pub(crate) start: f64,
+    mean: RestMean,
+    uncertainty: MeanUncertainty,
+    place: PlaceSeen,
+    /// Measured less predicted: what a bias would look like.
+    pub(crate) residual: Rates,
+}
+
+/// Aligns on the longest rest of a run.
+pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
+    let recording = &loaded.recording;
+    let lasting = |span: &std::ops::Range<usize>| {
+        recording.times[span.end - 1] - recording.times[span.start]
+    };
+    let span = rest_spans(recording, SHORTEST_REST)
+        .into_iter()
+        .max_by(|a, b| lasting(a).total_cmp(&lasting(b)))
+        .ok_or_else(|| {
+            anyhow::anyhow!(
+                "{}: the IMU never stands still for {SHORTEST_REST} s, so there is nothing to align on",
+                loaded.rig.log.path.display()
+            )
+        })?;
+    let mean = RestMean::of(recording, span.clone())
+        .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;
+    let uncertainty = uncertainty(loaded, &mean);
+    let (nav_from_body, sigma, hidden) = match align(&mean.rates, &uncertainty, &loaded.station) {
+        Ok(alignment) => {
+            let sigma = alignment.covariance.diagonal().map(f64::sqrt);
+            (alignment.nav_from_body, (sigma.x, sigma.y, Some(sigma.z)), None)
+        }
+        Err(hidden @ AlignmentError::NorthNotFound { .. }) => {
+            let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
+            let tilt = uncertainty.specific_force / loaded.station.gravity;
+            (level(&mean.rates, yaw)?, (tilt, tilt, None), Some(hidden))
+        }
+        Err(error) => return Err(error.into()),
+    };
+    Ok(Found {
+        nav_from_body,
+        sigma,
+        hidden,
+        start: recording.times[span.start] - recording.increments[span.start].interval,
+        place: place_seen(&mean.rates, &uncertainty),
+        residual: residual(&mean.rates, nav_from_body, &loaded.station),
+        span,
+        mean,
+        uncertainty,
+    })
+}
+
+/// The scatter of the mean, and with it the data sheet's errors where there is one.
+fn uncertainty(loaded: &Loaded, mean: &RestMean) -> MeanUncertainty {
+    let scatter = |sigma: Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
+    let (gyro, accel) = loaded.rig.imu.map_or((0.0, 0.0), |imu| {
+        let shape = imu.accel.scale_sigma.max(imu.accel.misalignment_sigma);
+        (imu.gyro.bias_sigma, imu.accel.bias_sigma.hypot(shape * loaded.station.gravity))
+    });
+    MeanUncertainty {
+        angular_rate: scatter(mean.angular_rate_sigma).hypot(gyro),
+        specific_force: scatter(mean.specific_force_sigma).hypot(accel),
+    }
+}
+
+pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
+    let loaded = load(rig)?;
+    let found = found(&loaded)?;
+    let rows = rows(&found, &loaded);
+    let title = format!("Alignment of {}", shown(rig));
+    let sentences = sentences(&found, &loaded);
+    let mut text = format!("{title}\n");
+    for sentence in &sentences {
+        let _ = writeln!(text, "  {sentence}");
+    }
+    text.push('\n');
+    text.push_str(&aligned(&rows));
+    let report = Report {
+        title,
+        subtitle: format!("rins align: {}", loaded.rig.log.path.display()),
+        summary: sentences,
+        sections: vec![Section {
+            heading: "What was found".into(),
+            intro: String::new(),
+            items: vec![Item::Table(table(&rows))],
+        }],
+    };
+    Ok(Outcome {
+        json: json(&found, &loaded, rig),
+        text,
+        report: Some(report),
+        ..Outcome::default()
+    })
+}
+
+/// The rows of the result as a table of the report.
+pub(crate) fn table(rows: &[Vec<String>]) -> Table {
+    let mut rows = rows.iter();
+    let head = rows.next().cloned().unwrap_or_default();
+    let last = head.len().saturating_sub(1);
+    let columns = head.into_iter().enumerate().map(|(place, name)| {
+        if place == 0 || place == last { Column::text(name) } else { Column::number(name) }
+    });
+    Table {
+        caption: String::new(),
+        columns: columns.collect(),
+        rows: rows.map(|row| row.iter().map(Cell::text).collect()).collect(),
+    }
+}
+
+fn sentences(found: &Found, loaded: &Loaded) -> Vec<String> {
+    let angles = found.nav_from_body.euler_angles();
+    let from = found.start;
+    let to = loaded.recording.times[found.span.end - 1];
+    let mut sentences = vec![match found.sigma.2 {
+        Some(azimuth) => format!(
+            "Over {:.0} s of rest the body stands at roll {:.4}, pitch {:.4}, yaw {:.3} deg, level to {:.1}″ and in azimuth to \
+             {:.0}″ (1σ).",
+            to - from,
+            angles.roll / DEG,
+            angles.pitch / DEG,
+            angles.yaw / DEG,
+            found.sigma.0.max(found.sigma.1) / ARCSEC,
+            azimuth / ARCSEC,
+        ),
+        None => format!(
+            "Over {:.0} s of rest the body stands at roll {:.3}, pitch {:.3} deg; the gyros do not show north.",
+            to - from,
+            angles.roll / DEG,
+            angles.pitch / DEG,
+        ),
+    }];
+    if loaded.rig.imu.is_none() {
+        sentences.push(
+            "The rig gives no data sheet: the sigmas hold the scatter of the readings, but no sensor bias."
+                .into(),
+        );
+    }
+    if let Some(hidden) = &found.hidden {
+        sentences.push(format!("North was not found: {hidden}."));
+    }
+    sentences
+}
+
+fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
+    let row = |name: &str, value: String, sigma: String, note: String| {
+        vec![name.to_owned(), value, sigma, note]
+    };
+    let angles = found.nav_from_body.euler_angles();
+    let header = loaded.psins_header.map(|header| header.attitude);
+    let given = loaded.rig.attitude.map(|attitude| attitude.angles);
+    let against = |of: fn(&EulerAngles) -> f64| match (header, given) {
+        (Some(header), _) => format!("the log's header says {:.4} deg", of(&header) / DEG),
+        (None, Some(given)) => format!("the rig says {:.4} deg (of the axis frame)", of(&given) / DEG),
+        (None, None) => String::new(),
+    };
+    let degrees = |angle: f64| format!("{:.5} deg", angle / DEG);
+    let site = &loaded.station.site;
+    let earth_rate = site.earth_rate().norm();
+    let place = &found.place;
+    let mut rows = vec![
+        ["quantity", "found", "1 sigma", "to compare with"].map(String::from).to_vec(),
+        row("roll", degrees(angles.roll), degrees(found.sigma.1), against(|angles| angles.roll)),
+        row("pitch", degrees(angles.pitch), degrees(found.sigma.0), against(|angles| angles.pitch)),
+    ];
+    if let Some(sigma) = found.sigma.2 {
+        rows.push(row("yaw", degrees(angles.yaw), degrees(sigma), against(|angles| angles.yaw)));
+    }
+    rows.push(row(
+        "gravity",
+        format!("{:.5} m/s^2", place.gravity),
+        format!("{:.5} m/s^2", found.uncertainty.specific_force),
+        format!("the station has {:.5} m/s^2", loaded.station.gravity),
+    ));
+    rows.push(row(
+        "Earth rate",
+        format!("{:.4} deg/h", place.earth_rate / DEG_PER_HOUR),
+        format!("{:.4} deg/h", found.uncertainty.angular_rate / DEG_PER_HOUR),
+        format!("the Earth turns at {:.4} deg/h", earth_rate / DEG_PER_HOUR),
+    ));
+    if found.hidden.is_none() {
+        rows.push(row(
+            "latitude",
+            degrees(place.latitude),
+            degrees(place.latitude_sigma),
+            format!("the station lies at {:.5} deg", site.latitude / DEG),
+        ));
+    }
+    for (axis, name) in ["gyro bias x", "gyro bias y", "gyro bias z"].into_iter().enumerate() {
+        rows.push(row(
+            name,
+            format!("{:.4} deg/h", found.residual.angular_rate.components()[axis] / DEG_PER_HOUR),
+            format!("{:.4} deg/h", found.mean.angular_rate_sigma[axis] / DEG_PER_HOUR),
+            "scatter only; a bias along east is in the azimuth instead".into(),
+        ));
+    }
+    rows
+}
+
+fn json(found: &Found, loaded: &Loaded, rig: &Path) -> Value {
+    let angles = found.nav_from_body.euler_angles();
+    let (east, north, up) = found.sigma;
+    let place = &found.place;
+    let bias = found.residual.angular_rate.components() / DEG_PER_HOUR;
+    let site = &loaded.station.site;
+    json!({
+        "schema": 1,
+        "command": "align",
+        "rig": shown(rig),
+        "rest_s": [found.start, loaded.recording.times[found.span.end - 1]],
+        "attitude_deg": {
+            "roll": angles.roll / DEG,
+            "pitch": angles.pitch / DEG,
+            "yaw": up.map(|_| angles.yaw / DEG),
+        },
+        "sigma_deg": {"east": east / DEG, "north": north / DEG, "up": up.map(|up| up / DEG)},
+        "seen": {
+            "gravity_m_s2": place.gravity,
+            "earth_rate_deg_h": place.earth_rate / DEG_PER_HOUR,
+            "latitude_deg": up.map(|_| place.latitude / DEG),
+            "latitude_sigma_deg": up.map(|_| place.latitude_sigma / DEG),
+        },
+        "expected": {
+            "gravity_m_s2": loaded.station.gravity,
+            "earth_rate_deg_h": site.earth_rate().norm() / DEG_PER_HOUR,
+            "latitude_deg": site.latitude / DEG,
+        },
+        "gyro_bias_found_deg_h": bias.as_slice(),
+        "accel_bias_found_ug": (found.residual.specific_force.components() / MICRO_G).as_slice(),
+        "header_attitude_deg": loaded.psins_header.map(|header| euler_json(&header.attitude)),
+    })
+}

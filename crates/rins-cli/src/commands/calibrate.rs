@@ -1,0 +1,110 @@
+//! `rins calibrate`: from a run to sensor errors, and what compensating them gains.
+
+use std::path::{Path, PathBuf};
+
+use rins_calibration::{Calibration, FreeNavigation, Parameter, calibrate};
+use rins_io::Loaded;
+use serde_json::{Value, json};
+
+use crate::args::{Calibrate, Model};
+use crate::commands::setup::{load, setup, shown};
+use crate::outcome::Outcome;
+use crate::progress;
+use crate::view::{SYSTEMATIC_NOTE, calibration_report, calibration_text, euler_json, meaning};
+
+pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
+    let Model::Paper12 = arguments.model;
+    let rig = &arguments.input.rig;
+    let loaded = load(rig)?;
+    let calibration = calibrated(&loaded)?;
+    outcome(&calibration, &loaded, rig)
+}
+
+/// Calibrates a run, with progress shown.
+pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
+    let setup = setup(loaded)?;
+    let bar = progress::bar(loaded.recording.len(), "calibrating");
+    let calibration = calibrate(&loaded.recording, &setup, |done| bar.set_position(done as u64));
+    bar.finish_and_clear();
+    Ok(calibration?)
+}
+
+/// A calibration as JSON, text, report and calibration file.
+pub(crate) fn outcome(
+    calibration: &Calibration,
+    loaded: &Loaded,
+    rig: &Path,
+) -> anyhow::Result<Outcome> {
+    let title = format!("Calibration of {}", shown(rig));
+    let span = &calibration.span;
+    let subtitle = format!(
+        "rins calibrate, model paper12: {} samples from {:.2} s to {:.2} s of {}",
+        span.len(),
+        loaded.recording.times[span.start],
+        loaded.recording.times[span.end - 1],
+        loaded.rig.log.path.display(),
+    );
+    let file = rins_io::Calibration {
+        path: PathBuf::new(),
+        error: calibration.imu_error,
+        sigma: Some(calibration.imu_error_sigma),
+    };
+    Ok(Outcome {
+        json: json(calibration, rig),
+        text: calibration_text(calibration, &title),
+        report: Some(calibration_report(calibration, &title, &subtitle)),
+        files: vec![("calibration.toml", file.to_toml().into_bytes())],
+        ..Outcome::default()
+    })
+}
+
+fn json(calibration: &Calibration, rig: &Path) -> Value {
+    let consistency = &calibration.consistency;
+    let correlation: Vec<Vec<f64>> = (0..3)
+        .map(|row| (0..3).map(|column| calibration.correlation[(row, column)]).collect())
+        .collect();
+    json!({
+        "schema": 1,
+        "command": "calibrate",
+        "model": "paper12",
+        "rig": shown(rig),
+        "parameters": calibration.parameters.iter().map(parameter_json).collect::<Vec<_>>(),
+        "correlation": correlation,
+        "axis_attitude_deg": euler_json(&calibration.nav_from_table.euler_angles()),
+        "navigation": {
+            "before": navigation_json(&calibration.before),
+            "after": navigation_json(&calibration.after),
+        },
+        "consistency": {
+            "nis_mean": consistency.nis_mean,
+            "nis_dof": consistency.nis_dof,
+            "nis_p": consistency.nis_p,
+            "whiteness_p": consistency.whiteness_p,
+            "channel_rms": consistency.channel_rms,
+            "model_fits": consistency.fits(),
+        },
+        "notes": [SYSTEMATIC_NOTE],
+    })
+}
+
+fn parameter_json(parameter: &Parameter) -> Value {
+    let factor = parameter.kind.factor();
+    json!({
+        "id": parameter.id,
+        "value": parameter.value / factor,
+        "sigma": parameter.sigma / factor,
+        "unit": parameter.kind.unit(),
+        "identifiable": parameter.identifiable(),
+        "aliases": parameter.partners.iter().map(|partner| partner.id).collect::<Vec<_>>(),
+        "meaning": meaning(parameter),
+    })
+}
+
+/// Free navigation as JSON: what it ended with.
+pub(crate) fn navigation_json(navigation: &FreeNavigation) -> Value {
+    json!({
+        "velocity_m_s": navigation.velocity.as_slice(),
+        "position_error_m": navigation.position_error.as_slice(),
+        "attitude_error_deg": euler_json(&navigation.attitude_error),
+    })
+}

@@ -1,0 +1,331 @@
+//! `rins check`: what a run holds, and what looks wrong with it.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use rins_frames::units::{DEG, DEG_PER_HOUR};
+use rins_io::Loaded;
+use rins_motion::{CHANNELS, Inspection, RestSeen, Suspicion, inspect};
+use serde_json::{Value, json};
+
+use crate::commands::align::table;
+use crate::commands::setup::{load, shown};
+use crate::outcome::Outcome;
+use crate::report::{Item, Plot, Report, Section, Series, Style};
+use crate::view::table::aligned;
+
+/// How many gaps and rests are listed one by one.
+const LISTED: usize = 12;
+
+pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
+    let loaded = load(rig)?;
+    let inspection = inspect(&loaded.recording, Some(&loaded.station));
+    let title = format!("Check of {}", shown(rig));
+    let rows = rows(&inspection, &loaded);
+    let oddities = oddities(&inspection, &loaded);
+    let mut text = format!("{title}\n\n{}", aligned(&rows));
+    if inspection.rests.len() > 1 {
+        let _ = writeln!(text, "\n  rests\n{}", aligned(&rests(&inspection, &loaded)));
+    }
+    text.push('\n');
+    for oddity in &oddities {
+        let _ = writeln!(text, "  ! {oddity}");
+    }
+    if oddities.is_empty() {
+        text.push_str("  nothing odd\n");
+    }
+    let suspected = inspection.suspicions.len();
+    Ok(Outcome {
+        json: json(&inspection, &oddities, &loaded, rig),
+        text,
+        report: Some(report(&title, &inspection, &oddities, &loaded)),
+        failure: (suspected > 0).then(|| {
+            format!("{}: {suspected} suspected mistake(s), see above", loaded.rig.path.display())
+        }),
+        ..Outcome::default()
+    })
+}
+
+fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
+    let recording = &loaded.recording;
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
+    let timing = &inspection.timing;
+    let at_rest: f64 = inspection.rests.iter().map(|rest| rest.mean.duration).sum();
+    let mut rows = vec![
+        row("log", loaded.rig.log.path.display().to_string()),
+        row("samples", format!("{} over {duration:.2} s", recording.len())),
+        row(
+            "rate",
+            format!("{:.3} Hz, jitter {:.3} ms rms", 1.0 / timing.interval, timing.jitter * 1e3),
+        ),
+        row("gaps", gaps(inspection, loaded)),
+        row("rest", format!("{} spans, {at_rest:.1} s in all", inspection.rests.len())),
+        row("turns", format!("{:.2} about body z, either way", inspection.turns)),
+    ];
+    if let Some(rest) = longest(inspection) {
+        let seen = rest.mean.rates.specific_force.norm();
+        rows.push(row(
+            "gravity",
+            format!(
+                "{seen:.5} m/s^2 in the longest rest, {:+.0} ppm of the station's {:.5}",
+                (seen / loaded.station.gravity - 1.0) * 1e6,
+                loaded.station.gravity
+            ),
+        ));
+        let rate = rest.mean.rates.angular_rate.norm() / DEG_PER_HOUR;
+        rows.push(row(
+            "Earth rate",
+            if inspection.earth_rate_visible {
+                format!("{rate:.3} deg/h in the longest rest; the Earth turns at 15.041")
+            } else {
+                format!("not visible: the gyros show {rate:.0} deg/h at rest")
+            },
+        ));
+    }
+    for (channel, resolution) in inspection.resolution.iter().enumerate() {
+        if let Some(step) = resolution {
+            rows.push(row(
+                &format!("{} resolution", CHANNELS[channel]),
+                format!("{} an increment", step_in_words(channel, *step)),
+            ));
+        }
+    }
+    rows.push(row("table", table_in_words(loaded)));
+    if let (Some(first), Some(last)) = (
+        recording.temperature.as_ref().and_then(|t| t.first()),
+        recording.temperature.as_ref().and_then(|t| t.last()),
+    ) {
+        rows.push(row("temperature", format!("{first:.2} degC at the start, {last:.2} at the end")));
+    }
+    rows
+}
+
+fn gaps(inspection: &Inspection, loaded: &Loaded) -> String {
+    let gaps = &inspection.timing.gaps;
+    if gaps.is_empty() {
+        return "none".into();
+    }
+    let longest = gaps.iter().map(|(_, length)| *length).fold(0.0, f64::max);
+    let at: Vec<String> = gaps
+        .iter()
+        .take(LISTED)
+        .map(|(index, _)| format!("{:.3}", loaded.recording.times[*index]))
+        .collect();
+    let more = if gaps.len() > LISTED { ", ..." } else { "" };
+    format!(
+        "{}, the longest {:.1} ms; at {}{more} s",
+        gaps.len(),
+        longest * 1e3,
+        at.join(", ")
+    )
+}
+
+fn longest(inspection: &Inspection) -> Option<&RestSeen> {
+    inspection.rests.iter().max_by(|a, b| a.mean.duration.total_cmp(&b.mean.duration))
+}
+
+fn step_in_words(channel: usize, step: f64) -> String {
+    if channel < 3 {
+        format!("{:.4} arcsec", step / DEG * 3600.0)
+    } else {
+        format!("{:.4} mm/s", step * 1e3)
+    }
+}
+
+fn table_in_words(loaded: &Loaded) -> String {
+    let recording = &loaded.recording;
+    match (&recording.table_angle, &recording.table_rate) {
+        (Some(angle), _) => {
+            let (least, most) = extremes(angle);
+            format!("angle read, from {:.3} to {:.3} turns", least / (360.0 * DEG), most / (360.0 * DEG))
+        }
+        (None, Some(rate)) => {
+            let (least, most) = extremes(rate);
+            format!("rate given, from {:.4} to {:.4} deg/s", least / DEG, most / DEG)
+        }
+        (None, None) => "neither angle nor rate".into(),
+    }
+}
+
+fn extremes(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), &value| {
+        (least.min(value), most.max(value))
+    })
+}
+
+fn rests(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
+    let mut rows = vec![
+        ["from [s]", "to [s]", "gravity [m/s^2]", "rate [deg/h]", ""].map(String::from).to_vec(),
+    ];
+    rows.extend(inspection.rests.iter().take(LISTED).map(|rest| {
+        let times = &loaded.recording.times;
+        vec![
+            format!("{:.2}", times[rest.span.start]),
+            format!("{:.2}", times[rest.span.end - 1]),
+            format!("{:.5}", rest.mean.rates.specific_force.norm()),
+            format!("{:.3}", rest.mean.rates.angular_rate.norm() / DEG_PER_HOUR),
+            String::new(),
+        ]
+    }));
+    if inspection.rests.len() > LISTED {
+        rows.push(vec![format!("and {} more", inspection.rests.len() - LISTED)]);
+    }
+    rows
+}
+
+/// What is odd, each in a sentence: suspected mistakes first.
+fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
+    let mut found: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
+    let timing = &inspection.timing;
+    if !timing.gaps.is_empty() {
+        found.push(format!(
+            "{} gap(s): the mean rate of the sample after each is held over it",
+            timing.gaps.len()
+        ));
+    }
+    if timing.jitter > 0.02 * timing.interval {
+        found.push(format!(
+            "time stamps jitter by {:.2} ms rms, {:.0} % of an interval",
+            timing.jitter * 1e3,
+            timing.jitter / timing.interval * 100.0
+        ));
+    }
+    if inspection.rests.is_empty() {
+        found.push("never at rest for a second: nothing to align on".into());
+    }
+    if loaded.psins_header.is_some() {
+        found.push("no time column: samples are taken to follow each other without a gap".into());
+    }
+    for (channel, &run) in inspection.longest_repeat.iter().enumerate() {
+        if run > 20 && run < loaded.recording.len() && inspection.resolution[channel].is_none() {
+            found.push(format!("{} repeats one reading {run} times in a row", CHANNELS[channel]));
+        }
+    }
+    found
+}
+
+fn suspicion_in_words(suspicion: &Suspicion) -> String {
+    let because = |cause: &Option<&'static str>| {
+        cause.map_or_else(
+            || "no single unit mistake explains it; check units, scale and axes".to_owned(),
+            |cause| format!("that is as if {cause}"),
+        )
+    };
+    match suspicion {
+        Suspicion::Gravity { seen, expected, cause } => format!(
+            "specific force at rest is {seen:.5} m/s^2 where gravity is {expected:.5}: {}",
+            because(cause)
+        ),
+        Suspicion::SpinScale { ratio, cause } => {
+            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(cause))
+        }
+        Suspicion::SpinAxis { channel, ratio } => format!(
+            "{channel} counts {ratio:.4} of the table's turn and gyro.z does not: the axes are exchanged; set `axes` \
+             under [log] gyro, or [axis] spin"
+        ),
+        Suspicion::StuckChannel { channel } => {
+            format!("{channel} repeats one reading throughout: not connected?")
+        }
+        other => format!("{other:?}"),
+    }
+}
+
+fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Loaded) -> Report {
+    let mut rows = rows(inspection, loaded);
+    rows.insert(0, ["", ""].map(String::from).to_vec());
+    let verdict = if inspection.suspicions.is_empty() {
+        "Units, signs and axes agree with gravity and with the table, as far as this log shows them."
+    } else {
+        "Something is wrong with units, signs or axes: see below before you use this log."
+    };
+    let mut summary = vec![verdict.to_owned()];
+    summary.extend(oddities.iter().cloned());
+    let mut items = vec![Item::Table(table(&rows))];
+    if inspection.rests.len() > 1 {
+        items.push(Item::Table(table(&rests(inspection, loaded))));
+    }
+    Report {
+        title: title.into(),
+        subtitle: format!("rins check: {}", loaded.rig.log.path.display()),
+        summary,
+        sections: vec![
+            Section { heading: "What is in it".into(), intro: String::new(), items },
+            Section {
+                heading: "Readings".into(),
+                intro: "Mean rates and specific forces over each interval, along the body axes.".into(),
+                items: readings(loaded),
+            },
+        ],
+    }
+}
+
+fn readings(loaded: &Loaded) -> Vec<Item> {
+    let recording = &loaded.recording;
+    let plot = |title: &str, y_label: &str, of: &dyn Fn(usize) -> Vec<f64>| {
+        Item::Plot(Plot {
+            title: title.into(),
+            x_label: "Time [s]".into(),
+            y_label: y_label.into(),
+            series: ["x", "y", "z"]
+                .iter()
+                .enumerate()
+                .map(|(axis, name)| Series {
+                    name: (*name).into(),
+                    x: recording.times.clone(),
+                    y: of(axis),
+                    style: Style::Line,
+                })
+                .collect(),
+            ..Plot::default()
+        })
+    };
+    vec![
+        plot("Angular rate", "Rate [deg/s]", &|axis| {
+            let rate = |s: &rins_frames::Increments| s.rates().angular_rate.components()[axis] / DEG;
+            recording.increments.iter().map(rate).collect()
+        }),
+        plot("Specific force", "Force [m/s^2]", &|axis| {
+            let force = |s: &rins_frames::Increments| s.rates().specific_force.components()[axis];
+            recording.increments.iter().map(force).collect()
+        }),
+    ]
+}
+
+fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Path) -> Value {
+    let times = &loaded.recording.times;
+    let rests: Vec<Value> = inspection
+        .rests
+        .iter()
+        .map(|rest| {
+            json!({
+                "from_s": times[rest.span.start],
+                "to_s": times[rest.span.end - 1],
+                "gravity_m_s2": rest.mean.rates.specific_force.norm(),
+                "rate_deg_h": rest.mean.rates.angular_rate.norm() / DEG_PER_HOUR,
+            })
+        })
+        .collect();
+    let gaps: Vec<Value> = inspection
+        .timing
+        .gaps
+        .iter()
+        .map(|(index, length)| json!({"at_s": times[*index], "length_s": length}))
+        .collect();
+    let suspicions: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
+    json!({
+        "schema": 1,
+        "command": "check",
+        "rig": shown(rig),
+        "samples": loaded.recording.len(),
+        "rate_hz": 1.0 / inspection.timing.interval,
+        "jitter_rms_s": inspection.timing.jitter,
+        "gaps": gaps,
+        "rests": rests,
+        "turns": inspection.turns,
+        "earth_rate_visible": inspection.earth_rate_visible,
+        "expected_gravity_m_s2": loaded.station.gravity,
+        "suspicions": suspicions,
+        "oddities": oddities,
+    })
+}

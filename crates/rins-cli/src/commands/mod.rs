@@ -1,0 +1,10 @@
+//! One file a command: from its arguments to its outcome.
+
+pub(crate) mod align;
+pub(crate) mod calibrate;
+pub(crate) mod check;
+pub(crate) mod demo;
+pub(crate) mod init;
+pub(crate) mod navigate;
+mod setup;
+pub(crate) mod simulate;

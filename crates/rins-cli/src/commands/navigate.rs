@@ -1,0 +1,175 @@
+//! `rins navigate`: free inertial navigation from rest.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use rins_calibration::{FreeNavigation, navigate_freely, table_angles};
+use rins_frames::units::DEG;
+use rins_frames::{Body, Dcm, Nav, Table};
+use rins_imu::{Compensation, ImuError, TriadError};
+use rins_io::Loaded;
+use serde_json::{Value, json};
+
+use crate::args::Navigate;
+use crate::commands::align::{found, table};
+use crate::commands::calibrate::navigation_json;
+use crate::commands::setup::{load, shown};
+use crate::outcome::Outcome;
+use crate::report::{Item, Report, Section};
+use crate::view::table::aligned;
+use crate::view::{attitude_plot, position_plot, velocity_plot};
+
+pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
+    let rig = &arguments.input.rig;
+    let loaded = load(rig)?;
+    let start = start(&loaded)?;
+    let mut runs = vec![("as recorded", navigated(&loaded, &start, None))];
+    if let Some(bias) = &start.gyro_bias {
+        let compensation = bias.compensation()?;
+        runs.push(("gyro bias removed", navigated(&loaded, &start, Some(&compensation))));
+    }
+    if let Some(file) = &arguments.calibration {
+        let compensation = rins_io::Calibration::read(file)?.compensation()?;
+        runs.push(("compensated", navigated(&loaded, &start, Some(&compensation))));
+    }
+    Ok(outcome(&runs, &start, &loaded, rig))
+}
+
+/// Where navigation starts.
+struct Start {
+    nav_from_table: Dcm<Nav, Table>,
+    /// What the rest shows of the gyro biases, where the attitude came from it.
+    gyro_bias: Option<ImuError>,
+    source: String,
+    /// The table angle before each sample and after the last.
+    angles: Vec<f64>,
+}
+
+fn start(loaded: &Loaded) -> anyhow::Result<Start> {
+    let recording = &loaded.recording;
+    let angles =
+        table_angles(recording).unwrap_or_else(|| vec![0.0; recording.len() + 1]);
+    if let Some(attitude) = loaded.rig.attitude {
+        return Ok(Start {
+            nav_from_table: attitude.angles.dcm(),
+            gyro_bias: None,
+            source: "the attitude that the rig gives".into(),
+            angles,
+        });
+    }
+    let found = found(loaded)?;
+    let angle = angles[found.span.start];
+    let table_from_body = Dcm::<Table, Body>::about_z(angle);
+    let gyro = TriadError { bias: *found.residual.angular_rate.components(), ..TriadError::default() };
+    Ok(Start {
+        nav_from_table: found.nav_from_body * table_from_body.inverse(),
+        gyro_bias: Some(ImuError { gyro, ..ImuError::default() }),
+        source: format!(
+            "the attitude and the gyro bias found over the rest from {:.0} s to {:.0} s, which is part of what is \
+             navigated",
+            found.start,
+            recording.times[found.span.end - 1]
+        ),
+        angles,
+    })
+}
+
+fn navigated(
+    loaded: &Loaded,
+    start: &Start,
+    compensation: Option<&Compensation>,
+) -> FreeNavigation {
+    navigate_freely(
+        &loaded.recording,
+        &start.angles,
+        start.nav_from_table,
+        &loaded.station,
+        compensation,
+    )
+}
+
+fn outcome(
+    runs: &[(&'static str, FreeNavigation)],
+    start: &Start,
+    loaded: &Loaded,
+    rig: &Path,
+) -> Outcome {
+    let recording = &loaded.recording;
+    let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
+    let mut rows = vec![
+        ["", "v east [m/s]", "v north [m/s]", "position [m]", "roll [deg]", "pitch [deg]", "yaw [deg]"]
+            .map(String::from)
+            .to_vec(),
+    ];
+    rows.extend(runs.iter().map(|(name, run)| {
+        let error = &run.attitude_error;
+        let mut row = vec![
+            (*name).to_owned(),
+            format!("{:.4}", run.velocity.x),
+            format!("{:.4}", run.velocity.y),
+            format!("{:.2}", run.position_error.norm()),
+        ];
+        row.extend([error.roll, error.pitch, error.yaw].map(|angle| format!("{:.5}", angle / DEG)));
+        row
+    }));
+    let title = format!("Free inertial navigation of {}", shown(rig));
+    let summary: Vec<String> = std::iter::once(format!(
+        "From {}, over {duration:.0} s with the vertical channel held:",
+        start.source
+    ))
+    .chain(runs.iter().map(|(name, run)| {
+        format!(
+            "{name}: {:.3} m/s and {:.1} m off at the end.",
+            run.velocity.norm(),
+            run.position_error.norm()
+        )
+    }))
+    .collect();
+    let mut text = format!("{title}\n");
+    for sentence in &summary {
+        let _ = writeln!(text, "  {sentence}");
+    }
+    text.push('\n');
+    text.push_str(&aligned(&rows));
+    let named: Vec<(&str, &FreeNavigation)> = runs.iter().map(|(name, run)| (*name, run)).collect();
+    let report = Report {
+        title,
+        subtitle: format!("rins navigate: {}", loaded.rig.log.path.display()),
+        summary,
+        sections: vec![Section {
+            heading: "Errors".into(),
+            intro: "The truth is a base that does not move.".into(),
+            items: vec![
+                Item::Table(table(&rows)),
+                Item::Plot(velocity_plot(&named)),
+                Item::Plot(position_plot(&named)),
+                Item::Plot(attitude_plot(&named)),
+            ],
+        }],
+    };
+    Outcome {
+        json: json(runs, start, duration, rig),
+        text,
+        report: Some(report),
+        ..Outcome::default()
+    }
+}
+
+fn json(runs: &[(&'static str, FreeNavigation)], start: &Start, duration: f64, rig: &Path) -> Value {
+    let shown_runs: Vec<Value> = runs
+        .iter()
+        .map(|(name, run)| {
+            let mut value = navigation_json(run);
+            value["name"] = json!(name);
+            value
+        })
+        .collect();
+    json!({
+        "schema": 1,
+        "command": "navigate",
+        "rig": shown(rig),
+        "start": start.source,
+        "duration_s": duration,
+        "runs": shown_runs,
+    })
+}

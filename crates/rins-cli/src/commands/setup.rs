@@ -1,0 +1,44 @@
+//! From a rig file to what the calibration needs to know.
+
+use std::path::Path;
+
+use anyhow::Context;
+use rins_calibration::{AxisAttitude, Setup, TableSpec};
+use rins_io::Loaded;
+
+/// Reads a rig file and the log that it names.
+pub(crate) fn load(rig: &Path) -> anyhow::Result<Loaded> {
+    let spinner = indicatif::ProgressBar::new_spinner().with_message("reading");
+    let loaded = rins_io::read(rig);
+    spinner.finish_and_clear();
+    Ok(loaded?)
+}
+
+/// What a rig says of station, table and IMU.
+///
+/// Where the rig gives no figure for the direction of the axis, it is taken to be as steady as
+/// the encoder reads.
+pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
+    let rig = &loaded.rig;
+    let imu = *rig.require_imu().context("the filter's noise and priors come from there")?;
+    let encoder = rig.log.table_angle();
+    let read = encoder.and_then(|angle| angle.noise).unwrap_or(TableSpec::DEFAULT_ANGLE_NOISE);
+    // A reading rounded to its last bit is off by that of a uniform deviate.
+    let rounding = encoder.and_then(|angle| angle.resolution).unwrap_or_default() / 12.0_f64.sqrt();
+    let angle_noise = read.hypot(rounding);
+    let wobble = rig.table.as_ref().and_then(|table| table.wobble).unwrap_or(angle_noise);
+    Ok(Setup {
+        station: loaded.station,
+        axis: rig
+            .attitude
+            .map(|attitude| AxisAttitude { angles: attitude.angles, sigma: attitude.sigma }),
+        table: TableSpec { angle_noise, wobble, rate_noise: 0.0 },
+        imu,
+        velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
+    })
+}
+
+/// The name of a rig in titles: its path.
+pub(crate) fn shown(rig: &Path) -> String {
+    rig.display().to_string()
+}

@@ -1,0 +1,63 @@
+//! What a command found, and how it is delivered.
+
+use std::path::Path;
+
+use rins_io::{IoError, Overwrite, write_folder};
+use serde_json::Value;
+
+use crate::report::{Report, render};
+
+/// Writes further files into the folder that it is given.
+pub(crate) type Fill = Box<dyn Fn(&Path) -> Result<(), IoError>>;
+
+/// What a command found.
+#[derive(Default)]
+pub(crate) struct Outcome {
+    /// For a machine, in the shape of the contract.
+    pub(crate) json: Value,
+    /// For a person at a terminal.
+    pub(crate) text: String,
+    /// For a person in a browser.
+    pub(crate) report: Option<Report>,
+    /// Further files for the output folder.
+    pub(crate) files: Vec<(&'static str, Vec<u8>)>,
+    /// What else to write into the output folder.
+    pub(crate) fill: Option<Fill>,
+    /// Why the exit code must say that the data are at fault, although there is a result.
+    pub(crate) failure: Option<String>,
+}
+
+impl Outcome {
+    /// Writes `result.json`, `report.html` and the further files into a folder, all or none.
+    ///
+    /// Returns a sentence that says where the result is.
+    pub(crate) fn write(
+        &self,
+        destination: Option<&Path>,
+        overwrite: Overwrite,
+    ) -> anyhow::Result<Option<String>> {
+        let Some(destination) = destination else {
+            return Ok(None);
+        };
+        let json = serde_json::to_string_pretty(&self.json)?;
+        let page = self.report.as_ref().map(render);
+        write_folder(destination, overwrite, |folder| {
+            let write = |name: &str, content: &[u8]| {
+                let path = folder.join(name);
+                std::fs::write(&path, content)
+                    .map_err(|source| IoError::File { action: "write", path, source })
+            };
+            write("result.json", json.as_bytes())?;
+            if let Some(page) = &page {
+                write("report.html", page.as_bytes())?;
+            }
+            self.files.iter().try_for_each(|(name, content)| write(name, content))?;
+            self.fill.as_ref().map_or(Ok(()), |fill| fill(folder))
+        })?;
+        let shown = match self.report {
+            Some(_) => format!("Report: {}", destination.join("report.html").display()),
+            None => format!("Written: {}", destination.display()),
+        };
+        Ok(Some(shown))
+    }
+}

@@ -1,0 +1,17 @@
+//! How results are shown: numbers in the units of their field, tables and plots.
+
+mod calibration;
+mod navigation;
+pub(crate) mod table;
+
+pub(crate) use calibration::{SYSTEMATIC_NOTE, calibration_report, calibration_text, meaning};
+pub(crate) use navigation::{attitude_plot, position_plot, velocity_plot};
+
+use rins_frames::EulerAngles;
+use rins_frames::units::DEG;
+use serde_json::{Value, json};
+
+/// Roll, pitch and yaw in degrees, as JSON.
+pub(crate) fn euler_json(angles: &EulerAngles) -> Value {
+    json!({"roll": angles.roll / DEG, "pitch": angles.pitch / DEG, "yaw": angles.yaw / DEG})
+}
