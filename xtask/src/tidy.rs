@@ -7,6 +7,7 @@ use std::process::Command;
 use crate::Result;
 
 mod crates;
+mod references;
 mod text;
 
 #[cfg(test)]
@@ -44,6 +45,7 @@ pub(crate) fn run(root: &Path) -> Result<()> {
 /// Every breach of the rules in these files, which are named relative to `root`.
 fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     let mut findings = text::findings(root, files)?;
+    findings.extend(references::findings(root, files)?);
     findings.extend(crates::findings(root)?);
     findings.sort_by(|a, b| (&a.path, a.line).cmp(&(&b.path, b.line)));
     Ok(findings)

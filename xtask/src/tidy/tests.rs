@@ -142,6 +142,17 @@ fn banner_is_found() {
 }
 
 #[test]
+fn unknown_citation_is_found() {
+    let cite = |key| format!("//! As ‹{key}› says.\n");
+    let mut planted = Planted::new();
+    planted.write("docs/src/references.md", "# References\n\n## nie2019\n");
+    planted.write("a.rs", &cite("nie2019"));
+    planted.write("b.rs", &cite("nie2020"));
+    let expected = "b.rs:1: ‹nie2020› is not in docs/src/references.md";
+    assert_eq!(planted.found(), [expected]);
+}
+
+#[test]
 fn binary_and_vendored_files_are_left_alone() {
     let mut planted = Planted::new();
     planted.write("docs/katex/a.css", "\t");
