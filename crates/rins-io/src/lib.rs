@@ -1,1 +1,51 @@
-//! Placeholder.
+//! Files in and out: rigs, scenarios, logs, calibrations and results, with every unit checked.
+//!
+//! **What it does.** [`read`] takes a rig file, and the log that it names, to a
+//! [`Recording`](rins_motion::Recording) in SI units and radians. [`ScenarioFile`] and
+//! [`Calibration`] are the other files of keys; [`write_file`] and [`write_folder`] put results in
+//! their place whole or not at all. An [`IoError`] names the file, line, key or column, the value,
+//! and what was expected.
+//!
+//! **What it does not do.** It draws no conclusions from what it reads, and repairs nothing in
+//! silence.
+//!
+//! ```
+//! use rins_io::quantity::kinds;
+//! assert_eq!(kinds::GYRO_BIAS.parse("3600 deg/h")?, kinds::GYRO_BIAS.parse("1 deg/s")?);
+//! assert_eq!(
+//!     kinds::GYRO_BIAS.parse("0.05 deg/hr").unwrap_err().to_string(),
+//!     "\"0.05 deg/hr\": unknown unit \"hr\"; did you mean \"h\"?",
+//! );
+//! # Ok::<(), rins_io::QuantityError>(())
+//! ```
+mod calibration;
+mod document;
+mod error;
+mod log;
+mod output;
+mod parameter;
+pub mod quantity;
+mod rig;
+mod run;
+mod scenario;
+mod section;
+mod suggestion;
+
+pub use calibration::Calibration;
+pub use error::{IoError, KeyError, KeyProblem, LogError};
+pub use log::{
+    Delimiter, Gap, Loaded, LogPolicy, LogProblem, LogSummary, PsinsHeader, read, read_log,
+};
+pub use output::{OutputProblem, Overwrite, write_file, write_folder};
+pub use parameter::{Parameter, parameters};
+pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
+pub use rig::{
+    AngleColumn, Axes, ColumnSpec, Gaps, InitialAttitude, LogFormat, LogSpec, Reading, Rig,
+    ScaledColumn, Stamp, TableSpec, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+};
+pub use run::{truth_json, write_recording};
+pub use scenario::ScenarioFile;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

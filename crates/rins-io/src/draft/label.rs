@@ -1,0 +1,260 @@
+//! What a column's name says: which sensor, which axis, which unit.
+
+use super::stated::{Stated, by_ending, in_brackets};
+use crate::quantity::Dimension;
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Time,
+    /// A counter of samples.
+    Counter,
+    Gyro,
+    Accel,
+    TableAngle,
+    TableRate,
+    Temperature,
+}
+
+/// What a column's name says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Label {
+    pub(super) role: Option<Role>,
+    /// Whether the name can hardly mean anything else.
+    pub(super) sure: bool,
+    /// Whether it speaks of increments.
+    pub(super) increment: bool,
+    /// The axis, from zero.
+    pub(super) axis: Option<usize>,
+    /// The name without its axis and unit: the three columns of a triad share it.
+    pub(super) stem: String,
+    pub(super) unit: Option<Stated>,
+}
+
+const TEMPERATURE: &[&str] = &["temp", "temps", "temperature", "temperatures", "tmp"];
+const TABLE: &[&str] =
+    &["table", "turntable", "ratetable", "encoder", "enc", "resolver", "spindle", "rotor", "stage"];
+const RATE: &[&str] = &["rate", "speed", "velocity", "vel", "omega"];
+const ANGLE: &[&str] = &["angle", "theta", "azimuth", "zeta"];
+const TIME: &[&str] = &[
+    "time", "timestamp", "stamp", "t", "tow", "sec", "secs", "seconds", "millis", "micros", "epoch",
+    "clock",
+];
+const COUNTER: &[&str] = &[
+    "sample", "samples", "counter", "count", "index", "idx", "packet", "packets", "seq", "sequence",
+    "frame", "n", "nr", "no",
+];
+const GYRO: &[&str] = &[
+    "gyro", "gyros", "gyroscope", "gyroscopes", "gyr", "dtheta", "dang", "dth", "omega", "wib",
+    "angvel",
+];
+const ACCEL: &[&str] = &[
+    "accel", "accels", "accelerometer", "accelerometers", "accelerations", "acc", "acceleration",
+    "dvel", "dv", "deltav",
+];
+/// Letters and words that mean a gyro or an accelerometer only by custom.
+const WEAK_GYRO: &[&str] = &["g", "w", "om", "rate"];
+const WEAK_ACCEL: &[&str] = &["a", "f", "sf", "fb"];
+const INCREMENT: &[&str] =
+    &["dtheta", "dang", "dth", "dvel", "dv", "deltav", "inc", "delta", "increment", "d"];
+/// Words of triads that are not inertial sensors.
+const OTHERS: &[&str] = &[
+    "mag", "magn", "magnetometer", "magnetic", "quat", "quaternion", "q", "pos", "position", "gnss",
+    "gps", "euler", "bias", "gravity",
+];
+
+impl Label {
+    /// What `name` says.
+    pub(super) fn of(name: &str) -> Self {
+        let (bracketed, bare) = match in_brackets(name) {
+            Some((stated, bare)) => (Some(stated), bare),
+            None => (None, name.to_string()),
+        };
+        let mut words = words(&bare);
+        let mut axis = take_axis(&mut words);
+        let mut unit = bracketed;
+        if unit.is_none()
+            && let Some((stated, count)) = by_ending(&words)
+        {
+            words.truncate(words.len() - count);
+            unit = Some(stated);
+        }
+        axis = axis.or_else(|| take_axis(&mut words));
+        let stem = words.join(" ");
+        let label = Self { axis, stem, unit, ..Self::default() };
+        label.judged(&words)
+    }
+
+    fn judged(self, words: &[String]) -> Self {
+        let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
+        let dimension = self.unit.as_ref().map(|stated| stated.unit.dimension);
+        let role = |role, sure| Some((role, sure));
+        let found = if has(TEMPERATURE) || dimension == Some(Dimension::TEMPERATURE) {
+            role(Role::Temperature, true)
+        } else if self.axis.is_some() {
+            triad(words, dimension)
+        } else if has(TABLE) {
+            let rate = has(RATE) || dimension == Some(Dimension::ANGULAR_RATE);
+            role(if rate { Role::TableRate } else { Role::TableAngle }, true)
+        } else if has(TIME) || dimension == Some(Dimension::TIME) {
+            role(Role::Time, true)
+        } else if has(COUNTER) {
+            role(Role::Counter, true)
+        } else if has(ANGLE) {
+            role(Role::TableAngle, false)
+        } else {
+            None
+        };
+        let increment = has(INCREMENT);
+        match found {
+            Some((role, sure)) => Self { role: Some(role), sure, increment, ..self },
+            None => self,
+        }
+    }
+}
+
+/// Which triad a column with an axis belongs to, and whether that is sure.
+fn triad(words: &[String], dimension: Option<Dimension>) -> Option<(Role, bool)> {
+    let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
+    if has(OTHERS) || has(TABLE) {
+        return None;
+    }
+    let turning = has(&["angular", "ang", "rotation", "rotational"]) && has(RATE);
+    let change = has(&["delta", "inc", "increment"]);
+    let angle = change && has(&["angle", "theta", "ang"]);
+    let velocity = change && has(&["velocity", "vel", "v"]);
+    if has(GYRO) || turning || angle {
+        return Some((Role::Gyro, true));
+    }
+    if has(ACCEL) || velocity || (has(&["specific"]) && has(&["force"])) {
+        return Some((Role::Accel, true));
+    }
+    match dimension {
+        Some(Dimension::ANGULAR_RATE) => Some((Role::Gyro, has(WEAK_GYRO))),
+        Some(Dimension::ACCELERATION) => Some((Role::Accel, has(WEAK_ACCEL))),
+        _ if has(WEAK_GYRO) => Some((Role::Gyro, false)),
+        _ if has(WEAK_ACCEL) => Some((Role::Accel, false)),
+        _ => None,
+    }
+}
+
+/// The words of a name in small letters: `GyroX`, `gyro_x` and `Gyro X` are the same two.
+fn words(name: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut before = ' ';
+    for letter in name.chars() {
+        if !letter.is_alphanumeric() || (letter.is_uppercase() && before.is_lowercase()) {
+            words.push(String::new());
+        }
+        if letter.is_alphanumeric()
+            && let Some(word) = words.last_mut()
+        {
+            word.extend(letter.to_lowercase());
+        }
+        before = letter;
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+/// Takes the axis out of a name's words: a word of its own, or a letter at an end of a sensor's.
+fn take_axis(words: &mut Vec<String>) -> Option<usize> {
+    let axis = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
+    if let Some(place) = words.iter().rposition(|word| axis(word).is_some()) {
+        return axis(&words.remove(place));
+    }
+    let sensor = |word: &str, lists: &[&[&str]]| lists.iter().any(|list| list.contains(&word));
+    for word in words.iter_mut().rev() {
+        let Some((place, last)) = word.char_indices().next_back() else { continue };
+        if let Some(axis) = axis(last.encode_utf8(&mut [0; 4]))
+            && sensor(&word[..place], &[GYRO, ACCEL, WEAK_GYRO, WEAK_ACCEL, OTHERS])
+        {
+            word.truncate(place);
+            return Some(axis);
+        }
+        if let Some(axis) = word.get(..1).and_then(axis)
+            && sensor(&word[1..], &[GYRO, ACCEL])
+        {
+            word.remove(0);
+            return Some(axis);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Label, Role};
+    use proptest::prelude::*;
+
+    #[test]
+    fn names_of_many_loggers_are_understood() {
+        let triads = [
+            ("Gyroscope X (deg/s)", Role::Gyro, 0, Some("deg/s")),
+            ("gyr_y", Role::Gyro, 1, None),
+            ("gz", Role::Gyro, 2, None),
+            ("GyroZ", Role::Gyro, 2, None),
+            ("wy [rad/s]", Role::Gyro, 1, Some("rad/s")),
+            ("GYRO_X_dps", Role::Gyro, 0, Some("deg/s")),
+            ("angular_velocity.x", Role::Gyro, 0, None),
+            ("xgyro", Role::Gyro, 0, None),
+            ("Z (deg/h)", Role::Gyro, 2, Some("deg/h")),
+            ("dtheta_x", Role::Gyro, 0, None),
+            ("delta angle y", Role::Gyro, 1, None),
+            ("Accelerometer Z (g)", Role::Accel, 2, Some("g")),
+            ("ax", Role::Accel, 0, None),
+            ("acc_x_mps2", Role::Accel, 0, Some("m/s^2")),
+            ("linear_acceleration.y", Role::Accel, 1, None),
+            ("specific force z", Role::Accel, 2, None),
+            ("fx", Role::Accel, 0, None),
+            ("dvz", Role::Accel, 2, None),
+        ];
+        for (name, role, axis, unit) in triads {
+            let label = Label::of(name);
+            let text = label.unit.as_ref().map(|stated| stated.text.as_str());
+            assert_eq!((label.role, label.axis, text), (Some(role), Some(axis), unit), "{name}");
+        }
+        let others = [
+            ("Time (s)", Role::Time),
+            ("t", Role::Time),
+            ("time_us", Role::Time),
+            ("SampleTime", Role::Time),
+            ("n_samples", Role::Counter),
+            ("PacketCounter", Role::Counter),
+            ("table", Role::TableAngle),
+            ("Encoder (deg)", Role::TableAngle),
+            ("table_rate", Role::TableRate),
+            ("turntable (deg/s)", Role::TableRate),
+            ("angle", Role::TableAngle),
+            ("temp", Role::Temperature),
+            ("table_temperature", Role::Temperature),
+            ("IMU (degC)", Role::Temperature),
+        ];
+        for (name, role) in others {
+            assert_eq!(Label::of(name).role, Some(role), "{name}");
+        }
+    }
+
+    #[test]
+    fn other_sensors_are_left_alone() {
+        for name in ["Magnetometer X (uT)", "mx", "qx", "mag_z", "Barometer (hPa)", "vx", "pos_x", "x"]
+        {
+            assert_eq!(Label::of(name).role, None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_triad_shares_a_stem_whatever_its_axis() {
+        for names in [["gx", "gy", "gz"], ["Acc X (g)", "Acc Y (g)", "Acc Z (g)"]] {
+            let stems = names.map(|name| Label::of(name).stem);
+            assert!(stems[0] == stems[1] && stems[1] == stems[2], "{stems:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_name_is_read(name in "\\PC{0,30}|[xyzXYZ()\\[\\]_a-gé/ ]{0,20}") {
+            let _ = Label::of(&name);
+        }
+    }
+}

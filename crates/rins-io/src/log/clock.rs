@@ -1,0 +1,135 @@
+//! From time stamps to the intervals that samples cover.
+
+use std::path::Path;
+
+use super::problem::LogProblem;
+use super::summary::{Gap, LogPolicy, LogSummary};
+use crate::error::{IoError, LogError};
+use crate::rig::Stamp;
+
+/// By how much the measured sampling rate may differ from the stated one, relative.
+const RATE_WITHIN: f64 = 0.01;
+
+/// A step longer than this many nominal intervals is a gap.
+const GAP: f64 = 1.5;
+
+/// The intervals of a log's samples.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Clock {
+    /// The end of each sample's interval \[s\].
+    pub(super) ends: Vec<f64>,
+    /// The length of each sample's interval \[s\].
+    pub(super) intervals: Vec<f64>,
+    pub(super) summary: LogSummary,
+}
+
+/// What a log's rows say of time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stamps<'l> {
+    pub(super) path: &'l Path,
+    /// The line of each row.
+    pub(super) lines: &'l [u64],
+    pub(super) stamp: Stamp,
+    /// The nominal interval, where the rig states it \[s\].
+    pub(super) nominal: Option<f64>,
+}
+
+impl Stamps<'_> {
+    /// Intervals of rows without a time column: one nominal interval after another from zero.
+    pub(super) fn counted(&self, interval: f64) -> Result<Clock, IoError> {
+        self.need_two()?;
+        let count = self.lines.len();
+        Ok(Clock {
+            ends: (1..=count).map(|sample| sample as f64 * interval).collect(),
+            intervals: vec![interval; count],
+            summary: LogSummary::even(count, interval),
+        })
+    }
+
+    /// Intervals of rows with these times \[s\].
+    ///
+    /// A sample stamped at its end covers the time since the stamp before, and the first one
+    /// nominal interval. Stamps of the start or the middle tell the interval's end only together
+    /// with the next stamp, so that the last row is not a sample of its own.
+    pub(super) fn timed(&self, times: &[f64], policy: LogPolicy) -> Result<Clock, IoError> {
+        self.need_two()?;
+        let steps = self.steps(times, policy)?;
+        let median = median(&steps);
+        if let Some(nominal) = self.nominal
+            && (median / nominal - 1.0).abs() > RATE_WITHIN
+        {
+            let (measured, stated) = (1.0 / median, 1.0 / nominal);
+            return Err(LogError::of(self.path, LogProblem::WrongRate { measured, stated }));
+        }
+        let nominal = self.nominal.unwrap_or(median);
+        let intervals: Vec<f64> = match self.stamp {
+            Stamp::Start => steps.clone(),
+            Stamp::End => std::iter::once(nominal).chain(steps.iter().copied()).collect(),
+            Stamp::Middle => {
+                let halves = steps.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+                std::iter::once(0.5 * (nominal + steps[0])).chain(halves).collect()
+            }
+        };
+        let ends = match self.stamp {
+            Stamp::Start => times[1..].to_vec(),
+            Stamp::End => times.to_vec(),
+            Stamp::Middle => times.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect(),
+        };
+        let gaps = self.gaps(times, &steps, nominal);
+        let even = steps.iter().filter(|step| **step <= GAP * nominal);
+        let (count, sum) = even.fold((0.0, 0.0), |(count, sum), step| {
+            (count + 1.0, sum + (step - nominal) * (step - nominal))
+        });
+        let jitter_rms = if count > 0.0 { f64::sqrt(sum / count) } else { 0.0 };
+        let even = LogSummary::even(ends.len(), nominal);
+        Ok(Clock { summary: LogSummary { jitter_rms, gaps, ..even }, ends, intervals })
+    }
+
+    fn need_two(&self) -> Result<(), IoError> {
+        match self.lines.len() {
+            samples @ (0 | 1) => Err(LogError::of(self.path, LogProblem::TooShort { samples })),
+            _ => Ok(()),
+        }
+    }
+
+    /// The steps from each time to the next, with those that are nominal to within the rounding
+    /// of the times made exactly so.
+    fn steps(&self, times: &[f64], policy: LogPolicy) -> Result<Vec<f64>, IoError> {
+        let mut steps = Vec::with_capacity(times.len() - 1);
+        for (pair, &line) in times.windows(2).zip(&self.lines[1..]) {
+            let (before, now) = (pair[0], pair[1]);
+            let step = now - before;
+            if step <= 0.0 {
+                let problem = LogProblem::TimeNotIncreasing { before, now };
+                return Err(LogError::at(self.path, line, problem));
+            }
+            if step > policy.largest_gap.max(GAP * self.nominal.unwrap_or(0.0)) {
+                let largest = policy.largest_gap;
+                let problem = LogProblem::LongGap { length: step, after: before, largest };
+                return Err(LogError::at(self.path, line, problem));
+            }
+            let rounding = 4.0 * f64::EPSILON * before.abs().max(now.abs());
+            let nominal = self.nominal.filter(|nominal| (step - nominal).abs() <= rounding);
+            steps.push(nominal.unwrap_or(step));
+        }
+        Ok(steps)
+    }
+
+    fn gaps(&self, times: &[f64], steps: &[f64], nominal: f64) -> Vec<Gap> {
+        let gap = |(row, &length): (usize, &f64)| {
+            (length > GAP * nominal).then(|| Gap {
+                sample: if self.stamp == Stamp::End { row + 1 } else { row },
+                line: self.lines[row + 1],
+                after: times[row],
+                length,
+            })
+        };
+        steps.iter().enumerate().filter_map(gap).collect()
+    }
+}
+
+fn median(steps: &[f64]) -> f64 {
+    let mut sorted = steps.to_vec();
+    let middle = sorted.len() / 2;
+    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+}

@@ -1,0 +1,197 @@
+//! Columns of numbers, picked by name or number from a text log.
+
+use std::io::BufRead;
+use std::path::Path;
+
+use super::fields::{Delimiter, Fields};
+use super::instant::Instants;
+use super::lines::Lines;
+use super::problem::LogProblem;
+use crate::error::{IoError, LogError};
+use crate::section::quoted;
+use crate::suggestion::nearest;
+
+/// The most columns that are read.
+const MOST_COLUMNS: usize = 4096;
+
+/// The most columns that an error lists.
+const MOST_LISTED: usize = 30;
+
+/// The numbers of some columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Columns {
+    /// The time stamps \[s\], if time was asked for.
+    pub(super) time: Vec<f64>,
+    /// The numbers of each column that was asked for.
+    pub(super) numbers: Vec<Vec<f64>>,
+    /// The line of each row.
+    pub(super) lines: Vec<u64>,
+    /// The lines that repeat, time stamp and all, the one before them.
+    pub(super) repeated: Vec<u64>,
+}
+
+/// Reads the columns `names` of the log at `path`, and the column of time stamps.
+pub(super) fn read(
+    path: &Path,
+    names: &[&str],
+    time: Option<(&str, &mut Instants)>,
+) -> Result<Columns, IoError> {
+    read_from(&mut Lines::open(path)?, names, time)
+}
+
+pub(super) fn read_from<R: BufRead>(
+    lines: &mut Lines<R>,
+    names: &[&str],
+    mut time: Option<(&str, &mut Instants)>,
+) -> Result<Columns, IoError> {
+    let head = Head::read(lines)?;
+    let mut places = Vec::with_capacity(names.len() + 1);
+    for (index, name) in names.iter().enumerate() {
+        places.push((head.place(name, lines.path())?, Some(index)));
+    }
+    if let Some((name, _)) = &time {
+        places.push((head.place(name, lines.path())?, None));
+    }
+    places.sort_by_key(|(place, _)| *place);
+
+    let mut columns = Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() };
+    let path = lines.path().to_path_buf();
+    let mut before = String::new();
+    let mut row = |number: u64, line: &str| -> Result<(), IoError> {
+        // Some loggers write a sample twice; without a time stamp it may well be two samples.
+        if time.is_some() {
+            if line == before {
+                columns.repeated.push(number);
+                return Ok(());
+            }
+            before.clear();
+            before.push_str(line);
+        }
+        let refuse = |problem| LogError::at(&path, number, problem);
+        let mut places = places.iter().copied().peekable();
+        let mut fields = Fields::of(line, head.delimiter);
+        let mut count = 0;
+        let mut last = "";
+        for field in fields.by_ref() {
+            while let Some((_, index)) = places.next_if(|(place, _)| *place == count) {
+                let (name, value) = match (index, &mut time) {
+                    (None, Some((name, instants))) => (*name, instants.seconds(field)),
+                    (index, _) => (names[index.unwrap_or_default()], field.parse().ok()),
+                };
+                let value = number_of(name, field, value).map_err(refuse)?;
+                match index {
+                    Some(index) => columns.numbers[index].push(value),
+                    None => columns.time.push(value),
+                }
+            }
+            count += 1;
+            last = field;
+        }
+        if fields.has_open_quote() {
+            return Err(refuse(LogProblem::OpenQuote));
+        }
+        // Some loggers end each line of numbers, but not the header, with a delimiter.
+        let trailing = count == head.count + 1 && last.is_empty();
+        if count != head.count && !trailing {
+            return Err(refuse(LogProblem::FieldCount { got: count, expected: head.count }));
+        }
+        columns.lines.push(number);
+        Ok(())
+    };
+    for (number, line) in &head.rows {
+        row(*number, line)?;
+    }
+    while let Some((number, line)) = lines.next()? {
+        row(number, line)?;
+    }
+    if columns.lines.is_empty() {
+        return Err(LogError::of(lines.path(), LogProblem::OnlyHeader));
+    }
+    Ok(columns)
+}
+
+fn number_of(name: &str, field: &str, value: Option<f64>) -> Result<f64, LogProblem> {
+    let column = name.to_string();
+    let text = || field.chars().take(40).collect();
+    match value {
+        Some(value) if value.is_finite() => Ok(value),
+        Some(_) => Err(LogProblem::NotFinite { column, text: text() }),
+        None if field.is_empty() => Err(LogProblem::EmptyField { column }),
+        None => Err(LogProblem::NotANumber { column, text: text() }),
+    }
+}
+
+/// What the first lines tell.
+pub(super) struct Head {
+    pub(super) delimiter: Delimiter,
+    /// The columns' names, where there are any.
+    pub(super) names: Option<Vec<String>>,
+    /// The number of columns.
+    pub(super) count: usize,
+    /// The line of the names, or the first of the numbers.
+    line: u64,
+    /// The rows of numbers that have been read.
+    pub(super) rows: Vec<(u64, String)>,
+}
+
+impl Head {
+    pub(super) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
+        let Some((line, first)) = lines.next()?.map(|(line, text)| (line, text.to_string())) else {
+            return Err(LogError::of(lines.path(), LogProblem::Empty));
+        };
+        let comment = lines.comment().map(str::to_string);
+        let second = lines.next()?.map(|(line, text)| (line, text.to_string()));
+        let delimiter = Delimiter::sniff(&first, second.as_ref().map(|(_, text)| text.as_str()));
+        let fields = |text: &str| -> Vec<String> {
+            Fields::of(text, delimiter).map(str::to_string).collect()
+        };
+        let opening = fields(&first);
+        let count = opening.len();
+        if count > MOST_COLUMNS {
+            let problem = LogProblem::ManyColumns { most: MOST_COLUMNS };
+            return Err(LogError::at(lines.path(), line, problem));
+        }
+        let is_word = |field: &String| field.parse::<f64>().is_err();
+        if opening.iter().filter(|field| is_word(field)).count() * 2 >= count {
+            let rows = second.into_iter().collect();
+            return Ok(Self { delimiter, names: Some(opening), count, line, rows });
+        }
+        // Array libraries write the names into a comment.
+        let names = comment.map(|text| fields(&text));
+        let names = names.filter(|names| names.len() == count && names.iter().all(is_word));
+        let rows = std::iter::once((line, first)).chain(second).collect();
+        Ok(Self { delimiter, names, count, line, rows })
+    }
+
+    /// The place from zero of the column called `name`.
+    fn place(&self, name: &str, path: &Path) -> Result<usize, IoError> {
+        let refuse = |problem| Err(LogError::at(path, self.line, problem));
+        let names = self.names.as_deref().unwrap_or_default();
+        let mut found = names.iter().enumerate().filter(|(_, present)| *present == name);
+        if let Some((place, _)) = found.next() {
+            return match found.next() {
+                None => Ok(place),
+                Some(_) => refuse(LogProblem::TwoColumns { column: name.into() }),
+            };
+        }
+        if let Some(place) = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1))
+            && place < self.count
+        {
+            return Ok(place);
+        }
+        let suggestion = nearest(name, names.iter().map(String::as_str)).map(Into::into);
+        refuse(LogProblem::NoColumn { column: name.into(), suggestion, present: self.present() })
+    }
+
+    /// The columns that there are, in words.
+    fn present(&self) -> String {
+        let Some(names) = &self.names else {
+            return format!("\"1\" to \"{}\", as the log has no header", self.count);
+        };
+        let words = quoted(names.iter().take(MOST_LISTED).map(String::as_str));
+        match names.len().checked_sub(MOST_LISTED) {
+            None | Some(0) => words,
+            Some(more) => format!("{words} and {more} more"),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Time stamps as text, read without losing what a double cannot hold.
+
+/// Stamps beyond this \[s\] (48 days) are counted from a whole second near the first: a double
+/// near it steps by a nanosecond, and near the seconds since 1970 by a quarter of a microsecond.
+const LARGEST: f64 = 4194304.0;
+
+/// Decimals of a stamp that are kept when it is counted from an origin.
+const DECIMALS: i32 = 12;
+
+/// Reads time stamps in one unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Instants {
+    /// One unit \[s\].
+    unit: f64,
+    /// From where stamps are counted, in units of 10⁻¹²; `None` until the first is read.
+    origin: Option<i128>,
+}
+
+impl Instants {
+    pub(super) fn new(unit: f64) -> Self {
+        Self { unit, origin: None }
+    }
+
+    /// The stamp's time after the origin \[s\]; `None` if it is not a number.
+    pub(super) fn seconds(&mut self, text: &str) -> Option<f64> {
+        let plain = text.parse::<f64>().ok()?;
+        if !plain.is_finite() {
+            return Some(plain);
+        }
+        let origin = *self.origin.get_or_insert_with(|| match fixed(text) {
+            Some(stamp) if (plain * self.unit).abs() > LARGEST => {
+                let second = (1.0 / self.unit).round() * 10_f64.powi(DECIMALS);
+                // A second is at most 10²¹ of these units.
+                #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2⁷⁰")]
+                let second = second as i128;
+                stamp.div_euclid(second) * second
+            }
+            _ => 0,
+        });
+        if origin == 0 {
+            return Some(plain * self.unit);
+        }
+        let scale = 10_f64.powi(DECIMALS);
+        Some(match fixed(text) {
+            Some(stamp) => (stamp - origin) as f64 / scale * self.unit,
+            None => (plain - origin as f64 / scale) * self.unit,
+        })
+    }
+
+    /// The origin \[s\].
+    pub(super) fn origin(&self) -> f64 {
+        self.origin.unwrap_or(0) as f64 / 10_f64.powi(DECIMALS) * self.unit
+    }
+}
+
+/// A decimal number in units of 10⁻¹²; `None` if it is too large for that.
+fn fixed(text: &str) -> Option<i128> {
+    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
+        None => (text, 0),
+    };
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let negative = whole.starts_with('-');
+    let whole = whole.trim_start_matches(['-', '+']);
+    let digits: String = whole.chars().chain(decimals.chars()).take(34).collect();
+    let decimals = i32::try_from(digits.len()).ok()? - i32::try_from(whole.len()).ok()?;
+    let shift = exponent.checked_add(DECIMALS)?.checked_sub(decimals)?;
+    let number: i128 = if digits.is_empty() { 0 } else { digits.parse().ok()? };
+    let power = 10_i128.checked_pow(shift.unsigned_abs())?;
+    let scaled = if shift < 0 { number / power } else { number.checked_mul(power)? };
+    // A quarter of the range leaves room for differences.
+    (scaled < i128::MAX / 4).then_some(if negative { -scaled } else { scaled })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Instants;
+    use proptest::prelude::*;
+    use rins_testing::assert_close;
+
+    #[test]
+    fn a_nanosecond_since_1970_is_not_lost() {
+        let mut instants = Instants::new(1e-9);
+        let first = instants.seconds("1700000000123456789").unwrap();
+        let second = instants.seconds("1700000000123456790").unwrap();
+        assert!((second - first - 1e-9).abs() < 1e-16);
+        assert_close!(instants.origin(), 1.7e9, 1e-9);
+    }
+
+    #[test]
+    fn an_exponent_is_as_good_as_digits() {
+        let mut digits = Instants::new(1.0);
+        let mut exponent = Instants::new(1.0);
+        for (a, b) in [
+            ("1700000000.123456", "1.700000000123456000e+09"),
+            ("1700000000.133457", "1.700000000133457000E9"),
+        ] {
+            assert_eq!(digits.seconds(a), exponent.seconds(b));
+        }
+        assert!((digits.seconds("1700000001.5").unwrap() - 1.5).abs() < 1e-15);
+    }
+
+    proptest! {
+        #[test]
+        fn small_times_are_read_as_they_are(time in -4e6..4e6_f64) {
+            prop_assert_eq!(Instants::new(1.0).seconds(&time.to_string()), Some(time));
+        }
+
+        #[test]
+        fn any_text_is_read_or_refused(text in "[-+0-9.eE]{0,30}") {
+            let mut instants = Instants::new(1e-3);
+            let _ = instants.seconds("9e15");
+            let _ = instants.seconds(&text);
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! A log's lines, one at a time, in bounded memory.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use super::problem::LogProblem;
+use crate::error::{IoError, LogError};
+
+/// The longest line that is read \[bytes\].
+const LONGEST: u64 = 1 << 20;
+
+/// The lines of a log that carry numbers or names; blank lines and comments are passed over.
+#[derive(Debug)]
+pub(super) struct Lines<R> {
+    reader: R,
+    path: PathBuf,
+    buffer: Vec<u8>,
+    number: u64,
+    comment: Option<String>,
+}
+
+impl Lines<BufReader<File>> {
+    pub(super) fn open(path: &Path) -> Result<Self, IoError> {
+        let file = File::open(path).map_err(IoError::file("read", path))?;
+        Ok(Self::new(BufReader::with_capacity(1 << 16, file), path))
+    }
+}
+
+impl<R: BufRead> Lines<R> {
+    pub(super) fn new(reader: R, path: &Path) -> Self {
+        Self { reader, path: path.into(), buffer: Vec::new(), number: 0, comment: None }
+    }
+
+    /// The next line's number, from 1, and its text; `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<(u64, &str)>, IoError> {
+        while self.fill()? {
+            let text = self.text()?;
+            let trimmed = text.trim();
+            if let Some(comment) = trimmed.strip_prefix(['#', '%']) {
+                self.comment = Some(comment.trim().to_string());
+            } else if !trimmed.is_empty() {
+                let number = self.number;
+                // Found once more, because a borrow cannot leave a loop that goes on.
+                return Ok(Some((number, self.text()?)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The last comment so far, without its mark.
+    pub(super) fn comment(&self) -> Option<&str> {
+        self.comment.as_deref()
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// How many lines there have been.
+    pub(super) fn number(&self) -> u64 {
+        self.number
+    }
+
+    fn fill(&mut self) -> Result<bool, IoError> {
+        self.buffer.clear();
+        let mut limited = (&mut self.reader).take(LONGEST + 2);
+        let read = limited.read_until(b'\n', &mut self.buffer);
+        let length = read.map_err(IoError::file("read", &self.path))?;
+        if length == 0 {
+            return Ok(false);
+        }
+        self.number += 1;
+        if self.buffer.last() == Some(&b'\n') {
+            self.buffer.pop();
+        }
+        if self.buffer.last() == Some(&b'\r') {
+            self.buffer.pop();
+        }
+        if self.buffer.len() as u64 > LONGEST {
+            return Err(self.refuse(LogProblem::LongLine { most: LONGEST }));
+        }
+        if self.number == 1 && self.buffer.starts_with(b"\xef\xbb\xbf") {
+            self.buffer.drain(..3);
+        }
+        Ok(true)
+    }
+
+    fn text(&self) -> Result<&str, IoError> {
+        let text = std::str::from_utf8(&self.buffer).ok().filter(|text| !text.contains('\0'));
+        text.ok_or_else(|| self.refuse(LogProblem::NotText))
+    }
+
+    fn refuse(&self, problem: LogProblem) -> IoError {
+        LogError::at(&self.path, self.number, problem)
+    }
+}

@@ -1,0 +1,92 @@
+//! Signals beside the IMU's: unwrapping an angle, and reading a slower signal in between.
+
+use std::f64::consts::TAU;
+
+/// The largest step of an angle whose direction is believed, in turns.
+const LARGEST_STEP: f64 = 0.4;
+
+/// Takes the jumps of whole turns out of `angles` \[rad\].
+///
+/// # Errors
+/// The index and size \[turns\] of the first step that is so near half a turn that its direction
+/// cannot be told.
+pub(super) fn unwrap(angles: &mut [f64]) -> Result<(), (usize, f64)> {
+    let mut turns = 0.0;
+    let Some(mut before) = angles.first().copied() else { return Ok(()) };
+    for (index, angle) in angles.iter_mut().enumerate() {
+        let step = (*angle - before) / TAU;
+        before = *angle;
+        turns -= step.round();
+        let rest = (step - step.round()).abs();
+        if rest > LARGEST_STEP {
+            return Err((index, rest));
+        }
+        if turns != 0.0 {
+            *angle += turns * TAU;
+        }
+    }
+    Ok(())
+}
+
+/// The signal at time `time`, on the straight line between its neighbours; `None` outside.
+pub(super) fn between(times: &[f64], values: &[f64], time: f64) -> Option<f64> {
+    let after = times.partition_point(|&t| t < time);
+    if times.get(after) == Some(&time) {
+        return Some(values[after]);
+    }
+    if after == 0 || after == times.len() {
+        return None;
+    }
+    let part = (time - times[after - 1]) / (times[after] - times[after - 1]);
+    Some(values[after - 1] + part * (values[after] - values[after - 1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{between, unwrap};
+    use proptest::prelude::*;
+    use std::f64::consts::TAU;
+
+    proptest! {
+        #[test]
+        fn a_wrapped_angle_is_found_again(steps in prop::collection::vec(-2.4..2.4_f64, 1..60)) {
+            let mut angle = 0.3;
+            let angles: Vec<f64> = steps.iter().map(|step| { angle += step; angle }).collect();
+            let mut wrapped: Vec<f64> = angles.iter().map(|a| a.rem_euclid(TAU)).collect();
+            let first = ((angles[0] - wrapped[0]) / TAU).round();
+            unwrap(&mut wrapped).unwrap();
+            for (got, want) in wrapped.iter().zip(&angles) {
+                prop_assert!((got + first * TAU - want).abs() < 1e-12);
+            }
+        }
+
+        #[test]
+        fn an_angle_that_does_not_wrap_is_left_alone(
+            steps in prop::collection::vec(-2.4..2.4_f64, 1..60)
+        ) {
+            let mut angle = 100.0;
+            let angles: Vec<f64> = steps.iter().map(|step| { angle += step; angle }).collect();
+            let mut same = angles.clone();
+            unwrap(&mut same).unwrap();
+            prop_assert_eq!(same, angles);
+        }
+
+        #[test]
+        fn a_straight_line_is_read_exactly(time in 0.0..3.0_f64) {
+            let value = between(&[0.0, 0.5, 3.0], &[1.0, 2.0, 7.0], time).unwrap();
+            prop_assert!((value - (1.0 + 2.0 * time)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn half_a_turn_is_refused() {
+        assert_eq!(unwrap(&mut [0.0, 1.0, 1.0 + 0.45 * TAU]), Err((2, 0.45)));
+    }
+
+    #[test]
+    fn nothing_is_read_outside() {
+        assert_eq!(between(&[1.0, 2.0], &[5.0, 6.0], 0.9), None);
+        assert_eq!(between(&[1.0, 2.0], &[5.0, 6.0], 2.1), None);
+        assert_eq!(between(&[1.0, 2.0], &[5.0, 6.0], 2.0), Some(6.0));
+    }
+}

@@ -1,0 +1,55 @@
+//! What reading a log has shown.
+
+/// What a log may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogPolicy {
+    /// The longest gap between two samples that is accepted \[s\].
+    ///
+    /// Over a shorter one the mean rate of the sample that ends it is held.
+    pub largest_gap: f64,
+}
+
+impl Default for LogPolicy {
+    fn default() -> Self {
+        Self { largest_gap: 1.0 }
+    }
+}
+
+/// What reading a log has shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogSummary {
+    /// The number of samples.
+    pub samples: usize,
+    /// The nominal interval \[s\]: the rig's, or else the median.
+    pub nominal_interval: f64,
+    /// How much the intervals that are not gaps differ from it, rms \[s\].
+    pub jitter_rms: f64,
+    /// The steps longer than one and a half nominal intervals.
+    pub gaps: Vec<Gap>,
+    /// The lines of the log that repeat, time stamp and all, the one before them. They are left out.
+    pub repeated: Vec<u64>,
+    /// What is to be added to a recording's times to have those of the log \[s\]. It is zero
+    /// unless the log counts from so long ago that a double would lose nanoseconds.
+    pub time_origin: f64,
+}
+
+/// A gap in a log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// The index of the sample whose interval holds it.
+    pub sample: usize,
+    /// The line that ends it.
+    pub line: u64,
+    /// The time of the line before \[s\].
+    pub after: f64,
+    /// From there to the line that ends it \[s\].
+    pub length: f64,
+}
+
+impl LogSummary {
+    /// Of samples without jitter or gaps.
+    pub(super) fn even(samples: usize, nominal_interval: f64) -> Self {
+        let (gaps, repeated) = (Vec::new(), Vec::new());
+        Self { samples, nominal_interval, jitter_rms: 0.0, gaps, repeated, time_origin: 0.0 }
+    }
+}

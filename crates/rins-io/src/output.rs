@@ -1,0 +1,224 @@
+//! Results written whole or not at all.
+
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use tempfile::Builder;
+
+use crate::error::IoError;
+
+/// Whether something that is there may be replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// No.
+    Refuse,
+    /// Yes, if it is a file, or a folder that holds only results of ours.
+    Force,
+}
+
+/// Why a result was not put where it should go.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputProblem {
+    /// Something is there.
+    #[error("exists already; choose another name, or --force to replace it")]
+    Exists,
+    /// A folder should be replaced that does not look like one of ours.
+    #[error("is not replaced, as it does not hold a result of rins; choose another name")]
+    NotOurs,
+    /// A folder of ours holds something else too.
+    #[error("is not replaced, as it also holds {entry:?}; move that away or choose another name")]
+    HoldsMore {
+        /// The first entry that is not ours.
+        entry: String,
+    },
+    /// A folder should go where a file is, or a file where a folder is.
+    #[error("is {found}, expected {expected}")]
+    WrongType {
+        /// What is there.
+        found: &'static str,
+        /// What should be.
+        expected: &'static str,
+    },
+    /// The path does not end in a name.
+    #[error("does not end in the name of a file or folder")]
+    NoName,
+}
+
+/// Any of these marks a folder as a result of ours.
+const MARKS: [&str; 2] = ["result.json", "truth.json"];
+
+/// What a folder of ours may hold besides.
+const NAMES: [&str; 9] = [
+    "result.json",
+    "report.html",
+    "run.csv",
+    "rig.toml",
+    "truth.json",
+    "calibration.toml",
+    "model.toml",
+    "scenario.toml",
+    "log.csv",
+];
+
+/// Writes the file at `path`, whole or not at all.
+///
+/// `write` fills a temporary file beside it, which is synchronised with the disk and then renamed,
+/// so that whoever looks finds the old file or the new one.
+///
+/// # Errors
+/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
+/// system refuses, or what `write` returns. Nothing has then changed.
+pub fn write_file(
+    path: &Path,
+    overwrite: Overwrite,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), IoError>,
+) -> Result<(), IoError> {
+    let (parent, name) = split(path)?;
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_dir() => {
+            let (found, expected) = ("a folder", "a file");
+            return Err(refuse(path, OutputProblem::WrongType { found, expected }));
+        }
+        Ok(_) if overwrite == Overwrite::Refuse => {
+            return Err(refuse(path, OutputProblem::Exists));
+        }
+        _ => {}
+    }
+    let failed = || IoError::file("write", path);
+    let temporary = builder(&hidden(name), 0o666).tempfile_in(parent).map_err(failed())?;
+    let mut buffered = BufWriter::new(temporary);
+    write(&mut buffered)?;
+    let temporary = buffered.into_inner().map_err(|error| failed()(error.into_error()))?;
+    temporary.as_file().sync_all().map_err(failed())?;
+    match overwrite {
+        Overwrite::Force => temporary.persist(path).map(drop),
+        Overwrite::Refuse => temporary.persist_noclobber(path).map(drop),
+    }
+    .map_err(|error| match error.error.kind() {
+        io::ErrorKind::AlreadyExists => refuse(path, OutputProblem::Exists),
+        _ => failed()(error.error),
+    })?;
+    synchronise(parent).map_err(failed())
+}
+
+/// Writes the folder at `path`, whole or not at all.
+///
+/// `fill` puts files into a temporary folder beside it, whose path it is given. They are
+/// synchronised with the disk, and the folder is renamed. An empty folder that is there already is
+/// filled. Under [`Overwrite::Force`] one that holds a result of ours, and nothing else, is
+/// replaced: the old one stands beside the new under a hidden name until that is in its place.
+///
+/// # Errors
+/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
+/// system refuses, or what `fill` returns. Nothing has then changed.
+pub fn write_folder(
+    path: &Path,
+    overwrite: Overwrite,
+    fill: impl FnOnce(&Path) -> Result<(), IoError>,
+) -> Result<(), IoError> {
+    let (parent, name) = split(path)?;
+    let old = replaceable(path, overwrite)?;
+    let failed = || IoError::file("write", path);
+    let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
+    fill(staging.path())?;
+    synchronise_all(staging.path()).map_err(failed())?;
+    if old {
+        let aside = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
+        fs::rename(path, aside.path()).map_err(failed())?;
+        if let Err(error) = fs::rename(staging.path(), path) {
+            // The old result is worth more than the folder it was put into: it goes back, or
+            // stays under its hidden name.
+            let aside = aside.keep();
+            fs::rename(aside, path).map_err(failed())?;
+            return Err(failed()(error));
+        }
+    } else {
+        fs::rename(staging.path(), path).map_err(failed())?;
+    }
+    // It has been renamed, so there is nothing left to remove.
+    let _renamed = staging.keep();
+    synchronise(parent).map_err(failed())
+}
+
+/// Whether there is a folder that will be replaced.
+fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
+    let found = match fs::symlink_metadata(path) {
+        Ok(found) => found,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(IoError::file("write", path)(error)),
+    };
+    if !found.is_dir() {
+        let found = if found.is_symlink() { "a link" } else { "a file" };
+        return Err(refuse(path, OutputProblem::WrongType { found, expected: "a folder" }));
+    }
+    let mut names = Vec::new();
+    for entry in fs::read_dir(path).map_err(IoError::file("read", path))? {
+        let entry = entry.map_err(IoError::file("read", path))?;
+        let ours = entry.file_type().is_ok_and(|kind| kind.is_file());
+        names.push((entry.file_name().to_string_lossy().into_owned(), ours));
+    }
+    names.sort();
+    if names.is_empty() {
+        return Ok(false);
+    }
+    if overwrite == Overwrite::Refuse {
+        return Err(refuse(path, OutputProblem::Exists));
+    }
+    if !names.iter().any(|(name, is_file)| *is_file && MARKS.contains(&name.as_str())) {
+        return Err(refuse(path, OutputProblem::NotOurs));
+    }
+    match names.into_iter().find(|(name, is_file)| !is_file || !NAMES.contains(&name.as_str())) {
+        Some((entry, _)) => Err(refuse(path, OutputProblem::HoldsMore { entry })),
+        None => Ok(true),
+    }
+}
+
+fn refuse(path: &Path, problem: OutputProblem) -> IoError {
+    IoError::Output { path: path.into(), problem }
+}
+
+/// The folder that holds `path`, and its name there.
+fn split(path: &Path) -> Result<(&Path, &OsStr), IoError> {
+    let name = path.file_name().ok_or_else(|| refuse(path, OutputProblem::NoName))?;
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    Ok((parent.unwrap_or(Path::new(".")), name))
+}
+
+fn hidden(name: &OsStr) -> OsString {
+    let mut hidden = OsStr::new(".").to_os_string();
+    hidden.push(name);
+    hidden.push(".");
+    hidden
+}
+
+/// What makes temporary files and folders with the permissions of any other: `mode` less the
+/// process's mask.
+fn builder(prefix: &OsStr, mode: u32) -> Builder<'_, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(prefix);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    #[cfg(not(unix))]
+    let _ = mode;
+    builder
+}
+
+fn synchronise_all(folder: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.file_type()?.is_dir() {
+            synchronise_all(&entry.path())?;
+        } else {
+            File::open(entry.path())?.sync_all()?;
+        }
+    }
+    synchronise(folder)
+}
+
+/// Synchronises a folder's list of names with the disk, where the system can.
+fn synchronise(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
+}

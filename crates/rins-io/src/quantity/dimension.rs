@@ -1,0 +1,114 @@
+//! Dimensions: what kind of thing a quantity measures.
+
+use core::fmt;
+
+/// The largest exponent of a base, in halves; beyond it a unit is a slip of the pen.
+const LARGEST_EXPONENT: i32 = 40;
+
+/// A product of powers of the base quantities angle, time, length and temperature.
+///
+/// Exponents are counted in halves, because noise densities carry square roots. Angle is a base of
+/// its own, so that an angle is not taken for a ratio nor `rad/s` for a frequency.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dimension {
+    halves: [i32; 4],
+}
+
+/// Names of the dimensions that occur in rig files; the first that fits is used.
+const NAMES: &[(Dimension, &str)] = &[
+    (Dimension::RATIO, "a ratio"),
+    (Dimension::ANGLE, "an angle"),
+    (Dimension::TIME, "a time"),
+    (Dimension::LENGTH, "a length"),
+    (Dimension::TEMPERATURE, "a temperature"),
+    (Dimension::FREQUENCY, "a frequency"),
+    (Dimension::ANGULAR_RATE, "an angular rate"),
+    (Dimension::ANGULAR_ACCELERATION, "an angular acceleration"),
+    (Dimension::VELOCITY, "a velocity"),
+    (Dimension::ACCELERATION, "an acceleration"),
+    (Dimension::RATE_NOISE, "a rate noise density"),
+    (Dimension::ACCELERATION_NOISE, "an acceleration noise density"),
+    (Dimension::RATE_RANDOM_WALK, "a rate random walk density"),
+    (Dimension::ACCELERATION_RANDOM_WALK, "an acceleration random walk density"),
+];
+
+impl Dimension {
+    /// Of a pure number.
+    pub const RATIO: Self = Self::halves(0, 0, 0, 0);
+    /// Of an angle.
+    pub const ANGLE: Self = Self::halves(2, 0, 0, 0);
+    /// Of a time.
+    pub const TIME: Self = Self::halves(0, 2, 0, 0);
+    /// Of a length.
+    pub const LENGTH: Self = Self::halves(0, 0, 2, 0);
+    /// Of a temperature.
+    pub const TEMPERATURE: Self = Self::halves(0, 0, 0, 2);
+    /// Of a frequency, which is not a rate: it has no angle.
+    pub const FREQUENCY: Self = Self::halves(0, -2, 0, 0);
+    /// Of an angular rate.
+    pub const ANGULAR_RATE: Self = Self::halves(2, -2, 0, 0);
+    /// Of an angular acceleration.
+    pub const ANGULAR_ACCELERATION: Self = Self::halves(2, -4, 0, 0);
+    /// Of a velocity, or an increment of one.
+    pub const VELOCITY: Self = Self::halves(0, -2, 2, 0);
+    /// Of an acceleration or a specific force.
+    pub const ACCELERATION: Self = Self::halves(0, -4, 2, 0);
+    /// Of a rate's root power density, which is also that of an angle random walk.
+    pub const RATE_NOISE: Self = Self::halves(2, -1, 0, 0);
+    /// Of an acceleration's root power density, which is also that of a velocity random walk.
+    pub const ACCELERATION_NOISE: Self = Self::halves(0, -3, 2, 0);
+    /// Of a rate random walk.
+    pub const RATE_RANDOM_WALK: Self = Self::halves(2, -3, 0, 0);
+    /// Of an acceleration random walk.
+    pub const ACCELERATION_RANDOM_WALK: Self = Self::halves(0, -5, 2, 0);
+
+    const fn halves(angle: i32, time: i32, length: i32, temperature: i32) -> Self {
+        Self { halves: [angle, time, length, temperature] }
+    }
+
+    /// The dimension of a product; `None` if an exponent gets absurd.
+    pub(super) fn times(self, other: Self) -> Option<Self> {
+        let mut halves = self.halves;
+        for (sum, exponent) in halves.iter_mut().zip(other.halves) {
+            *sum += exponent;
+        }
+        Self::checked(halves)
+    }
+
+    /// The dimension of a power whose exponent is `halves`/2; `None` if it is not a whole number
+    /// of halves or gets absurd.
+    pub(super) fn power(self, halves: i32) -> Option<Self> {
+        let mut powered = self.halves;
+        for exponent in &mut powered {
+            let doubled = exponent.checked_mul(halves)?;
+            if doubled % 2 != 0 {
+                return None;
+            }
+            *exponent = doubled / 2;
+        }
+        Self::checked(powered)
+    }
+
+    fn checked(halves: [i32; 4]) -> Option<Self> {
+        halves.iter().all(|exponent| exponent.abs() <= LARGEST_EXPONENT).then_some(Self { halves })
+    }
+}
+
+/// A name such as "an angular rate" or, where none is common, the SI units.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| dimension == self) {
+            return f.write_str(name);
+        }
+        f.write_str("a quantity in")?;
+        for (base, &halves) in ["rad", "s", "m", "K"].iter().zip(&self.halves) {
+            match halves {
+                0 => {}
+                2 => write!(f, " {base}")?,
+                even if even % 2 == 0 => write!(f, " {base}^{}", even / 2)?,
+                odd => write!(f, " {base}^({odd}/2)")?,
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,201 @@
+//! What the keys of a file stand for: a dimension, a range, and an example to show.
+
+use core::f64::consts::{FRAC_PI_2, TAU};
+
+use super::{Dimension, Quantity, QuantityError};
+
+/// A kind of quantity that a key of a file stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kind {
+    /// With its article: "a rate noise density".
+    pub name: &'static str,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// A text that would do.
+    pub example: &'static str,
+    range: Range,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Range {
+    Any,
+    NotNegative,
+    Positive,
+    Within { low: f64, high: f64, words: &'static str },
+}
+
+impl Kind {
+    const fn new(
+        name: &'static str,
+        dimension: Dimension,
+        example: &'static str,
+        range: Range,
+    ) -> Self {
+        Self { name, dimension, example, range }
+    }
+
+    /// The value of `text` in SI units and radians.
+    ///
+    /// # Errors
+    /// [`QuantityError`] if it is not a quantity, has another dimension, or is out of range.
+    ///
+    /// ```
+    /// use rins_io::quantity::kinds;
+    /// let error = kinds::GYRO_NOISE.parse("0.05 deg").unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "\"0.05 deg\" is an angle, expected a rate noise density such as \"0.02 deg/h/sqrt(Hz)\"",
+    /// );
+    /// ```
+    pub fn parse(&self, text: &str) -> Result<f64, QuantityError> {
+        let Quantity { value, dimension } = Quantity::parse(text)?;
+        if dimension != self.dimension {
+            return Err(QuantityError::WrongDimension {
+                text: text.into(),
+                got: dimension,
+                expected: self.name,
+                example: self.example,
+            });
+        }
+        let out_of_range = match self.range {
+            Range::Any => None,
+            Range::NotNegative => (value < 0.0).then_some("zero or more"),
+            Range::Positive => (value <= 0.0).then_some("more than zero"),
+            Range::Within { low, high, words } => (!(low..=high).contains(&value)).then_some(words),
+        };
+        match out_of_range {
+            Some(expected) => Err(QuantityError::OutOfRange { text: text.into(), expected }),
+            None => Ok(value),
+        }
+    }
+}
+
+/// A latitude, north positive.
+pub const LATITUDE: Kind = Kind::new(
+    "a latitude",
+    Dimension::ANGLE,
+    "34.25 deg",
+    Range::Within { low: -FRAC_PI_2, high: FRAC_PI_2, words: "a latitude from -90 to 90 deg" },
+);
+/// A longitude, east positive.
+pub const LONGITUDE: Kind = Kind::new(
+    "a longitude",
+    Dimension::ANGLE,
+    "108.9 deg",
+    Range::Within { low: -TAU, high: TAU, words: "a longitude from -360 to 360 deg" },
+);
+/// A height above the ellipsoid.
+pub const HEIGHT: Kind = Kind::new(
+    "a height",
+    Dimension::LENGTH,
+    "400 m",
+    Range::Within { low: -1e3, high: 2e4, words: "a height from -1 to 20 km" },
+);
+/// The magnitude of gravity on Earth.
+pub const GRAVITY: Kind = Kind::new(
+    "gravity",
+    Dimension::ACCELERATION,
+    "9.7966 m/s^2",
+    Range::Within { low: 9.7, high: 9.9, words: "a gravity from 9.7 to 9.9 m/s^2" },
+);
+/// A roll or yaw angle.
+pub const TURN: Kind = Kind::new(
+    "an angle",
+    Dimension::ANGLE,
+    "30 deg",
+    Range::Within { low: -TAU, high: TAU, words: "an angle from -360 to 360 deg" },
+);
+/// A pitch angle.
+pub const PITCH: Kind = Kind::new(
+    "an angle",
+    Dimension::ANGLE,
+    "20 deg",
+    Range::Within { low: -FRAC_PI_2, high: FRAC_PI_2, words: "a pitch from -90 to 90 deg" },
+);
+/// The standard deviation, or another size, of a small angle.
+pub const ANGLE_SIGMA: Kind =
+    Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::NotNegative);
+/// A small angle of either sign.
+pub const SMALL_ANGLE: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Any);
+/// The least significant bit of an angle increment.
+pub const ANGLE_BIT: Kind =
+    Kind::new("an angle increment", Dimension::ANGLE, "0.1 arcsec", Range::Positive);
+/// The least significant bit of a velocity increment.
+pub const VELOCITY_BIT: Kind =
+    Kind::new("a velocity increment", Dimension::VELOCITY, "1 ug*s", Range::Positive);
+/// A sampling rate.
+pub const SAMPLE_RATE: Kind = Kind::new(
+    "a sampling rate",
+    Dimension::FREQUENCY,
+    "50 Hz",
+    Range::Within { low: 1e-3, high: 1e6, words: "a sampling rate from 0.001 Hz to 1 MHz" },
+);
+/// A time by which one signal is late.
+pub const LATENCY: Kind = Kind::new(
+    "a time",
+    Dimension::TIME,
+    "1 ms",
+    Range::Within { low: -10.0, high: 10.0, words: "a latency from -10 to 10 s" },
+);
+/// A time span.
+pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::Positive);
+/// A table's rate.
+pub const TABLE_RATE: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "10 deg/s", Range::Any);
+/// A table's acceleration.
+pub const TABLE_ACCELERATION: Kind = Kind::new(
+    "an angular acceleration",
+    Dimension::ANGULAR_ACCELERATION,
+    "5 deg/s^2",
+    Range::Positive,
+);
+/// A ratio's standard deviation.
+pub const RATIO_SIGMA: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::NotNegative);
+/// A ratio of either sign.
+pub const RATIO: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Any);
+/// The root power density of a gyro's noise.
+pub const GYRO_NOISE: Kind = Kind::new(
+    "a rate noise density",
+    Dimension::RATE_NOISE,
+    "0.02 deg/h/sqrt(Hz)",
+    Range::NotNegative,
+);
+/// A gyro's bias.
+pub const GYRO_BIAS: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Any);
+/// The size of a gyro's bias.
+pub const GYRO_BIAS_SIGMA: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::NotNegative);
+/// A gyro's range or resolution.
+pub const GYRO_READING: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "300 deg/s", Range::Positive);
+/// A gyro's rate random walk.
+pub const GYRO_RANDOM_WALK: Kind = Kind::new(
+    "a rate random walk density",
+    Dimension::RATE_RANDOM_WALK,
+    "0.01 deg/h/sqrt(h)",
+    Range::NotNegative,
+);
+/// The root power density of an accelerometer's noise.
+pub const ACCEL_NOISE: Kind = Kind::new(
+    "an acceleration noise density",
+    Dimension::ACCELERATION_NOISE,
+    "30 ug/sqrt(Hz)",
+    Range::NotNegative,
+);
+/// An accelerometer's bias.
+pub const ACCEL_BIAS: Kind =
+    Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Any);
+/// The size of an accelerometer's bias.
+pub const ACCEL_BIAS_SIGMA: Kind =
+    Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::NotNegative);
+/// An accelerometer's range or resolution.
+pub const ACCEL_READING: Kind =
+    Kind::new("an acceleration", Dimension::ACCELERATION, "10 g", Range::Positive);
+/// An accelerometer's random walk.
+pub const ACCEL_RANDOM_WALK: Kind = Kind::new(
+    "an acceleration random walk density",
+    Dimension::ACCELERATION_RANDOM_WALK,
+    "10 ug/sqrt(h)",
+    Range::NotNegative,
+);

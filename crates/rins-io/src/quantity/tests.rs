@@ -1,0 +1,150 @@
+//! Tests of the unit algebra.
+
+use proptest::prelude::*;
+
+use super::{Dimension, Quantity, Unit};
+use rins_testing::assert_close;
+
+const NAMES: [&str; 12] =
+    ["rad", "deg", "arcsec", "s", "ms", "h", "Hz", "m", "km", "g", "ppm", "K"];
+
+fn any_unit() -> impl Strategy<Value = &'static str> {
+    prop::sample::select(&NAMES[..])
+}
+
+fn value(text: &str) -> f64 {
+    Quantity::parse(text).unwrap().value
+}
+
+proptest! {
+    #[test]
+    fn products_commute(a in any_unit(), b in any_unit()) {
+        let ab = Unit::parse(&format!("{a}*{b}")).unwrap();
+        let ba = Unit::parse(&format!("{b} * {a}")).unwrap();
+        prop_assert_eq!(ab, ba);
+    }
+
+    #[test]
+    fn quotients_undo_products(a in any_unit(), b in any_unit()) {
+        let plain = Unit::parse(a).unwrap();
+        let back = Unit::parse(&format!("{a}*{b}/{b}")).unwrap();
+        prop_assert_eq!(back.dimension, plain.dimension);
+        prop_assert!((back.factor / plain.factor - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn division_is_read_from_left_to_right(a in any_unit(), b in any_unit(), c in any_unit()) {
+        let chain = Unit::parse(&format!("{a}/{b}/{c}")).unwrap();
+        let nested = Unit::parse(&format!("{a}/({b}*{c})")).unwrap();
+        prop_assert_eq!(chain.dimension, nested.dimension);
+        prop_assert!((chain.factor / nested.factor - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_root_squared_is_the_unit(a in any_unit()) {
+        let plain = Unit::parse(a).unwrap();
+        for text in [format!("sqrt({a})^2"), format!("sqrt({a}^2)"), format!("({a}^0.5)^2")] {
+            let squared = Unit::parse(&text).unwrap();
+            prop_assert_eq!(squared.dimension, plain.dimension);
+            prop_assert!((squared.factor / plain.factor - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn powers_add(a in any_unit(), m in -3..4_i32, n in -3..4_i32) {
+        let split = Unit::parse(&format!("{a}^{m}*{a}^{n}")).unwrap();
+        let whole = Unit::parse(&format!("{a}^{}", m + n)).unwrap();
+        prop_assert_eq!(split.dimension, whole.dimension);
+        prop_assert!((split.factor / whole.factor - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn any_text_is_read_or_refused(text in ".{0,130}") {
+        let _ = Quantity::parse(&text);
+        let _ = Unit::parse(&text);
+    }
+
+    #[test]
+    fn any_text_of_a_quantitys_letters_is_read_or_refused(text in "[0-9e+.*/()^√a-z -]{0,40}") {
+        if let Ok(quantity) = Quantity::parse(&text) {
+            prop_assert!(quantity.value.is_finite());
+        }
+    }
+}
+
+#[test]
+fn published_conversions_hold() {
+    // Defining relations of SI 8, and those of data sheets.
+    assert_close!(value("180 deg"), core::f64::consts::PI, 1e-15);
+    assert_close!(value("3600 arcsec"), value("1 deg"), 1e-17);
+    assert_close!(value("60 arcmin"), value("1 deg"), 1e-17);
+    assert_close!(value("1 rev"), value("360 deg"), 1e-15);
+    assert_close!(value("1 g"), 9.80665, 1e-15);
+    assert_close!(value("1000 ug"), value("1 mg"), 1e-17);
+    assert_close!(value("15.041067 deg/h"), 7.292115e-5, 1e-12);
+    assert_close!(value("1 deg/sqrt(h)"), value("60 deg/h/sqrt(Hz)"), 1e-17);
+    assert_close!(value("1 m/s/sqrt(h)"), value("0.0166666666666666666 m/s^2/sqrt(Hz)"), 1e-16);
+    assert_close!(value("1e-3 %"), value("10 ppm"), 1e-19);
+    assert_close!(value("36 km/h"), 10.0, 1e-14);
+    assert_close!(value("1 day"), 86400.0, 1e-9);
+    assert_close!(value("2.5 kHz"), 2500.0, 1e-12);
+    assert_close!(value("1 °/h"), value("1 deg/h"), 1e-20);
+    assert_close!(value("1 µg/√Hz"), value("1 ug/sqrt(Hz)"), 1e-20);
+    assert_close!(value("5 m/s²"), 5.0, 1e-15);
+    assert_close!(value("-7e-1deg"), -value("0.7 deg"), 1e-17);
+}
+
+#[test]
+fn dimensions_that_look_alike_are_told_apart() {
+    let dimension = |text| Quantity::parse(text).unwrap().dimension;
+    assert_ne!(dimension("1 rad/s"), dimension("1 Hz"));
+    assert_ne!(dimension("1 rad"), dimension("1 ppm"));
+    assert_ne!(dimension("1 deg/h"), dimension("1 deg/sqrt(h)"));
+    assert_eq!(dimension("1 rad/s/s"), Dimension::ANGULAR_ACCELERATION);
+    assert_eq!(dimension("1 deg/h/degC"), dimension("1 rad/s/K"));
+}
+
+#[test]
+fn refusals_say_what_is_wrong() {
+    let cases = [
+        ("", r#""" does not begin with a number"#),
+        ("deg", r#""deg" does not begin with a number"#),
+        ("-", r#""-" does not begin with a number"#),
+        ("5", r#""5" has no unit"#),
+        ("1e", r#""1e": unknown unit "e""#),
+        ("1e400 deg", r#""1e400 deg" is not finite"#),
+        ("inf deg", r#""inf deg" is not finite"#),
+        ("nan deg", r#""nan deg" is not finite"#),
+        ("1e308 km", r#""1e308 km" is not finite"#),
+        ("5 deg/hr", r#""5 deg/hr": unknown unit "hr"; did you mean "h"?"#),
+        ("5 dps", r#""5 dps": unknown unit "dps"; did you mean "deg/s"?"#),
+        ("5 HZ", r#""5 HZ": unknown unit "HZ"; did you mean "Hz"?"#),
+        ("5 arcsecs", r#""5 arcsecs": unknown unit "arcsecs"; did you mean "arcsec"?"#),
+        ("5 furlong", r#""5 furlong": unknown unit "furlong""#),
+        ("5 deg/", r#""5 deg/" is not a product of units such as "deg/h/sqrt(Hz)""#),
+        ("5 deg h", r#""5 deg h" is not a product of units such as "deg/h/sqrt(Hz)""#),
+        ("5 sqrt(Hz", r#""5 sqrt(Hz" is not a product of units such as "deg/h/sqrt(Hz)""#),
+        ("5 Hz)", r#""5 Hz)" is not a product of units such as "deg/h/sqrt(Hz)""#),
+        ("5 m^0.25", r#""5 m^0.25" is not a product of units such as "deg/h/sqrt(Hz)""#),
+        (
+            "5 sqrt(sqrt(m))",
+            r#""5 sqrt(sqrt(m))" is not a product of units such as "deg/h/sqrt(Hz)""#,
+        ),
+        (
+            "5 m^99999999999",
+            r#""5 m^99999999999" is not a product of units such as "deg/h/sqrt(Hz)""#,
+        ),
+        ("5 m^", r#""5 m^" is not a product of units such as "deg/h/sqrt(Hz)""#),
+        ("1,5 deg", r#""1,5 deg" is not a product of units such as "deg/h/sqrt(Hz)""#),
+    ];
+    for (text, message) in cases {
+        assert_eq!(Quantity::parse(text).unwrap_err().to_string(), message);
+    }
+}
+
+#[test]
+fn dimensions_without_a_name_are_shown_in_si_units() {
+    let shown = |text| Quantity::parse(text).unwrap().dimension.to_string();
+    assert_eq!(shown("1 deg/h/g"), "a quantity in rad s m^-1");
+    assert_eq!(shown("1 sqrt(Hz)"), "a quantity in s^(-1/2)");
+}

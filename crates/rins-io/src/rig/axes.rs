@@ -1,0 +1,112 @@
+//! Which sensor axis is which body axis.
+
+use nalgebra::Vector3;
+
+/// Three axes picked from three others, each once, with signs.
+///
+/// `["-y", "x", "z"]` says that body x is minus sensor y, body y is sensor x, and body z is
+/// sensor z. A left-handed choice is allowed, because some sensors are wired so: accelerometers
+/// that report gravity instead of specific force need `["-x", "-y", "-z"]`.
+///
+/// ```
+/// use nalgebra::Vector3;
+/// let axes = rins_io::Axes::parse(["-y", "x", "z"]).expect("each axis once");
+/// assert_eq!(axes.apply(&Vector3::new(1.0, 2.0, 3.0)), Vector3::new(-2.0, 1.0, 3.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes {
+    source: [usize; 3],
+    sign: [f64; 3],
+}
+
+impl Axes {
+    /// The axes as they are.
+    pub const IDENTITY: Self = Self { source: [0, 1, 2], sign: [1.0; 3] };
+
+    /// The axes that three texts name; `None` unless each of x, y and z occurs once.
+    pub fn parse(names: [&str; 3]) -> Option<Self> {
+        let mut axes = Self::IDENTITY;
+        for (index, name) in names.into_iter().enumerate() {
+            (axes.source[index], axes.sign[index]) = axis(name)?;
+        }
+        let mut seen = axes.source;
+        seen.sort_unstable();
+        (seen == [0, 1, 2]).then_some(axes)
+    }
+
+    /// The proper rotation that makes the axis `name` the new z; `None` if it is not an axis.
+    ///
+    /// x, y and z are carried round in a circle until the spin axis is z; for a negative axis the
+    /// whole is then turned by half a turn about its new x.
+    pub fn spin(name: &str) -> Option<Self> {
+        let (source, sign) = axis(name)?;
+        let source = [(source + 1) % 3, (source + 2) % 3, source];
+        Some(Self { source, sign: [1.0, sign, sign] })
+    }
+
+    /// The vector's components along these axes.
+    #[must_use]
+    pub fn apply(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::from_fn(|row, _| self.sign[row] * vector[self.source[row]])
+    }
+
+    /// These axes picked from `first`, not from the sensor's.
+    #[must_use]
+    pub fn after(&self, first: &Self) -> Self {
+        let source = self.source.map(|index| first.source[index]);
+        let sign = core::array::from_fn(|row| self.sign[row] * first.sign[self.source[row]]);
+        Self { source, sign }
+    }
+}
+
+fn axis(name: &str) -> Option<(usize, f64)> {
+    let (sign, letter) = match name.strip_prefix('-') {
+        Some(letter) => (-1.0, letter),
+        None => (1.0, name.strip_prefix('+').unwrap_or(name)),
+    };
+    let source = ["x", "y", "z"].iter().position(|axis| *axis == letter)?;
+    Some((source, sign))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Axes;
+    use nalgebra::{Matrix3, Vector3};
+    use rins_testing::assert_close;
+
+    fn matrix(axes: &Axes) -> Matrix3<f64> {
+        Matrix3::from_columns(&[
+            axes.apply(&Vector3::x()),
+            axes.apply(&Vector3::y()),
+            axes.apply(&Vector3::z()),
+        ])
+    }
+
+    #[test]
+    fn spin_axes_become_z_by_a_proper_rotation() {
+        let vectors = [Vector3::x(), Vector3::y(), Vector3::z()];
+        for (name, vector) in ["x", "y", "z"].into_iter().zip(vectors) {
+            for (name, vector) in [(name.to_string(), vector), (format!("-{name}"), -vector)] {
+                let axes = Axes::spin(&name).unwrap();
+                assert_eq!(axes.apply(&vector), Vector3::z(), "{name}");
+                assert_close!(matrix(&axes).determinant(), 1.0, 1e-15);
+            }
+        }
+        assert_eq!(Axes::spin("z"), Some(Axes::IDENTITY));
+    }
+
+    #[test]
+    fn one_choice_after_another_is_the_product_of_their_matrices() {
+        let first = Axes::parse(["-y", "x", "-z"]).unwrap();
+        let second = Axes::parse(["z", "-y", "x"]).unwrap();
+        assert_eq!(matrix(&second.after(&first)), matrix(&second) * matrix(&first));
+    }
+
+    #[test]
+    fn each_axis_occurs_once() {
+        assert_eq!(Axes::parse(["x", "x", "z"]), None);
+        assert_eq!(Axes::parse(["x", "y", "w"]), None);
+        assert_eq!(Axes::parse(["--x", "y", "z"]), None);
+        assert_eq!(Axes::parse(["+x", "y", "z"]), Some(Axes::IDENTITY));
+    }
+}

@@ -1,0 +1,162 @@
+//! A rig: where a run was measured, with what, and what the data sheets say.
+
+mod axes;
+mod imu;
+mod log_keys;
+mod log_spec;
+mod place;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use rins_imu::ImuSpec;
+use rins_motion::Station;
+
+pub use axes::Axes;
+pub(crate) use log_keys::{KEYS as LOG_KEYS, angle_figures};
+pub use log_spec::{
+    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, Reading, ScaledColumn, Stamp,
+    TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+};
+pub use place::InitialAttitude;
+pub(crate) use place::{angles, station};
+pub use table::TableSpec;
+
+use crate::document::Document;
+use crate::error::{IoError, KeyError, KeyProblem};
+use crate::section::Section;
+
+/// What a rig file says, in SI units and radians.
+///
+/// ```
+/// # use std::path::Path;
+/// let text = r#"
+/// [site]
+/// latitude = "34.25 deg"
+/// longitude = "108.9 deg"
+/// height = "400 m"
+///
+/// [log]
+/// path = "run.csv"
+/// time = { column = "t", unit = "s" }
+/// gyro = { columns = ["gx", "gy", "gz"], unit = "deg/h" }
+/// accel = { columns = ["ax", "ay", "az"], unit = "mg" }
+/// "#;
+/// let rig = rins_io::Rig::parse(text, Path::new("runs/rig.toml"))?;
+/// assert_eq!(rig.log.path, Path::new("runs/run.csv"));
+/// // The data sheet is optional, until somebody needs it:
+/// assert_eq!(
+///     rig.require_imu().unwrap_err().to_string(),
+///     "runs/rig.toml: [imu.gyro]: missing, expected the gyros' data sheet figures noise, \
+///      bias_sigma, scale_sigma and misalignment_sigma",
+/// );
+/// # Ok::<(), rins_io::IoError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    /// The rig file.
+    pub path: PathBuf,
+    /// Where the table stands. A PSINS log says so itself; its rig file need not.
+    pub station: Option<Station>,
+    /// Where the log is and how it is to be read.
+    pub log: LogSpec,
+    /// The attitude of the table axis frame at table angle zero.
+    pub attitude: Option<InitialAttitude>,
+    /// What the data sheet says of the IMU.
+    pub imu: Option<ImuSpec>,
+    /// What the table was told to do, and how true its axis runs.
+    pub table: Option<TableSpec>,
+    /// From the axes that `[log]` calls the body's to those with z along the spin axis, which is
+    /// what body means everywhere else ([`Axes::spin`]).
+    pub spin: Axes,
+}
+
+/// The sections of a rig file.
+pub(crate) const SECTIONS: [&str; 6] = ["site", "log", "attitude", "imu", "table", "axis"];
+
+impl Rig {
+    /// Reads the rig file at `path`.
+    ///
+    /// # Errors
+    /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if a key is missing, unknown, of
+    /// the wrong dimension or out of range.
+    pub fn read(path: &Path) -> Result<Self, IoError> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    /// The rig that `text` describes, as if it stood in the file at `path`.
+    ///
+    /// # Errors
+    /// [`IoError::Key`], as [`Rig::read`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
+        Self::from_document(&Document::parse(text, path)?)
+    }
+
+    fn from_document(document: &Document) -> Result<Self, IoError> {
+        let root = Section::root(document, &SECTIONS)?;
+        let log = log_keys::read(&root, folder(&document.path))?;
+        let station = station(&root)?;
+        if station.is_none() && !matches!(log.format, LogFormat::Psins) {
+            return Err(root.missing("[site]", "latitude, longitude and height"));
+        }
+        Ok(Self { station, log, ..Self::without_log(document, &root)? })
+    }
+
+    /// All but the station and the log, which a scenario reads in its own way.
+    pub(crate) fn without_log(document: &Document, root: &Section<'_>) -> Result<Self, IoError> {
+        Ok(Self {
+            path: document.path.clone(),
+            station: None,
+            log: LogSpec::nowhere(),
+            attitude: place::attitude(root)?,
+            imu: imu::read(root)?,
+            table: table::read(root)?,
+            spin: spin(root)?,
+        })
+    }
+
+    /// The data sheet's figures.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig has no `[imu]` section.
+    pub fn require_imu(&self) -> Result<&ImuSpec, IoError> {
+        let figures = "the gyros' data sheet figures noise, bias_sigma, scale_sigma and \
+                       misalignment_sigma";
+        self.imu.as_ref().ok_or_else(|| self.missing("[imu.gyro]", figures))
+    }
+
+    /// The attitude of the table axis frame.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig has no `[attitude]` section.
+    pub fn require_attitude(&self) -> Result<&InitialAttitude, IoError> {
+        self.attitude.as_ref().ok_or_else(|| self.missing("[attitude]", "roll, pitch, yaw, sigma"))
+    }
+
+    /// Where the table stands.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig has no `[site]` section.
+    pub fn require_station(&self) -> Result<&Station, IoError> {
+        self.station
+            .as_ref()
+            .ok_or_else(|| self.missing("[site]", "latitude, longitude and height"))
+    }
+
+    pub(crate) fn missing(&self, key: &str, expected: &str) -> IoError {
+        let problem = KeyProblem::Missing { expected: expected.into() };
+        Box::new(KeyError { path: self.path.clone(), line: None, key: key.into(), problem }).into()
+    }
+}
+
+/// The folder that paths in the file at `path` are relative to.
+pub(crate) fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
+}
+
+fn spin(root: &Section<'_>) -> Result<Axes, IoError> {
+    let Some(axis) = root.section("axis", &["spin"])? else { return Ok(Axes::IDENTITY) };
+    let expected = r#"a body axis such as "z" or "-x""#;
+    let Some(name) = axis.text("spin", expected)? else { return Ok(Axes::IDENTITY) };
+    Axes::spin(name).ok_or_else(|| axis.not_allowed("spin", expected))
+}

@@ -1,0 +1,47 @@
+//! Where a table stands and how its axis is tilted: `[site]` and `[attitude]`.
+
+use rins_frames::{EulerAngles, Site};
+use rins_motion::Station;
+
+use crate::error::IoError;
+use crate::quantity::kinds;
+use crate::section::Section;
+
+/// The attitude of the table axis frame s at table angle zero, `C_s^n`, and how well it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InitialAttitude {
+    /// `C_s^n = Rz(yaw) Rx(pitch) Ry(roll)` \[rad\].
+    pub angles: EulerAngles,
+    /// The standard deviation of its error about each axis \[rad\].
+    pub sigma: f64,
+}
+
+pub(crate) fn station(root: &Section<'_>) -> Result<Option<Station>, IoError> {
+    let known = ["latitude", "longitude", "height", "gravity"];
+    let Some(section) = root.section("site", &known)? else { return Ok(None) };
+    let site = Site {
+        latitude: section.require_quantity("latitude", &kinds::LATITUDE)?,
+        longitude: section.require_quantity("longitude", &kinds::LONGITUDE)?,
+        height: section.require_quantity("height", &kinds::HEIGHT)?,
+    };
+    let station = Station::with_normal_gravity(site);
+    let gravity = section.quantity("gravity", &kinds::GRAVITY)?.unwrap_or(station.gravity);
+    Ok(Some(Station { gravity, ..station }))
+}
+
+pub(super) fn attitude(root: &Section<'_>) -> Result<Option<InitialAttitude>, IoError> {
+    let known = ["roll", "pitch", "yaw", "sigma"];
+    let Some(section) = root.section("attitude", &known)? else { return Ok(None) };
+    let angles = angles(&section)?;
+    let sigma = section.require_quantity("sigma", &kinds::ANGLE_SIGMA)?;
+    Ok(Some(InitialAttitude { angles, sigma }))
+}
+
+/// The keys `roll`, `pitch` and `yaw` of a section.
+pub(crate) fn angles(section: &Section<'_>) -> Result<EulerAngles, IoError> {
+    Ok(EulerAngles {
+        roll: section.require_quantity("roll", &kinds::TURN)?,
+        pitch: section.require_quantity("pitch", &kinds::PITCH)?,
+        yaw: section.require_quantity("yaw", &kinds::TURN)?,
+    })
+}

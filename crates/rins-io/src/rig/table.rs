@@ -1,0 +1,50 @@
+//! What the table was told to do: `[table]`.
+
+use rins_motion::{Profile, Segment};
+
+use crate::error::IoError;
+use crate::quantity::kinds;
+use crate::section::Section;
+
+/// The most segments of a profile that are read.
+const MOST_SEGMENTS: usize = 100_000;
+
+/// What is known of the table besides what it reports in the log.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableSpec {
+    /// The commanded motion; it begins with the log.
+    pub profile: Option<Profile>,
+    /// The segments of the profile.
+    pub segments: Vec<Segment>,
+    /// The table's acceleration at each change of rate \[rad/s²\]; without one the rate jumps.
+    pub acceleration: Option<f64>,
+    /// The standard deviation of the direction of the axis as it turns \[rad\].
+    pub wobble: Option<f64>,
+}
+
+pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
+    let Some(table) = root.section("table", &["profile", "acceleration", "wobble"])? else {
+        return Ok(None);
+    };
+    let acceleration = table.quantity("acceleration", &kinds::TABLE_ACCELERATION)?;
+    let mut segments = Vec::new();
+    let profile = table.tables("profile", &["rate", "duration"])?;
+    for segment in profile.iter().flatten().take(MOST_SEGMENTS + 1) {
+        segments.push(Segment {
+            rate: segment.require_quantity("rate", &kinds::TABLE_RATE)?,
+            duration: segment.require_quantity("duration", &kinds::DURATION)?,
+        });
+    }
+    if segments.len() > MOST_SEGMENTS {
+        return Err(table.conflict("profile", format!("more than {MOST_SEGMENTS} segments")));
+    }
+    let profile = match profile {
+        Some(_) => Some(
+            Profile::new(&segments, acceleration)
+                .map_err(|error| table.conflict("profile", error.to_string()))?,
+        ),
+        None => None,
+    };
+    let wobble = table.quantity("wobble", &kinds::ANGLE_SIGMA)?;
+    Ok(Some(TableSpec { profile, segments, acceleration, wobble }))
+}

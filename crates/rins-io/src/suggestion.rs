@@ -1,0 +1,59 @@
+//! What a misspelt word may have meant.
+
+/// The candidate that is nearest to `word`, if one is near: by letters changed, added, left out or
+/// swapped with their neighbour, of which at most a third of the word (and at least one) may be.
+pub(crate) fn nearest<'c>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'c str>,
+) -> Option<&'c str> {
+    let allowed = (word.chars().count() / 3).max(1);
+    candidates
+        .into_iter()
+        .map(|candidate| (distance(word, candidate), candidate))
+        // A candidate that shares no letter is as near as any other.
+        .filter(|&(distance, candidate)| {
+            distance <= allowed && distance < candidate.chars().count()
+        })
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// The optimal string alignment distance, letter case ignored.
+fn distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.to_lowercase().chars().take(64).collect();
+    let b: Vec<char> = b.to_lowercase().chars().take(64).collect();
+    let mut rows = vec![(0..=b.len()).collect::<Vec<_>>()];
+    for i in 1..=a.len() {
+        let mut row = vec![i];
+        for j in 1..=b.len() {
+            let changed = usize::from(a[i - 1] != b[j - 1]);
+            let mut least =
+                (rows[i - 1][j] + 1).min(row[j - 1] + 1).min(rows[i - 1][j - 1] + changed);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(rows[i - 2][j - 2] + 1);
+            }
+            row.push(least);
+        }
+        rows.push(row);
+    }
+    rows[a.len()][b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn slips_of_the_pen_are_understood() {
+        let keys = ["latitude", "longitude", "height", "gravity"];
+        assert_eq!(nearest("latitud", keys), Some("latitude"));
+        assert_eq!(nearest("hieght", keys), Some("height"));
+        assert_eq!(nearest("Gravity", keys), Some("gravity"));
+    }
+
+    #[test]
+    fn a_far_word_gets_no_suggestion() {
+        assert_eq!(nearest("colour", ["latitude", "height"]), None);
+        assert_eq!(nearest("q", ["s", "m"]), None);
+    }
+}

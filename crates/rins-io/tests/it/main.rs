@@ -1,0 +1,19 @@
+//! Files as users write them, right and wrong.
+#![expect(
+    clippy::float_cmp,
+    clippy::format_collect,
+    clippy::format_push_string,
+    clippy::print_stdout,
+    clippy::unwrap_used,
+    reason = "tests expect bits that are the same, write small files, say when they are skipped, and are meant to panic"
+)]
+
+mod calibration;
+mod log_refusals;
+mod logs;
+mod measured;
+mod output;
+mod rig;
+mod round_trip;
+mod scenario;
+mod support;

@@ -1,0 +1,198 @@
+//! Rig files: what they mean, and what is said of wrong ones.
+
+use std::path::Path;
+
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
+use rins_io::{LogFormat, Rig};
+use rins_testing::assert_close;
+
+use crate::support::{RIG, replaced};
+
+fn parse(text: &str) -> Result<Rig, rins_io::IoError> {
+    Rig::parse(text, Path::new("rig.toml"))
+}
+
+#[test]
+fn quantities_arrive_in_si_units() {
+    let rig = parse(RIG).unwrap();
+    let station = rig.require_station().unwrap();
+    assert_close!(station.site.latitude, 34.25 * DEG, 1e-16);
+    assert_close!(station.gravity, 9.7955, 1e-3);
+    let attitude = rig.require_attitude().unwrap();
+    assert_close!(attitude.angles.roll, 30.0 * DEG, 1e-16);
+    assert_close!(attitude.sigma, 0.1 * DEG, 1e-18);
+    let imu = rig.require_imu().unwrap();
+    assert_close!(imu.gyro.noise_density, 0.02 * DEG_PER_HOUR, 1e-22);
+    assert_close!(imu.gyro.misalignment_sigma, 120.0 * ARCSEC, 1e-18);
+    assert_close!(imu.accel.bias_sigma, 200.0 * MICRO_G, 1e-18);
+    assert_close!(imu.accel.scale_sigma, 300.0 * PPM, 1e-18);
+    assert_eq!((imu.gyro.range, imu.gyro.bias_instability), (None, None));
+    assert_close!(rig.log.table_angle().unwrap().noise.unwrap(), 0.3 * ARCSEC, 1e-20);
+    assert_eq!(rig.log.rate, Some(50.0));
+}
+
+#[test]
+fn a_psins_rig_needs_no_more_than_a_path() {
+    let rig = parse("[log]\npath = \"laser.imu\"\nformat = \"psins\"\n").unwrap();
+    assert_eq!((rig.log.format.clone(), rig.station), (LogFormat::Psins, None));
+    assert_eq!(
+        rig.require_station().unwrap_err().to_string(),
+        "rig.toml: [site]: missing, expected latitude, longitude and height"
+    );
+    assert_eq!(
+        rig.require_attitude().unwrap_err().to_string(),
+        "rig.toml: [attitude]: missing, expected roll, pitch, yaw, sigma"
+    );
+}
+
+#[test]
+fn own_gravity_comes_before_normal_gravity() {
+    let text =
+        replaced(RIG, "height = \"400 m\"", "height = \"400 m\"\ngravity = \"9.7966 m/s^2\"");
+    assert_eq!(parse(&text).unwrap().station.unwrap().gravity, 9.7966);
+}
+
+#[test]
+fn a_table_profile_is_read() {
+    let table = "[table]\nacceleration = \"5 deg/s^2\"\nwobble = \"1 arcsec\"\n\
+                 profile = [{ rate = \"10 deg/s\", duration = \"1 min\" }]\n";
+    let table = parse(&format!("{RIG}{table}")).unwrap().table.unwrap();
+    assert_close!(table.profile.unwrap().angle(60.0), (600.0 - 10.0) * DEG, 1e-12);
+    assert_close!(table.wobble.unwrap(), ARCSEC, 1e-20);
+}
+
+/// What a rig file says, what it should rather say, and what is said of it.
+#[rustfmt::skip]
+const CASES: &[(&str, &str, &str)] = &[
+    // Syntax.
+    ("height = \"400 m\"", "height = ", "rig.toml:5: string values must be quoted, expected literal string"),
+    ("[attitude]", "[site]", "rig.toml:15: duplicate key"),
+    // Sections and keys.
+    ("[attitude]", "[atitude]", "rig.toml:15: atitude: unknown key; did you mean \"attitude\"?"),
+    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis"),
+    ("[attitude]", "[axis]", "rig.toml:16: [axis] roll: unknown key, expected one of spin"),
+    ("latitude = ", "latitud = ", "rig.toml:3: [site] latitud: unknown key; did you mean \"latitude\"?"),
+    ("latitude = \"34.25 deg\"\n", "", "rig.toml:2: [site] latitude: missing, expected a latitude such as \"34.25 deg\""),
+    ("sigma = \"0.1 deg\"", "", "rig.toml:15: [attitude] sigma: missing, expected an angle such as \"60 arcsec\""),
+    ("noise = \"30 ug/sqrt(Hz)\"", "", "rig.toml:27: [imu.accel] noise: missing, expected an acceleration noise density such as \"30 ug/sqrt(Hz)\""),
+    ("path = \"run.csv\"\n", "", "rig.toml:7: [log] path: missing, expected the log's file, such as \"run.csv\""),
+    ("path = \"run.csv\"", "path = \"run.bin\"", "rig.toml:7: [log] format: missing, expected \"csv\", \"psins\" or \"kf-gins\" for a file of this name"),
+    ("gyro = { columns = [\"gx\", \"gy\", \"gz\"], unit = \"rad/s\" }\n", "", "rig.toml:7: [log] gyro: missing, expected { columns = [\"x\", \"y\", \"z\"], unit = \"deg/s\" }"),
+    ("accel = { columns = [\"ax\", \"ay\", \"az\"], unit = \"m/s^2\" }\n", "", "rig.toml:7: [log] accel: missing, expected { columns = [\"x\", \"y\", \"z\"], unit = \"m/s^2\" }"),
+    ("rate = \"50 Hz\"\ntime = { column = \"t\", unit = \"s\" }\n", "", "rig.toml:7: [log] time: missing, expected { column = \"t\", unit = \"s\" }, or a rate where there is no time column"),
+    ("time = { column = \"t\", unit = \"s\" }", "time = { column = \"t\" }", "rig.toml:10: [log] time.unit: missing, expected \"s\", \"ms\", \"us\", \"ns\" or \"sample\""),
+    ("time = { column = \"t\", unit = \"s\" }", "time = { unit = \"s\" }", "rig.toml:10: [log] time.column: missing, expected a column's name, or its number as in \"1\""),
+    ("unit = \"deg\", noise", "noise", "rig.toml:13: [log] table_angle.unit: missing, expected an angle such as \"deg\""),
+    // Types.
+    ("height = \"400 m\"", "height = 400", "rig.toml:5: [site] height: 400 is a bare number, expected a height such as \"400 m\""),
+    ("height = \"400 m\"", "height = true", "rig.toml:5: [site] height: true is a flag, expected a height such as \"400 m\""),
+    ("height = \"400 m\"", "height = 1979-05-27", "rig.toml:5: [site] height: 1979-05-27 is a date, expected a height such as \"400 m\""),
+    ("height = \"400 m\"", "height = [\"400 m\"]", "rig.toml:5: [site] height: a list, expected a height such as \"400 m\""),
+    ("time = { column = \"t\", unit = \"s\" }", "time = \"t\"", "rig.toml:10: [log] time: \"t\" is a text, expected a table with the keys column, unit, stamp"),
+    ("[\"gx\", \"gy\", \"gz\"]", "[\"gx\", \"gy\"]", "rig.toml:11: [log] gyro.columns: a list of 2, expected three columns such as [\"x\", \"y\", \"z\"]"),
+    ("[\"gx\", \"gy\", \"gz\"]", "[1, 2, 3]", "rig.toml:11: [log] gyro.columns: 1 is a bare number, expected three columns such as [\"x\", \"y\", \"z\"]"),
+    ("[\"gx\", \"gy\", \"gz\"]", "\"gx\"", "rig.toml:11: [log] gyro.columns: \"gx\" is a text, expected three columns such as [\"x\", \"y\", \"z\"]"),
+    ("[\"gx\", \"gy\", \"gz\"]", "[\"gx\", \"gy\", \"gx\"]", "rig.toml:11: [log] gyro.columns: names a column twice"),
+    // Quantities.
+    ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"0.05 deg\"", "rig.toml:22: [imu.gyro] noise: \"0.05 deg\" is an angle, expected a rate noise density such as \"0.02 deg/h/sqrt(Hz)\""),
+    ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"0.05 deg/h\"", "rig.toml:22: [imu.gyro] noise: \"0.05 deg/h\" is an angular rate, expected a rate noise density such as \"0.02 deg/h/sqrt(Hz)\""),
+    ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"0.05\"", "rig.toml:22: [imu.gyro] noise: \"0.05\" has no unit"),
+    ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"0.05 deg/hr/sqrt(Hz)\"", "rig.toml:22: [imu.gyro] noise: \"0.05 deg/hr/sqrt(Hz)\": unknown unit \"hr\"; did you mean \"h\"?"),
+    ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"low\"", "rig.toml:22: [imu.gyro] noise: \"low\" does not begin with a number"),
+    ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"nan deg/h/sqrt(Hz)\"", "rig.toml:22: [imu.gyro] noise: \"nan deg/h/sqrt(Hz)\" is not finite"),
+    ("noise = \"30 ug/sqrt(Hz)\"", "noise = \"-30 ug/sqrt(Hz)\"", "rig.toml:28: [imu.accel] noise: \"-30 ug/sqrt(Hz)\" is out of range, expected zero or more"),
+    ("bias_sigma = \"200 ug\"", "bias_sigma = \"5 rad/s\"", "rig.toml:29: [imu.accel] bias_sigma: \"5 rad/s\" is an angular rate, expected an acceleration such as \"100 ug\""),
+    ("scale_sigma = \"300 ppm\"", "scale_sigma = \"3 mm\"", "rig.toml:30: [imu.accel] scale_sigma: \"3 mm\" is a length, expected a ratio such as \"300 ppm\""),
+    ("misalignment_sigma = \"60 arcsec\"", "misalignment_sigma = \"60 ppm\"", "rig.toml:31: [imu.accel] misalignment_sigma: \"60 ppm\" is a ratio, expected an angle such as \"60 arcsec\""),
+    ("latitude = \"34.25 deg\"", "latitude = \"95 deg\"", "rig.toml:3: [site] latitude: \"95 deg\" is out of range, expected a latitude from -90 to 90 deg"),
+    ("longitude = \"108.9 deg\"", "longitude = \"1089 deg\"", "rig.toml:4: [site] longitude: \"1089 deg\" is out of range, expected a longitude from -360 to 360 deg"),
+    ("height = \"400 m\"", "height = \"400 km\"", "rig.toml:5: [site] height: \"400 km\" is out of range, expected a height from -1 to 20 km"),
+    ("height = \"400 m\"", "height = \"400 m\"\ngravity = \"1 g\"\ngravit = 3", "rig.toml:7: [site] gravit: unknown key; did you mean \"gravity\"?"),
+    ("height = \"400 m\"", "height = \"400 m\"\ngravity = \"9.5 m/s^2\"", "rig.toml:6: [site] gravity: \"9.5 m/s^2\" is out of range, expected a gravity from 9.7 to 9.9 m/s^2"),
+    ("pitch = \"20 deg\"", "pitch = \"91 deg\"", "rig.toml:17: [attitude] pitch: \"91 deg\" is out of range, expected a pitch from -90 to 90 deg"),
+    ("sigma = \"0.1 deg\"", "sigma = \"-0.1 deg\"", "rig.toml:19: [attitude] sigma: \"-0.1 deg\" is out of range, expected zero or more"),
+    ("rate = \"50 Hz\"", "rate = \"0 Hz\"", "rig.toml:9: [log] rate: \"0 Hz\" is out of range, expected a sampling rate from 0.001 Hz to 1 MHz"),
+    ("rate = \"50 Hz\"", "rate = \"50 rad/s\"", "rig.toml:9: [log] rate: \"50 rad/s\" is an angular rate, expected a sampling rate such as \"50 Hz\""),
+    // Units and choices of the log.
+    ("unit = \"rad/s\"", "unit = \"m/s\"", "rig.toml:11: [log] gyro.unit: \"m/s\" is a velocity, expected an angular rate or an angle increment such as \"deg/s\""),
+    ("unit = \"m/s^2\"", "unit = \"deg\"", "rig.toml:12: [log] accel.unit: \"deg\" is an angle, expected a specific force or a velocity increment such as \"m/s^2\""),
+    ("unit = \"m/s^2\"", "unit = \"m/s/s/\"", "rig.toml:12: [log] accel.unit: \"m/s/s/\" is not a product of units such as \"deg/h/sqrt(Hz)\""),
+    ("unit = \"deg\", noise", "unit = \"deg/s\", noise", "rig.toml:13: [log] table_angle.unit: \"deg/s\" is an angular rate, expected an angle such as \"deg\""),
+    ("unit = \"s\"", "unit = \"sec\"", "rig.toml:10: [log] time.unit: \"sec\" is not known, expected one of \"s\", \"ms\", \"us\", \"ns\", \"sample\""),
+    ("unit = \"s\"", "unit = \"samples\"", "rig.toml:10: [log] time.unit: \"samples\" is not known; did you mean \"sample\"?"),
+    ("unit = \"s\"", "unit = \"s\", stamp = \"begin\"", "rig.toml:10: [log] time.stamp: \"begin\" is not known, expected one of \"start\", \"middle\", \"end\""),
+    ("rate = \"50 Hz\"\ntime = { column = \"t\", unit = \"s\" }", "time = { column = \"t\", unit = \"sample\" }", "rig.toml:7: [log] rate: missing, expected a sampling rate such as \"50 Hz\", as time counts samples"),
+    ("unit = \"rad/s\"", "unit = \"rad/s\", axes = [\"x\", \"y\", \"y\"]", "rig.toml:11: [log] gyro.axes: [\"x\", \"y\", \"y\"] is not allowed, expected three axes such as [\"-y\", \"x\", \"z\"], each once"),
+    ("unit = \"rad/s\"", "unit = \"rad/s\", scale = 0", "rig.toml:11: [log] gyro.scale: 0 is not allowed, expected factors other than zero"),
+    ("unit = \"rad/s\"", "unit = \"rad/s\", scale = inf", "rig.toml:11: [log] gyro.scale: inf is not allowed, expected a number, or one for each column"),
+    ("unit = \"rad/s\"", "unit = \"rad/s\", scale = \"2\"", "rig.toml:11: [log] gyro.scale: \"2\" is a text, expected a number, or one for each column"),
+    ("path = \"run.csv\"", "path = \"run.csv\"\nformat = \"parquet\"", "rig.toml:9: [log] format: \"parquet\" is not allowed, expected \"csv\", \"psins\" or \"kf-gins\""),
+    ("path = \"run.csv\"", "path = \"run.csv\"\nformat = \"psin\"", "rig.toml:9: [log] format: \"psin\" is not known; did you mean \"psins\"?"),
+    ("path = \"run.csv\"", "path = \"run.imu\"\nformat = \"psins\"", "rig.toml:11: [log] time: a psins log has no such column"),
+    ("path = \"run.csv\"", "path = \"run.imu\"\nformat = \"kf-gins\"", "rig.toml:11: [log] time: a kf-gins log's first column is the time in s"),
+    // Tables and axes.
+    ("[attitude]", "[table]\nprofile = []\n[attitude]", "rig.toml:16: [table] profile: a table profile needs at least one segment"),
+    ("[attitude]", "[table]\nprofile = \"fast\"\n[attitude]", "rig.toml:16: [table] profile: \"fast\" is a text, expected a list of tables with the keys rate, duration"),
+    ("[attitude]", "[table]\nprofile = [5]\n[attitude]", "rig.toml:16: [table] profile[1]: 5 is a bare number, expected a list of tables with the keys rate, duration"),
+    ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\", time = \"1 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].time: unknown key, expected one of rate, duration"),
+    ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].duration: missing, expected a time such as \"60 s\""),
+    ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\", duration = \"0 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].duration: \"0 s\" is out of range, expected more than zero"),
+    ("[attitude]", "[table]\nprofile = [{ rate = \"1 Hz\", duration = \"1 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].rate: \"1 Hz\" is a frequency, expected an angular rate such as \"10 deg/s\""),
+    ("[attitude]", "[table]\nacceleration = \"1 rad/s^2\"\nprofile = [{ rate = \"8 rad/s\", duration = \"4 s\" }]\n[attitude]", "rig.toml:17: [table] profile: segment 1 lasts 4 s, less than the 8 s that its ramp takes"),
+    ("[attitude]", "[table]\nacceleration = \"5 deg/s\"\n[attitude]", "rig.toml:16: [table] acceleration: \"5 deg/s\" is an angular rate, expected an angular acceleration such as \"5 deg/s^2\""),
+    ("[attitude]", "[axis]\nspin = \"w\"\n[attitude]", "rig.toml:16: [axis] spin: \"w\" is not allowed, expected a body axis such as \"z\" or \"-x\""),
+    ("unit = \"deg\", noise", "unit = \"deg\", latency = \"1 m\", noise", "rig.toml:13: [log] table_angle.latency: \"1 m\" is a length, expected a time such as \"1 ms\""),
+    ("[attitude]", "temperature = { column = \"T\", unit = \"degF\" }\n[attitude]", "rig.toml:15: [log] temperature.unit: \"degF\" is not known; did you mean \"degC\"?"),
+    ("[attitude]", "temperature = { column = \"T\", time = \"t\", unit = \"degC\" }\n[attitude]", "rig.toml:15: [log] temperature.time: a temperature in the log itself has its time"),
+];
+
+#[test]
+fn wrong_rigs_are_refused_with_file_line_key_and_expectation() {
+    let mut wrong = String::new();
+    for (from, to, message) in CASES {
+        let error = parse(&replaced(RIG, from, to)).unwrap_err().to_string();
+        if error != *message {
+            wrong.push_str(&format!(
+                "{from:?} -> {to:?}\n  said     {error}\n  expected {message}\n"
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    assert!(CASES.len() >= 60);
+}
+
+#[test]
+fn rigs_without_their_sections_are_refused() {
+    assert_eq!(
+        parse("").unwrap_err().to_string(),
+        "rig.toml: [log]: missing, expected path, time, gyro and accel"
+    );
+    let site = &RIG[RIG.find("[site]").unwrap()..RIG.find("[log]").unwrap()];
+    assert_eq!(
+        parse(&replaced(RIG, site, "")).unwrap_err().to_string(),
+        "rig.toml: [site]: missing, expected latitude, longitude and height"
+    );
+    let accel = &RIG[RIG.find("[imu.accel]").unwrap()..];
+    assert_eq!(
+        parse(&replaced(RIG, accel, "")).unwrap_err().to_string(),
+        "rig.toml:21: [imu] accel: missing, expected a section [imu.accel]"
+    );
+}
+
+#[test]
+fn files_that_are_no_rigs_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rig.toml");
+    let refusal = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        crate::support::without(&Rig::read(&path).unwrap_err(), folder.path())
+    };
+    assert_eq!(refusal(b"\xff\xfe[\0s\0"), "rig.toml: not UTF-8 text");
+    assert_eq!(
+        refusal(&vec![b'#'; (1 << 20) + 1]),
+        "rig.toml: more than 1048576 bytes, too large for a file of keys"
+    );
+    let absent = Rig::read(&folder.path().join("absent.toml")).unwrap_err();
+    assert_eq!(crate::support::without(&absent, folder.path()), "cannot read absent.toml");
+    assert!(std::error::Error::source(&absent).is_some());
+}
