@@ -143,7 +143,8 @@ fn covariance(sigma: &MeanUncertainty, station: &Station) -> Matrix3<f64> {
     let tilt = sigma.specific_force / station.gravity;
     let by_force = Matrix3::new(0.0, -tilt, 0.0, tilt, 0.0, 0.0, tilt * up / north, 0.0, 0.0);
     let azimuth = sigma.angular_rate / north;
-    by_force * by_force.transpose() + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, azimuth * azimuth))
+    by_force * by_force.transpose()
+        + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, azimuth * azimuth))
 }
 
 fn from_axes(east: &Vector3<f64>, up: &Vector3<f64>) -> Dcm<Nav, Body> {

@@ -105,7 +105,9 @@ pub fn inspect(recording: &Recording, station: Option<&Station>) -> Inspection {
     });
     let rests: Vec<RestSeen> = rest_spans(recording, SHORTEST_REST)
         .into_iter()
-        .filter_map(|span| RestMean::of(recording, span.clone()).map(|mean| RestSeen { span, mean }))
+        .filter_map(|span| {
+            RestMean::of(recording, span.clone()).map(|mean| RestSeen { span, mean })
+        })
         .collect();
     let longest_repeat = std::array::from_fn(|channel| longest_repeat(&channels[channel]));
     let mut suspicions: Vec<Suspicion> = (0..6)
@@ -120,9 +122,9 @@ pub fn inspect(recording: &Recording, station: Option<&Station>) -> Inspection {
             / std::f64::consts::TAU,
         resolution: std::array::from_fn(|channel| resolution(&channels[channel])),
         longest_repeat,
-        earth_rate_visible: rests.iter().any(|rest| {
-            rest.mean.rates.angular_rate.norm() < EARTH_RATE_VISIBLE * EARTH_RATE
-        }),
+        earth_rate_visible: rests
+            .iter()
+            .any(|rest| rest.mean.rates.angular_rate.norm() < EARTH_RATE_VISIBLE * EARTH_RATE),
         rests,
         timing,
         suspicions,

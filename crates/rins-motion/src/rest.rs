@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use nalgebra::Vector3;
-use rins_frames::units::DEG_PER_SECOND;
+use rins_frames::units::{DEG, DEG_PER_SECOND};
 use rins_frames::{InFrame, Rates};
 
 use crate::recording::Recording;
@@ -11,14 +11,31 @@ use crate::recording::Recording;
 /// The stretch over which rest is judged \[s\].
 const WINDOW: f64 = 1.0;
 
-/// A table that turns more slowly than this \[rad/s\] stands still: 3.6″ a second.
-const SLOWEST_TABLE_RATE: f64 = 0.001 * DEG_PER_SECOND;
+/// A table that turns more slowly than this \[rad/s\] stands still: 7.2″ a second, half the Earth's
+/// rate, and seven sigma of what an encoder's noise of 2″ at 50 Hz feigns over a second.
+const SLOWEST_TABLE_RATE: f64 = 0.002 * DEG_PER_SECOND;
 
 /// Without a table, a mean rate above this \[rad/s\] is a turn rather than a gyro bias.
 const LARGEST_BIAS: f64 = 1.0 * DEG_PER_SECOND;
 
 /// A window moves if its scatter is so many times that of the quietest tenth of all windows.
 const SCATTER_RATIO: f64 = 4.0;
+
+/// Up to [`SCATTER_RATIO`] times this \[rad/s\] a gyro's scatter is a footstep or a shock, which
+/// leaves the IMU where it was, however quiet the sensor is otherwise.
+const LEAST_GYRO_SCATTER: f64 = 0.125 * DEG_PER_SECOND;
+
+/// Without a table, a mean rate that is so far from the median of all rests \[rad/s\] is a slow turn.
+const LARGEST_RATE_CHANGE: f64 = 0.05 * DEG_PER_SECOND;
+
+/// The same of accelerometers \[m/s²\].
+const LEAST_ACCEL_SCATTER: f64 = 1e-7;
+
+/// A disturbance of at most so long \[s\] ...
+const LONGEST_DISTURBANCE: f64 = 10.0;
+
+/// ... after which the IMU stands as before, to within this angle \[rad\], does not end a rest.
+const LARGEST_DISTURBANCE: f64 = 0.5 * DEG;
 
 /// The mean rates over a stretch of rest, and how far they scatter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +51,15 @@ pub struct RestMean {
 }
 
 impl RestMean {
-    /// The means over samples `span` of a recording, or `None` if the span is empty or outside.
+    /// The means over samples `span` of a recording, or `None` if the span is outside or holds
+    /// fewer than two samples, which show no scatter.
     ///
-    /// Their sigma is that of `n` batch means over √n, which holds for white noise and for drifts
-    /// that are short against the span; a constant bias does not show in it.
+    /// Their sigma is that of up to 20 batch means over the root of their number, which holds for
+    /// white noise and for drifts that are short against the span; a constant bias does not show
+    /// in it. It is itself uncertain by a sixth.
     pub fn of(recording: &Recording, span: Range<usize>) -> Option<Self> {
         const BATCHES: usize = 20;
-        let samples = recording.increments.get(span).filter(|samples| !samples.is_empty())?;
+        let samples = recording.increments.get(span).filter(|samples| samples.len() > 1)?;
         let (rates, duration) = mean(samples);
         let size = samples.len().div_ceil(BATCHES);
         let batches: Vec<Rates> = samples.chunks_exact(size).map(|batch| mean(batch).0).collect();
@@ -50,8 +69,8 @@ impl RestMean {
                 let off = of(batch) - of(&rates);
                 sum + off.component_mul(&off)
             };
-            let variance = batches.iter().fold(Vector3::zeros(), square) / (count - 1.0).max(1.0);
-            variance.map(|variance| (variance / count.max(1.0)).sqrt())
+            let variance = batches.iter().fold(Vector3::zeros(), square) / (count - 1.0);
+            variance.map(|variance| (variance / count).sqrt())
         };
         Some(Self {
             rates,
@@ -68,22 +87,39 @@ impl RestMean {
 /// must in any case be near that of the quietest seconds.
 pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
     let windows = windows(recording);
-    let quiet = |of: fn(&Window) -> f64| {
-        let mut scatter: Vec<f64> =
-            windows.iter().filter(|window| window.stands).map(of).collect();
+    let quiet = |of: fn(&Window) -> f64, least: f64| {
+        let mut scatter: Vec<f64> = windows.iter().filter(|window| window.stands).map(of).collect();
         scatter.sort_by(f64::total_cmp);
-        scatter.get(scatter.len() / 10).map_or(0.0, |quiet| quiet * SCATTER_RATIO)
+        scatter.get(scatter.len() / 10).map_or(0.0, |quiet| quiet.max(least) * SCATTER_RATIO)
     };
-    let gyro = quiet(|window| window.gyro_scatter);
-    let accel = quiet(|window| window.accel_scatter);
-    let at_rest = |window: &Window| {
+    let gyro = quiet(|window| window.gyro_scatter, LEAST_GYRO_SCATTER);
+    let accel = quiet(|window| window.accel_scatter, LEAST_ACCEL_SCATTER);
+    let quiet = |window: &Window| {
         window.stands && window.gyro_scatter <= gyro && window.accel_scatter <= accel
     };
+    let usual_rate = usual_rate(windows.iter().filter(|window| quiet(window)));
+    let at_rest = |window: &Window| {
+        let turns = (window.rate - usual_rate).norm() > LARGEST_RATE_CHANGE;
+        quiet(window) && (window.table_known || !turns)
+    };
 
+    // A footstep moves no table, and an IMU that is where it was before has not left its rest.
+    let undisturbed = |gap: Range<usize>| {
+        let samples = &recording.increments[gap];
+        let lasting: f64 = samples.iter().map(|sample| sample.interval).sum();
+        let turn: Vector3<f64> = samples.iter().map(|sample| sample.angle.components()).sum();
+        lasting <= LONGEST_DISTURBANCE
+            && (turn - usual_rate * lasting).norm() < LARGEST_DISTURBANCE
+            && !windows.iter().any(|window| window.table_known)
+    };
     let mut spans: Vec<Range<usize>> = Vec::new();
     for window in windows.iter().filter(|window| at_rest(window)) {
         match spans.last_mut() {
-            Some(last) if last.end == window.span.start => last.end = window.span.end,
+            Some(last)
+                if last.end == window.span.start || undisturbed(last.end..window.span.start) =>
+            {
+                last.end = window.span.end;
+            }
             _ => spans.push(window.span.clone()),
         }
     }
@@ -95,9 +131,22 @@ pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
     spans
 }
 
+/// The median of each component of the windows' mean rates.
+fn usual_rate<'a>(windows: impl Iterator<Item = &'a Window>) -> Vector3<f64> {
+    let rates: Vec<Vector3<f64>> = windows.map(|window| window.rate).collect();
+    Vector3::from_fn(|axis, _| {
+        let mut sorted: Vec<f64> = rates.iter().map(|rate| rate[axis]).collect();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+    })
+}
+
 struct Window {
     span: Range<usize>,
     stands: bool,
+    table_known: bool,
+    /// The mean angular rate \[rad/s\].
+    rate: Vector3<f64>,
     gyro_scatter: f64,
     accel_scatter: f64,
 }
@@ -129,12 +178,16 @@ fn window(recording: &Recording, span: Range<usize>) -> Window {
         .table_rate
         .as_ref()
         .map(|rate| rate[span.clone()].iter().fold(0.0, |most: f64, rate| most.max(rate.abs())))
-        .or_else(|| recording.table_angle.as_ref().map(|angle| slope(&angle[span.clone()], duration)));
+        .or_else(|| {
+            recording.table_angle.as_ref().map(|angle| slope(&angle[span.clone()], duration))
+        });
     Window {
         stands: match table_rate {
             Some(rate) => rate.abs() < SLOWEST_TABLE_RATE,
             None => rates.angular_rate.norm() < LARGEST_BIAS,
         },
+        table_known: table_rate.is_some(),
+        rate: *rates.angular_rate.components(),
         gyro_scatter: scatter(|rates| *rates.angular_rate.components()),
         accel_scatter: scatter(|rates| *rates.specific_force.components()),
         span,

@@ -8,11 +8,11 @@ use crate::turntable::{Piece, Profile};
 
 /// Nodes and weights of five-point Gauss-Legendre quadrature on [-1, 1].
 const GAUSS: [(f64, f64); 5] = [
-    (0.0, 0.568888888888888889),
-    (0.538469310105683091, 0.478628670499366468),
-    (-0.538469310105683091, 0.478628670499366468),
-    (0.906179845938663993, 0.236926885056189088),
-    (-0.906179845938663993, 0.236926885056189088),
+    (0.0, 0.5688888888888889),
+    (0.5384693101056831, 0.47862867049936647),
+    (-0.5384693101056831, 0.47862867049936647),
+    (0.906179845938664, 0.23692688505618908),
+    (-0.906179845938664, 0.23692688505618908),
 ];
 
 /// The largest turn \[rad\] over which the quadrature is used at once: its error there,
@@ -48,6 +48,8 @@ impl TrueMotion {
     ///
     /// `ω_ib^b = Rz(ζ)ᵀ ω_ie^s + ζ' z` (eq. (2)) and `f^b = -Rz(ζ)ᵀ g^s` are integrated over the
     /// true table angle ζ(t) by quadrature whose error lies below the last digit.
+    ///
+    /// `from` must not be later than `to`. Outside the profile the first or last motion goes on.
     pub fn increments(&self, from: f64, to: f64) -> Increments {
         let table_from_nav = self.nav_from_table.inverse();
         let earth_rate = table_from_nav * self.station.site.earth_rate();
@@ -72,9 +74,15 @@ impl TrueMotion {
     }
 
     /// The whole profile in intervals of `interval` \[s\]; a last part of an interval is left out.
+    ///
+    /// An interval that is not longer than zero gives no samples.
     pub fn samples(&self, interval: f64) -> impl Iterator<Item = TrueSample> {
         // Half a nanosecond a day: a duration of n intervals must not lose its last one to rounding.
-        let count = (self.profile.duration() / interval * (1.0 + 1e-12)).floor();
+        let count = if interval > 0.0 {
+            (self.profile.duration() / interval * (1.0 + 1e-12)).floor()
+        } else {
+            0.0
+        };
         let mut sample = 0.0;
         core::iter::from_fn(move || {
             if sample >= count {

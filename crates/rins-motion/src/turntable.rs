@@ -213,7 +213,8 @@ mod tests {
 
     #[test]
     fn rate_jumps_where_no_acceleration_is_given() {
-        let segments = [Segment { rate: 1.0, duration: 2.0 }, Segment { rate: -1.0, duration: 2.0 }];
+        let segments =
+            [Segment { rate: 1.0, duration: 2.0 }, Segment { rate: -1.0, duration: 2.0 }];
         let profile = Profile::new(&segments, None).unwrap();
         assert_close!(profile.angle(2.0), 2.0, 1e-15);
         assert_close!(profile.angle(4.0), 0.0 + 1e-300, 1e-15);
@@ -226,11 +227,7 @@ mod tests {
         let segment = |rate, duration| Segment { rate, duration };
         let cases = [
             (vec![], None, ProfileError::Empty),
-            (
-                vec![segment(1.0, 0.0)],
-                None,
-                ProfileError::Duration { index: 1, duration: 0.0 },
-            ),
+            (vec![segment(1.0, 0.0)], None, ProfileError::Duration { index: 1, duration: 0.0 }),
             (
                 vec![segment(0.0, 1.0), segment(f64::INFINITY, 1.0)],
                 None,

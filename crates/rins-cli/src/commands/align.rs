@@ -5,10 +5,11 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
-use rins_frames::{Body, Dcm, EulerAngles, Nav, Rates};
+use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
 use rins_io::Loaded;
 use rins_motion::{
-    AlignmentError, MeanUncertainty, PlaceSeen, RestMean, align, level, place_seen, residual,
+    AlignmentError, FineAlignment, FineAlignmentError, MeanUncertainty, PlaceSeen, RestMean,
+    align_finely, level, place_seen, residual,
     rest_spans,
 };
 use serde_json::{Value, json};
@@ -35,10 +36,22 @@ pub(crate) struct Found {
     pub(crate) span: std::ops::Range<usize>,
     pub(crate) start: f64,
     mean: RestMean,
+    /// What the filter over the rest found; nothing if north was not found.
+    fine: Option<FineAlignment>,
     uncertainty: MeanUncertainty,
     place: PlaceSeen,
     /// Measured less predicted: what a bias would look like.
     pub(crate) residual: Rates,
+}
+
+impl Found {
+    /// The 1σ of the Earth's rate \[rad/s\] and of the latitude \[rad\] that the gyros see.
+    fn seen_sigma(&self) -> (f64, f64) {
+        let level = self.uncertainty.specific_force / self.place.gravity;
+        self.fine.map_or((self.uncertainty.angular_rate, self.place.latitude_sigma), |fine| {
+            (fine.earth_rate_sigma, fine.latitude_sigma.hypot(level))
+        })
+    }
 }
 
 /// Aligns on the longest rest of a run.
@@ -59,25 +72,40 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
     let mean = RestMean::of(recording, span.clone())
         .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;
     let uncertainty = uncertainty(loaded, &mean);
-    let (nav_from_body, sigma, hidden) = match align(&mean.rates, &uncertainty, &loaded.station) {
-        Ok(alignment) => {
-            let sigma = alignment.covariance.diagonal().map(f64::sqrt);
-            (alignment.nav_from_body, (sigma.x, sigma.y, Some(sigma.z)), None)
+    let prior = loaded.rig.imu.map(|imu| imu.gyro.bias_sigma);
+    let spinner = indicatif::ProgressBar::new_spinner().with_message("aligning");
+    spinner.enable_steady_tick(std::time::Duration::from_millis(100));
+    let aligned = align_finely(recording, span.clone(), &loaded.station, prior);
+    spinner.finish_and_clear();
+    let levelling = uncertainty.specific_force / loaded.station.gravity;
+    let (nav_from_body, sigma, fine, hidden) = match aligned {
+        Ok(fine) => {
+            let sigma = fine.covariance.diagonal().map(f64::sqrt);
+            // The filter knows of noise, not of what an accelerometer is off by for good.
+            let constant = accel_sigma(loaded) / loaded.station.gravity;
+            let tilt = |sigma: f64| sigma.hypot(constant);
+            (fine.nav_from_body, (tilt(sigma.x), tilt(sigma.y), Some(sigma.z)), Some(fine), None)
         }
-        Err(hidden @ AlignmentError::NorthNotFound { .. }) => {
+        Err(FineAlignmentError::Coarse(hidden @ AlignmentError::NorthNotFound { .. })) => {
             let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
-            let tilt = uncertainty.specific_force / loaded.station.gravity;
-            (level(&mean.rates, yaw)?, (tilt, tilt, None), Some(hidden))
+            (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
         }
         Err(error) => return Err(error.into()),
     };
+    // The filter tells the rate at the start of the rest, so that up must be that of the start too.
+    let seen = fine.map_or(mean.rates, |fine| {
+        let up = InFrame::new(0.0, 0.0, mean.rates.specific_force.norm());
+        let body_from_nav = fine.nav_from_body.inverse();
+        Rates { angular_rate: fine.earth_rate_seen, specific_force: body_from_nav * up }
+    });
     Ok(Found {
         nav_from_body,
         sigma,
         hidden,
         start: recording.times[span.start] - recording.increments[span.start].interval,
-        place: place_seen(&mean.rates, &uncertainty),
-        residual: residual(&mean.rates, nav_from_body, &loaded.station),
+        place: place_seen(&seen, &uncertainty),
+        residual: residual(&seen, nav_from_body, &loaded.station),
+        fine,
         span,
         mean,
         uncertainty,
@@ -87,14 +115,19 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
 /// The scatter of the mean, and with it the data sheet's errors where there is one.
 fn uncertainty(loaded: &Loaded, mean: &RestMean) -> MeanUncertainty {
     let scatter = |sigma: Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
-    let (gyro, accel) = loaded.rig.imu.map_or((0.0, 0.0), |imu| {
-        let shape = imu.accel.scale_sigma.max(imu.accel.misalignment_sigma);
-        (imu.gyro.bias_sigma, imu.accel.bias_sigma.hypot(shape * loaded.station.gravity))
-    });
+    let gyro = loaded.rig.imu.map_or(0.0, |imu| imu.gyro.bias_sigma);
     MeanUncertainty {
         angular_rate: scatter(mean.angular_rate_sigma).hypot(gyro),
-        specific_force: scatter(mean.specific_force_sigma).hypot(accel),
+        specific_force: scatter(mean.specific_force_sigma).hypot(accel_sigma(loaded)),
     }
+}
+
+/// What the data sheet says a specific force of one g may be off by, for good \[m/s²\].
+fn accel_sigma(loaded: &Loaded) -> f64 {
+    loaded.rig.imu.map_or(0.0, |imu| {
+        let shape = imu.accel.scale_sigma.max(imu.accel.misalignment_sigma);
+        imu.accel.bias_sigma.hypot(shape * loaded.station.gravity)
+    })
 }
 
 pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
@@ -192,6 +225,7 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
     let site = &loaded.station.site;
     let earth_rate = site.earth_rate().norm();
     let place = &found.place;
+    let (rate_sigma, latitude_sigma) = found.seen_sigma();
     let mut rows = vec![
         ["quantity", "found", "1 sigma", "to compare with"].map(String::from).to_vec(),
         row("roll", degrees(angles.roll), degrees(found.sigma.1), against(|angles| angles.roll)),
@@ -209,23 +243,25 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
     rows.push(row(
         "Earth rate",
         format!("{:.4} deg/h", place.earth_rate / DEG_PER_HOUR),
-        format!("{:.4} deg/h", found.uncertainty.angular_rate / DEG_PER_HOUR),
+        format!("{:.4} deg/h", rate_sigma / DEG_PER_HOUR),
         format!("the Earth turns at {:.4} deg/h", earth_rate / DEG_PER_HOUR),
     ));
     if found.hidden.is_none() {
         rows.push(row(
             "latitude",
             degrees(place.latitude),
-            degrees(place.latitude_sigma),
+            degrees(latitude_sigma),
             format!("the station lies at {:.5} deg", site.latitude / DEG),
         ));
     }
+    let bias_sigma =
+        found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
     for (axis, name) in ["gyro bias x", "gyro bias y", "gyro bias z"].into_iter().enumerate() {
         rows.push(row(
             name,
             format!("{:.4} deg/h", found.residual.angular_rate.components()[axis] / DEG_PER_HOUR),
-            format!("{:.4} deg/h", found.mean.angular_rate_sigma[axis] / DEG_PER_HOUR),
-            "scatter only; a bias along east is in the azimuth instead".into(),
+            format!("{:.4} deg/h", bias_sigma[axis] / DEG_PER_HOUR),
+            "less what lies along east, which the azimuth holds".into(),
         ));
     }
     rows
@@ -235,6 +271,7 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path) -> Value {
     let angles = found.nav_from_body.euler_angles();
     let (east, north, up) = found.sigma;
     let place = &found.place;
+    let (rate_sigma, latitude_sigma) = found.seen_sigma();
     let bias = found.residual.angular_rate.components() / DEG_PER_HOUR;
     let site = &loaded.station.site;
     json!({
@@ -252,7 +289,8 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path) -> Value {
             "gravity_m_s2": place.gravity,
             "earth_rate_deg_h": place.earth_rate / DEG_PER_HOUR,
             "latitude_deg": up.map(|_| place.latitude / DEG),
-            "latitude_sigma_deg": up.map(|_| place.latitude_sigma / DEG),
+            "latitude_sigma_deg": up.map(|_| latitude_sigma / DEG),
+            "earth_rate_sigma_deg_h": rate_sigma / DEG_PER_HOUR,
         },
         "expected": {
             "gravity_m_s2": loaded.station.gravity,

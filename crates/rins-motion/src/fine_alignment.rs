@@ -1,0 +1,362 @@
+//! Fine alignment: attitude and gyro bias from a rest whose base may sway.
+
+use std::ops::Range;
+
+use nalgebra::{Matrix2, Matrix3, RowSVector, SMatrix, SVector, Vector1, Vector2, Vector3};
+use rins_ekf::{Block, Filter, Innovation, Measurement, UpdateError};
+use rins_frames::units::DEG_PER_HOUR;
+use rins_frames::{Body, Dcm, EARTH_RATE, InFrame, Nav, Rates};
+
+use crate::alignment::{AlignmentError, MeanUncertainty, align};
+use crate::recording::Recording;
+use crate::rest::RestMean;
+use crate::station::Station;
+use crate::strapdown::{Navigator, VerticalChannel};
+
+/// `δv` east and north \[m/s\]; the vertical channel is held.
+const VELOCITY: Block<2> = Block::first();
+/// `φ` in n \[rad\].
+const ATTITUDE: Block<3> = VELOCITY.then();
+/// The gyro bias in b, true minus compensated \[rad/s\].
+const GYRO_BIAS: Block<3> = ATTITUDE.then();
+/// `φ` at the start of the rest, in n \[rad\].
+const START: Block<3> = GYRO_BIAS.then();
+const STATES: usize = START.end();
+
+/// The time between two zero-velocity updates \[s\].
+const UPDATE_INTERVAL: f64 = 1.0;
+
+/// The velocity that a base at rest may have, 1σ \[m/s\], to start from: a person who walks by shakes it.
+const ZERO_VELOCITY_SIGMA: f64 = 1e-3;
+
+/// The error of the coarse attitude about east and north, 1σ \[rad\]: the base sways by some tenths
+/// of a degree over the rest that the coarse attitude is the mean of.
+const COARSE_TILT_SIGMA: f64 = 0.01;
+
+/// The same about up \[rad\].
+const COARSE_AZIMUTH_SIGMA: f64 = 0.2;
+
+/// A gyro bias before anything is known of it, 1σ \[rad/s\]; the azimuth that it could feign is wider.
+const WIDE_BIAS_SIGMA: f64 = 2.0 * DEG_PER_HOUR;
+
+/// What a fine alignment found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FineAlignment {
+    /// The attitude at the start of the rest, `C_b^n`.
+    pub nav_from_body: Dcm<Nav, Body>,
+    /// The covariance of its error `φ`, resolved in n \[rad²\].
+    pub covariance: Matrix3<f64>,
+    /// The gyro bias \[rad/s\], less what of it lies along east: that is in the azimuth.
+    pub gyro_bias: InFrame<Body>,
+    /// The 1σ of each component of the bias \[rad/s\].
+    pub gyro_bias_sigma: Vector3<f64>,
+    /// The Earth's rate as these gyros see it, the sway of the base taken out \[rad/s\].
+    pub earth_rate_seen: InFrame<Body>,
+    /// The 1σ of that rate's magnitude \[rad/s\].
+    pub earth_rate_sigma: f64,
+    /// The 1σ of the latitude that lies between that rate and gravity, tilt aside \[rad\].
+    pub latitude_sigma: f64,
+    /// The gyros' noise density of maximum likelihood \[rad/s/√Hz\].
+    pub gyro_noise_density: f64,
+    /// The mean normalised innovation squared of the zero-velocity updates; 2 for a right model.
+    pub nis_mean: f64,
+}
+
+/// Why no fine alignment was found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FineAlignmentError {
+    /// The coarse alignment failed.
+    #[error(transparent)]
+    Coarse(#[from] AlignmentError),
+    /// The span holds too little to align on.
+    #[error("the rest holds {samples} samples, too few to align on")]
+    TooShort {
+        /// How many it holds.
+        samples: usize,
+    },
+    /// The filter broke off.
+    #[error("the alignment filter broke off")]
+    Update(#[from] UpdateError),
+}
+
+/// Aligns on the samples `span` of a recording, over which the IMU stood on a base that does not leave its place.
+///
+/// The rest is navigated from the coarse attitude and held to zero velocity by a filter of
+/// velocity, attitude, gyro bias and the attitude at the start. The gyros carry the attitude through
+/// the base's sway, which a mean over the rest would take for a part of the Earth's rate.
+///
+/// Azimuth and the bias along east cannot be told apart at rest. The filter is told that the bias
+/// along east is zero to within `bias_sigma` \[rad/s\] or, where that is `None`, within the bias found
+/// along north and up.
+///
+/// # Errors
+/// [`FineAlignmentError`] if the coarse alignment fails or the span is too short.
+pub fn align_finely(
+    recording: &Recording,
+    span: Range<usize>,
+    station: &Station,
+    bias_sigma: Option<f64>,
+) -> Result<FineAlignment, FineAlignmentError> {
+    let samples = span.len();
+    let mean = RestMean::of(recording, span.clone())
+        .ok_or(FineAlignmentError::TooShort { samples })?;
+    let scattered = |sigma: &Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
+    let uncertainty = MeanUncertainty {
+        angular_rate: scattered(&mean.angular_rate_sigma),
+        specific_force: scattered(&mean.specific_force_sigma),
+    };
+    let coarse = align(&mean.rates, &uncertainty, station)?;
+    let excess = mean.rates.angular_rate.norm() - EARTH_RATE;
+    if excess > EARTH_RATE {
+        let azimuth_sigma = excess / (EARTH_RATE * station.site.latitude.cos());
+        return Err(AlignmentError::NorthNotFound { azimuth_sigma }.into());
+    }
+    let seconds = seconds(recording, span);
+    let guess = scatter(&seconds).ok_or(FineAlignmentError::TooShort { samples })?;
+
+    let run = |noise: Noise| -> Result<(Pass, Score), UpdateError> {
+        let mut pass = Pass::new(station, coarse.nav_from_body, noise);
+        let mut score = Score::default();
+        for second in &seconds {
+            let innovation = pass.second(recording, second)?;
+            score.nis += innovation.nis() / seconds.len() as f64;
+            score.log_likelihood += innovation.log_likelihood();
+        }
+        Ok((pass, score))
+    };
+    let noise = most_likely(guess, |noise| run(noise).map(|(_, score)| score.log_likelihood))?;
+    let (pass, score) = run(noise)?;
+    let found = pass.bias_along_east_is_small(station, bias_sigma)?;
+    Ok(FineAlignment { nis_mean: score.nis, ..found })
+}
+
+/// What a pass over the rest says of the noise that it was run with.
+#[derive(Clone, Copy, Debug, Default)]
+struct Score {
+    nis: f64,
+    log_likelihood: f64,
+}
+
+/// White noise: of the gyros and the accelerometers, as densities \[per √Hz\], and of the base's velocity \[m/s\].
+#[derive(Clone, Copy, Debug)]
+struct Noise([f64; 3]);
+
+/// The noise of maximum likelihood, to within a tenth, by a search along each coordinate in turn.
+///
+/// The scatter of a rest does not tell sensor noise from sway; the innovations do.
+fn most_likely(
+    guess: Noise,
+    mut log_likelihood: impl FnMut(Noise) -> Result<f64, UpdateError>,
+) -> Result<Noise, UpdateError> {
+    const FACTORS: [f64; 3] = [3.0, 1.5, 1.2];
+    const ROUNDS: usize = 20;
+    let mut best = guess;
+    let mut most = log_likelihood(best)?;
+    for factor in FACTORS {
+        for _ in 0..ROUNDS {
+            let before = most;
+            for coordinate in 0..3 {
+                for factor in [factor, 1.0 / factor] {
+                    let mut tried = best;
+                    tried.0[coordinate] *= factor;
+                    let likelihood = log_likelihood(tried)?;
+                    if likelihood > most {
+                        (best, most) = (tried, likelihood);
+                        break;
+                    }
+                }
+            }
+            // Less than this is worth no further round.
+            if most - before < 0.1 {
+                break;
+            }
+        }
+    }
+    Ok(best)
+}
+
+/// A second of the recording, and its mean rates.
+struct Second {
+    span: Range<usize>,
+    rates: Rates,
+    duration: f64,
+}
+
+fn seconds(recording: &Recording, span: Range<usize>) -> Vec<Second> {
+    let mut seconds = Vec::new();
+    let (mut first, mut elapsed) = (span.start, 0.0);
+    for index in span {
+        elapsed += recording.increments[index].interval;
+        if elapsed >= UPDATE_INTERVAL * (1.0 - 1e-9) {
+            let span = first..index + 1;
+            if let Some(mean) = RestMean::of(recording, span.clone()) {
+                seconds.push(Second { span, rates: mean.rates, duration: mean.duration });
+            }
+            (first, elapsed) = (index + 1, 0.0);
+        }
+    }
+    seconds
+}
+
+/// A first guess of the noise: what the means over so many seconds show.
+///
+/// The median of the differences of neighbours, so that a footstep does not count. Over ten seconds
+/// the rounding of increments, which does not accumulate, has averaged out.
+fn scatter(seconds: &[Second]) -> Option<Noise> {
+    const TOGETHER: usize = 10;
+    let means: Vec<Rates> = seconds
+        .chunks_exact(TOGETHER)
+        .map(|seconds| {
+            let mean = |of: fn(&Rates) -> &Vector3<f64>| {
+                let sum: Vector3<f64> = seconds.iter().map(|second| of(&second.rates)).sum();
+                InFrame::from_components(sum / TOGETHER as f64)
+            };
+            Rates {
+                angular_rate: mean(|rates| rates.angular_rate.components()),
+                specific_force: mean(|rates| rates.specific_force.components()),
+            }
+        })
+        .collect();
+    let duration = TOGETHER as f64 * UPDATE_INTERVAL;
+    let of = |component: fn(&Rates) -> &Vector3<f64>| {
+        let mut steps: Vec<f64> = means
+            .windows(2)
+            .map(|pair| {
+                let step = component(&pair[1]) - component(&pair[0]);
+                // Each of three components has twice the variance of one mean.
+                (step.norm_squared() / 6.0 * duration).sqrt()
+            })
+            .collect();
+        steps.sort_by(f64::total_cmp);
+        // The median of √(χ²₃ / 3) is 0.888.
+        steps.get(steps.len() / 2).map(|median| median / 0.888)
+    };
+    let gyro = of(|rates| rates.angular_rate.components())?;
+    let accel = of(|rates| rates.specific_force.components())?;
+    Some(Noise([gyro, accel, ZERO_VELOCITY_SIGMA]))
+}
+
+struct Pass {
+    navigator: Navigator,
+    start: Dcm<Nav, Body>,
+    bias: Vector3<f64>,
+    filter: Filter<STATES>,
+    noise: Noise,
+}
+
+impl Pass {
+    fn new(station: &Station, nav_from_body: Dcm<Nav, Body>, noise: Noise) -> Self {
+        let Noise([.., velocity]) = noise;
+        let square = |sigma: Vector3<f64>| Matrix3::from_diagonal(&sigma.component_mul(&sigma));
+        let coarse =
+            square(Vector3::new(COARSE_TILT_SIGMA, COARSE_TILT_SIGMA, COARSE_AZIMUTH_SIGMA));
+        let mut p = SMatrix::<f64, STATES, STATES>::zeros();
+        VELOCITY.set(VELOCITY, &mut p, &(Matrix2::identity() * (velocity * velocity)));
+        GYRO_BIAS.set(GYRO_BIAS, &mut p, &square(Vector3::repeat(WIDE_BIAS_SIGMA)));
+        for (rows, columns) in
+            [(ATTITUDE, ATTITUDE), (ATTITUDE, START), (START, ATTITUDE), (START, START)]
+        {
+            rows.set(columns, &mut p, &coarse);
+        }
+        Self {
+            navigator: Navigator::at_rest(station, nav_from_body, VerticalChannel::Held),
+            start: nav_from_body,
+            bias: Vector3::zeros(),
+            filter: Filter { state: SVector::zeros(), covariance: p },
+            noise,
+        }
+    }
+
+    /// Navigates a second and holds its end to zero velocity.
+    fn second(
+        &mut self,
+        recording: &Recording,
+        second: &Second,
+    ) -> Result<Innovation<2>, UpdateError> {
+        let Noise([.., zero_velocity]) = self.noise;
+        let mut force = Vector3::zeros();
+        for sample in &recording.increments[second.span.clone()] {
+            let angle = sample.angle.components() - self.bias * sample.interval;
+            let compensated =
+                rins_frames::Increments { angle: InFrame::from_components(angle), ..*sample };
+            self.navigator.step(&compensated);
+            force += self.navigator.force_gain().components();
+        }
+        self.predict(&(force / second.duration), second.duration);
+
+        let mut h = SMatrix::<f64, 2, STATES>::zeros();
+        h.fixed_view_mut::<2, 2>(0, VELOCITY.start()).copy_from(&Matrix2::identity());
+        let r = Matrix2::identity() * (zero_velocity * zero_velocity);
+        let velocity = self.navigator.state().velocity.components().xy();
+        let innovation = self.filter.update(&Measurement::new(velocity, h, r))?;
+        self.correct();
+        Ok(innovation)
+    }
+
+    fn predict(&mut self, force: &Vector3<f64>, duration: f64) {
+        let nav_rate = self.navigator.rate_of_nav_in_inertial();
+        let c_nb = *self.navigator.state().nav_from_body.matrix();
+        let mut f = SMatrix::<f64, STATES, STATES>::zeros();
+        let by_attitude = rins_frames::cross_matrix(force).fixed_rows::<2>(0).into_owned();
+        VELOCITY.set(ATTITUDE, &mut f, &by_attitude);
+        ATTITUDE.set(ATTITUDE, &mut f, &-nav_rate.cross_matrix());
+        ATTITUDE.set(GYRO_BIAS, &mut f, &-c_nb);
+        let step = f * duration;
+        let transition = SMatrix::identity() + step + step * step * 0.5;
+        let mut q = SMatrix::<f64, STATES, STATES>::zeros();
+        let Noise([gyro, accel, _]) = self.noise;
+        ATTITUDE.set(ATTITUDE, &mut q, &(Matrix3::identity() * (gyro * gyro * duration)));
+        let accel = Matrix2::identity() * (accel * accel * duration);
+        VELOCITY.set(VELOCITY, &mut q, &accel);
+        self.filter.predict(&transition, &q);
+    }
+
+    fn correct(&mut self) {
+        let x = &self.filter.state;
+        let velocity: Vector2<f64> = VELOCITY.of(x);
+        let state = self.navigator.state_mut();
+        state.velocity = state.velocity - InFrame::from_components(velocity.push(0.0));
+        state.nav_from_body = Dcm::from_rotation_vector(&ATTITUDE.of(x)) * state.nav_from_body;
+        self.start = Dcm::from_rotation_vector(&START.of(x)) * self.start;
+        self.bias += GYRO_BIAS.of(x);
+        self.filter.state = SVector::zeros();
+    }
+
+    /// Settles what a rest leaves open between azimuth and the bias along east.
+    fn bias_along_east_is_small(
+        mut self,
+        station: &Station,
+        sigma: Option<f64>,
+    ) -> Result<FineAlignment, UpdateError> {
+        let c_nb = *self.start.matrix();
+        let found = c_nb * self.bias;
+        let sigma = sigma.unwrap_or_else(|| ((found.y.powi(2) + found.z.powi(2)) / 2.0).sqrt());
+        let east = c_nb.row(0).into_owned();
+        let mut h = RowSVector::<f64, STATES>::zeros();
+        h.fixed_view_mut::<1, 3>(0, GYRO_BIAS.start()).copy_from(&east);
+        let value = Vector1::new(-found.x);
+        let r = SMatrix::<f64, 1, 1>::new(sigma * sigma);
+        self.filter.update(&Measurement::new(value, h, r))?;
+        self.correct();
+        let covariance = self.filter.covariance;
+        let earth_rate = self.start.inverse() * station.site.earth_rate();
+        let gyro_bias = InFrame::from_components(self.bias);
+        let of_bias = covariance.fixed_view::<3, 3>(GYRO_BIAS.start(), GYRO_BIAS.start());
+        let in_nav = self.start.matrix() * of_bias * self.start.matrix().transpose();
+        let along = station.site.earth_rate().components().normalize();
+        let across = Vector3::x().cross(&along);
+        let spread = |direction: Vector3<f64>| direction.dot(&(in_nav * direction)).sqrt();
+        Ok(FineAlignment {
+            nav_from_body: self.start,
+            covariance: covariance.fixed_view::<3, 3>(START.start(), START.start()).into_owned(),
+            gyro_bias,
+            gyro_bias_sigma: of_bias.diagonal().map(f64::sqrt),
+            earth_rate_sigma: spread(along),
+            latitude_sigma: spread(across) / EARTH_RATE,
+            earth_rate_seen: earth_rate + gyro_bias,
+            gyro_noise_density: self.noise.0[0],
+            nis_mean: 0.0,
+        })
+    }
+}

@@ -1,0 +1,228 @@
+//! The linear error model on the round, turning Earth, propagated exactly in time.
+
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
+use rins_frames::{Body, Dcm, InFrame, Rates, Site, Table};
+
+use super::errors::{ConstantTurn, NavErrors, SensorErrors};
+use crate::strapdown::VerticalChannel;
+
+/// Attitude, velocity, latitude, longitude, height.
+const STATES: usize = 9;
+const ATTITUDE: usize = 0;
+const VELOCITY: usize = 3;
+const VERTICAL: usize = VELOCITY + 2;
+const LATITUDE: usize = 6;
+const LONGITUDE: usize = 7;
+const HEIGHT: usize = 8;
+
+/// 1, cos ζ, sin ζ, cos 2ζ, sin 2ζ: no product of two turns by the table angle has more.
+const HARMONICS: usize = 5;
+
+const AUGMENTED: usize = STATES + HARMONICS;
+
+type State = SVector<f64, STATES>;
+
+/// Parts of the model that can be left out, to see what each is worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Terms {
+    /// The Earth's rate: in the turn of the level, and as what the gyros' matrix errors multiply.
+    pub earth_rate: Term,
+    /// The level's turn with the velocity over the Earth, which closes the Schuler loop.
+    pub transport_rate: Term,
+    /// The Coriolis acceleration.
+    pub coriolis: Term,
+}
+
+/// Whether a part of the model takes part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Term {
+    /// It does.
+    Kept,
+    /// It does not.
+    Neglected,
+}
+
+impl Terms {
+    /// The whole model.
+    pub const ALL: Self =
+        Self { earth_rate: Term::Kept, transport_rate: Term::Kept, coriolis: Term::Kept };
+
+    /// A flat Earth that does not turn: the model of eqs. (6) to (9).
+    pub const NONE: Self = Self {
+        earth_rate: Term::Neglected,
+        transport_rate: Term::Neglected,
+        coriolis: Term::Neglected,
+    };
+}
+
+/// The linear errors of a navigator on a table that turns at a constant rate.
+///
+/// `φ' = -ω_in × φ + δω_in - C_b^n δω_ib^b` and
+/// `δv' = f^n × φ + C_b^n δf^b - 2 ω_ie × δv + δg` about a true state at rest, with
+/// constant biases and matrix errors of both triads (eqs. (1), (7), (12), (13); (13) with the sign
+/// `+(ρ + 2Ω)_x δv_z` of its vertical coupling). In n all coefficients are constant, and what
+/// constant sensor errors drive holds only the harmonics 0, 1 and 2 of the table angle. With
+/// these as further states the model does not depend on time, and one matrix exponential carries
+/// it over any time exactly.
+#[derive(Clone, Copy, Debug)]
+pub struct LinearModel {
+    turn: ConstantTurn,
+    vertical: VerticalChannel,
+    terms: Terms,
+}
+
+impl LinearModel {
+    /// The whole model.
+    pub fn new(turn: ConstantTurn, vertical: VerticalChannel) -> Self {
+        Self::with_terms(turn, vertical, Terms::ALL)
+    }
+
+    /// The model of which only some terms are kept.
+    pub fn with_terms(turn: ConstantTurn, vertical: VerticalChannel, terms: Terms) -> Self {
+        Self { turn, vertical, terms }
+    }
+
+    /// The errors after `time` \[s\], from those at the start and those of the sensors.
+    pub fn propagate(&self, initial: &NavErrors, sensors: &SensorErrors, time: f64) -> NavErrors {
+        let mut rates = SMatrix::<f64, AUGMENTED, AUGMENTED>::zeros();
+        rates.fixed_view_mut::<STATES, STATES>(0, 0).copy_from(&self.dynamics());
+        rates.fixed_view_mut::<STATES, HARMONICS>(0, STATES).copy_from(&self.driven(sensors));
+        for harmonic in [1, 2] {
+            let cos = STATES + 2 * harmonic - 1;
+            let rate = self.turn.rate * harmonic as f64;
+            rates[(cos, cos + 1)] = -rate;
+            rates[(cos + 1, cos)] = rate;
+        }
+        let mut start = SVector::<f64, AUGMENTED>::zeros();
+        start.fixed_rows_mut::<STATES>(0).copy_from(&to_state(initial));
+        start.fixed_rows_mut::<HARMONICS>(STATES).copy_from(&harmonics(0.0));
+        let end = (rates * time).exp() * start;
+        from_state(&end.fixed_rows::<STATES>(0).into_owned())
+    }
+
+    /// How the errors change by themselves.
+    fn dynamics(&self) -> SMatrix<f64, STATES, STATES> {
+        let site = &self.turn.station.site;
+        let (sin, cos) = site.latitude.sin_cos();
+        let by_east = 1.0 / (site.transverse_radius() + site.height);
+        let by_north = 1.0 / (site.meridian_radius() + site.height);
+        let mut f = SMatrix::<f64, STATES, STATES>::zeros();
+        let mut add = |row: usize, column: usize, block: &Matrix3<f64>| {
+            let mut view = f.fixed_view_mut::<3, 3>(row, column);
+            view += block;
+        };
+
+        let earth_rate = site.earth_rate();
+        add(VELOCITY, ATTITUDE, &(-self.turn.station.gravity_vector()).cross_matrix());
+        if self.terms.earth_rate == Term::Kept {
+            add(ATTITUDE, ATTITUDE, &-earth_rate.cross_matrix());
+        }
+        if self.terms.coriolis == Term::Kept {
+            add(VELOCITY, VELOCITY, &(earth_rate * -2.0).cross_matrix());
+        }
+        if self.terms.transport_rate == Term::Kept {
+            let transport_rate =
+                Matrix3::new(0.0, -by_north, 0.0, by_east, 0.0, 0.0, by_east * sin / cos, 0.0, 0.0);
+            add(ATTITUDE, VELOCITY, &transport_rate);
+        }
+        if self.terms.earth_rate == Term::Kept {
+            // ω_ie = Ω (0, cos L, sin L) of the latitude that was computed.
+            f[(ATTITUDE + 1, LATITUDE)] = -earth_rate.components().z;
+            f[(ATTITUDE + 2, LATITUDE)] = earth_rate.components().y;
+        }
+        f[(LATITUDE, VELOCITY + 1)] = by_north;
+        f[(LONGITUDE, VELOCITY)] = by_east / cos;
+        f[(HEIGHT, VERTICAL)] = 1.0;
+        let (by_latitude, by_height) = gravity_slopes(site);
+        f[(VERTICAL, LATITUDE)] = -by_latitude;
+        f[(VERTICAL, HEIGHT)] = -by_height;
+        if self.vertical == VerticalChannel::Held {
+            f.row_mut(VERTICAL).fill(0.0);
+            f.row_mut(HEIGHT).fill(0.0);
+        }
+        f
+    }
+
+    /// What the sensors' errors add to the rates, by harmonics of the table angle.
+    ///
+    /// A trigonometric polynomial of second degree is known from five values: here from angles
+    /// evenly apart, where the harmonics are orthogonal.
+    fn driven(&self, sensors: &SensorErrors) -> SMatrix<f64, STATES, HARMONICS> {
+        const NODES: usize = 5;
+        let mut by_harmonic = SMatrix::<f64, STATES, HARMONICS>::zeros();
+        for node in 0..NODES {
+            let angle = std::f64::consts::TAU * node as f64 / NODES as f64;
+            let mut weights = harmonics(angle) * 2.0;
+            weights[0] = 1.0;
+            by_harmonic += self.driven_at(sensors, angle) * weights.transpose() / NODES as f64;
+        }
+        by_harmonic
+    }
+
+    /// What the sensors' errors add to the rates at one table angle.
+    fn driven_at(&self, sensors: &SensorErrors, angle: f64) -> State {
+        let table_from_body = Dcm::<Table, Body>::about_z(angle);
+        let nav_from_body = self.turn.nav_from_table * table_from_body;
+        let body_from_nav = nav_from_body.inverse();
+        let spin = InFrame::new(0.0, 0.0, self.turn.rate);
+        let earth_rate = match self.terms.earth_rate {
+            Term::Kept => body_from_nav * self.turn.station.site.earth_rate(),
+            Term::Neglected => InFrame::zeros(),
+        };
+        let truth = Rates {
+            angular_rate: spin + earth_rate,
+            specific_force: body_from_nav * -self.turn.station.gravity_vector(),
+        };
+        let error = sensors.of(&truth);
+        let mut driven = State::zeros();
+        let attitude = -(nav_from_body * error.angular_rate);
+        let velocity = nav_from_body * error.specific_force;
+        driven.fixed_rows_mut::<3>(ATTITUDE).copy_from(attitude.components());
+        driven.fixed_rows_mut::<3>(VELOCITY).copy_from(velocity.components());
+        if self.vertical == VerticalChannel::Held {
+            driven[VERTICAL] = 0.0;
+        }
+        driven
+    }
+}
+
+fn harmonics(angle: f64) -> SVector<f64, HARMONICS> {
+    let ((sin, cos), (sin_2, cos_2)) = (angle.sin_cos(), (2.0 * angle).sin_cos());
+    SVector::from([1.0, cos, sin, cos_2, sin_2])
+}
+
+fn to_state(errors: &NavErrors) -> State {
+    let mut state = State::zeros();
+    state.fixed_rows_mut::<3>(ATTITUDE).copy_from(errors.attitude.components());
+    state.fixed_rows_mut::<3>(VELOCITY).copy_from(errors.velocity.components());
+    state[LATITUDE] = errors.latitude;
+    state[LONGITUDE] = errors.longitude;
+    state[HEIGHT] = errors.height;
+    state
+}
+
+fn from_state(state: &State) -> NavErrors {
+    let vector = |first: usize| Vector3::new(state[first], state[first + 1], state[first + 2]);
+    NavErrors {
+        attitude: InFrame::from_components(vector(ATTITUDE)),
+        velocity: InFrame::from_components(vector(VELOCITY)),
+        latitude: state[LATITUDE],
+        longitude: state[LONGITUDE],
+        height: state[HEIGHT],
+    }
+}
+
+/// The slopes of normal gravity with latitude \[m/s²/rad\] and with height \[1/s²\].
+fn gravity_slopes(site: &Site) -> (f64, f64) {
+    // Central differences: what they leave is of third order, 1e-10 of the slope, and rounding.
+    const LATITUDE_STEP: f64 = 1e-5;
+    const HEIGHT_STEP: f64 = 60.0;
+    let gravity = |north: f64, up: f64| {
+        Site { latitude: site.latitude + north, height: site.height + up, ..*site }.normal_gravity()
+    };
+    let (dl, dh) = (LATITUDE_STEP, HEIGHT_STEP);
+    (
+        (gravity(dl, 0.0) - gravity(-dl, 0.0)) / (2.0 * dl),
+        (gravity(0.0, dh) - gravity(0.0, -dh)) / (2.0 * dh),
+    )
+}
