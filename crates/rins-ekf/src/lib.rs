@@ -1,1 +1,55 @@
-//! Placeholder.
+//! A generic extended Kalman filter and smoother, for the few places that need exactly that.
+//!
+//! **What it does.** [`Filter`] predicts and updates a state of `N` elements with fixed-size matrices
+//! and without allocating. Every update returns its [`Innovation`], whitened: N(0, I) if the model is
+//! right, so that a model can be judged without a second path through the algebra. A [`Measurement`]
+//! brings its own matrix and noise, and may say that its noise is correlated with the state's error.
+//! A [`Block`] names a place in the state. A [`Smoother`] looks back.
+//!
+//! **What it does not do.** It knows nothing of inertial navigation. It never rejects an outlier,
+//! clamps, inflates a covariance or falls back: a step is done as it was asked for, or it is an error
+//! and nothing has changed. It has no square-root form: rows that mix states whose variances stay
+//! above 1e10 times their noise take digits of the sigmas, and above 1e12 times they are refused.
+//!
+//! Position and velocity from positions:
+//! ```
+//! use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
+//! use rins_ekf::{Filter, Measurement};
+//! let mut filter = Filter::new(Vector2::zeros(), Matrix2::identity() * 100.0)?;
+//! let transition = Matrix2::new(1.0, 1.0, 0.0, 1.0); // one second
+//! for time in 1..=20 {
+//!     filter.predict(&transition, &Matrix2::zeros());
+//!     let position = Vector1::new(3.0 * f64::from(time));
+//!     let seen = Measurement::new(position, RowVector2::new(1.0, 0.0), Matrix1::new(0.01));
+//!     filter.update(&seen)?;
+//! }
+//! assert!((filter.state.y - 3.0).abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![no_std]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+mod block;
+mod error;
+mod filter;
+mod innovation;
+mod kernel;
+mod measurement;
+#[cfg(feature = "alloc")]
+mod smoother;
+
+pub use block::Block;
+pub use error::{CovarianceError, Quantity, UpdateError};
+pub use filter::Filter;
+pub use innovation::Innovation;
+pub use kernel::congruence;
+pub use measurement::Measurement;
+#[cfg(feature = "alloc")]
+pub use smoother::{Smoothed, Smoother, SmootherError, Step};
+
+/// Compiles the README's examples.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

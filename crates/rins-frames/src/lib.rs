@@ -42,3 +42,8 @@ pub use frame::{Body, Frame, InFrame, Nav, Table};
 pub use increments::{Increments, Rates};
 pub use quaternion::{NotAUnitQuaternion, Quaternion};
 pub use rotation_vector::cross_matrix;
+
+/// Compiles the README's examples.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

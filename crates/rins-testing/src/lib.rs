@@ -36,3 +36,8 @@ macro_rules! assert_close {
         );
     }};
 }
+
+/// Compiles the README's examples.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,113 @@
+//! Why a covariance or a measurement was refused.
+
+use core::fmt;
+
+/// Which input holds a number that is not finite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// The filter's state.
+    State,
+    /// The filter's covariance.
+    Covariance,
+    /// The measurement's value.
+    Value,
+    /// The measurement's matrix `H`.
+    Matrix,
+    /// The measurement's noise covariance `R`.
+    Noise,
+    /// The covariance `C` of the state's error with the measurement's noise.
+    Cross,
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::State => "state",
+            Self::Covariance => "covariance",
+            Self::Value => "measured value",
+            Self::Matrix => "measurement matrix",
+            Self::Noise => "measurement noise",
+            Self::Cross => "covariance of state error and measurement noise",
+        })
+    }
+}
+
+/// Why a measurement was not used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UpdateError {
+    /// An input holds a number that is not finite.
+    #[error("the {quantity} holds a number that is not finite")]
+    NotFinite {
+        /// Which input.
+        quantity: Quantity,
+    },
+    /// `S = H P Hᵀ + R` has no Cholesky factor.
+    #[error(
+        "the innovation covariance is not positive definite: its smallest diagonal element is {smallest:e}"
+    )]
+    InnovationNotPositiveDefinite {
+        /// Its smallest diagonal element.
+        smallest: f64,
+    },
+    /// The updated covariance would have a negative variance: the numbers are too far apart for the
+    /// precision of `f64`, or the covariance or the cross-covariance was never one.
+    #[error(
+        "state {index} would have the variance {variance:e}; scale the states, or check the covariances"
+    )]
+    NegativeVariance {
+        /// The state's index.
+        index: usize,
+        /// Its would-be variance.
+        variance: f64,
+    },
+    /// A measurement is so precise, beside what stays unknown of the states it mixes, that the updated
+    /// covariance cannot hold what it says: sigmas would be off by more than some 1e-3.
+    #[error(
+        "the states in row {row} of the measurement keep a variance of {ratio:e} times its noise, more than the covariance can resolve; update with more rows at once, or start with smaller variances"
+    )]
+    Unresolved {
+        /// The measurement's row.
+        row: usize,
+        /// `Σ h² P / R` of the row after the update.
+        ratio: f64,
+    },
+    /// Every input is finite and the result is not.
+    #[error("the update overflows; scale the states or the measurement")]
+    Overflow,
+}
+
+/// Why a matrix is not a covariance.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CovarianceError {
+    /// An input holds a number that is not finite.
+    #[error("the {quantity} holds a number that is not finite")]
+    NotFinite {
+        /// Which input.
+        quantity: Quantity,
+    },
+    /// Two mirrored elements differ.
+    #[error(
+        "the covariance is not symmetric: element ({row}, {column}) is off its mirror image by {difference:e}"
+    )]
+    NotSymmetric {
+        /// The element's row.
+        row: usize,
+        /// The element's column.
+        column: usize,
+        /// The element less its mirror image.
+        difference: f64,
+    },
+    /// A combination of states would have a variance that is not positive.
+    #[error(
+        "the covariance is not positive definite: state {index} has the variance {variance:e} once those before it are known"
+    )]
+    NotPositiveDefinite {
+        /// The state's index.
+        index: usize,
+        /// Its variance given the states before it.
+        variance: f64,
+    },
+}

@@ -1,0 +1,202 @@
+//! What is refused, and that a refusal changes nothing.
+
+use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
+use proptest::prelude::*;
+use rins_ekf::{
+    CovarianceError, Filter, Measurement, Quantity, Smoother, SmootherError, Step, UpdateError,
+};
+
+fn filter() -> Filter<2> {
+    Filter { state: Vector2::new(1.0, -1.0), covariance: Matrix2::new(4.0, 1.0, 1.0, 2.0) }
+}
+
+fn measurement() -> Measurement<1, 2> {
+    Measurement::new(Vector1::new(3.0), RowVector2::new(1.0, 0.5), Matrix1::new(0.25))
+}
+
+#[track_caller]
+fn assert_refused(mut filter: Filter<2>, measurement: &Measurement<1, 2>, why: UpdateError) {
+    let before = format!("{filter:?}");
+    assert_eq!(filter.update(measurement), Err(why));
+    assert_eq!(format!("{filter:?}"), before, "the refusal changed the filter");
+}
+
+#[test]
+fn refused_measurement_leaves_the_filter_alone() {
+    let mut negative = measurement();
+    negative.matrix = RowVector2::zeros();
+    negative.noise = Matrix1::new(-1.0);
+    let why = UpdateError::InnovationNotPositiveDefinite { smallest: -1.0 };
+    assert_refused(filter(), &negative, why);
+}
+
+#[test]
+fn whatever_is_not_finite_is_named() {
+    for broken in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = |filter: Filter<2>, measurement: Measurement<1, 2>, quantity| {
+            assert_refused(filter, &measurement, UpdateError::NotFinite { quantity });
+        };
+        let mut bad = filter();
+        bad.state[1] = broken;
+        refused(bad, measurement(), Quantity::State);
+        for index in 0..4 {
+            let mut bad = filter();
+            bad.covariance[index] = broken;
+            refused(bad, measurement(), Quantity::Covariance);
+        }
+        let mut bad = measurement();
+        bad.value[0] = broken;
+        refused(filter(), bad, Quantity::Value);
+        let mut bad = measurement();
+        bad.matrix[1] = broken;
+        refused(filter(), bad, Quantity::Matrix);
+        let mut bad = measurement();
+        bad.noise[0] = broken;
+        refused(filter(), bad, Quantity::Noise);
+        let cross = Vector2::new(0.0, broken);
+        refused(filter(), measurement().correlated_with_state_error(cross), Quantity::Cross);
+    }
+}
+
+#[test]
+fn overflow_is_refused() {
+    let mut large = filter();
+    large.covariance *= 1e300;
+    let mut steep = measurement();
+    steep.matrix *= 1e10;
+    assert_refused(large, &steep, UpdateError::Overflow);
+    let mut far = measurement();
+    far.value[0] = f64::MAX;
+    let mut other = filter();
+    other.state = Vector2::new(-f64::MAX, 0.0);
+    assert_refused(other, &far, UpdateError::Overflow);
+}
+
+#[test]
+fn a_cross_covariance_that_cannot_be_is_refused() {
+    // Correlated beyond 1 with the noise, the first state would know more than everything.
+    let measurement = Measurement::new(Vector1::new(0.0), RowVector2::zeros(), Matrix1::new(1.0))
+        .correlated_with_state_error(Vector2::new(3.0, 0.0));
+    let why = UpdateError::NegativeVariance { index: 0, variance: -5.0 };
+    assert_refused(filter(), &measurement, why);
+}
+
+#[test]
+fn a_measurement_finer_than_the_covariance_is_refused() {
+    let mut wide = filter();
+    wide.covariance *= 1e16;
+    let before = wide.clone();
+    let err = wide.update(&measurement()).unwrap_err();
+    assert!(matches!(err, UpdateError::Unresolved { row: 0, ratio } if ratio > 1e14), "{err}");
+    assert_eq!(wide, before);
+    // One that sees a single state resolves it, however wide it was.
+    let mut direct = measurement();
+    direct.matrix = RowVector2::new(1.0, 0.0);
+    wide.update(&direct).unwrap();
+    rins_testing::assert_close!(wide.covariance[(0, 0)], 0.25, 1e-12);
+}
+
+#[test]
+fn a_start_must_have_a_covariance() {
+    let start = |covariance| Filter::new(Vector2::zeros(), covariance).map(|_| ());
+    assert_eq!(start(Matrix2::new(4.0, 1.0, 1.0, 2.0)), Ok(()));
+    assert_eq!(start(Matrix2::new(0.0, 0.0, 0.0, 2.0)), Ok(()), "a state may be known");
+    assert_eq!(
+        start(Matrix2::new(4.0, 1.0, 1.5, 2.0)),
+        Err(CovarianceError::NotSymmetric { row: 1, column: 0, difference: 0.5 })
+    );
+    assert_eq!(
+        start(Matrix2::new(-4.0, 0.0, 0.0, 2.0)),
+        Err(CovarianceError::NotPositiveDefinite { index: 0, variance: -4.0 })
+    );
+    assert_eq!(
+        start(Matrix2::new(4.0, 4.0, 4.0, 2.0)),
+        Err(CovarianceError::NotPositiveDefinite { index: 1, variance: -2.0 })
+    );
+    assert_eq!(
+        start(Matrix2::new(0.0, 1.0, 1.0, 2.0)),
+        Err(CovarianceError::NotPositiveDefinite { index: 0, variance: 0.0 })
+    );
+    assert_eq!(
+        start(Matrix2::new(f64::NAN, 1.0, 1.0, 2.0)),
+        Err(CovarianceError::NotFinite { quantity: Quantity::Covariance })
+    );
+    let err = Filter::new(Vector2::new(0.0, f64::NAN), Matrix2::identity()).unwrap_err();
+    assert_eq!(err, CovarianceError::NotFinite { quantity: Quantity::State });
+}
+
+#[test]
+fn a_record_that_cannot_be_smoothed_says_which_step() {
+    let step = |filter: Filter<2>| Step {
+        transition: Matrix2::identity(),
+        noise: Matrix2::zeros(),
+        predicted: filter.clone(),
+        filtered: filter,
+    };
+    let mut smoother = Smoother::new(filter());
+    smoother.push(step(filter()));
+    let mut known = filter();
+    known.covariance = Matrix2::zeros();
+    smoother.push(step(known));
+    assert_eq!(smoother.smoothed(), Err(SmootherError::PredictedNotPositiveDefinite { step: 1 }));
+
+    let mut smoother = Smoother::new(filter());
+    let mut broken = filter();
+    broken.state.x = f64::INFINITY;
+    smoother.push(step(broken));
+    smoother.push(step(filter()));
+    assert_eq!(smoother.smoothed(), Err(SmootherError::NotFinite { step: 1 }));
+}
+
+#[test]
+fn an_empty_record_gives_back_the_start() {
+    let smoothed = Smoother::new(filter()).smoothed().unwrap();
+    assert_eq!(smoothed.len(), 1);
+    assert_eq!((smoothed[0].state, smoothed[0].covariance), (filter().state, filter().covariance));
+}
+
+#[test]
+fn messages_carry_the_numbers() {
+    let cases: [(UpdateError, &str); 5] = [
+        (
+            UpdateError::NotFinite { quantity: Quantity::Noise },
+            "the measurement noise holds a number that is not finite",
+        ),
+        (UpdateError::InnovationNotPositiveDefinite { smallest: -1.0 }, "-1e0"),
+        (UpdateError::NegativeVariance { index: 7, variance: -0.5 }, "state 7"),
+        (UpdateError::Unresolved { row: 3, ratio: 1e14 }, "row 3"),
+        (UpdateError::Overflow, "scale"),
+    ];
+    for (error, part) in cases {
+        assert!(error.to_string().contains(part), "{error}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_input_makes_a_state_that_is_not_finite(
+        state in prop::array::uniform2(any::<f64>()),
+        covariance in prop::array::uniform2(prop::array::uniform2(any::<f64>())),
+        value: f64,
+        matrix in prop::array::uniform2(any::<f64>()),
+        noise: f64,
+        cross in prop::option::of(prop::array::uniform2(any::<f64>())),
+    ) {
+        let mut filter =
+            Filter { state: Vector2::from(state), covariance: Matrix2::from(covariance) };
+        let before = filter.clone();
+        let measurement = Measurement {
+            value: Vector1::new(value),
+            matrix: RowVector2::from([[matrix[0]], [matrix[1]]]),
+            noise: Matrix1::new(noise),
+            cross: cross.map(Vector2::from),
+        };
+        match filter.update(&measurement) {
+            Ok(innovation) => {
+                let numbers = filter.state.iter().chain(&filter.covariance);
+                prop_assert!(numbers.chain(&innovation.value).all(|x| x.is_finite()));
+            }
+            Err(_) => prop_assert_eq!(format!("{filter:?}"), format!("{before:?}")),
+        }
+    }
+}
