@@ -42,7 +42,7 @@ pub(crate) fn outcome(
         span.len(),
         loaded.recording.times[span.start],
         loaded.recording.times[span.end - 1],
-        loaded.rig.log.path.display(),
+        loaded.rig.log.path.file_name().map_or_else(String::new, |name| name.display().to_string()),
     );
     let file = rins_io::Calibration {
         path: PathBuf::new(),

@@ -138,7 +138,12 @@ fn outcome(
         summary,
         sections: vec![Section {
             heading: "Errors".into(),
-            intro: "The truth is a base that does not move.".into(),
+            intro: match loaded.recording.table_angle.is_some() || loaded.recording.table_rate.is_some() {
+                true => "The truth is a base that does not move; attitude is told of the axis frame.".into(),
+                false => "The truth is a base that does not leave its place. Attitude is told against that at the \
+                          start, so that the base's own sway is in it."
+                    .into(),
+            },
             items: vec![
                 Item::Table(table(&rows)),
                 Item::Plot(velocity_plot(&named)),

@@ -2,7 +2,10 @@
 
 use std::fmt::Write as _;
 
-use rins_calibration::{AttitudeSource, Calibration, Consistency, MEASUREMENTS, Parameter};
+use nalgebra::Vector3;
+use rins_calibration::{
+    AttitudeSource, Calibration, Consistency, EstimatePoint, MEASUREMENTS, Parameter,
+};
 use rins_frames::units::{ARCSEC, DEG};
 
 use crate::report::{Band, Cell, Column, Item, Matrix, Plot, Reference, Report, Section, Series, Style, Table, Tone};
@@ -71,10 +74,14 @@ fn summary(calibration: &Calibration) -> Vec<String> {
     )];
     let combined = calibration.parameters.iter().filter(|p| !p.identifiable()).count();
     if combined > 0 {
+        let which = if combined == calibration.parameters.len() {
+            "any of the parameters".to_owned()
+        } else {
+            format!("{combined} of the {} parameters", calibration.parameters.len())
+        };
         sentences.push(format!(
-            "This schedule cannot tell {combined} of the {} parameters from a gyro bias: what is estimated, and what \
+            "This schedule cannot tell {which} from a gyro bias: what is estimated, and what \
              compensating it undoes at this rate, is the combination. Reverse the table to separate them.",
-            calibration.parameters.len(),
         ));
     }
     sentences.push(consistency_sentence(&calibration.consistency));
@@ -84,10 +91,23 @@ fn summary(calibration: &Calibration) -> Vec<String> {
     sentences
 }
 
+/// A p-value as a person reads it.
+fn probability(p: f64) -> String {
+    if p < 1e-12 {
+        "below 1e-12".into()
+    } else if p < 0.001 {
+        format!("= {p:.0e}")
+    } else {
+        format!("= {p:.3}")
+    }
+}
+
 fn consistency_sentence(consistency: &Consistency) -> String {
     let figures = format!(
-        "mean NIS {:.2} where {} is expected, whiteness p = {:.1e}",
-        consistency.nis_mean, consistency.nis_dof, consistency.whiteness_p
+        "mean NIS {:.2} where {} is expected, whiteness p {}",
+        consistency.nis_mean,
+        consistency.nis_dof,
+        probability(consistency.whiteness_p)
     );
     if consistency.fits() {
         format!("The innovations are what the model says they should be ({figures}).")
@@ -162,13 +182,15 @@ fn parameters_section(calibration: &Calibration) -> Section {
                     .map(|row| (0..3).map(|column| calibration.correlation[(row, column)]).collect())
                     .collect(),
             }),
+            Item::Text(format!(
+                "The attitude of the axis frame rides along, as the whole run shows it: known about east to {:.2}″, about \
+                 north to {:.2}″ and about up to {:.1}″ (1σ). Tilts hold the accelerometers' constant errors.",
+                calibration.axis_sigma.x / ARCSEC,
+                calibration.axis_sigma.y / ARCSEC,
+                calibration.axis_sigma.z / ARCSEC
+            )),
             Item::Table(Table {
-                caption: format!(
-                    "Attitude of the spin axis, as the whole run shows it; 1σ east {:.2}″, north {:.2}″, up {:.1}″",
-                    calibration.axis_sigma.x / ARCSEC,
-                    calibration.axis_sigma.y / ARCSEC,
-                    calibration.axis_sigma.z / ARCSEC
-                ),
+                caption: "Axis attitude".into(),
                 columns: vec![Column::text("angle"), Column::number("deg")],
                 rows: attitude.to_vec(),
             }),
@@ -176,15 +198,21 @@ fn parameters_section(calibration: &Calibration) -> Section {
     }
 }
 
+/// The history from where every sigma has come down to this many times its last: what is before
+/// would press the rest flat.
+const SETTLED: f64 = 20.0;
+
 fn history_section(calibration: &Calibration) -> Section {
-    let time: Vec<f64> = calibration.history.iter().map(|point| point.time).collect();
+    let last = calibration.history.last().map_or(Vector3::zeros(), |point| point.sigma);
+    let settled = |point: &EstimatePoint| (0..3).all(|row| point.sigma[row] <= SETTLED * last[row]);
+    let from = calibration.history.iter().position(settled).unwrap_or_default();
+    let history = &calibration.history[from..];
+    let time: Vec<f64> = history.iter().map(|point| point.time).collect();
     let plots = calibration.parameters.iter().enumerate().map(|(row, parameter)| {
         let factor = parameter.kind.factor();
         let estimate = |sigmas: f64| {
-            let of = |p: &rins_calibration::EstimatePoint| {
-                (p.estimate[row] + sigmas * p.sigma[row]) / factor
-            };
-            calibration.history.iter().map(of).collect::<Vec<f64>>()
+            let of = |p: &EstimatePoint| (p.estimate[row] + sigmas * p.sigma[row]) / factor;
+            history.iter().map(of).collect::<Vec<f64>>()
         };
         Item::Plot(Plot {
             title: parameter.id.into(),
@@ -207,7 +235,9 @@ fn history_section(calibration: &Calibration) -> Section {
     });
     Section {
         heading: "How the estimates settle".into(),
-        intro: "Each estimate with its 3σ band. Drag to zoom in on the end; double-click to see all.".into(),
+        intro: format!(
+            "Each estimate with its 3σ band, from where its sigma has come down to {SETTLED} times the last."
+        ),
         items: plots.collect(),
     }
 }
@@ -279,10 +309,13 @@ fn consistency_section(calibration: &Calibration) -> Section {
     };
     let mut items = vec![
         Item::Note(tone, verdict),
-        Item::Table(Table {
-            caption: "Whitened innovations. RMS is 1 for a right model; below 1, more noise was claimed than there is. The last \
-                      column is the largest distance of the cumulative periodogram from that of white noise."
+        Item::Text(
+            "RMS is 1 for a right model; below 1, more noise was claimed than there is. The last column is the largest \
+             distance of the cumulative periodogram from that of white noise."
                 .into(),
+        ),
+        Item::Table(Table {
+            caption: "Whitened innovations".into(),
             columns: vec![
                 Column::text("channel"),
                 Column::number("RMS"),
