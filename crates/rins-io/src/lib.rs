@@ -34,7 +34,8 @@ mod suggestion;
 pub use calibration::Calibration;
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{
-    Delimiter, Gap, Loaded, LogPolicy, LogProblem, LogSummary, PsinsHeader, read, read_log,
+    Delimiter, Gap, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, PsinsHeader, peek, read,
+    read_log,
 };
 pub use output::{OutputProblem, Overwrite, write_file, write_folder};
 pub use parameter::{Parameter, parameters};

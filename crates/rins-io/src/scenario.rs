@@ -13,7 +13,39 @@ use crate::quantity::{Dimension, Quantity, kinds};
 use crate::rig::{self, Axes, Rig, angle_figures, angles};
 use crate::section::{Section, such_as};
 
-/// What a scenario file says.
+/// What a scenario file says: a rig file's sections and `[truth]`.
+///
+/// Of `[log]` it takes the rate, the log's name, what a `table_angle` says of its noise and
+/// resolution, and whether there is a `table_angle` or a `table_rate` to be recorded. Columns and
+/// units, which a rig file with `[truth]` put behind it has, are not looked at: a simulated log has
+/// its own ([`write_recording`](crate::write_recording)). Errors that `[truth]` leaves out are zero,
+/// and noise is on, with the figures of `[imu]`, unless it is switched off.
+///
+/// ```
+/// # use std::path::Path;
+/// let text = r#"
+/// [site]
+/// latitude = "34.25 deg"
+/// longitude = "108.9 deg"
+/// height = "400 m"
+///
+/// [log]
+/// rate = "50 Hz"
+/// table_angle = {}
+///
+/// [table]
+/// profile = [{ rate = "10 deg/s", duration = "36 s" }]
+///
+/// [truth]
+/// seed = 1
+/// attitude = { roll = "30 deg", pitch = "20 deg", yaw = "40 deg" }
+/// gyro = { scale = ["0 ppm", "0 ppm", "300 ppm"] }
+/// noise = { gyro = "off", accel = "off" }
+/// "#;
+/// let file = rins_io::ScenarioFile::parse(text, Path::new("scenario.toml"))?;
+/// assert_eq!(file.scenario.imu_error.gyro.matrix[(2, 2)], 300e-6);
+/// # Ok::<(), rins_io::IoError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScenarioFile {
     /// The scenario file.

@@ -13,6 +13,9 @@ const RATE_WITHIN: f64 = 0.01;
 /// A step longer than this many nominal intervals is a gap.
 const GAP: f64 = 1.5;
 
+/// The mean step is taken over those of at most this many medians.
+const MEAN_OVER: f64 = 2.5;
+
 /// The intervals of a log's samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Clock {
@@ -53,15 +56,18 @@ impl Stamps<'_> {
     /// with the next stamp, so that the last row is not a sample of its own.
     pub(super) fn timed(&self, times: &[f64], policy: LogPolicy) -> Result<Clock, IoError> {
         self.need_two()?;
-        let steps = self.steps(times, policy)?;
+        let steps = self.steps(times)?;
         let median = median(&steps);
-        if let Some(nominal) = self.nominal
-            && (median / nominal - 1.0).abs() > RATE_WITHIN
-        {
-            let (measured, stated) = (1.0 / median, 1.0 / nominal);
-            return Err(LogError::of(self.path, LogProblem::WrongRate { measured, stated }));
+        if let Some(nominal) = self.nominal {
+            // Missing samples spoil the mean, and coarse time stamps the median.
+            let fits = |interval: f64| (interval / nominal - 1.0).abs() <= RATE_WITHIN;
+            if !(fits(median) || fits(mean_below(&steps, MEAN_OVER * median))) {
+                let (measured, stated) = (1.0 / median, 1.0 / nominal);
+                return Err(LogError::of(self.path, LogProblem::WrongRate { measured, stated }));
+            }
         }
         let nominal = self.nominal.unwrap_or(median);
+        self.refuse_long_gaps(times, &steps, policy.largest_gap.max(GAP * nominal))?;
         let intervals: Vec<f64> = match self.stamp {
             Stamp::Start => steps.clone(),
             Stamp::End => std::iter::once(nominal).chain(steps.iter().copied()).collect(),
@@ -94,7 +100,7 @@ impl Stamps<'_> {
 
     /// The steps from each time to the next, with those that are nominal to within the rounding
     /// of the times made exactly so.
-    fn steps(&self, times: &[f64], policy: LogPolicy) -> Result<Vec<f64>, IoError> {
+    fn steps(&self, times: &[f64]) -> Result<Vec<f64>, IoError> {
         let mut steps = Vec::with_capacity(times.len() - 1);
         for (pair, &line) in times.windows(2).zip(&self.lines[1..]) {
             let (before, now) = (pair[0], pair[1]);
@@ -103,16 +109,22 @@ impl Stamps<'_> {
                 let problem = LogProblem::TimeNotIncreasing { before, now };
                 return Err(LogError::at(self.path, line, problem));
             }
-            if step > policy.largest_gap.max(GAP * self.nominal.unwrap_or(0.0)) {
-                let largest = policy.largest_gap;
-                let problem = LogProblem::LongGap { length: step, after: before, largest };
-                return Err(LogError::at(self.path, line, problem));
-            }
             let rounding = 4.0 * f64::EPSILON * before.abs().max(now.abs());
             let nominal = self.nominal.filter(|nominal| (step - nominal).abs() <= rounding);
             steps.push(nominal.unwrap_or(step));
         }
         Ok(steps)
+    }
+
+    fn refuse_long_gaps(&self, times: &[f64], steps: &[f64], largest: f64) -> Result<(), IoError> {
+        match steps.iter().position(|step| *step > largest) {
+            Some(row) => {
+                let problem =
+                    LogProblem::LongGap { length: steps[row], after: times[row], largest };
+                Err(LogError::at(self.path, self.lines[row + 1], problem))
+            }
+            None => Ok(()),
+        }
     }
 
     fn gaps(&self, times: &[f64], steps: &[f64], nominal: f64) -> Vec<Gap> {
@@ -126,6 +138,12 @@ impl Stamps<'_> {
         };
         steps.iter().enumerate().filter_map(gap).collect()
     }
+}
+
+fn mean_below(steps: &[f64], most: f64) -> f64 {
+    let below = steps.iter().filter(|step| **step <= most);
+    let (count, sum) = below.fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));
+    sum / count
 }
 
 fn median(steps: &[f64]) -> f64 {

@@ -121,21 +121,42 @@ fn number_of(name: &str, field: &str, value: Option<f64>) -> Result<f64, LogProb
     }
 }
 
-/// What the first lines tell.
-pub(super) struct Head {
-    pub(super) delimiter: Delimiter,
+/// What the first lines of a text log tell, before anybody has said what its columns are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogHead {
+    /// What stands between two fields.
+    pub delimiter: Delimiter,
     /// The columns' names, where there are any.
-    pub(super) names: Option<Vec<String>>,
+    pub names: Option<Vec<String>>,
+    /// The fields of the first rows, at most two.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Looks at the first lines of the text log at `path`.
+///
+/// # Errors
+/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is empty or not text.
+pub fn peek(path: &Path) -> Result<LogHead, IoError> {
+    let Head { delimiter, names, rows, .. } = Head::read(&mut Lines::open(path)?)?;
+    let fields = |(_, row): &(u64, String)| Fields::of(row, delimiter).map(Into::into).collect();
+    Ok(LogHead { delimiter, names, rows: rows.iter().map(fields).collect() })
+}
+
+/// What the first lines tell.
+struct Head {
+    delimiter: Delimiter,
+    /// The columns' names, where there are any.
+    names: Option<Vec<String>>,
     /// The number of columns.
-    pub(super) count: usize,
+    count: usize,
     /// The line of the names, or the first of the numbers.
     line: u64,
     /// The rows of numbers that have been read.
-    pub(super) rows: Vec<(u64, String)>,
+    rows: Vec<(u64, String)>,
 }
 
 impl Head {
-    pub(super) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
+    fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
         let Some((line, first)) = lines.next()?.map(|(line, text)| (line, text.to_string())) else {
             return Err(LogError::of(lines.path(), LogProblem::Empty));
         };

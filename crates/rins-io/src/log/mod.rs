@@ -15,6 +15,7 @@ use std::path::Path;
 
 use rins_motion::{Recording, Station};
 
+pub use columns::{LogHead, peek};
 pub use fields::Delimiter;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;

@@ -45,7 +45,7 @@ pub enum LogProblem {
         expected: usize,
     },
     /// A column is not there.
-    #[error("no column {column:?}{}; the columns are {present}", did_you_mean(.suggestion.as_deref()))]
+    #[error("no column {column:?}; the columns are {present}{}", did_you_mean(.suggestion.as_deref()))]
     NoColumn {
         /// The column that is wanted.
         column: String,

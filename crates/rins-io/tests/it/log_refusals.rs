@@ -33,11 +33,11 @@ const LINES: &[(usize, &str, &str)] = &[
     (41, "0.80,1e-6", "run.csv:41: 2 fields, expected 8; is the line cut short?"),
     (41, "0.80,1e-6,1e-6,1e-6,0.1,0.2,9.8,", "run.csv:41: column \"table\": empty, expected a number"),
     // The header.
-    (1, "t,gx,gy,wz,ax,ay,az,table", "run.csv:1: no column \"gz\"; did you mean \"gx\"?; the columns are \"t\", \"gx\", \"gy\", \"wz\", \"ax\", \"ay\", \"az\", \"table\""),
+    (1, "t,gx,gy,wz,ax,ay,az,table", "run.csv:1: no column \"gz\"; the columns are \"t\", \"gx\", \"gy\", \"wz\", \"ax\", \"ay\", \"az\", \"table\"; did you mean \"gx\"?"),
     (1, "time,a,b,c,d,e,f,g", "run.csv:1: no column \"gx\"; the columns are \"time\", \"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\""),
     (1, "t,gx,gy,gz,ax,ay,az,gx", "run.csv:1: two columns are called \"gx\""),
     (1, "", "run.csv:2: no column \"gx\"; the columns are \"1\" to \"8\", as the log has no header"),
-    (1, "T,gx,gy,gz,ax,ay,az,table", "run.csv:1: no column \"t\"; did you mean \"T\"?; the columns are \"T\", \"gx\", \"gy\", \"gz\", \"ax\", \"ay\", \"az\", \"table\""),
+    (1, "T,gx,gy,gz,ax,ay,az,table", "run.csv:1: no column \"t\"; the columns are \"T\", \"gx\", \"gy\", \"gz\", \"ax\", \"ay\", \"az\", \"table\"; did you mean \"T\"?"),
     // Time.
     (17, "0.30,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to 0.3 s, it must increase"),
     (17, "0.29,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to 0.29 s, it must increase"),

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, STANDARD_GRAVITY};
-use rins_io::{Loaded, LogPolicy, Rig, read_log};
+use rins_io::{Delimiter, Loaded, LogPolicy, Rig, peek, read_log};
 use rins_motion::Recording;
 use rins_testing::assert_close;
 
@@ -293,4 +293,35 @@ fn a_policy_may_accept_more() {
     let rig = Rig::read(&folder.path().join("rig.toml")).unwrap();
     let loaded = read_log(rig, LogPolicy { largest_gap: 60.0 }).unwrap();
     assert_eq!(loaded.summary.gaps.len(), 1);
+}
+
+#[test]
+fn slow_logs_have_no_gaps() {
+    let rows: String =
+        (1..20_u32).map(|n| format!("{},{n},{},{},1,2,3\n", n * 5, n + 1, n + 2)).collect();
+    let text = format!("t,gx,gy,gz,ax,ay,az\n{rows}");
+    let rig = replaced(&plain_rig(), "rate = \"50 Hz\"\n", "");
+    let summary = load(&rig, &text).summary;
+    assert_eq!((summary.nominal_interval, summary.gaps.len()), (5.0, 0));
+}
+
+#[test]
+fn a_peek_tells_what_a_rig_file_needs() {
+    let folder = folder(&[("run.csv", b"# by hand\nt;gyro x\n0.1;2\n0.2;3\n0.3;4\n")]);
+    let head = peek(&folder.path().join("run.csv")).unwrap();
+    assert_eq!(head.delimiter, Delimiter::Semicolon);
+    assert_eq!(head.names.unwrap(), ["t", "gyro x"]);
+    assert_eq!(head.rows, [["0.1", "2"]]);
+}
+
+#[test]
+fn coarse_time_stamps_do_not_spoil_the_rate() {
+    // 64 Hz in hundredths of a second: steps of 10 and 20 ms.
+    let row = |n: u32| {
+        let time = (f64::from(n) / 0.64).floor() / 100.0;
+        format!("{time:.2},{n},{},{},1,2,3\n", n + 1, n + 2)
+    };
+    let text = format!("t,gx,gy,gz,ax,ay,az\n{}", (1..200).map(row).collect::<String>());
+    let rig = replaced(&plain_rig(), "50 Hz", "64 Hz");
+    assert_close!(load(&rig, &text).summary.nominal_interval, 1.0 / 64.0, 1e-18);
 }

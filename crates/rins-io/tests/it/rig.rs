@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use proptest::prelude::*;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_io::{LogFormat, Rig};
 use rins_testing::assert_close;
@@ -195,4 +196,35 @@ fn files_that_are_no_rigs_are_refused() {
     let absent = Rig::read(&folder.path().join("absent.toml")).unwrap_err();
     assert_eq!(crate::support::without(&absent, folder.path()), "cannot read absent.toml");
     assert!(std::error::Error::source(&absent).is_some());
+}
+
+#[test]
+fn nesting_without_end_is_refused() {
+    for text in [
+        "a = ".to_string() + &"[".repeat(200_000),
+        "a = ".to_string() + &"{ a = ".repeat(100_000),
+        "a.".repeat(200_000) + "a = 1",
+        "[".to_string() + &"a.".repeat(200_000) + "a]",
+        format!("x = {}1{}", "[".repeat(50), "]".repeat(50)),
+    ] {
+        assert!(parse(&text).is_err());
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_spoilt_rig_is_read_or_refused(
+        places in prop::collection::vec((0..RIG.len(), "[-a-z0-9 \"'=.{}\\[\\]\n#µ]?"), 1..6),
+    ) {
+        let mut text = RIG.to_string();
+        for (place, letter) in places {
+            let place = (0..=place.min(text.len())).rev().find(|&at| text.is_char_boundary(at));
+            let place = place.unwrap_or(0);
+            let end = (place..text.len()).skip(1).find(|&at| text.is_char_boundary(at));
+            text.replace_range(place..end.unwrap_or(text.len()), &letter);
+        }
+        if let Err(error) = parse(&text) {
+            prop_assert!(error.to_string().starts_with("rig.toml:"));
+        }
+    }
 }

@@ -43,7 +43,7 @@ fn any_recording() -> impl Strategy<Value = Recording> {
         let (mut angles, mut rates, mut temperatures) = (Vec::new(), Vec::new(), Vec::new());
         let mut angle = 0.25;
         for (index, (numbers, step, other)) in samples.into_iter().enumerate() {
-            let time = (index + 1) as f64 * interval + 1e-3 * step;
+            let time = (index + 1) as f64 * interval + 5e-4 * step;
             let [gx, gy, gz, ax, ay, az] = numbers;
             let before = recording.times.last().copied();
             recording.increments.push(Increments {
