@@ -1,0 +1,216 @@
+//! Static alignment: exact on perfect means, and honest about its covariance on noisy ones.
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use rand::SeedableRng;
+use rand_distr::{Distribution, Normal};
+use rand_pcg::Pcg64;
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
+use rins_frames::{Body, Dcm, InFrame, Nav, Rates};
+use rins_motion::{AlignmentError, MeanUncertainty, Station, align, level, place_seen, residual};
+use rins_testing::{any_euler_angles, any_latitude, assert_close};
+
+use crate::support::{any_attitude, at_angle_zero, attitude_apart, station};
+
+/// Rounding, which the short horizontal part of the Earth's rate magnifies near a pole.
+const ROUNDING: f64 = 1e-12;
+
+/// A navigation-grade IMU's means over some minutes.
+const SIGMA: MeanUncertainty =
+    MeanUncertainty { angular_rate: 0.005 * DEG_PER_HOUR, specific_force: 20.0 * MICRO_G };
+
+const DRAWS: u32 = 4000;
+
+fn rates_at_rest(station: &Station, attitude: Dcm<Nav, Body>) -> Rates {
+    let body_from_nav = attitude.inverse();
+    Rates {
+        angular_rate: body_from_nav * station.site.earth_rate(),
+        specific_force: body_from_nav * -station.gravity_vector(),
+    }
+}
+
+fn with_noise(rates: &Rates, sigma: &MeanUncertainty, rng: &mut Pcg64) -> Rates {
+    let mut noise = |sigma: f64| {
+        let normal = Normal::new(0.0, sigma).unwrap();
+        InFrame::new(normal.sample(rng), normal.sample(rng), normal.sample(rng))
+    };
+    Rates {
+        angular_rate: rates.angular_rate + noise(sigma.angular_rate),
+        specific_force: rates.specific_force + noise(sigma.specific_force),
+    }
+}
+
+/// Whether a mean of χ² values lies within four sigma of what it should be.
+fn is_chi_squared(mean: f64, dof: f64, draws: u32) -> bool {
+    (mean - dof).abs() < 4.0 * (2.0 * dof / f64::from(draws)).sqrt()
+}
+
+proptest! {
+    #[test]
+    fn perfect_means_give_the_attitude(latitude in any_latitude(), attitude in any_attitude()) {
+        let station = station(latitude);
+        let attitude = at_angle_zero(attitude);
+        let perfect = MeanUncertainty { angular_rate: 1e-12, specific_force: 1e-9 };
+        let found = align(&rates_at_rest(&station, attitude), &perfect, &station).unwrap();
+        let apart = attitude_apart(found.nav_from_body, attitude).norm();
+        prop_assert!(apart < ROUNDING / latitude.cos(), "{apart:e} rad");
+    }
+
+    #[test]
+    fn leveling_keeps_up_and_takes_the_yaw(angles in any_euler_angles()) {
+        let [roll, pitch, yaw] = angles;
+        let attitude: Dcm<Nav, Body> = rins_frames::EulerAngles { roll, pitch, yaw }.dcm();
+        let station = station(0.5);
+        let found = level(&rates_at_rest(&station, attitude), yaw).unwrap();
+        let apart = attitude_apart(found, attitude).norm();
+        prop_assert!(apart < ROUNDING / pitch.cos(), "{apart:e} rad");
+    }
+
+    #[test]
+    fn place_is_seen_without_being_told(latitude in any_latitude(), attitude in any_attitude()) {
+        let station = station(latitude);
+        let seen = place_seen(&rates_at_rest(&station, at_angle_zero(attitude)), &SIGMA);
+        prop_assert!((seen.latitude - latitude).abs() < ROUNDING);
+        prop_assert!((seen.gravity - station.gravity).abs() < ROUNDING * 10.0);
+        prop_assert!((seen.earth_rate / rins_frames::EARTH_RATE - 1.0).abs() < ROUNDING);
+    }
+
+    #[test]
+    fn right_attitude_leaves_only_the_biases(
+        latitude in any_latitude(),
+        attitude in any_attitude(),
+    ) {
+        let station = station(latitude);
+        let attitude = at_angle_zero(attitude);
+        let mut rates = rates_at_rest(&station, attitude);
+        let biases = Rates {
+            angular_rate: InFrame::new(1e-7, -2e-7, 3e-7),
+            specific_force: InFrame::new(1e-3, 2e-3, -3e-3),
+        };
+        rates.angular_rate += biases.angular_rate;
+        rates.specific_force += biases.specific_force;
+        let left = residual(&rates, attitude, &station);
+        prop_assert!((left.angular_rate - biases.angular_rate).norm() < 1e-18);
+        prop_assert!((left.specific_force - biases.specific_force).norm() < 1e-14);
+    }
+}
+
+/// The mean of `φᵀ P⁻¹ φ`, with P for sensors whose sigma is `claimed` times the true one.
+fn mean_chi_square(claimed: f64) -> f64 {
+    let mut rng = Pcg64::seed_from_u64(9);
+    let station = station(48.0 * DEG);
+    let attitude =
+        at_angle_zero(rins_frames::EulerAngles { roll: 0.4, pitch: -0.3, yaw: 2.0 }.dcm());
+    let truth = rates_at_rest(&station, attitude);
+    let claim = MeanUncertainty {
+        angular_rate: SIGMA.angular_rate * claimed,
+        specific_force: SIGMA.specific_force * claimed,
+    };
+    let sum: f64 = (0..DRAWS)
+        .map(|_| {
+            let found = align(&with_noise(&truth, &SIGMA, &mut rng), &claim, &station).unwrap();
+            let error = attitude_apart(found.nav_from_body, attitude);
+            let information = found.covariance.try_inverse().unwrap();
+            error.dot(&(information * error))
+        })
+        .sum();
+    sum / f64::from(DRAWS)
+}
+
+#[test]
+fn covariance_is_that_of_many_alignments() {
+    let mean = mean_chi_square(1.0);
+    assert!(is_chi_squared(mean, 3.0, DRAWS), "mean χ² {mean}, not 3");
+}
+
+#[test]
+fn covariance_of_a_wrong_sigma_is_found_out() {
+    for claimed in [0.95, 1.05] {
+        let mean = mean_chi_square(claimed);
+        assert!(!is_chi_squared(mean, 3.0, DRAWS), "mean χ² {mean} passes at {claimed} sigma");
+    }
+}
+
+/// The tilt that a horizontal accelerometer error feigns, and the azimuth that an east gyro's does.
+#[test]
+fn single_errors_do_what_the_covariance_says() {
+    let station = station(45.0 * DEG);
+    let level = at_angle_zero(Dcm::identity());
+    let cos = 45.0_f64.to_radians().cos();
+    let apart = |gyro: Vector3<f64>, accel: Vector3<f64>| {
+        let mut rates = rates_at_rest(&station, level);
+        rates.angular_rate += InFrame::from_components(gyro);
+        rates.specific_force += InFrame::from_components(accel);
+        // φ is minus the rotation vector from true to computed.
+        -attitude_apart(align(&rates, &SIGMA, &station).unwrap().nav_from_body, level)
+    };
+    let gyro = 0.01 * DEG_PER_HOUR;
+    let by_east_gyro = apart(Vector3::x() * gyro, Vector3::zeros());
+    let azimuth = -gyro / (rins_frames::EARTH_RATE * cos);
+    assert_close!(by_east_gyro.z, azimuth, 1e-6 * azimuth.abs());
+    assert!(by_east_gyro.xy().norm() < 1e-12);
+    let by_north_accel = apart(Vector3::zeros(), Vector3::y() * 1e-4);
+    assert_close!(by_north_accel.x, -1e-4 / station.gravity, 1e-9);
+    let by_east_accel = apart(Vector3::zeros(), Vector3::x() * 1e-4);
+    assert_close!(by_east_accel.y, 1e-4 / station.gravity, 1e-9);
+    // φ_U = φ_N tan L.
+    assert_close!(by_east_accel.z, by_east_accel.y, 1e-9);
+}
+
+/// The mean of `(δL / σ)²`, with `claimed` times the true sigma.
+fn mean_square_of_latitude(claimed: f64) -> f64 {
+    let mut rng = Pcg64::seed_from_u64(4);
+    let station = station(-30.0 * DEG);
+    let attitude = at_angle_zero(Dcm::about_x(0.7));
+    let truth = rates_at_rest(&station, attitude);
+    let sum: f64 = (0..DRAWS)
+        .map(|_| {
+            let seen = place_seen(&with_noise(&truth, &SIGMA, &mut rng), &SIGMA);
+            let error = seen.latitude - station.site.latitude;
+            (error / (claimed * seen.latitude_sigma)).powi(2)
+        })
+        .sum();
+    sum / f64::from(DRAWS)
+}
+
+#[test]
+fn latitude_seen_has_its_sigma() {
+    assert!(is_chi_squared(mean_square_of_latitude(1.0), 1.0, DRAWS));
+    assert!(!is_chi_squared(mean_square_of_latitude(0.9), 1.0, DRAWS));
+    assert!(!is_chi_squared(mean_square_of_latitude(1.1), 1.0, DRAWS));
+}
+
+#[test]
+fn north_is_not_found_near_a_pole_or_by_poor_gyros() {
+    let near_pole = station(90.0 * DEG - 60.0 * ARCSEC);
+    let level = at_angle_zero(Dcm::identity());
+    let found = align(&rates_at_rest(&near_pole, level), &SIGMA, &near_pole);
+    let Err(AlignmentError::NorthNotFound { azimuth_sigma }) = found else {
+        panic!("north found a mile from the pole: {found:?}");
+    };
+    assert!(azimuth_sigma > 0.5);
+
+    let poor = MeanUncertainty { angular_rate: 10.0 * DEG_PER_HOUR, ..SIGMA };
+    let here = station(34.0 * DEG);
+    let found = align(&rates_at_rest(&here, level), &poor, &here);
+    let message = found.unwrap_err().to_string();
+    // 10 °/h against the Earth's horizontal 12.5 °/h.
+    assert!(message.contains("sigma of 0.80 rad"), "{message}");
+
+    let unknown = MeanUncertainty { angular_rate: f64::NAN, ..SIGMA };
+    let found = align(&rates_at_rest(&here, level), &unknown, &here);
+    assert!(matches!(found, Err(AlignmentError::NorthNotFound { .. })));
+}
+
+#[test]
+fn nothing_is_leveled_without_gravity() {
+    let here = station(34.0 * DEG);
+    for specific_force in
+        [InFrame::zeros(), InFrame::new(0.0, 0.0, 0.9), InFrame::new(f64::NAN, 0.0, 9.8)]
+    {
+        let mean = Rates { angular_rate: InFrame::new(0.0, 5e-5, 5e-5), specific_force };
+        let refused = |error| matches!(error, Err(AlignmentError::NoGravity { .. }));
+        assert!(refused(align(&mean, &SIGMA, &here).map(|_| ())));
+        assert!(refused(level(&mean, 0.0).map(|_| ())));
+    }
+}

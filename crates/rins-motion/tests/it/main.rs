@@ -1,0 +1,13 @@
+//! What this crate computes, against what was written apart from it.
+#![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
+
+mod alignment;
+mod closed_form;
+mod linear_model;
+mod moving;
+mod oscillations;
+mod rest;
+mod schuler;
+mod strapdown;
+mod support;
+mod truth;
