@@ -26,7 +26,7 @@
 //! | Coriolis acceleration | 0.166 | 0.030 |
 //! | products of errors, `S_z ω t` above all | -0.103 | -0.011 |
 //!
-//! [`LinearModel`] keeps the first three, and lacks the last: it is right to 10⁻⁴ of errors that
+//! [`LinearModel`] keeps the first three, and lacks the last: it is right to 3e-4 of errors that
 //! are small, and lacks 0.101 m/s to the east of the paper's. With the second order of the flat
 //! Earth, `LinearModel` and `flat_navigation` minus `ClosedForm`, it has these to 0.1 % as well.
 //!

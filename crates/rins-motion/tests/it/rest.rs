@@ -129,7 +129,7 @@ fn knock_that_leaves_the_imu_elsewhere_ends_a_rest() {
     let apart = [0..1500, 1550..3000];
     assert_eq!(rest_spans(&knocked(1.0 * DEG), 10.0)[..2], apart);
     // A footstep beside the table does not, unless the table itself is watched.
-    assert_eq!(rest_spans(&knocked(0.0), 10.0)[..1], [0..3000]);
+    assert_eq!(rest_spans(&knocked(0.0), 10.0)[0], 0..3000);
     assert_eq!(rest_spans(&with_encoder(knocked(0.0), &motion, ARCSEC), 10.0)[..2], apart);
 }
 
