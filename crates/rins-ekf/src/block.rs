@@ -22,7 +22,7 @@ use nalgebra::{SMatrix, SVector};
 /// use rins_ekf::Block;
 /// const ATTITUDE: Block<3> = Block::first();
 /// let mut state = SMatrix::<f64, 5, 1>::zeros();
-/// ATTITUDE.assign(&mut state, &Vector2::zeros());
+/// ATTITUDE.set_in(&mut state, &Vector2::zeros());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block<const LEN: usize> {
@@ -63,7 +63,7 @@ impl<const LEN: usize> Block<LEN> {
     ///
     /// # Panics
     /// If the block ends beyond `state`.
-    pub fn assign<const N: usize>(self, state: &mut SVector<f64, N>, value: &SVector<f64, LEN>) {
+    pub fn set_in<const N: usize>(self, state: &mut SVector<f64, N>, value: &SVector<f64, LEN>) {
         state.fixed_rows_mut::<LEN>(self.start).copy_from(value);
     }
 
@@ -132,7 +132,7 @@ mod tests {
     #[test]
     fn what_was_assigned_is_read_back() {
         let mut state = SVector::<f64, 5>::zeros();
-        SECOND.assign(&mut state, &Vector3::new(1.0, 2.0, 3.0));
+        SECOND.set_in(&mut state, &Vector3::new(1.0, 2.0, 3.0));
         assert_eq!(SECOND.of(&state), Vector3::new(1.0, 2.0, 3.0));
         assert_eq!(FIRST.of(&state), Vector2::zeros());
     }
