@@ -29,7 +29,7 @@ fn main() -> ExitCode {
 
 fn run(command: &Command) -> anyhow::Result<Outcome> {
     match command {
-        Command::Demo(_) => commands::demo::run(),
+        Command::Demo(demo) => commands::demo::run(demo),
         Command::Init(init) => commands::init::run(init),
         Command::Simulate(simulate) => commands::simulate::run(simulate),
         Command::Check(input) => commands::check::run(&input.rig),

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use rins_frames::Increments;
 use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_io::Loaded;
 use rins_motion::{CHANNELS, Inspection, RestSeen, Suspicion, inspect};
@@ -11,7 +12,7 @@ use serde_json::{Value, json};
 use crate::commands::align::table;
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
-use crate::report::{Item, Plot, Report, Section, Series, Style};
+use crate::report::{Item, Plot, Report, Section, Series, Style, Tone};
 use crate::view::table::aligned;
 
 /// How many gaps and rests are listed one by one.
@@ -51,7 +52,6 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
     let row = |name: &str, value: String| vec![name.to_owned(), value];
     let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
     let timing = &inspection.timing;
-    let at_rest: f64 = inspection.rests.iter().map(|rest| rest.mean.duration).sum();
     let mut rows = vec![
         row("log", loaded.rig.log.path.display().to_string()),
         row("samples", format!("{} over {duration:.2} s", recording.len())),
@@ -60,7 +60,7 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
             format!("{:.3} Hz, jitter {:.3} ms rms", 1.0 / timing.interval, timing.jitter * 1e3),
         ),
         row("gaps", gaps(inspection, loaded)),
-        row("rest", format!("{} spans, {at_rest:.1} s in all", inspection.rests.len())),
+        row("rest", rest(inspection)),
         row("turns", format!("{:.2} about body z, either way", inspection.turns)),
     ];
     if let Some(rest) = longest(inspection) {
@@ -96,29 +96,46 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         recording.temperature.as_ref().and_then(|t| t.first()),
         recording.temperature.as_ref().and_then(|t| t.last()),
     ) {
-        rows.push(row("temperature", format!("{first:.2} degC at the start, {last:.2} at the end")));
+        rows.push(row(
+            "temperature",
+            format!("{first:.2} degC at the start, {last:.2} at the end"),
+        ));
     }
     rows
 }
 
 fn gaps(inspection: &Inspection, loaded: &Loaded) -> String {
-    let gaps = &inspection.timing.gaps;
-    if gaps.is_empty() {
+    let timing = &inspection.timing;
+    let mut gaps = timing.gaps.clone();
+    let Some(longest) = gaps.iter().map(|(_, length)| *length).reduce(f64::max) else {
         return "none".into();
+    };
+    // Where all cannot be listed, the longest are.
+    let more = if gaps.len() > LISTED { ", ..." } else { "" };
+    if gaps.len() > LISTED {
+        gaps.sort_by(|a, b| b.1.total_cmp(&a.1));
     }
-    let longest = gaps.iter().map(|(_, length)| *length).fold(0.0, f64::max);
     let at: Vec<String> = gaps
         .iter()
         .take(LISTED)
         .map(|(index, _)| format!("{:.3}", loaded.recording.times[*index]))
         .collect();
-    let more = if gaps.len() > LISTED { ", ..." } else { "" };
+    let single = gaps.iter().filter(|(_, length)| *length < 2.5 * timing.interval).count();
     format!(
-        "{}, the longest {:.1} ms; at {}{more} s",
+        "{}, {single} of them one lost sample; the longest {:.1} ms; at {}{more} s",
         gaps.len(),
         longest * 1e3,
         at.join(", ")
     )
+}
+
+fn rest(inspection: &Inspection) -> String {
+    let lasting = inspection.rests.iter().fold(0.0, |sum, rest| sum + rest.mean.duration);
+    match inspection.rests.len() {
+        0 => "none of a second or more".into(),
+        1 => format!("1 span of {lasting:.1} s"),
+        spans => format!("{spans} spans, {lasting:.1} s in all"),
+    }
 }
 
 fn longest(inspection: &Inspection) -> Option<&RestSeen> {
@@ -138,7 +155,11 @@ fn table_in_words(loaded: &Loaded) -> String {
     match (&recording.table_angle, &recording.table_rate) {
         (Some(angle), _) => {
             let (least, most) = extremes(angle);
-            format!("angle read, from {:.3} to {:.3} turns", least / (360.0 * DEG), most / (360.0 * DEG))
+            format!(
+                "angle read, from {:.3} to {:.3} turns",
+                least / (360.0 * DEG),
+                most / (360.0 * DEG)
+            )
         }
         (None, Some(rate)) => {
             let (least, most) = extremes(rate);
@@ -206,7 +227,7 @@ fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
 }
 
 fn suspicion_in_words(suspicion: &Suspicion) -> String {
-    let because = |cause: &Option<&'static str>| {
+    let because = |cause: Option<&'static str>| {
         cause.map_or_else(
             || "no single unit mistake explains it; check units, scale and axes".to_owned(),
             |cause| format!("that is as if {cause}"),
@@ -215,10 +236,10 @@ fn suspicion_in_words(suspicion: &Suspicion) -> String {
     match suspicion {
         Suspicion::Gravity { seen, expected, cause } => format!(
             "specific force at rest is {seen:.5} m/s^2 where gravity is {expected:.5}: {}",
-            because(cause)
+            because(*cause)
         ),
         Suspicion::SpinScale { ratio, cause } => {
-            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(cause))
+            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(*cause))
         }
         Suspicion::SpinAxis { channel, ratio } => format!(
             "{channel} counts {ratio:.4} of the table's turn and gyro.z does not: the axes are exchanged; set `axes` \
@@ -241,7 +262,12 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
     };
     let mut summary = vec![verdict.to_owned()];
     summary.extend(oddities.iter().cloned());
-    let mut items = vec![Item::Table(table(&rows))];
+    let mut items: Vec<Item> = inspection
+        .suspicions
+        .iter()
+        .map(|suspicion| Item::Note(Tone::Bad, suspicion_in_words(suspicion)))
+        .collect();
+    items.push(Item::Table(table(&rows)));
     if inspection.rests.len() > 1 {
         items.push(Item::Table(table(&rests(inspection, loaded))));
     }
@@ -253,15 +279,25 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
             Section { heading: "What is in it".into(), intro: String::new(), items },
             Section {
                 heading: "Readings".into(),
-                intro: "Mean rates and specific forces over each interval, along the body axes.".into(),
-                items: readings(loaded),
+                intro: "Mean rates and specific forces over each interval, along the body axes."
+                    .into(),
+                items: readings(inspection, loaded),
             },
         ],
     }
 }
 
-fn readings(loaded: &Loaded) -> Vec<Item> {
+fn readings(inspection: &Inspection, loaded: &Loaded) -> Vec<Item> {
     let recording = &loaded.recording;
+    let curve = |title: &str, y_label: &str, y: Vec<f64>, style: Style| {
+        Item::Plot(Plot {
+            title: title.into(),
+            x_label: "Time [s]".into(),
+            y_label: y_label.into(),
+            series: vec![Series { name: title.into(), x: recording.times.clone(), y, style }],
+            ..Plot::default()
+        })
+    };
     let plot = |title: &str, y_label: &str, of: &dyn Fn(usize) -> Vec<f64>| {
         Item::Plot(Plot {
             title: title.into(),
@@ -280,16 +316,30 @@ fn readings(loaded: &Loaded) -> Vec<Item> {
             ..Plot::default()
         })
     };
-    vec![
+    let rate = |s: &Increments, axis: usize| s.rates().angular_rate.components()[axis] / DEG;
+    let force = |s: &Increments, axis: usize| s.rates().specific_force.components()[axis];
+    let samples = &recording.increments;
+    let mut items = vec![
         plot("Angular rate", "Rate [deg/s]", &|axis| {
-            let rate = |s: &rins_frames::Increments| s.rates().angular_rate.components()[axis] / DEG;
-            recording.increments.iter().map(rate).collect()
+            samples.iter().map(|sample| rate(sample, axis)).collect()
         }),
         plot("Specific force", "Force [m/s^2]", &|axis| {
-            let force = |s: &rins_frames::Increments| s.rates().specific_force.components()[axis];
-            recording.increments.iter().map(force).collect()
+            samples.iter().map(|sample| force(sample, axis)).collect()
         }),
-    ]
+    ];
+    if let Some(angle) = &recording.table_angle {
+        let turns = angle.iter().map(|angle| angle / (360.0 * DEG)).collect();
+        items.push(curve("Table angle", "Angle [turns]", turns, Style::Line));
+    }
+    if let Some(rate) = &recording.table_rate {
+        let rates = rate.iter().map(|rate| rate / DEG).collect();
+        items.push(curve("Table rate", "Rate [deg/s]", rates, Style::Steps));
+    }
+    if inspection.timing.jitter > 0.0 || !inspection.timing.gaps.is_empty() {
+        let intervals = samples.iter().map(|sample| sample.interval * 1e3).collect();
+        items.push(curve("Sample interval", "Interval [ms]", intervals, Style::Points));
+    }
+    items
 }
 
 fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Path) -> Value {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 
+use crate::args::Demo;
 use crate::commands::calibrate::{calibrated, outcome};
 use crate::outcome::Outcome;
 
@@ -12,7 +13,7 @@ const RIG: &str = include_str!("../../data/demo/rig.toml");
 /// Its log, made by `rins simulate` from `data/demo/scenario.toml`.
 const LOG: &str = include_str!("../../data/demo/run.csv");
 
-pub(crate) fn run() -> anyhow::Result<Outcome> {
+pub(crate) fn run(demo: &Demo) -> anyhow::Result<Outcome> {
     // The run is read as anybody's would be: from files.
     let folder = tempfile::tempdir().context("no temporary folder for the embedded run")?;
     let rig = folder.path().join("rig.toml");
@@ -24,15 +25,28 @@ pub(crate) fn run() -> anyhow::Result<Outcome> {
     write("run.csv", LOG)?;
     let loaded = rins_io::read(&rig)?;
     let calibration = calibrated(&loaded)?;
-    let mut outcome = outcome(&calibration, &loaded, Path::new("the embedded demo run"))?;
+    let mut outcome = outcome(&calibration, &loaded, Path::new("the embedded demo run"));
     outcome.json["command"] = "demo".into();
     outcome.files.push(("rig.toml", RIG.into()));
     outcome.files.push(("run.csv", LOG.into()));
-    outcome.text.push_str(
-        "\n  The run and its rig file lie beside the report. Try next:\n    \
-         rins check rins-demo/rig.toml\n    \
-         rins calibrate rins-demo/rig.toml -o my-calibration\n    \
-         rins navigate rins-demo/rig.toml --calibration rins-demo/calibration.toml\n",
-    );
+    outcome.text.push_str(&next(&demo.output));
     Ok(outcome)
+}
+
+/// What to try next on the files in `folder`, ready to be pasted into a shell.
+fn next(folder: &Path) -> String {
+    let [rig, calibration] = ["rig.toml", "calibration.toml"]
+        .map(|name| quoted(&folder.join(name).display().to_string()));
+    format!(
+        "\n  The run and its rig file lie beside the report. Try next:\n    \
+         rins check {rig}\n    \
+         rins calibrate {rig} -o my-calibration\n    \
+         rins navigate {rig} --calibration {calibration}\n"
+    )
+}
+
+/// A path as a shell takes it for one word.
+fn quoted(path: &str) -> String {
+    let plain = |letter: char| letter.is_alphanumeric() || "/\\:._-+,@%".contains(letter);
+    if path.chars().all(plain) { path.into() } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }
