@@ -51,6 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             angle_noise: encoder.noise,
             wobble: 0.01 * ARCSEC,
             rate_noise: 0.0,
+            latency: 0.0,
         },
         imu,
         velocity_noise: 1e-7,

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, SVector, Vector3};
 use rins_ekf::UpdateError;
-use rins_frames::{Body, Dcm, Nav, Table};
+use rins_frames::{Body, Dcm, Increments, Nav, Table};
 use rins_imu::{ImuCompensationError, ImuError, TriadError};
 use rins_motion::{AlignmentError, MeanUncertainty, Recording, RestMean, align, rest_spans};
 
@@ -42,7 +42,9 @@ pub enum CalibrationError {
         spin_rate: f64,
     },
     /// Too few samples after the rest.
-    #[error("only {samples} samples are left after the rest at the start; at least {fewest} are needed")]
+    #[error(
+        "only {samples} samples are left after the rest at the start; at least {fewest} are needed"
+    )]
     TooShort {
         /// How many there are.
         samples: usize,
@@ -58,7 +60,9 @@ pub enum CalibrationError {
         shortest: f64,
     },
     /// The rest at the start cannot be aligned on.
-    #[error("the attitude of the axis is not given, and cannot be found from the rest at the start")]
+    #[error(
+        "the attitude of the axis is not given, and cannot be found from the rest at the start"
+    )]
     Alignment(#[from] AlignmentError),
     /// The filter broke off.
     #[error("the filter broke off at {time} s")]
@@ -138,26 +142,19 @@ pub fn calibrate(
     setup: &Setup,
     mut progress: impl FnMut(usize),
 ) -> Result<Calibration, CalibrationError> {
-    let angles = table_angles(recording).ok_or(CalibrationError::NoTable)?;
+    let angles = table_angles(recording, setup.table.latency).ok_or(CalibrationError::NoTable)?;
     let rest = rest_spans(recording, SHORTEST_REST)
         .into_iter()
         .next()
         .filter(|span| span.start == 0)
         .map_or(0..0, |span| span);
-    let (nav_from_table, axis_covariance, attitude_source) =
-        start_attitude(recording, setup, rest.clone(), &angles)?;
+    let (start, attitude_source) = start(recording, setup, rest.clone(), &angles)?;
 
     let span = rest.end..recording.len();
     let samples = span.len();
     if samples < FEWEST_SAMPLES {
         return Err(CalibrationError::TooShort { samples, fewest: FEWEST_SAMPLES });
     }
-    let angle_source = match recording.table_angle {
-        Some(_) => AngleSource::Read,
-        None => AngleSource::Defined,
-    };
-    let angle = angles[span.start];
-    let start = Start { nav_from_table, axis_covariance, angle, angle_source };
     let mut filter = SpinAxisFilter::new(*setup, &start);
     let mut history = Vec::new();
     let mut innovations = Vec::with_capacity(samples);
@@ -167,9 +164,8 @@ pub fn calibrate(
         let sample = &recording.increments[index];
         let time = recording.times[index];
         let reading = match (&recording.table_angle, &recording.table_rate) {
-            (Some(angle), _) => TableReading::Angle(angle[index]),
             (None, Some(rate)) => TableReading::Rate(rate[index]),
-            (None, None) => return Err(CalibrationError::NoTable),
+            _ => TableReading::Angle(angles[index + 1]),
         };
         let whitened = filter
             .step(sample, &Reference::fixed(reading))
@@ -194,8 +190,7 @@ pub fn calibrate(
     let run = recording.slice(span.start, span.end);
     let angles = &angles[span.start..];
     let axis = filter.nav_from_table();
-    let navigate =
-        |compensation| navigate_freely(&run, angles, axis, &setup.station, compensation);
+    let navigate = |compensation| navigate_freely(&run, angles, axis, &setup.station, compensation);
     let before = navigate(None);
     let after = navigate(Some(&imu_error.compensation()?));
     Ok(Calibration {
@@ -208,10 +203,8 @@ pub fn calibrate(
         },
         nav_from_table: axis,
         axis_sigma: sigma(&filter, AXIS.start()),
-        consistency: Consistency::of(&innovations).ok_or(CalibrationError::TooShort {
-            samples,
-            fewest: FEWEST_SAMPLES,
-        })?,
+        consistency: Consistency::of(&innovations)
+            .ok_or(CalibrationError::TooShort { samples, fewest: FEWEST_SAMPLES })?,
         span,
         attitude_source,
         history,
@@ -222,14 +215,20 @@ pub fn calibrate(
     })
 }
 
-/// The table angle before the first sample of a recording and after each \[rad\]: as read, or the commanded
-/// rate integrated from zero.
-pub fn table_angles(recording: &Recording) -> Option<Vec<f64>> {
+/// The table angle before the first sample of a recording and after each \[rad\]: as read, brought
+/// forward by its `latency` \[s\] at the gyro's rate, or the commanded rate integrated from zero.
+pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
     if let Some(angle) = &recording.table_angle {
+        let turn = |sample: &Increments| sample.angle.components().z;
+        let current =
+            |(angle, sample): (&f64, &Increments)| angle + latency * turn(sample) / sample.interval;
+        let mut angles = vec![0.0];
+        angles.extend(angle.iter().zip(&recording.increments).map(current));
         // Nothing was read before the first sample; the gyro says how far the table came since.
-        let turn = recording.increments.first().map_or(0.0, |first| first.angle.components().z);
-        let first = angle.first().copied().unwrap_or_default() - turn;
-        return Some(std::iter::once(first).chain(angle.iter().copied()).collect());
+        if let (Some(first), Some(sample)) = (angles.get(1), recording.increments.first()) {
+            angles[0] = first - turn(sample);
+        }
+        return Some(angles);
     }
     let rate = recording.table_rate.as_ref()?;
     let mut angle = 0.0;
@@ -240,17 +239,24 @@ pub fn table_angles(recording: &Recording) -> Option<Vec<f64>> {
     Some(std::iter::once(0.0).chain(turns).collect())
 }
 
-fn start_attitude(
+/// How the filter starts at the end of a rest.
+fn start(
     recording: &Recording,
     setup: &Setup,
     rest: std::ops::Range<usize>,
     angles: &[f64],
-) -> Result<(Dcm<Nav, Table>, Matrix3<f64>, AttitudeSource), CalibrationError> {
-    if let Some(axis) = setup.axis {
-        let covariance = Matrix3::identity() * (axis.sigma * axis.sigma);
-        return Ok((axis.angles.dcm(), covariance, AttitudeSource::Given));
-    }
+) -> Result<(Start, AttitudeSource), CalibrationError> {
     let angle = angles[rest.end];
+    let angle_source = match recording.table_angle {
+        Some(_) => AngleSource::Read,
+        None => AngleSource::Defined,
+    };
+    if let Some(axis) = setup.axis {
+        let axis_covariance = Matrix3::identity() * (axis.sigma * axis.sigma);
+        let start =
+            Start { nav_from_table: axis.angles.dcm(), axis_covariance, angle, angle_source };
+        return Ok((start, AttitudeSource::Given));
+    }
     let mean = RestMean::of(recording, rest)
         .ok_or(CalibrationError::NoAttitude { shortest: SHORTEST_REST })?;
     let (gyro, accel) = (&setup.imu.gyro, &setup.imu.accel);
@@ -263,7 +269,9 @@ fn start_attitude(
     let alignment = align(&mean.rates, &sigma, &setup.station)?;
     let table_from_body = Dcm::<Table, Body>::about_z(angle);
     let nav_from_table = alignment.nav_from_body * table_from_body.inverse();
-    Ok((nav_from_table, alignment.covariance, AttitudeSource::Aligned))
+    let axis_covariance = alignment.covariance;
+    let start = Start { nav_from_table, axis_covariance, angle, angle_source };
+    Ok((start, AttitudeSource::Aligned))
 }
 
 fn parameters(filter: &SpinAxisFilter, sums: &SpinRateSums, setup: &Setup) -> Vec<Parameter> {

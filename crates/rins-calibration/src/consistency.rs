@@ -107,3 +107,74 @@ fn kolmogorov(x: f64) -> f64 {
     }
     (2.0 * sum).clamp(0.0, 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_distr::{Distribution, StandardNormal};
+    use rand_pcg::Pcg64;
+    use rins_testing::assert_close;
+
+    type Innovations = Vec<SVector<f64, MEASUREMENTS>>;
+
+    fn white(seed: u128) -> Innovations {
+        let mut random = Pcg64::new(7, seed);
+        (0..2000).map(|_| SVector::from_fn(|_, _| StandardNormal.sample(&mut random))).collect()
+    }
+
+    /// How many of 400 innovation sequences a test at 5 % calls inconsistent.
+    fn refused(spoil: fn(usize, &mut SVector<f64, MEASUREMENTS>)) -> (usize, usize) {
+        let mut refused = (0, 0);
+        for seed in 0..400 {
+            let mut innovations = white(seed);
+            for (index, innovation) in innovations.iter_mut().enumerate() {
+                spoil(index, innovation);
+            }
+            let consistency = Consistency::of(&innovations).unwrap();
+            refused.0 += usize::from(consistency.nis_p < 0.05);
+            refused.1 += usize::from(consistency.whiteness_p < 0.05);
+        }
+        refused
+    }
+
+    #[test]
+    fn white_innovations_are_refused_as_often_as_claimed() {
+        let (nis, whiteness) = refused(|_, _| ());
+        // 20 of 400 are expected; 4σ is 17. The whiteness test, over six channels, is conservative.
+        assert!((4..=37).contains(&nis), "{nis} of 400 by NIS");
+        assert!(whiteness <= 37, "{whiteness} of 400 by whiteness");
+        assert!(whiteness >= 4, "{whiteness} of 400: the test has no teeth");
+    }
+
+    #[test]
+    fn too_large_innovations_fail_the_nis_test_and_stay_white() {
+        let (nis, whiteness) = refused(|_, innovation| *innovation *= 1.05);
+        assert_eq!(nis, 400);
+        assert!(whiteness <= 37, "{whiteness} of 400 by whiteness");
+    }
+
+    #[test]
+    fn a_slow_line_in_one_channel_fails_the_whiteness_test() {
+        let (_, whiteness) =
+            refused(|index, innovation| innovation[4] += 0.3 * (index as f64 / 50.0).sin());
+        assert_eq!(whiteness, 400);
+    }
+
+    #[test]
+    fn a_constant_in_one_channel_fails_the_whiteness_test() {
+        let (_, whiteness) = refused(|_, innovation| innovation[1] += 0.3);
+        assert_eq!(whiteness, 400);
+    }
+
+    #[test]
+    fn kolmogorovs_distribution_has_its_tabled_points() {
+        // The 5 % and 1 % points of Smirnov's table.
+        assert_close!(kolmogorov(1.3581), 0.05, 1e-5);
+        assert_close!(kolmogorov(1.6276), 0.01, 1e-5);
+    }
+
+    #[test]
+    fn too_few_innovations_say_nothing() {
+        assert_eq!(Consistency::of(&white(1)[..7]), None);
+    }
+}

@@ -94,7 +94,8 @@ impl SpinAxisFilter {
 
         let position = Vector3::new(1.0 / radius, 1.0 / radius, 1.0) * POSITION_SIGMA;
         let spec = setup.imu.gyro;
-        let sensor = Vector3::new(spec.misalignment_sigma, spec.misalignment_sigma, spec.scale_sigma);
+        let sensor =
+            Vector3::new(spec.misalignment_sigma, spec.misalignment_sigma, spec.scale_sigma);
         let first_reading = match angle_source {
             AngleSource::Read => angle_noise(&setup, &nav_from_table),
             AngleSource::Defined => Matrix3::zeros(),
@@ -194,7 +195,8 @@ impl SpinAxisFilter {
     /// `φ - α` plus the encoder's error about the spin axis, resolved in s.
     fn angle_measurement(&self, angle: f64) -> Measurement<MEASUREMENTS, STATES> {
         let read: Dcm<Nav, Body> = self.nav_from_table * Dcm::<Table, Body>::about_z(angle);
-        let computed_from_read: Dcm<Nav, Nav> = self.navigator.state().nav_from_body * read.inverse();
+        let computed_from_read: Dcm<Nav, Nav> =
+            self.navigator.state().nav_from_body * read.inverse();
         let table_from_nav = self.nav_from_table.inverse();
         let difference = table_from_nav.matrix() * -computed_from_read.rotation_vector();
 
@@ -234,9 +236,7 @@ impl SpinAxisFilter {
         let sigma = Vector3::new(0.0, 0.0, self.setup.table.rate_noise)
             .map(|table: f64| table.mul_add(table, gyro).sqrt());
         let mut cross = SMatrix::<f64, STATES, MEASUREMENTS>::zeros();
-        cross
-            .fixed_view_mut::<3, 3>(ATTITUDE.start(), 3)
-            .copy_from(&(mean * -(density * density)));
+        cross.fixed_view_mut::<3, 3>(ATTITUDE.start(), 3).copy_from(&(mean * -(density * density)));
         self.with_zero_velocity(&difference, &h, &sigma).correlated_with_state_error(cross)
     }
 
@@ -269,7 +269,7 @@ impl SpinAxisFilter {
         state.position.latitude += position.x;
         state.position.longitude -= position.y / state.position.latitude.cos();
         state.position.height -= position.z;
-        state.velocity = state.velocity - InFrame::from_components(VELOCITY.of(x));
+        state.velocity -= InFrame::from_components(VELOCITY.of(x));
         state.nav_from_body = Dcm::from_rotation_vector(&phi) * state.nav_from_body;
         self.nav_from_table = Dcm::from_rotation_vector(&AXIS.of(x)) * self.nav_from_table;
         self.estimate += SPIN_AXIS_ERRORS.of(x);

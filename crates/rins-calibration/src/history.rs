@@ -16,6 +16,6 @@ impl Thinning {
     }
 
     pub(crate) const fn keeps(&self, index: usize) -> bool {
-        index % self.stride == 0 || index == self.last
+        index.is_multiple_of(self.stride) || index == self.last
     }
 }

@@ -28,9 +28,7 @@ pub use calibration::{
     AttitudeSource, Calibration, CalibrationError, EstimatePoint, calibrate, table_angles,
 };
 pub use consistency::Consistency;
-pub use filter::{
-    AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading,
-};
+pub use filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
 pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};
 pub use parameter::{Parameter, ParameterKind, Partner};
 pub use setup::{AxisAttitude, Setup, TableSpec};

@@ -14,7 +14,7 @@ pub struct AxisAttitude {
     pub sigma: f64,
 }
 
-/// How well the table tells its own motion: 1σ of one reading.
+/// How well the table tells its own motion: 1σ of one reading, and its delay.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableSpec {
     /// Of the table angle \[rad\].
@@ -23,6 +23,8 @@ pub struct TableSpec {
     pub wobble: f64,
     /// Of the commanded rate's mean over a sample \[rad/s\].
     pub rate_noise: f64,
+    /// By how much the angle is late, as far as known \[s\]: what is read at `t` was so at `t - latency`.
+    pub latency: f64,
 }
 
 impl TableSpec {

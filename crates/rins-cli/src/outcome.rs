@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use rins_io::{IoError, Overwrite, write_folder};
+use rins_io::{IoError, Overwrite, write_file, write_folder};
 use serde_json::Value;
 
 use crate::report::{Report, render};
@@ -23,12 +23,15 @@ pub(crate) struct Outcome {
     pub(crate) files: Vec<(&'static str, Vec<u8>)>,
     /// What else to write into the output folder.
     pub(crate) fill: Option<Fill>,
+    /// The whole result, where it is one file and not a folder.
+    pub(crate) file: Option<String>,
     /// Why the exit code must say that the data are at fault, although there is a result.
     pub(crate) failure: Option<String>,
 }
 
 impl Outcome {
-    /// Writes `result.json`, `report.html` and the further files into a folder, all or none.
+    /// Writes `result.json`, `report.html` and the further files into a folder, all or none; or the
+    /// one file that is the result.
     ///
     /// Returns a sentence that says where the result is.
     pub(crate) fn write(
@@ -39,13 +42,25 @@ impl Outcome {
         let Some(destination) = destination else {
             return Ok(None);
         };
+        if let Some(content) = &self.file {
+            write_file(destination, overwrite, |out| {
+                out.write_all(content.as_bytes()).map_err(|source| {
+                    let path = destination.to_path_buf();
+                    IoError::File { action: "write", path, source }
+                })
+            })?;
+            return Ok(Some(format!("Written: {}", destination.display())));
+        }
         let json = serde_json::to_string_pretty(&self.json)?;
         let page = self.report.as_ref().map(render);
         write_folder(destination, overwrite, |folder| {
             let write = |name: &str, content: &[u8]| {
                 let path = folder.join(name);
-                std::fs::write(&path, content)
-                    .map_err(|source| IoError::File { action: "write", path, source })
+                std::fs::write(&path, content).map_err(|source| IoError::File {
+                    action: "write",
+                    path,
+                    source,
+                })
             };
             write("result.json", json.as_bytes())?;
             if let Some(page) = &page {

@@ -17,10 +17,10 @@ use rins_imu::{ImuSpec, TriadSpec};
 use rins_motion::{Profile, Segment, Station, TrueMotion};
 
 const RUNS: u64 = 120;
-const INTERVAL: f64 = 0.05;
+const INTERVAL: f64 = 0.1;
 const AXIS_SIGMA: f64 = 0.01 * DEG;
 /// So little wobble that the runs, which have none, cannot tell: the gyros' angle random walk is
-/// 45 times that in one interval.
+/// 60 times that in one interval.
 const NO_WOBBLE: f64 = 1e-4 * ARCSEC;
 
 fn setup() -> Setup {
@@ -46,6 +46,7 @@ fn setup() -> Setup {
             angle_noise: 0.3 * ARCSEC,
             wobble: NO_WOBBLE,
             rate_noise: 1.0 * DEG_PER_HOUR,
+            latency: 0.0,
         },
         imu: ImuSpec { gyro, accel },
         velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
@@ -69,7 +70,7 @@ impl Draws {
 fn run(seed: u64, source: AngleSource, noise_claimed: f64) -> (f64, Vec<SVector<f64, 6>>) {
     let honest = setup();
     let mut draws = Draws(Pcg64::new(0xcafe, u128::from(seed)));
-    let given: Dcm<Nav, Table> = honest.axis.unwrap().angles.dcm();
+    let given: Dcm<Nav, Table> = honest.axis.expect("the setup gives an attitude").angles.dcm();
     let axis_error = draws.vector(AXIS_SIGMA);
     // C~ = (I - α×) C, so C = exp(α×) C~.
     let nav_from_table = Dcm::from_rotation_vector(&axis_error) * given;
@@ -86,14 +87,11 @@ fn run(seed: u64, source: AngleSource, noise_claimed: f64) -> (f64, Vec<SVector<
         height: honest.station.site.height + draws.scalar(1e-3),
     };
     let rate = 10.0 * DEG;
-    let segments = [
-        Segment { rate, duration: 40.0 },
-        Segment { rate: -rate, duration: 30.0 },
-    ];
+    let segments = [Segment { rate, duration: 40.0 }, Segment { rate: -rate, duration: 30.0 }];
     let motion = TrueMotion {
         station: Station { site, ..honest.station },
         nav_from_table,
-        profile: Profile::new(&segments, Some(5.0 * DEG)).unwrap(),
+        profile: Profile::new(&segments, Some(5.0 * DEG)).expect("the profile is sound"),
     };
 
     let first = match source {
@@ -132,7 +130,9 @@ fn run(seed: u64, source: AngleSource, noise_claimed: f64) -> (f64, Vec<SVector<
             }
         };
         let velocity = InFrame::from_components(draws.vector(honest.velocity_noise));
-        innovations.push(filter.step(&measured, &Reference { velocity, table }).unwrap());
+        innovations.push(
+            filter.step(&measured, &Reference { velocity, table }).expect("the data are sound"),
+        );
     }
 
     let state = filter.state();
@@ -150,7 +150,8 @@ fn run(seed: u64, source: AngleSource, noise_claimed: f64) -> (f64, Vec<SVector<
     VELOCITY.set_in(&mut error, state.velocity.components());
     ATTITUDE.set_in(&mut error, &(phi - d_theta));
     SPIN_AXIS_ERRORS.set_in(&mut error, &(gyro_error - filter.estimate()));
-    let covariance = filter.covariance().fixed_view::<PAPER_STATES, PAPER_STATES>(0, 0).into_owned();
+    let covariance =
+        filter.covariance().fixed_view::<PAPER_STATES, PAPER_STATES>(0, 0).into_owned();
     let factor = covariance.cholesky().expect("P is positive definite");
     (error.dot(&factor.solve(&error)), innovations)
 }
@@ -165,7 +166,7 @@ fn score(source: AngleSource, noise_claimed: f64) -> Score {
     let mut score = Score { nees: 0.0, nis: 0.0, not_white: 0 };
     for seed in 0..RUNS {
         let (nees, innovations) = run(seed, source, noise_claimed);
-        let consistency = Consistency::of(&innovations).unwrap();
+        let consistency = Consistency::of(&innovations).expect("there are innovations");
         score.nees += nees / RUNS as f64;
         score.nis += consistency.nis_mean / RUNS as f64;
         score.not_white += usize::from(consistency.whiteness_p < 0.01);

@@ -9,16 +9,15 @@ use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
 use rins_io::Loaded;
 use rins_motion::{
     AlignmentError, FineAlignment, FineAlignmentError, MeanUncertainty, PlaceSeen, RestMean,
-    align_finely, level, place_seen, residual,
-    rest_spans,
+    align_finely, level, place_seen, residual, rest_spans,
 };
 use serde_json::{Value, json};
 
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
 use crate::report::{Cell, Column, Item, Report, Section, Table};
-use crate::view::table::aligned;
 use crate::view::euler_json;
+use crate::view::table::aligned;
 
 /// The shortest rest that is aligned on \[s\].
 const SHORTEST_REST: f64 = 5.0;
@@ -57,9 +56,8 @@ impl Found {
 /// Aligns on the longest rest of a run.
 pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
     let recording = &loaded.recording;
-    let lasting = |span: &std::ops::Range<usize>| {
-        recording.times[span.end - 1] - recording.times[span.start]
-    };
+    let lasting =
+        |span: &std::ops::Range<usize>| recording.times[span.end - 1] - recording.times[span.start];
     let span = rest_spans(recording, SHORTEST_REST)
         .into_iter()
         .max_by(|a, b| lasting(a).total_cmp(&lasting(b)))
@@ -218,7 +216,9 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
     let given = loaded.rig.attitude.map(|attitude| attitude.angles);
     let against = |of: fn(&EulerAngles) -> f64| match (header, given) {
         (Some(header), _) => format!("the log's header says {:.4} deg", of(&header) / DEG),
-        (None, Some(given)) => format!("the rig says {:.4} deg (of the axis frame)", of(&given) / DEG),
+        (None, Some(given)) => {
+            format!("the rig says {:.4} deg (of the axis frame)", of(&given) / DEG)
+        }
         (None, None) => String::new(),
     };
     let degrees = |angle: f64| format!("{:.5} deg", angle / DEG);
@@ -254,8 +254,7 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
             format!("the station lies at {:.5} deg", site.latitude / DEG),
         ));
     }
-    let bias_sigma =
-        found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
+    let bias_sigma = found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
     for (axis, name) in ["gyro bias x", "gyro bias y", "gyro bias z"].into_iter().enumerate() {
         rows.push(row(
             name,

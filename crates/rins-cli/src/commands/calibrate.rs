@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
     let rig = &arguments.input.rig;
     let loaded = load(rig)?;
     let calibration = calibrated(&loaded)?;
-    outcome(&calibration, &loaded, rig)
+    Ok(outcome(&calibration, &loaded, rig))
 }
 
 /// Calibrates a run, with progress shown.
@@ -30,11 +30,7 @@ pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
 }
 
 /// A calibration as JSON, text, report and calibration file.
-pub(crate) fn outcome(
-    calibration: &Calibration,
-    loaded: &Loaded,
-    rig: &Path,
-) -> anyhow::Result<Outcome> {
+pub(crate) fn outcome(calibration: &Calibration, loaded: &Loaded, rig: &Path) -> Outcome {
     let title = format!("Calibration of {}", shown(rig));
     let span = &calibration.span;
     let subtitle = format!(
@@ -49,13 +45,13 @@ pub(crate) fn outcome(
         error: calibration.imu_error,
         sigma: Some(calibration.imu_error_sigma),
     };
-    Ok(Outcome {
+    Outcome {
         json: json(calibration, rig),
         text: calibration_text(calibration, &title),
         report: Some(calibration_report(calibration, &title, &subtitle)),
         files: vec![("calibration.toml", file.to_toml().into_bytes())],
         ..Outcome::default()
-    })
+    }
 }
 
 fn json(calibration: &Calibration, rig: &Path) -> Value {

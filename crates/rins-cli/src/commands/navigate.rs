@@ -47,8 +47,9 @@ struct Start {
 
 fn start(loaded: &Loaded) -> anyhow::Result<Start> {
     let recording = &loaded.recording;
-    let angles =
-        table_angles(recording).unwrap_or_else(|| vec![0.0; recording.len() + 1]);
+    let latency = loaded.rig.log.table_angle().and_then(|angle| angle.latency);
+    let angles = table_angles(recording, latency.unwrap_or_default())
+        .unwrap_or_else(|| vec![0.0; recording.len() + 1]);
     if let Some(attitude) = loaded.rig.attitude {
         return Ok(Start {
             nav_from_table: attitude.angles.dcm(),
@@ -60,7 +61,8 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
     let found = found(loaded)?;
     let angle = angles[found.span.start];
     let table_from_body = Dcm::<Table, Body>::about_z(angle);
-    let gyro = TriadError { bias: *found.residual.angular_rate.components(), ..TriadError::default() };
+    let gyro =
+        TriadError { bias: *found.residual.angular_rate.components(), ..TriadError::default() };
     Ok(Start {
         nav_from_table: found.nav_from_body * table_from_body.inverse(),
         gyro_bias: Some(ImuError { gyro, ..ImuError::default() }),
@@ -97,9 +99,17 @@ fn outcome(
     let recording = &loaded.recording;
     let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
     let mut rows = vec![
-        ["", "v east [m/s]", "v north [m/s]", "position [m]", "roll [deg]", "pitch [deg]", "yaw [deg]"]
-            .map(String::from)
-            .to_vec(),
+        [
+            "",
+            "v east [m/s]",
+            "v north [m/s]",
+            "position [m]",
+            "roll [deg]",
+            "pitch [deg]",
+            "yaw [deg]",
+        ]
+        .map(String::from)
+        .to_vec(),
     ];
     rows.extend(runs.iter().map(|(name, run)| {
         let error = &run.attitude_error;
@@ -131,6 +141,13 @@ fn outcome(
     }
     text.push('\n');
     text.push_str(&aligned(&rows));
+    let has_table = recording.table_angle.is_some() || recording.table_rate.is_some();
+    let intro = if has_table {
+        "The truth is a base that does not move; attitude is told of the axis frame."
+    } else {
+        "The truth is a base that does not leave its place. Attitude is told against that at the \
+         start, so that the base's own sway is in it."
+    };
     let named: Vec<(&str, &FreeNavigation)> = runs.iter().map(|(name, run)| (*name, run)).collect();
     let report = Report {
         title,
@@ -138,12 +155,7 @@ fn outcome(
         summary,
         sections: vec![Section {
             heading: "Errors".into(),
-            intro: match loaded.recording.table_angle.is_some() || loaded.recording.table_rate.is_some() {
-                true => "The truth is a base that does not move; attitude is told of the axis frame.".into(),
-                false => "The truth is a base that does not leave its place. Attitude is told against that at the \
-                          start, so that the base's own sway is in it."
-                    .into(),
-            },
+            intro: intro.into(),
             items: vec![
                 Item::Table(table(&rows)),
                 Item::Plot(velocity_plot(&named)),
@@ -160,7 +172,12 @@ fn outcome(
     }
 }
 
-fn json(runs: &[(&'static str, FreeNavigation)], start: &Start, duration: f64, rig: &Path) -> Value {
+fn json(
+    runs: &[(&'static str, FreeNavigation)],
+    start: &Start,
+    duration: f64,
+    rig: &Path,
+) -> Value {
     let shown_runs: Vec<Value> = runs
         .iter()
         .map(|(name, run)| {

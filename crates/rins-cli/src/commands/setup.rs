@@ -27,12 +27,13 @@ pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
     let rounding = encoder.and_then(|angle| angle.resolution).unwrap_or_default() / 12.0_f64.sqrt();
     let angle_noise = read.hypot(rounding);
     let wobble = rig.table.as_ref().and_then(|table| table.wobble).unwrap_or(angle_noise);
+    let latency = encoder.and_then(|angle| angle.latency).unwrap_or_default();
     Ok(Setup {
         station: loaded.station,
         axis: rig
             .attitude
             .map(|attitude| AxisAttitude { angles: attitude.angles, sigma: attitude.sigma }),
-        table: TableSpec { angle_noise, wobble, rate_noise: 0.0 },
+        table: TableSpec { angle_noise, wobble, rate_noise: 0.0, latency },
         imu,
         velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
     })

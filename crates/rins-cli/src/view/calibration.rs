@@ -8,7 +8,10 @@ use rins_calibration::{
 };
 use rins_frames::units::{ARCSEC, DEG};
 
-use crate::report::{Band, Cell, Column, Item, Matrix, Plot, Reference, Report, Section, Series, Style, Table, Tone};
+use crate::report::{
+    Band, Cell, Column, Item, Matrix, Plot, Reference, Report, Scale, Section, Series, Style,
+    Table, Tone,
+};
 use crate::view::navigation::{attitude_plot, velocity_plot};
 use crate::view::table::aligned;
 
@@ -30,7 +33,12 @@ pub(crate) fn meaning(parameter: &Parameter) -> String {
         .iter()
         .map(|partner| {
             let share = partner.share * partner.kind.factor() / parameter.kind.factor();
-            format!("{share:.4} {}/({}) x {}", parameter.kind.unit(), partner.kind.unit(), partner.id)
+            format!(
+                "{share:.4} {}/({}) x {}",
+                parameter.kind.unit(),
+                partner.kind.unit(),
+                partner.id
+            )
         })
         .collect();
     format!("only the combination {} + {}", parameter.id, partners.join(" + "))
@@ -43,7 +51,8 @@ pub(crate) fn calibration_text(calibration: &Calibration, title: &str) -> String
         let _ = writeln!(text, "  {sentence}");
     }
     text.push('\n');
-    let mut rows = vec![["parameter", "value", "sigma", "unit", "what it is"].map(String::from).to_vec()];
+    let mut rows =
+        vec![["parameter", "value", "sigma", "unit", "what it is"].map(String::from).to_vec()];
     rows.extend(calibration.parameters.iter().map(|parameter| {
         let factor = parameter.kind.factor();
         vec![
@@ -86,7 +95,9 @@ fn summary(calibration: &Calibration) -> Vec<String> {
     }
     sentences.push(consistency_sentence(&calibration.consistency));
     if calibration.attitude_source == AttitudeSource::Aligned {
-        sentences.push("The attitude at the start was found from the rest before the table turned.".into());
+        sentences.push(
+            "The attitude at the start was found from the rest before the table turned.".into(),
+        );
     }
     sentences
 }
@@ -151,12 +162,10 @@ fn parameters_section(calibration: &Calibration) -> Section {
         ]
     });
     let axis = calibration.nav_from_table.euler_angles();
-    let attitude = [
-        ("roll", axis.roll),
-        ("pitch", axis.pitch),
-        ("yaw", axis.yaw),
-    ]
-    .map(|(name, angle)| vec![Cell::text(name), Cell::Number { value: angle / DEG, decimals: 5 }]);
+    let attitude =
+        [("roll", axis.roll), ("pitch", axis.pitch), ("yaw", axis.yaw)].map(|(name, angle)| {
+            vec![Cell::text(name), Cell::Number { value: angle / DEG, decimals: 5 }]
+        });
     Section {
         heading: "Parameters".into(),
         intro: "Values follow eq. (1): measured = true + bias + [S, M] true. To compensate, solve it for the true rate; \
@@ -233,12 +242,35 @@ fn history_section(calibration: &Calibration) -> Section {
             ..Plot::default()
         })
     });
+    let sigma = Item::Plot(Plot {
+        title: "Sigma".into(),
+        x_label: "Time [s]".into(),
+        y_label: "1σ [arcsec, ppm]".into(),
+        y_scale: Scale::Logarithmic,
+        series: calibration
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(row, parameter)| Series {
+                name: parameter.id.into(),
+                x: calibration.history.iter().map(|point| point.time).collect(),
+                y: calibration
+                    .history
+                    .iter()
+                    .map(|point| point.sigma[row] / parameter.kind.factor())
+                    .collect(),
+                style: Style::Line,
+            })
+            .collect(),
+        caption: "From the prior on; a slope of -1/2 is averaging of white noise.".into(),
+        ..Plot::default()
+    });
     Section {
         heading: "How the estimates settle".into(),
         intro: format!(
             "Each estimate with its 3σ band, from where its sigma has come down to {SETTLED} times the last."
         ),
-        items: plots.collect(),
+        items: plots.chain(std::iter::once(sigma)).collect(),
     }
 }
 
