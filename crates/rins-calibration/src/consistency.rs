@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_slow_line_in_one_channel_fails_the_whiteness_test() {
         let (_, whiteness) =
-            refused(|index, innovation| innovation[4] += 0.3 * (index as f64 / 50.0).sin());
+            refused(|index, innovation| innovation[4] += 0.6 * (index as f64 / 50.0).sin());
         assert_eq!(whiteness, 400);
     }
 
