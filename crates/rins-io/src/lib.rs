@@ -20,6 +20,7 @@
 //! ```
 mod calibration;
 mod document;
+mod draft;
 mod error;
 mod log;
 mod output;
@@ -32,6 +33,7 @@ mod section;
 mod suggestion;
 
 pub use calibration::Calibration;
+pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{
     Delimiter, Gap, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, PsinsHeader, peek, read,

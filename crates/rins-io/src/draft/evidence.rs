@@ -8,9 +8,12 @@ use super::sample::{Run, Sample};
 const STEADY: f64 = 0.02;
 
 /// A slope is believed if it is this many times its standard deviation.
-const SIGNIFICANT: f64 = 20.0;
+const SIGNIFICANT: f64 = 8.0;
 
-/// The part of all turning that the spin axis must carry.
+/// How much the slopes of half the runs may differ, relative.
+const AGREED: f64 = 0.05;
+
+/// The share of all turning that the spin axis must carry.
 const SPIN_SHARE: f64 = 0.9;
 
 /// The magnitude of a triad's reading where that is steady, and its mean there.
@@ -51,19 +54,29 @@ pub(super) fn steady(sample: &Sample, triad: [usize; 3]) -> Option<Steady> {
 /// against it: `f' = −ω × f`.
 ///
 /// It is negative if the axes of the two sensors do not belong together. A constant force along the
-/// body, such as that towards the axis of a wheel, makes it too small.
-pub(super) fn turning_of_gravity(sample: &Sample, gyro: [usize; 3], accel: [usize; 3]) -> Option<f64> {
-    let mut pairs = Vec::new();
-    for run in &sample.runs {
-        let (rates, forces) = (rows(run, gyro), rows(run, accel));
-        for (rate, around) in rates.iter().skip(1).zip(forces.windows(3)) {
-            let change = (around[2] - around[0]) / 2.0;
-            let predicted = -rate.cross(&around[1]);
-            if (change + predicted).norm().is_finite() {
-                pairs.push((change, predicted));
-            }
-        }
-    }
+/// body, such as that towards the axis of a wheel, makes it too small. `None` if runs disagree, as
+/// where a hand that turns the body also pushes it.
+pub(super) fn turning_of_gravity(
+    sample: &Sample,
+    gyro: [usize; 3],
+    accel: [usize; 3],
+) -> Option<f64> {
+    let slopes: Vec<f64> =
+        sample.runs.iter().filter_map(|run| slope(&rows(run, gyro), &rows(run, accel))).collect();
+    let middle = median(slopes.iter().copied())?;
+    let spread = median(slopes.iter().map(|slope| (slope - middle).abs()))?;
+    (slopes.len() > 1 && spread < AGREED * middle.abs()).then_some(middle)
+}
+
+/// The slope of gravity's turning over that which the gyros tell, if it stands out.
+fn slope(rates: &[Vector3<f64>], forces: &[Vector3<f64>]) -> Option<f64> {
+    let pairs: Vec<(Vector3<f64>, Vector3<f64>)> = rates
+        .iter()
+        .skip(1)
+        .zip(forces.windows(3))
+        .map(|(rate, around)| ((around[2] - around[0]) / 2.0, -rate.cross(&around[1])))
+        .filter(|(change, predicted)| (change + predicted).norm().is_finite())
+        .collect();
     let power: f64 = pairs.iter().map(|(_, predicted)| predicted.norm_squared()).sum();
     let slope = pairs.iter().map(|(change, predicted)| change.dot(predicted)).sum::<f64>() / power;
     let rest: f64 = pairs.iter().map(|(change, p)| (change - p * slope).norm_squared()).sum();
@@ -74,7 +87,8 @@ pub(super) fn turning_of_gravity(sample: &Sample, gyro: [usize; 3], accel: [usiz
 /// The magnitude of the gyros' mean reading in the quietest run, if it stands out from the noise.
 pub(super) fn least_rate(sample: &Sample, gyro: [usize; 3]) -> Option<f64> {
     let of_run = |run: &Run| {
-        let rows: Vec<_> = rows(run, gyro).into_iter().filter(|row| row.norm().is_finite()).collect();
+        let rows: Vec<_> =
+            rows(run, gyro).into_iter().filter(|row| row.norm().is_finite()).collect();
         let count = rows.len() as f64;
         let mean = rows.iter().sum::<Vector3<f64>>() / count;
         let spread = rows.iter().map(|row| (row - mean).norm_squared()).sum::<f64>() / count;
@@ -162,8 +176,9 @@ pub(super) fn spin_axis(
         return None;
     }
     turns.retain(|turn| turn.norm() > 0.1 * most);
-    let axis = turns.iter().sum::<Vector3<f64>>().iamax();
-    let share = turns.iter().map(|turn| turn[axis].abs() / turn.norm()).fold(1.0, f64::min);
+    let axis = turns.iter().map(Vector3::abs).sum::<Vector3<f64>>().imax();
+    let about = turns.iter().map(|turn| turn[axis].abs()).sum::<f64>();
+    let share = about / turns.iter().map(Vector3::norm).sum::<f64>();
     if turns.is_empty() || share < SPIN_SHARE {
         return None;
     }

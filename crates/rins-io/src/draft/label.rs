@@ -36,21 +36,50 @@ const TABLE: &[&str] =
     &["table", "turntable", "ratetable", "encoder", "enc", "resolver", "spindle", "rotor", "stage"];
 const RATE: &[&str] = &["rate", "speed", "velocity", "vel", "omega"];
 const ANGLE: &[&str] = &["angle", "theta", "azimuth", "zeta"];
+/// Words of angles that are the result of somebody's navigation.
+const ATTITUDE: &[&str] = &["roll", "pitch", "yaw", "heading", "course", "euler"];
 const TIME: &[&str] = &[
-    "time", "timestamp", "stamp", "t", "tow", "sec", "secs", "seconds", "millis", "micros", "epoch",
+    "time",
+    "timestamp",
+    "stamp",
+    "t",
+    "tow",
+    "sec",
+    "secs",
+    "seconds",
+    "millis",
+    "micros",
+    "epoch",
     "clock",
 ];
 const COUNTER: &[&str] = &[
-    "sample", "samples", "counter", "count", "index", "idx", "packet", "packets", "seq", "sequence",
-    "frame", "n", "nr", "no",
+    "sample", "samples", "counter", "count", "index", "idx", "packet", "packets", "seq",
+    "sequence", "frame", "n", "nr", "no",
 ];
 const GYRO: &[&str] = &[
-    "gyro", "gyros", "gyroscope", "gyroscopes", "gyr", "dtheta", "dang", "dth", "omega", "wib",
+    "gyro",
+    "gyros",
+    "gyroscope",
+    "gyroscopes",
+    "gyr",
+    "dtheta",
+    "dang",
+    "dth",
+    "omega",
+    "wib",
     "angvel",
 ];
 const ACCEL: &[&str] = &[
-    "accel", "accels", "accelerometer", "accelerometers", "accelerations", "acc", "acceleration",
-    "dvel", "dv", "deltav",
+    "accel",
+    "accels",
+    "accelerometer",
+    "accelerometers",
+    "accelerations",
+    "acc",
+    "acceleration",
+    "dvel",
+    "dv",
+    "deltav",
 ];
 /// Letters and words that mean a gyro or an accelerometer only by custom.
 const WEAK_GYRO: &[&str] = &["g", "w", "om", "rate"];
@@ -59,8 +88,20 @@ const INCREMENT: &[&str] =
     &["dtheta", "dang", "dth", "dvel", "dv", "deltav", "inc", "delta", "increment", "d"];
 /// Words of triads that are not inertial sensors.
 const OTHERS: &[&str] = &[
-    "mag", "magn", "magnetometer", "magnetic", "quat", "quaternion", "q", "pos", "position", "gnss",
-    "gps", "euler", "bias", "gravity",
+    "mag",
+    "magn",
+    "magnetometer",
+    "magnetic",
+    "quat",
+    "quaternion",
+    "q",
+    "pos",
+    "position",
+    "gnss",
+    "gps",
+    "euler",
+    "bias",
+    "gravity",
 ];
 
 impl Label {
@@ -100,7 +141,7 @@ impl Label {
             role(Role::Time, true)
         } else if has(COUNTER) {
             role(Role::Counter, true)
-        } else if has(ANGLE) {
+        } else if has(ANGLE) && !has(ATTITUDE) {
             role(Role::TableAngle, false)
         } else {
             None
@@ -237,8 +278,17 @@ mod tests {
 
     #[test]
     fn other_sensors_are_left_alone() {
-        for name in ["Magnetometer X (uT)", "mx", "qx", "mag_z", "Barometer (hPa)", "vx", "pos_x", "x"]
-        {
+        for name in [
+            "Magnetometer X (uT)",
+            "mx",
+            "qx",
+            "mag_z",
+            "Barometer (hPa)",
+            "vx",
+            "pos_x",
+            "x",
+            "roll angle",
+        ] {
             assert_eq!(Label::of(name).role, None, "{name}");
         }
     }

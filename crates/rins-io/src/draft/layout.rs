@@ -32,7 +32,12 @@ pub(super) struct Picked<T> {
 
 impl Layout {
     /// Finds the columns of the log at `path`.
-    pub(super) fn find(path: &Path, sample: &Sample, labels: &[Label], pace: Option<&Pace>) -> Self {
+    pub(super) fn find(
+        path: &Path,
+        sample: &Sample,
+        labels: &[Label],
+        pace: Option<&Pace>,
+    ) -> Self {
         let time = pace.map(|pace| pace.column);
         let one = |role| one(sample, labels, role, time);
         let mut layout = Self {
@@ -58,9 +63,8 @@ impl Layout {
         let free: Vec<usize> = (0..sample.count).filter(is_free).collect();
         let (triads, _) = free.as_chunks::<3>();
         let interval = pace.and_then(Pace::interval);
-        let picked = |column, why: &str| {
-            Some(Picked { column, guess: Some(why.into()), increment: false })
-        };
+        let picked =
+            |column, why: &str| Some(Picked { column, guess: Some(why.into()), increment: false });
         match triads {
             [triad] => match sensor_by_file_name(path) {
                 Some(Role::Gyro) => self.gyro = picked(*triad, "by the name of the file"),

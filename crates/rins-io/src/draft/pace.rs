@@ -23,8 +23,8 @@ pub(super) struct Pace {
     pub(super) jitter: f64,
     /// How many of the steps that were looked at are gaps.
     pub(super) gaps: usize,
-    /// Whether it ever stands still or goes back.
-    pub(super) falters: bool,
+    /// How many of them do not go on.
+    pub(super) halts: usize,
 }
 
 /// What a time column counts.
@@ -59,18 +59,16 @@ impl Pace {
             let named = (0..sample.count).filter(move |&column| labels[column].role == Some(role));
             named.filter_map(|column| Self::of(sample, column)).find(|pace| pace.jitter.is_finite())
         };
-        let counter = named(Role::Counter);
-        let found = named(Role::Time).or_else(|| counter.clone());
-        if let Some(pace) = found {
-            let is_counter = labels[pace.column].role == Some(Role::Counter);
-            return Some(pace.with_unit(&labels[pace.column], is_counter));
+        if let Some(pace) = named(Role::Time).or_else(|| named(Role::Counter)) {
+            let label = &labels[pace.column];
+            return Some(pace.with_unit(label));
         }
         let nameless = (0..sample.count).filter(|&column| labels[column].role.is_none());
         let mut rising = nameless.filter_map(|column| Self::of(sample, column));
-        let pace = rising.find(|pace| !pace.falters && pace.jitter < 0.3)?;
+        let pace = rising.find(|pace| pace.halts == 0 && pace.jitter < 0.3)?;
         let why = "it rises steadily from row to row".to_string();
         let label = &labels[pace.column];
-        Some(Self { column_guess: Some(why), ..pace }.with_unit(label, false))
+        Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
     }
 
     /// The interval from row to row \[s\], where the unit is known and not samples.
@@ -96,7 +94,8 @@ impl Pace {
         if step <= 0.0 || !step.is_finite() {
             return None;
         }
-        let even: Vec<f64> = sorted.iter().copied().filter(|s| *s > 0.0 && *s <= GAP * step).collect();
+        let even: Vec<f64> =
+            sorted.iter().copied().filter(|s| *s > 0.0 && *s <= GAP * step).collect();
         let sum: f64 = even.iter().map(|s| (s / step - 1.0) * (s / step - 1.0)).sum();
         Some(Self {
             column,
@@ -105,16 +104,16 @@ impl Pace {
             step,
             jitter: (sum / even.len() as f64).sqrt(),
             gaps: sorted.iter().filter(|s| **s > GAP * step).count(),
-            falters: all.iter().any(|s| s.is_nan() || *s <= 0.0),
+            halts: all.iter().filter(|s| s.is_nan() || **s <= 0.0).count(),
         })
     }
 
-    fn with_unit(self, label: &Label, is_counter: bool) -> Self {
-        let unit = self.judged_unit(label, is_counter);
+    fn with_unit(self, label: &Label) -> Self {
+        let unit = self.judged_unit(label);
         Self { unit, ..self }
     }
 
-    fn judged_unit(&self, label: &Label, is_counter: bool) -> PaceUnit {
+    fn judged_unit(&self, label: &Label) -> PaceUnit {
         let stated = label.unit.as_ref().filter(|unit| unit.unit.dimension == Dimension::TIME);
         if let Some(stated) = stated
             && let Some((name, _)) = UNITS.iter().find(|(name, _)| *name == stated.text)
@@ -126,10 +125,13 @@ impl Pace {
             };
         }
         let step = self.step;
-        if step == 1.0 && self.jitter == 0.0 {
+        if (step - 1.0).abs() < f64::EPSILON && self.jitter < f64::EPSILON {
             // A time in ms at 1 kHz, or in s at 1 Hz, steps by one too.
-            return if is_counter {
-                PaceUnit::Guess("sample", "it steps by one, and its name speaks of a counter".into())
+            return if label.role == Some(Role::Counter) {
+                PaceUnit::Guess(
+                    "sample",
+                    "it steps by one, and its name speaks of a counter".into(),
+                )
             } else {
                 PaceUnit::Unknown
             };

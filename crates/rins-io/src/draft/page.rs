@@ -50,7 +50,7 @@ impl Page {
     /// Opens the section `name` as a comment, which its user uncomments with its keys.
     pub(super) fn closed_section(&mut self, name: &'static str) {
         self.section = name;
-        let _ = writeln!(self.draft.text, "# [{name}]");
+        let _ = writeln!(self.draft.text, "# [{name}]  # to be uncommented with its keys");
     }
 
     pub(super) fn blank(&mut self) {
@@ -76,7 +76,7 @@ impl Page {
 
     /// A key that only the user knows. `form` is a value that is refused as it stands, so that
     /// the mark cannot be taken off without writing one.
-    pub(super) fn to_fill_in(&mut self, key: &str, form: &str, expected: &str) {
+    pub(super) fn leave(&mut self, key: &str, form: &str, expected: &str) {
         let expected = one_line(expected);
         let _ = writeln!(self.draft.text, "# {key} = {form}  # TO FILL IN: {expected}");
         let key = format!("{}.{key}", self.section);
@@ -108,7 +108,11 @@ pub(super) fn list<'t>(values: impl IntoIterator<Item = &'t str>) -> String {
 pub(super) fn short(value: f64) -> String {
     let digits = format!("{value:.3e}");
     let Ok(rounded) = digits.parse::<f64>() else { return digits };
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { rounded.to_string() } else { digits }
+    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        digits
+    }
 }
 
 /// What a log says may hold what TOML does not allow in a comment.

@@ -159,7 +159,8 @@ impl Rows {
     /// A column of numbers that begins with a text is most likely under a second header.
     fn refuse_text(&self, path: &Path, names: Option<&[String]>) -> Result<(), IoError> {
         for (index, (text, numbers)) in self.texts.iter().zip(&self.columns).enumerate() {
-            if let Some((line, text)) = text.as_ref().filter(|_| numbers.iter().any(|n| !n.is_nan()))
+            if let Some((line, text)) =
+                text.as_ref().filter(|_| numbers.iter().any(|n| !n.is_nan()))
             {
                 let column = names.and_then(|names| names.get(index).cloned());
                 let column = column.unwrap_or_else(|| (index + 1).to_string());

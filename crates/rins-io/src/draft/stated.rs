@@ -103,7 +103,10 @@ pub(super) fn in_brackets(name: &str) -> Option<(Stated, String)> {
 pub(super) fn by_ending(words: &[String]) -> Option<(Stated, usize)> {
     let ends = |ending: &[&str]| {
         words.len() > ending.len()
-            && words[words.len() - ending.len()..].iter().map(String::as_str).eq(ending.iter().copied())
+            && words[words.len() - ending.len()..]
+                .iter()
+                .map(String::as_str)
+                .eq(ending.iter().copied())
     };
     let (ending, text) = ENDINGS.iter().find(|(ending, _)| ends(ending))?;
     let unit = Unit::parse(text).ok()?;

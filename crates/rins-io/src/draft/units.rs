@@ -47,12 +47,16 @@ pub(super) fn accel_unit(
     };
     let candidates = candidates(&FORCES, &VELOCITIES, interval, increment);
     // Biases of a tenth of gravity are seen in small sensors.
-    match unique(&candidates, STANDARD_GRAVITY * interval.unwrap_or(1.0) / seen.norm, &[1.03, 1.15]) {
+    match unique(&candidates, STANDARD_GRAVITY * interval.unwrap_or(1.0) / seen.norm, &[1.03, 1.15])
+    {
         Some(text) => {
             let norm = short(seen.norm);
-            Ok(UnitFound { text, why: format!("gravity is then the steady magnitude of {norm}") })
+            Ok(UnitFound { text, why: format!("their steady magnitude, {norm}, is then gravity") })
         }
-        None => Err(format!("the steady magnitude is {}, where gravity is 9.81 m/s^2", short(seen.norm))),
+        None => Err(format!(
+            "the steady magnitude is {}, where gravity is 9.81 m/s^2",
+            short(seen.norm)
+        )),
     }
 }
 
@@ -104,7 +108,7 @@ impl Surroundings<'_> {
         if let (Some(rate), Some(interval)) = (least_rate(self.sample, gyro), self.interval) {
             if let Some(text) = unique(&candidates, EARTH_RATE * interval / rate, &[1.3]) {
                 let seen = short(rate);
-                let why = format!("the quietest rows' {seen} are then the Earth's rate");
+                let why = format!("the quietest rows, {seen}, then show the Earth's rate");
                 return Ok(UnitFound { text, why });
             }
             seen.push(format!("the quietest rows read {}", short(rate)));
@@ -115,7 +119,10 @@ impl Surroundings<'_> {
     fn one_count(&self, by: &str, turn: f64) -> String {
         match self.interval {
             Some(interval) => format!("by {by}, 1 is about {} deg/s", short(turn / interval / DEG)),
-            None => format!("by {by}, 1 turns the body by about {} deg", short(turn / DEG)),
+            None => format!(
+                "by {by}, 1 is about {} deg/s if the rate is 100 Hz",
+                short(turn * 100.0 / DEG)
+            ),
         }
     }
 }

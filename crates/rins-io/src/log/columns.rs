@@ -143,20 +143,20 @@ pub fn peek(path: &Path) -> Result<LogHead, IoError> {
 }
 
 /// What the first lines tell.
-struct Head {
-    delimiter: Delimiter,
+pub(crate) struct Head {
+    pub(crate) delimiter: Delimiter,
     /// The columns' names, where there are any.
-    names: Option<Vec<String>>,
+    pub(crate) names: Option<Vec<String>>,
     /// The number of columns.
-    count: usize,
+    pub(crate) count: usize,
     /// The line of the names, or the first of the numbers.
     line: u64,
     /// The rows of numbers that have been read.
-    rows: Vec<(u64, String)>,
+    pub(crate) rows: Vec<(u64, String)>,
 }
 
 impl Head {
-    fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
+    pub(crate) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
         let Some((line, first)) = lines.next()?.map(|(line, text)| (line, text.to_string())) else {
             return Err(LogError::of(lines.path(), LogProblem::Empty));
         };

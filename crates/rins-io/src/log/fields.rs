@@ -50,14 +50,14 @@ impl Delimiter {
 
 /// The fields of a line, without the blanks and quotation marks around them.
 #[derive(Clone, Debug)]
-pub(super) struct Fields<'l> {
+pub(crate) struct Fields<'l> {
     rest: Option<&'l str>,
     delimiter: Delimiter,
     open_quote: bool,
 }
 
 impl<'l> Fields<'l> {
-    pub(super) fn of(line: &'l str, delimiter: Delimiter) -> Self {
+    pub(crate) fn of(line: &'l str, delimiter: Delimiter) -> Self {
         Self { rest: Some(line), delimiter, open_quote: false }
     }
 

@@ -12,7 +12,7 @@ const LONGEST: u64 = 1 << 20;
 
 /// The lines of a log that carry numbers or names; blank lines and comments are passed over.
 #[derive(Debug)]
-pub(super) struct Lines<R> {
+pub(crate) struct Lines<R> {
     reader: R,
     path: PathBuf,
     buffer: Vec<u8>,
@@ -21,19 +21,19 @@ pub(super) struct Lines<R> {
 }
 
 impl Lines<BufReader<File>> {
-    pub(super) fn open(path: &Path) -> Result<Self, IoError> {
+    pub(crate) fn open(path: &Path) -> Result<Self, IoError> {
         let file = File::open(path).map_err(IoError::file("read", path))?;
         Ok(Self::new(BufReader::with_capacity(1 << 16, file), path))
     }
 }
 
 impl<R: BufRead> Lines<R> {
-    pub(super) fn new(reader: R, path: &Path) -> Self {
+    pub(crate) fn new(reader: R, path: &Path) -> Self {
         Self { reader, path: path.into(), buffer: Vec::new(), number: 0, comment: None }
     }
 
     /// The next line's number, from 1, and its text; `None` at the end.
-    pub(super) fn next(&mut self) -> Result<Option<(u64, &str)>, IoError> {
+    pub(crate) fn next(&mut self) -> Result<Option<(u64, &str)>, IoError> {
         while self.fill()? {
             let text = self.text()?;
             let trimmed = text.trim();

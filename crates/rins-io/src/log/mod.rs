@@ -15,10 +15,14 @@ use std::path::Path;
 
 use rins_motion::{Recording, Station};
 
+pub(crate) use columns::Head;
 pub use columns::{LogHead, peek};
 pub use fields::Delimiter;
+pub(crate) use fields::Fields;
+pub(crate) use lines::Lines;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;
+pub(crate) use psins::header as psins_header;
 pub use summary::{Gap, LogPolicy, LogSummary};
 
 use crate::error::{IoError, LogError};

@@ -104,7 +104,7 @@ pub(super) fn read_from<R: BufRead>(
     Ok((recording, clock.summary, header))
 }
 
-fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<PsinsHeader, IoError> {
+pub(crate) fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<PsinsHeader, IoError> {
     let mut rows = [[0.0; 6]; 3];
     for (index, names) in HEADER.iter().enumerate() {
         rows[index] = row(lines, names)?.ok_or_else(|| {

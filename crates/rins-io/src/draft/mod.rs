@@ -1,0 +1,132 @@
+//! A rig file drafted from a log: what its columns are, as far as names and numbers tell.
+
+mod channels;
+mod clock_keys;
+mod evidence;
+mod label;
+mod layout;
+mod pace;
+mod page;
+mod place;
+mod psins;
+mod sample;
+mod sections;
+mod stated;
+mod table_keys;
+mod units;
+
+use std::path::Path;
+
+pub use page::{Draft, Guess, ToFillIn};
+
+use channels::Channels;
+use label::Label;
+use layout::Layout;
+use pace::Pace;
+use page::Page;
+use sample::Sample;
+
+use crate::error::IoError;
+
+const HOW_TO_GO_ON: [&str; 3] = [
+    "Confirm each line marked GUESS. Fill in those marked TO FILL IN and take off their leading #;",
+    "optional ones may stay as they are. Then run `rins check` on this file.",
+    "Quantities are texts with units, such as \"0.05 deg/h\"; paths are relative to this file.",
+];
+
+/// Drafts the rig file of the log at `log`, for a rig file in `folder`.
+///
+/// Columns are found by their names or, where these say nothing, by their numbers. Units are
+/// those of the header or, where it states none, those in which gravity, the Earth's rotation and
+/// the table's motion come out right. Every such guess is marked `# GUESS: …; confirm` on its
+/// line. What nothing tells is a comment marked `# TO FILL IN: …`, so that [`Rig::read`] names the
+/// key as long as it is missing; no value is ever made up.
+///
+/// At most some 2000 rows are read: the first, and others from places all through the log.
+///
+/// [`Rig::read`]: crate::Rig::read
+///
+/// # Errors
+/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if it holds no columns of numbers.
+///
+/// # Examples
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// let log = folder.path().join("run.csv");
+/// std::fs::write(&log, "Time (s),Gyro X (deg/s),Gyro Y (deg/s),Gyro Z (deg/s),ax,ay,az\n\
+///     0.01,0.1,0.2,0.1,0.00,0.02,9.81\n0.02,0.1,0.3,0.1,0.01,0.02,9.82\n")?;
+/// let draft = rins_io::draft_rig(&log, folder.path())?;
+/// assert!(draft.text.contains("gyro.unit = \"deg/s\"\n"));
+/// assert!(draft.text.contains("accel.unit = \"m/s^2\"  # GUESS: gravity is then"));
+/// // Where the table stands, no log of columns says.
+/// assert_eq!(draft.to_fill_in[0].key, "site.latitude");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
+    let mut page = Page::default();
+    let shown = log.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
+    page.remark(&format!("The rig of {shown}, drafted by `rins init`."));
+    for line in HOW_TO_GO_ON {
+        page.remark(line);
+    }
+    if let Some(header) = psins::header(log)? {
+        psins::write(&mut page, log, folder, &header);
+    } else {
+        let sample = Sample::read(log)?;
+        columns(&mut page, log, folder, &sample);
+    }
+    Ok(page.finish())
+}
+
+/// What is known of a log of columns.
+#[derive(Clone, Copy, Debug)]
+struct Findings<'f> {
+    log: &'f Path,
+    /// The folder of the rig file.
+    folder: &'f Path,
+    sample: &'f Sample,
+    /// What the name of each column says.
+    labels: &'f [Label],
+    pace: Option<&'f Pace>,
+    layout: &'f Layout,
+}
+
+impl Findings<'_> {
+    /// The interval from row to row \[s\], if it is known.
+    fn interval(&self) -> Option<f64> {
+        self.pace.and_then(Pace::interval)
+    }
+}
+
+/// Drafts the rig of a log of columns.
+fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
+    let names = sample.names.as_deref().unwrap_or_default();
+    let label = |column: usize| names.get(column).map(|name| Label::of(name)).unwrap_or_default();
+    let labels: Vec<Label> = (0..sample.count).map(label).collect();
+    let pace = Pace::find(sample, &labels);
+    let layout = Layout::find(log, sample, &labels, pace.as_ref());
+    let findings =
+        Findings { log, folder, sample, labels: &labels, pace: pace.as_ref(), layout: &layout };
+    let channels = Channels::find(findings);
+
+    sections::site(page);
+    page.section("log");
+    place::path(page, log, folder);
+    if channels.looks_like_kf_gins(sample) {
+        sections::kf_gins(page);
+        sections::shape(page, sample);
+        if let Some(pace) = &pace {
+            clock_keys::write_rate(page, pace);
+        }
+        clock_keys::gaps(page, pace.as_ref());
+    } else {
+        page.known("format", &page::text("csv"));
+        sections::shape(page, sample);
+        clock_keys::write(page, sample, pace.as_ref(), channels.table.is_some());
+        channels.write(page, findings);
+    }
+    table_keys::write(page, findings, channels.table.as_ref());
+    sections::attitude(page);
+    sections::imu(page);
+    sections::spin(page, sample, &channels);
+}
