@@ -36,6 +36,9 @@ const COARSE_TILT_SIGMA: f64 = 0.01;
 /// The same about up \[rad\].
 const COARSE_AZIMUTH_SIGMA: f64 = 0.2;
 
+/// How often the pass is repeated from what it found, before the last time.
+const RELINEARISATIONS: usize = 1;
+
 /// A gyro bias before anything is known of it, 1σ \[rad/s\]; the azimuth that it could feign is wider.
 const WIDE_BIAS_SIGMA: f64 = 2.0 * DEG_PER_HOUR;
 
@@ -56,7 +59,7 @@ pub struct FineAlignment {
     pub earth_rate_sigma: f64,
     /// The 1σ of the latitude that lies between that rate and gravity, tilt aside \[rad\].
     pub latitude_sigma: f64,
-    /// The gyros' noise density of maximum likelihood \[rad/s/√Hz\].
+    /// The gyros' noise density, at the upper end of what is likely \[rad/s/√Hz\].
     pub gyro_noise_density: f64,
     /// The mean normalised innovation squared of the zero-velocity updates; 2 for a right model.
     pub nis_mean: f64,
@@ -99,8 +102,8 @@ pub fn align_finely(
     bias_sigma: Option<f64>,
 ) -> Result<FineAlignment, FineAlignmentError> {
     let samples = span.len();
-    let mean = RestMean::of(recording, span.clone())
-        .ok_or(FineAlignmentError::TooShort { samples })?;
+    let mean =
+        RestMean::of(recording, span.clone()).ok_or(FineAlignmentError::TooShort { samples })?;
     let scattered = |sigma: &Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
     let uncertainty = MeanUncertainty {
         angular_rate: scattered(&mean.angular_rate_sigma),
@@ -115,8 +118,8 @@ pub fn align_finely(
     let seconds = seconds(recording, span);
     let guess = scatter(&seconds).ok_or(FineAlignmentError::TooShort { samples })?;
 
-    let run = |noise: Noise| -> Result<(Pass, Score), UpdateError> {
-        let mut pass = Pass::new(station, coarse.nav_from_body, noise);
+    let run = |start: &Prior, noise: Noise| -> Result<(Pass, Score), UpdateError> {
+        let mut pass = Pass::new(station, start, noise);
         let mut score = Score::default();
         for second in &seconds {
             let innovation = pass.second(recording, second)?;
@@ -125,10 +128,30 @@ pub fn align_finely(
         }
         Ok((pass, score))
     };
-    let noise = most_likely(guess, |noise| run(noise).map(|(_, score)| score.log_likelihood))?;
-    let (pass, score) = run(noise)?;
-    let found = pass.bias_along_east_is_small(station, bias_sigma)?;
-    Ok(FineAlignment { nis_mean: score.nis, ..found })
+    // The first pass finds how large a bias is; what it leaves open between azimuth and the bias
+    // along east is settled afterwards. The next ones start from there, so that little is left to
+    // move: an azimuth that turns by a tenth of a radian is no small error.
+    let first = Prior { nav_from_body: coarse.nav_from_body, bias_along_east: WIDE_BIAS_SIGMA };
+    let (mut pass, _) = run(&first, guess)?;
+    let found = pass.start.matrix() * pass.bias;
+    let bias_along_east =
+        bias_sigma.unwrap_or_else(|| found.y.hypot(found.z) / std::f64::consts::SQRT_2);
+    pass.settle_bias_along_east(bias_along_east)?;
+    let mut prior = Prior { nav_from_body: pass.start, bias_along_east };
+    let noise = most_likely(guess, |noise| Ok(run(&prior, noise)?.1.log_likelihood))?;
+    for _ in 0..RELINEARISATIONS {
+        prior.nav_from_body = run(&prior, noise)?.0.start;
+    }
+    let (pass, score) = run(&prior, noise)?;
+    Ok(FineAlignment { nis_mean: score.nis, ..pass.found(station) })
+}
+
+/// What a pass over the rest starts from.
+#[derive(Clone, Copy, Debug)]
+struct Prior {
+    nav_from_body: Dcm<Nav, Body>,
+    /// The 1σ of the gyro bias along east \[rad/s\]; along north and up it is wide.
+    bias_along_east: f64,
 }
 
 /// What a pass over the rest says of the noise that it was run with.
@@ -142,7 +165,8 @@ struct Score {
 #[derive(Clone, Copy, Debug)]
 struct Noise([f64; 3]);
 
-/// The noise of maximum likelihood, to within a tenth, by a search along each coordinate in turn.
+/// The noise of maximum likelihood, to within a tenth, by a search along each coordinate in turn;
+/// of the gyros the upper end of what is as likely.
 ///
 /// The scatter of a rest does not tell sensor noise from sway; the innovations do.
 fn most_likely(
@@ -172,6 +196,16 @@ fn most_likely(
                 break;
             }
         }
+    }
+    // Zero-velocity updates say little of so small a noise as a gyro's: of all densities that are
+    // within a sigma of the most likely, the largest keeps the covariance honest.
+    for _ in 0..ROUNDS {
+        let mut larger = best;
+        larger.0[0] *= FACTORS[2];
+        if log_likelihood(larger)? < most - 0.5 {
+            break;
+        }
+        best = larger;
     }
     Ok(best)
 }
@@ -246,14 +280,18 @@ struct Pass {
 }
 
 impl Pass {
-    fn new(station: &Station, nav_from_body: Dcm<Nav, Body>, noise: Noise) -> Self {
+    fn new(station: &Station, prior: &Prior, noise: Noise) -> Self {
+        let nav_from_body = prior.nav_from_body;
         let Noise([.., velocity]) = noise;
         let square = |sigma: Vector3<f64>| Matrix3::from_diagonal(&sigma.component_mul(&sigma));
         let coarse =
             square(Vector3::new(COARSE_TILT_SIGMA, COARSE_TILT_SIGMA, COARSE_AZIMUTH_SIGMA));
         let mut p = SMatrix::<f64, STATES, STATES>::zeros();
         VELOCITY.set(VELOCITY, &mut p, &(Matrix2::identity() * (velocity * velocity)));
-        GYRO_BIAS.set(GYRO_BIAS, &mut p, &square(Vector3::repeat(WIDE_BIAS_SIGMA)));
+        let wide = WIDE_BIAS_SIGMA;
+        let c_nb = nav_from_body.matrix();
+        let bias = square(Vector3::new(prior.bias_along_east, wide, wide));
+        GYRO_BIAS.set(GYRO_BIAS, &mut p, &(c_nb.transpose() * bias * c_nb));
         for (rows, columns) in
             [(ATTITUDE, ATTITUDE), (ATTITUDE, START), (START, ATTITUDE), (START, START)]
         {
@@ -316,7 +354,7 @@ impl Pass {
         let x = &self.filter.state;
         let velocity: Vector2<f64> = VELOCITY.of(x);
         let state = self.navigator.state_mut();
-        state.velocity = state.velocity - InFrame::from_components(velocity.push(0.0));
+        state.velocity -= InFrame::from_components(velocity.push(0.0));
         state.nav_from_body = Dcm::from_rotation_vector(&ATTITUDE.of(x)) * state.nav_from_body;
         self.start = Dcm::from_rotation_vector(&START.of(x)) * self.start;
         self.bias += GYRO_BIAS.of(x);
@@ -324,21 +362,18 @@ impl Pass {
     }
 
     /// Settles what a rest leaves open between azimuth and the bias along east.
-    fn bias_along_east_is_small(
-        mut self,
-        station: &Station,
-        sigma: Option<f64>,
-    ) -> Result<FineAlignment, UpdateError> {
-        let c_nb = *self.start.matrix();
-        let found = c_nb * self.bias;
-        let sigma = sigma.unwrap_or_else(|| ((found.y.powi(2) + found.z.powi(2)) / 2.0).sqrt());
-        let east = c_nb.row(0).into_owned();
+    fn settle_bias_along_east(&mut self, sigma: f64) -> Result<(), UpdateError> {
+        let east = self.start.matrix().row(0).into_owned();
         let mut h = RowSVector::<f64, STATES>::zeros();
         h.fixed_view_mut::<1, 3>(0, GYRO_BIAS.start()).copy_from(&east);
-        let value = Vector1::new(-found.x);
+        let value = Vector1::new(-(east * self.bias)[0]);
         let r = SMatrix::<f64, 1, 1>::new(sigma * sigma);
         self.filter.update(&Measurement::new(value, h, r))?;
         self.correct();
+        Ok(())
+    }
+
+    fn found(&self, station: &Station) -> FineAlignment {
         let covariance = self.filter.covariance;
         let earth_rate = self.start.inverse() * station.site.earth_rate();
         let gyro_bias = InFrame::from_components(self.bias);
@@ -347,7 +382,7 @@ impl Pass {
         let along = station.site.earth_rate().components().normalize();
         let across = Vector3::x().cross(&along);
         let spread = |direction: Vector3<f64>| direction.dot(&(in_nav * direction)).sqrt();
-        Ok(FineAlignment {
+        FineAlignment {
             nav_from_body: self.start,
             covariance: covariance.fixed_view::<3, 3>(START.start(), START.start()).into_owned(),
             gyro_bias,
@@ -357,6 +392,6 @@ impl Pass {
             earth_rate_seen: earth_rate + gyro_bias,
             gyro_noise_density: self.noise.0[0],
             nis_mean: 0.0,
-        })
+        }
     }
 }

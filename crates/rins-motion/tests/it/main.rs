@@ -3,6 +3,7 @@
 
 mod alignment;
 mod closed_form;
+mod fine_alignment;
 mod linear_model;
 mod moving;
 mod oscillations;

@@ -1,0 +1,121 @@
+//! Fine alignment on a base that sways: honest over many runs, and better than the mean of the rest.
+
+use nalgebra::Vector3;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G};
+use rins_frames::{Body, Dcm, EulerAngles, InFrame, Increments, Nav, Site};
+use rins_motion::{MeanUncertainty, Recording, RestMean, Station, align, align_finely};
+
+const INTERVAL: f64 = 0.1;
+const SAMPLES: usize = 4000;
+const BIAS_EAST: f64 = 0.02 * DEG_PER_HOUR;
+/// As wide as the filter takes a bias to be before it knows: what the test draws must be its prior.
+const BIAS_ELSEWHERE: f64 = 2.0 * DEG_PER_HOUR;
+
+fn station() -> Station {
+    Station::with_normal_gravity(Site { latitude: 0.6, longitude: 0.0, height: 100.0 })
+}
+
+struct Draws(Pcg64);
+
+impl Draws {
+    fn vector(&mut self, sigma: f64) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| {
+            let unit: f64 = StandardNormal.sample(&mut self.0);
+            sigma * unit
+        })
+    }
+}
+
+/// How the base stands against its first attitude: a tenth of a degree there and back, as where
+/// somebody steps onto a platform.
+fn sway(time: f64) -> Vector3<f64> {
+    let step = |from: f64, to: f64| ((time - from) / (to - from)).clamp(0.0, 1.0);
+    let tilt = step(60.0, 62.0) - step(200.0, 205.0);
+    Vector3::new(0.1 * DEG * tilt, -0.05 * DEG * step(120.0, 121.0), 0.0)
+}
+
+struct Run {
+    recording: Recording,
+    start: Dcm<Nav, Body>,
+    bias: Vector3<f64>,
+}
+
+fn run(seed: u128) -> Run {
+    let station = station();
+    let mut draws = Draws(Pcg64::new(11, seed));
+    let angles = draws.vector(1.0);
+    let start: Dcm<Nav, Body> =
+        EulerAngles { roll: 0.3 * angles.x, pitch: 0.3 * angles.y, yaw: angles.z }.dcm();
+    let mut bias_n = draws.vector(BIAS_ELSEWHERE);
+    bias_n.x *= BIAS_EAST / BIAS_ELSEWHERE;
+    let bias = start.inverse().matrix() * bias_n;
+    let earth_turn = station.site.earth_rate().components() * INTERVAL;
+    let attitude = |time: f64| start * Dcm::<Body, Body>::from_rotation_vector(&sway(time));
+    let root = INTERVAL.sqrt();
+    let mut recording = Recording::default();
+    for sample in 0..SAMPLES {
+        let (from, to) = (sample as f64 * INTERVAL, (sample + 1) as f64 * INTERVAL);
+        // The body turns with the Earth and with the sway.
+        let turn = attitude(from).inverse()
+            * Dcm::<Nav, Nav>::from_rotation_vector(&earth_turn)
+            * attitude(to);
+        let middle = attitude(0.5 * (from + to));
+        let force = middle.inverse() * -station.gravity_vector();
+        let angle =
+            turn.rotation_vector() + bias * INTERVAL + draws.vector(0.02 * DEG_PER_HOUR * root);
+        let velocity = force.components() * INTERVAL + draws.vector(30.0 * MICRO_G * root);
+        recording.times.push(to);
+        recording.increments.push(Increments {
+            angle: InFrame::from_components(angle),
+            velocity: InFrame::from_components(velocity),
+            interval: INTERVAL,
+        });
+    }
+    Run { recording, start, bias }
+}
+
+#[test]
+fn covariance_is_honest_and_the_bias_found_is_the_true_one() {
+    const RUNS: u32 = 50;
+    let (mut nees, mut nees_if_halved, mut off) = (0.0, 0.0, 0.0_f64);
+    for seed in 0..RUNS {
+        let run = run(u128::from(seed));
+        let found = align_finely(&run.recording, 0..SAMPLES, &station(), Some(BIAS_EAST)).unwrap();
+        let phi = -(found.nav_from_body * run.start.inverse()).rotation_vector();
+        let factor = found.covariance.cholesky().unwrap();
+        nees += phi.dot(&factor.solve(&phi)) / f64::from(RUNS);
+        nees_if_halved += 4.0 * phi.dot(&factor.solve(&phi)) / f64::from(RUNS);
+        let error = (found.gyro_bias.components() - run.bias).component_div(&found.gyro_bias_sigma);
+        off = off.max(error.amax());
+    }
+    // χ² of 3 degrees of freedom: 99 % of means over 50 runs.
+    let bound = 2.576 * (6.0 / f64::from(RUNS)).sqrt();
+    assert!((nees - 3.0).abs() < bound, "mean NEES {nees}, not 3 ± {bound}");
+    assert!((nees_if_halved - 3.0).abs() > bound, "half the sigma would have passed");
+    // Of 150 deviates one beyond 4.5 has a probability of 0.001.
+    assert!(off < 4.5, "a bias is {off} sigma off");
+}
+
+#[test]
+fn sway_spoils_the_mean_of_a_rest_and_not_the_filter() {
+    let Run { recording, start, .. } = run(1000);
+    let mean = RestMean::of(&recording, 0..SAMPLES).unwrap();
+    let uncertainty = MeanUncertainty { angular_rate: 1e-9, specific_force: 1e-5 };
+    let coarse = align(&mean.rates, &uncertainty, &station()).unwrap();
+    let fine = align_finely(&recording, 0..SAMPLES, &station(), Some(BIAS_EAST)).unwrap();
+    let error = |found: Dcm<Nav, Body>| (found * start.inverse()).rotation_vector().xy().norm();
+    assert!(error(coarse.nav_from_body) > 0.02 * DEG);
+    assert!(error(fine.nav_from_body) < 0.002 * DEG);
+}
+
+#[test]
+fn gyros_that_do_not_show_the_earth_are_refused() {
+    let mut run = run(3);
+    for sample in &mut run.recording.increments {
+        sample.angle += InFrame::new(1e-3 * INTERVAL, 0.0, 0.0);
+    }
+    let refused = align_finely(&run.recording, 0..SAMPLES, &station(), None).unwrap_err();
+    assert!(refused.to_string().contains("cannot find north"), "{refused}");
+}
