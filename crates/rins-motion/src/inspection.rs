@@ -13,8 +13,9 @@ use crate::station::Station;
 /// An interval that is longer than the median by this factor is a gap.
 const GAP_RATIO: f64 = 1.5;
 
-/// How far a ratio may be from a suspected factor: sensors are off by a few percent at most.
-const FACTOR_WITHIN: f64 = 0.05;
+/// How far a ratio may be from a suspected factor: a sensor as it comes from the factory may be off
+/// by ten percent and more, a wrong unit by seven times at least.
+const FACTOR_WITHIN: f64 = 0.2;
 
 /// The shortest rest that is reported \[s\].
 const SHORTEST_REST: f64 = 1.0;

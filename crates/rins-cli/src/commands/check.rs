@@ -15,6 +15,9 @@ use crate::outcome::Outcome;
 use crate::report::{Item, Plot, Report, Section, Series, Style, Tone};
 use crate::view::table::aligned;
 
+/// How far gravity may be off before it is odd: a calibrated accelerometer is better by far.
+const LARGEST_GRAVITY_ERROR: f64 = 0.005;
+
 /// How many gaps and rests are listed one by one.
 const LISTED: usize = 12;
 
@@ -212,6 +215,15 @@ fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
             timing.jitter / timing.interval * 100.0
         ));
     }
+    if let Some(rest) = longest(inspection) {
+        let off = rest.mean.rates.specific_force.norm() / loaded.station.gravity - 1.0;
+        if off.abs() > LARGEST_GRAVITY_ERROR {
+            found.push(format!(
+                "gravity is {:+.1} % off in the longest rest: the accelerometers are not calibrated",
+                off * 100.0
+            ));
+        }
+    }
     if inspection.rests.is_empty() {
         found.push("never at rest for a second: nothing to align on".into());
     }
@@ -226,7 +238,8 @@ fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     found
 }
 
-fn suspicion_in_words(suspicion: &Suspicion) -> String {
+/// A suspicion as a person reads it.
+pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
     let because = |cause: Option<&'static str>| {
         cause.map_or_else(
             || "no single unit mistake explains it; check units, scale and axes".to_owned(),
