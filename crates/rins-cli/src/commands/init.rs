@@ -68,3 +68,58 @@ fn json(draft: &Draft, output: Option<&Path>) -> Value {
         "to_fill_in": to_fill_in,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_io::Overwrite;
+
+    const LOG: &str = "t,gx,gy,gz\n0.01,1,2,3\n0.02,2,3,4\n0.03,2,3,5\n";
+
+    fn arguments(folder: &Path, output: Option<&str>) -> Init {
+        let log = folder.join("run.csv");
+        std::fs::write(&log, LOG).unwrap();
+        Init { log, output: output.map(|name| folder.join(name)) }
+    }
+
+    #[test]
+    fn a_draft_replaces_a_rig_only_if_forced() {
+        let folder = tempfile::tempdir().unwrap();
+        let arguments = arguments(folder.path(), Some("rig.toml"));
+        let rig = arguments.output.as_deref();
+        let place = folder.path().join("rig.toml");
+        std::fs::write(&place, "mine").unwrap();
+        let outcome = run(&arguments).unwrap();
+        let error = outcome.write(rig, Overwrite::Refuse).unwrap_err().to_string();
+        assert!(error.ends_with("exists already; choose another name, or --force to replace it"));
+        assert_eq!(std::fs::read_to_string(&place).unwrap(), "mine");
+        outcome.write(rig, Overwrite::Force).unwrap();
+        let text = std::fs::read_to_string(&place).unwrap();
+        assert!(text.contains("path = \"run.csv\"\n"), "{text}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn a_log_is_never_replaced_by_its_rig() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = run(&arguments(folder.path(), Some("run.csv"))).map(|_| ()).unwrap_err();
+        assert!(error.to_string().ends_with("is the log itself; choose another name for the rig"));
+    }
+
+    #[test]
+    fn without_a_destination_the_draft_is_the_result() {
+        let folder = tempfile::tempdir().unwrap();
+        let outcome = run(&arguments(folder.path(), None)).unwrap();
+        assert_eq!(outcome.json["rig"].as_str(), Some(outcome.text.as_str()));
+        assert_eq!(
+            (&outcome.json["schema"], &outcome.json["command"]),
+            (&json!(1), &json!("init"))
+        );
+        let why = "by their names";
+        let guess =
+            json!({"key": "log.gyro.columns", "value": "[\"gx\", \"gy\", \"gz\"]", "why": why});
+        assert!(outcome.json["guesses"].as_array().unwrap().contains(&guess));
+        let open = outcome.json["to_fill_in"].as_array().unwrap();
+        assert!(open.iter().any(|key| key["key"] == "log.accel.columns"));
+    }
+}

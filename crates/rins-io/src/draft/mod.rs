@@ -57,7 +57,7 @@ const HOW_TO_GO_ON: [&str; 3] = [
 ///     0.01,0.1,0.2,0.1,0.00,0.02,9.81\n0.02,0.1,0.3,0.1,0.01,0.02,9.82\n")?;
 /// let draft = rins_io::draft_rig(&log, folder.path())?;
 /// assert!(draft.text.contains("gyro.unit = \"deg/s\"\n"));
-/// assert!(draft.text.contains("accel.unit = \"m/s^2\"  # GUESS: gravity is then"));
+/// assert!(draft.text.contains("accel.unit = \"m/s^2\"  # GUESS: "));
 /// // Where the table stands, no log of columns says.
 /// assert_eq!(draft.to_fill_in[0].key, "site.latitude");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -8,6 +8,9 @@ use crate::quantity::Dimension;
 /// A step longer than this many median steps is a gap.
 const GAP: f64 = 1.5;
 
+/// How many steps it takes to call a column without a name a time.
+const ENOUGH: usize = 9;
+
 /// The time column and what its steps show.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pace {
@@ -17,6 +20,8 @@ pub(super) struct Pace {
     pub(super) column_guess: Option<String>,
     /// What it counts.
     pub(super) unit: PaceUnit,
+    /// How many steps were looked at.
+    pub(super) steps: usize,
     /// The median step, in the column's unit.
     pub(super) step: f64,
     /// How much the steps that are not gaps differ from it, rms, relative to it.
@@ -65,7 +70,8 @@ impl Pace {
         }
         let nameless = (0..sample.count).filter(|&column| labels[column].role.is_none());
         let mut rising = nameless.filter_map(|column| Self::of(sample, column));
-        let pace = rising.find(|pace| pace.halts == 0 && pace.jitter < 0.3)?;
+        let steadily = |pace: &Self| pace.steps >= ENOUGH && pace.halts == 0 && pace.jitter < 0.3;
+        let pace = rising.find(steadily)?;
         let why = "it rises steadily from row to row".to_string();
         let label = &labels[pace.column];
         Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
@@ -101,6 +107,7 @@ impl Pace {
             column,
             column_guess: None,
             unit: PaceUnit::Unknown,
+            steps: all.len(),
             step,
             jitter: (sum / even.len() as f64).sqrt(),
             gaps: sorted.iter().filter(|s| **s > GAP * step).count(),

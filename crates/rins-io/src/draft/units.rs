@@ -106,7 +106,7 @@ impl Surroundings<'_> {
             seen.push(self.one_count("the turning of gravity", turn));
         }
         if let (Some(rate), Some(interval)) = (least_rate(self.sample, gyro), self.interval) {
-            if let Some(text) = unique(&candidates, EARTH_RATE * interval / rate, &[1.3]) {
+            if let Some(text) = unique(&candidates, EARTH_RATE * interval / rate, &[1.05, 1.3]) {
                 let seen = short(rate);
                 let why = format!("the quietest rows, {seen}, then show the Earth's rate");
                 return Ok(UnitFound { text, why });

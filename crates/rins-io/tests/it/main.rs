@@ -9,6 +9,7 @@
 )]
 
 mod calibration;
+mod draft;
 mod log_refusals;
 mod logs;
 mod measured;

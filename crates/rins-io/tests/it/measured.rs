@@ -11,7 +11,7 @@ use rins_io::{Loaded, LogPolicy, Rig, read, read_log};
 use rins_testing::assert_close;
 
 /// The folder with the data; `None`, and a word of it, where there is none.
-fn data(name: &str) -> Option<PathBuf> {
+pub(crate) fn data(name: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("RINS_DATA").map(|data| PathBuf::from(data).join(name));
     let folder = folder.filter(|folder| folder.is_dir());
     if folder.is_none() {

@@ -1,0 +1,116 @@
+//! A motion in closed form to make logs of, and drafts to be filled in.
+
+use std::path::Path;
+
+use nalgebra::{Rotation3, Vector3};
+use rins_io::{Draft, draft_rig};
+
+/// A place for what a draft leaves open.
+pub(super) const SITE: [(&str, &str); 3] = [
+    ("site.latitude", "\"34.25 deg\""),
+    ("site.longitude", "\"108.9 deg\""),
+    ("site.height", "\"400 m\""),
+];
+
+/// Rests of 20 s before and between turns of 20 s at 10 and -25 deg/s, about a tilted axis.
+pub(super) struct Motion {
+    /// Rows in a second \[Hz\].
+    pub(super) rate: u32,
+    /// The tilt of the axis \[rad\].
+    pub(super) tilt: f64,
+}
+
+/// What there is in a row.
+pub(super) struct Row {
+    /// \[s\].
+    pub(super) time: f64,
+    /// The table angle \[rad\].
+    pub(super) table: f64,
+    /// With the Earth's rotation \[rad/s\].
+    pub(super) rate: Vector3<f64>,
+    /// \[m/s²\].
+    pub(super) force: Vector3<f64>,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self { rate: 50, tilt: 0.5 }
+    }
+}
+
+impl Motion {
+    pub(super) fn rows(&self) -> impl Iterator<Item = Row> {
+        let (interval, tilt) = (1.0 / f64::from(self.rate), self.tilt);
+        let speed = |time: f64| {
+            let leg = (time / 20.0).floor();
+            if leg == 1.0 {
+                10_f64
+            } else if leg == 3.0 {
+                -25.0
+            } else {
+                0.0
+            }
+        };
+        let mut table = 0.3;
+        (1..=80 * self.rate).map(move |index| {
+            let middle = (f64::from(index) - 0.5) * interval;
+            let spin = speed(middle).to_radians();
+            let half = spin * interval / 2.0;
+            let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), -(table + half));
+            table += 2.0 * half;
+            let earth = turned * Vector3::new(3e-5, 5e-5, 4.35e-5);
+            Row {
+                time: f64::from(index) * interval,
+                table,
+                // A little of its own noise keeps a gyro from being taken for dead.
+                rate: earth + Vector3::new(1e-9 * f64::from(index % 5), 0.0, spin),
+                force: turned * Vector3::new(tilt.sin(), 0.0, tilt.cos()) * 9.797,
+            }
+        })
+    }
+}
+
+/// The draft of the log `name` in `folder`, for a rig file there.
+pub(super) fn draft(folder: &Path, name: &str) -> Draft {
+    let draft = draft_rig(&folder.join(name), folder).unwrap();
+    // Whatever it says, it is TOML, and each guess is told on its line.
+    let _: toml::Table = draft.text.parse().unwrap();
+    assert_eq!(draft.text.matches("# GUESS: ").count(), draft.guesses.len());
+    assert_eq!(draft.text.matches("; confirm\n").count(), draft.guesses.len());
+    assert_eq!(draft.text.matches("# TO FILL IN: ").count(), draft.to_fill_in.len());
+    draft
+}
+
+/// A draft with these keys filled in, as its user would.
+pub(super) fn filled(draft: &str, values: &[(&str, &str)]) -> String {
+    let mut text = String::new();
+    let mut section = "";
+    let mut left: Vec<&str> = values.iter().map(|(key, _)| *key).collect();
+    for line in draft.lines() {
+        let bare = line.trim_start_matches("# ");
+        let header = bare.strip_prefix('[').and_then(|rest| rest.split_once(']'));
+        if let Some((name, _)) = header {
+            section = name;
+            let wanted = values
+                .iter()
+                .any(|(key, _)| key.rsplit_once(name).is_some_and(|(a, _)| a.is_empty()));
+            text.push_str(if wanted { bare } else { line });
+        } else {
+            let is_of = |key: &str| {
+                let own = key.strip_prefix(section).and_then(|key| key.strip_prefix('.'));
+                own.is_some_and(|own| bare.starts_with(&format!("{own} = ")))
+            };
+            match values.iter().find(|(key, _)| is_of(key)) {
+                Some((key, value)) => {
+                    left.retain(|other| other != key);
+                    let own = &key[section.len() + 1..];
+                    text.push_str(&format!("{own} = {value}"));
+                }
+                None => text.push_str(line),
+            }
+        }
+        text.push('\n');
+    }
+    assert!(left.is_empty(), "no such keys to fill in: {left:?}\n{draft}");
+    text
+}
