@@ -88,7 +88,10 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
             let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
             (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
         }
-        Err(error) => return Err(error.into()),
+        Err(error) => {
+            let log = loaded.rig.log.path.display().to_string();
+            return Err(anyhow::Error::new(error).context(log));
+        }
     };
     // The filter tells the rate at the start of the rest, so that up must be that of the start too.
     let seen = fine.map_or(mean.rates, |fine| {

@@ -2,15 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
+use anyhow::Context;
 use rins_calibration::{Calibration, FreeNavigation, Parameter, calibrate};
+use rins_frames::units::DEG;
 use rins_io::Loaded;
+use rins_motion::{Suspicion, inspect};
 use serde_json::{Value, json};
 
 use crate::args::{Calibrate, Model};
+use crate::commands::check::suspicion_in_words;
 use crate::commands::setup::{load, setup, shown};
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{SYSTEMATIC_NOTE, calibration_report, calibration_text, euler_json, meaning};
+
+/// A table that turns by less in all \[rad\] stands still.
+const LEAST_TURN: f64 = 1.0 * DEG;
 
 pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
     let Model::Paper12 = arguments.model;
@@ -23,10 +30,42 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
 /// Calibrates a run, with progress shown.
 pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
     let setup = setup(loaded)?;
+    refuse_mistaken(loaded)?;
     let bar = progress::bar(loaded.recording.len(), "calibrating");
     let calibration = calibrate(&loaded.recording, &setup, |done| bar.set_position(done as u64));
     bar.finish_and_clear();
-    Ok(calibration?)
+    calibration.with_context(|| loaded.rig.log.path.display().to_string())
+}
+
+/// Refuses a run whose units, signs or axes are wrong: estimates from it would mean nothing.
+fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
+    let Loaded { rig, recording, station, .. } = loaded;
+    let inspection = inspect(recording, Some(station));
+    let mistaken = inspection.suspicions.iter().find(|suspicion| {
+        // A coarse accelerometer may well say the same throughout.
+        !matches!(suspicion, Suspicion::StuckChannel { .. })
+    });
+    if let Some(suspicion) = mistaken {
+        anyhow::bail!("{}: {}", rig.path.display(), suspicion_in_words(suspicion));
+    }
+    let turned = match (&recording.table_angle, &recording.table_rate) {
+        (Some(angle), _) => {
+            let most = angle.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            most - angle.iter().copied().fold(f64::INFINITY, f64::min)
+        }
+        (None, Some(rate)) => {
+            rate.iter().zip(&recording.increments).map(|(rate, s)| rate.abs() * s.interval).sum()
+        }
+        (None, None) => return Ok(()),
+    };
+    anyhow::ensure!(
+        turned > LEAST_TURN,
+        "{}: the table turns by {:.3} deg in all, the z gyro by {:.2}: gyro errors along the spin axis do not show",
+        rig.log.path.display(),
+        turned / DEG,
+        inspection.turns * 360.0
+    );
+    Ok(())
 }
 
 /// A calibration as JSON, text, report and calibration file.

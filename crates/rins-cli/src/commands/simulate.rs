@@ -1,5 +1,6 @@
 //! `rins simulate`: a measured-looking run from a scenario.
 
+use anyhow::Context;
 use rins_frames::units::DEG;
 use rins_io::ScenarioFile;
 use rins_simulation::simulate;
@@ -14,7 +15,8 @@ pub(crate) fn run(arguments: &Simulate) -> anyhow::Result<Outcome> {
     if let Some(seed) = arguments.seed {
         file.scenario.seed.seed = seed;
     }
-    let run = simulate(&file.scenario)?.recording;
+    let simulated = simulate(&file.scenario).with_context(|| shown(&arguments.scenario))?;
+    let run = simulated.recording;
     let duration: f64 = run.increments.iter().map(|sample| sample.interval).sum();
     let turned: f64 =
         run.increments.iter().map(|sample| sample.angle.components().z.abs()).sum::<f64>()
