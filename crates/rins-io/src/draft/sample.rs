@@ -156,12 +156,14 @@ impl Rows {
         }
     }
 
-    /// A column of numbers that begins with a text is most likely under a second header.
+    /// Refuses a column of numbers that begins with a text, most likely that of a second header,
+    /// and a log that has no column of numbers.
     fn refuse_text(&self, path: &Path, names: Option<&[String]>) -> Result<(), IoError> {
-        for (index, (text, numbers)) in self.texts.iter().zip(&self.columns).enumerate() {
-            if let Some((line, text)) =
-                text.as_ref().filter(|_| numbers.iter().any(|n| !n.is_nan()))
-            {
+        let has_numbers = |column: &Vec<f64>| column.iter().any(|number| !number.is_nan());
+        let hopeless = !self.columns.iter().any(has_numbers);
+        for (index, (text, column)) in self.texts.iter().zip(&self.columns).enumerate() {
+            let Some((line, text)) = text else { continue };
+            if hopeless || has_numbers(column) {
                 let column = names.and_then(|names| names.get(index).cloned());
                 let column = column.unwrap_or_else(|| (index + 1).to_string());
                 let problem = LogProblem::NotANumber { column, text: text.clone() };

@@ -84,13 +84,17 @@ pub(super) fn imu(page: &mut Page) {
     page.leave(
         "noise",
         r#""? deg/h/sqrt(Hz)""#,
-        "the same as 60 times an angle random walk in deg/sqrt(h)",
+        "white noise; or as an angle random walk, \"? deg/sqrt(h)\"",
     );
     page.leave("bias_sigma", r#""? deg/h""#, "how large biases are, 1 sigma");
     page.leave("scale_sigma", r#""? ppm""#, "how large scale factor errors are, 1 sigma");
     page.leave("misalignment_sigma", r#""? arcsec""#, "how large misalignments are, 1 sigma");
     page.closed_section("imu.accel");
-    page.leave("noise", r#""? ug/sqrt(Hz)""#, "its white noise");
+    page.leave(
+        "noise",
+        r#""? ug/sqrt(Hz)""#,
+        "white noise; or as a velocity random walk, \"? m/s/sqrt(h)\"",
+    );
     page.leave("bias_sigma", r#""? ug""#, "as for the gyros");
     page.leave("scale_sigma", r#""? ppm""#, "as for the gyros");
     page.leave("misalignment_sigma", r#""? arcsec""#, "as for the gyros");

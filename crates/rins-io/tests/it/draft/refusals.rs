@@ -160,10 +160,14 @@ fn names_that_repeat_are_told_by_their_place() {
 
 #[test]
 fn what_is_no_log_is_refused() {
-    let cases: [(&[u8], &str); 8] = [
+    let cases: [(&[u8], &str); 9] = [
         (b"", "run.csv: the file is empty"),
         (b"t,gx,gy\n", "run.csv: only a header, no samples"),
         (b"t,gx\ns,deg/s\n1,2\n2,3\n", "run.csv:2: column \"t\": \"s\" is not a number"),
+        (
+            b"t;gx\n0,1;2,5\n0,2;2,5\n",
+            "run.csv:2: column \"t\": \"0,1\" is not a number; write decimals with a point",
+        ),
         (b"t,gx\n1,2\n2,3,4,5\n", "run.csv:3: 4 fields, expected 2"),
         (b"t,gx\n1,2\n2\n", "run.csv:3: 1 fields, expected 2; is the line cut short?"),
         (b"t,\xff\n1,2\n", "run.csv:1: not UTF-8 text; is it binary or UTF-16?"),
