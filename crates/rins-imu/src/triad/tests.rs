@@ -1,3 +1,5 @@
+//! Laws of the triad error and its inverse.
+
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use rins_frames::{Body, InFrame};
