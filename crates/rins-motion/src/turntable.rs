@@ -9,6 +9,11 @@ pub struct Segment {
     pub duration: f64,
 }
 
+/// The fastest rate that is taken for a table's \[rad/s\]: 16 turns in 10 ms.
+///
+/// What follows from a profile takes time in proportion to its turns.
+const FASTEST_RATE: f64 = 1e4;
+
 /// Why a list of segments is not a profile.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -16,8 +21,10 @@ pub enum ProfileError {
     /// There is no segment.
     #[error("a table profile needs at least one segment")]
     Empty,
-    /// A rate is not finite.
-    #[error("segment {index} has a rate of {rate} rad/s, which is not a finite number")]
+    /// A rate is not finite, or no table's.
+    #[error(
+        "segment {index} has a rate of {rate} rad/s; it must be finite and at most {FASTEST_RATE} rad/s"
+    )]
     Rate {
         /// The segment's place, from 1.
         index: usize,
@@ -107,7 +114,7 @@ impl Profile {
         let mut end = 0.0;
         for (place, &Segment { rate, duration }) in segments.iter().enumerate() {
             let index = place + 1;
-            if !rate.is_finite() {
+            if !(rate.is_finite() && rate.abs() <= FASTEST_RATE) {
                 return Err(ProfileError::Rate { index, rate });
             }
             if !(duration.is_finite() && duration > 0.0) {
@@ -233,6 +240,7 @@ mod tests {
                 None,
                 ProfileError::Rate { index: 2, rate: f64::INFINITY },
             ),
+            (vec![segment(-1e300, 1.0)], None, ProfileError::Rate { index: 1, rate: -1e300 }),
             (
                 vec![segment(1.0, 1.0)],
                 Some(-2.0),
