@@ -1,0 +1,292 @@
+//! Logs with something wrong in them.
+
+use super::files::Spoil;
+use super::files::Spoil::{
+    All, Column, Content, Cut, Field, Folder, Line, Lines, Nothing, Replace, Without,
+};
+use super::{DATA, Row, refused};
+
+const LOG: &str = "run.csv";
+const CHECK: &str = "check rig.toml";
+const ALIGN: &str = "align rig.toml";
+const NAVIGATE: &str = "navigate rig.toml";
+const CALIBRATE: &str = "calibrate rig.toml";
+
+/// The log as a file.
+const FILE: &[Row] = &[
+    ("a folder", CHECK, Folder(LOG), &["cannot read run.csv", "directory"]),
+    ("empty", CHECK, Content(LOG, b""), &["run.csv: ", "empty"]),
+    ("blank lines", CHECK, Content(LOG, b"\n\n \n"), &["run.csv: ", "empty"]),
+    ("only a header", CHECK, Lines(LOG, 1), &["run.csv: only a header, no samples"]),
+    ("one sample", CHECK, Lines(LOG, 2), &["run.csv: 1 sample, at least 2 are needed"]),
+    ("not UTF-8", CHECK, Line(LOG, 5, b"\xff\xfe,1,2,3,4,5,6,7"), &["run.csv:5: not UTF-8 text"]),
+    ("zero bytes", CHECK, Line(LOG, 5, b"0.4,\0\0\0,2,3,4,5,6,7"), &["run.csv:5: not UTF-8 text"]),
+    (
+        "UTF-16",
+        CHECK,
+        Content(LOG, b"\xff\xfet\0i\0m\0e\0\n\0"),
+        &["run.csv:1: not UTF-8 text", "UTF-16"],
+    ),
+    (
+        "prose",
+        CHECK,
+        Content(LOG, b"Once upon a time\nthere was a log.\n"),
+        &["run.csv:1: no column \"gyro_x\""],
+    ),
+    (
+        "another column of the same name",
+        CHECK,
+        Replace(LOG, "gyro_y", "gyro_x"),
+        &["run.csv:1: two columns are called \"gyro_x\""],
+    ),
+];
+
+/// A log is drafted from before anybody has said what it holds.
+const DRAFTED: &[Row] = &[
+    ("no file", "init no.csv", Nothing, &["cannot read no.csv", "No such file"]),
+    ("a folder", "init run.csv", Folder(LOG), &["cannot read run.csv", "directory"]),
+    ("empty", "init run.csv", Content(LOG, b""), &["run.csv: ", "empty"]),
+    ("not UTF-8", "init run.csv", Line(LOG, 5, b"\xff\xfe,1"), &["run.csv:5: not UTF-8 text"]),
+];
+
+/// The text of a rig that says no more than that its log is one of PSINS.
+const PSINS_RIG: Spoil = Content("rig.toml", b"[log]\npath = \"run.csv\"\nformat = \"psins\"\n");
+
+/// PSINS logs, whose header is part of what they measured.
+const PSINS: &[Row] = &[
+    (
+        "half a header",
+        CHECK,
+        All(&[PSINS_RIG, Content(LOG, b"% log\n0 0 0 0 0 0\n34.2 108.9 400 0 10 9.8\n")]),
+        &["run.csv: the header has 2 of its 3 rows"],
+    ),
+    (
+        "beyond the pole",
+        CHECK,
+        All(&[PSINS_RIG, Content(LOG, b"0 0 0 0 0 0\n134.2 108.9 400 0 10 9.8\n.1 .1 .1 1 1 1\n1 2 3 4 5 6\n")]),
+        &["run.csv:2: the header's latitude is 134.2"],
+    ),
+    (
+        "no time from one sample to the next",
+        CHECK,
+        All(&[PSINS_RIG, Content(LOG, b"0 0 0 0 0 0\n34.2 108.9 400 0 0 9.8\n.1 .1 .1 1 1 1\n1 2 3 4 5 6\n")]),
+        &["run.csv:2: the header's interval is 0, expected an interval"],
+    ),
+    (
+        "a word",
+        CHECK,
+        All(&[PSINS_RIG, Content(LOG, b"0 0 0 0 0 0\n34.2 108.9 400 0 10 9.8\n.1 .1 .1 1 1 1\n1 2 3 4 5 6\n1 two 3 4 5 6\n")]),
+        &["run.csv:5:", "\"two\" is not a number"],
+    ),
+];
+
+/// Single lines.
+const LINES: &[Row] = &[
+    ("text in a number", CHECK, Field(9, "gyro_y", "1.2.3"), &["run.csv:9: column \"gyro_y\": \"1.2.3\" is not a number"]),
+    ("a word", NAVIGATE, Field(9, "accel_z", "error"), &["run.csv:9: column \"accel_z\": \"error\" is not a number"]),
+    ("hexadecimal", CHECK, Field(9, "gyro_y", "0x1f"), &["run.csv:9: column \"gyro_y\": \"0x1f\" is not a number"]),
+    ("nothing in a number", CHECK, Field(9, "gyro_y", ""), &["run.csv:9: column \"gyro_y\": empty, expected a number"]),
+    ("NaN", CALIBRATE, Field(100, "gyro_z", "nan"), &["run.csv:100: column \"gyro_z\": \"nan\" is not finite"]),
+    ("NaN of the table", CALIBRATE, Field(100, "table_angle", "NaN"), &["run.csv:100: column \"table_angle\": \"NaN\" is not finite"]),
+    ("infinity", CALIBRATE, Field(100, "accel_x", "inf"), &["run.csv:100: column \"accel_x\": \"inf\" is not finite"]),
+    ("minus infinity", NAVIGATE, Field(100, "accel_x", "-Infinity"), &["run.csv:100: column \"accel_x\": \"-Infinity\" is not finite"]),
+    ("1e400", ALIGN, Field(100, "accel_x", "1e400"), &["run.csv:100: column \"accel_x\": \"1e400\" is not finite"]),
+    ("NaN as a time", CHECK, Field(7, "time", "nan"), &["run.csv:7: column \"time\": \"nan\""]),
+    ("the last line is cut", CHECK, Cut(LOG, 60), &["run.csv:1601:", "fields, expected 8; is the line cut short?"]),
+    ("the last number is cut", CHECK, Replace(LOG, "e0\n", "e\n"), &["run.csv:{line}: column \"table_angle\":", "is not a number"]),
+    ("a field too many", CHECK, Line(LOG, 4, b"0.3,1,2,3,4,5,6,7,8"), &["run.csv:4: 9 fields, expected 8"]),
+    ("an open quotation mark", CHECK, Field(6, "time", "\"0.5"), &["run.csv:6:"]),
+    (
+        "decimal commas",
+        CHECK,
+        All(&[
+            Content(LOG, b"time;gyro_x;gyro_y;gyro_z;accel_x;accel_y;accel_z;table_angle\n0,1;1,5;2;3;4;5;6;7\n0,2;1;2;3;4;5;6;7\n"),
+        ]),
+        &["run.csv:2: column", "is not a number; write decimals with a point"],
+    ),
+];
+
+/// Time.
+const TIMES: &[Row] = &[
+    (
+        "time going backwards",
+        CHECK,
+        Field(50, "time", "1.4"),
+        &["run.csv:50: time goes from 1.5 s to 1.4 s, it must increase"],
+    ),
+    (
+        "the same time twice",
+        CHECK,
+        Field(50, "time", "1.5"),
+        &["run.csv:50: time goes from 1.5 s to 1.5 s, it must increase"],
+    ),
+    (
+        "time that stands",
+        CHECK,
+        Column("time", "1"),
+        &["run.csv:3: time goes from 1 s to 1 s, it must increase"],
+    ),
+    (
+        "a gap of ten seconds",
+        CALIBRATE,
+        Without(LOG, 322..=641),
+        &["run.csv:322: a gap of 10.031250 s after 10 s, more than 1 s; cut the log there"],
+    ),
+    (
+        "a gap among increments",
+        CALIBRATE,
+        Without(LOG, 322..=337),
+        &[
+            "run.csv:322: a gap of 0.531250 s after 10 s in a log of increments",
+            "gaps = \"accumulated\" or gaps = \"held\"",
+        ],
+    ),
+    (
+        "a leap to the end of time",
+        CHECK,
+        Field(1601, "time", "1e18"),
+        &["run.csv:1601: a gap of 1000000000000000000"],
+    ),
+];
+
+/// What the numbers mean.
+const READINGS: &[Row] = &[
+    (
+        "a gyro that is always zero",
+        CHECK,
+        Column("gyro_y", "0"),
+        &["run.csv: gyro y (\"gyro_y\") is 0 in every sample: the channel is stuck"],
+    ),
+    (
+        "a gyro that repeats",
+        CHECK,
+        Column("gyro_z", "0.02"),
+        &["run.csv: gyro z (\"gyro_z\") is 0.02 in every sample"],
+    ),
+    (
+        "gyros that are always zero",
+        CALIBRATE,
+        All(&[Column("gyro_x", "0"), Column("gyro_y", "0"), Column("gyro_z", "0")]),
+        &["run.csv: gyro x (\"gyro_x\") is 0 in every sample"],
+    ),
+    (
+        "accelerometers that are always zero",
+        CHECK,
+        All(&[Column("accel_x", "0"), Column("accel_y", "0"), Column("accel_z", "0")]),
+        &["run.csv: accel x (\"accel_x\") is 0 in every sample"],
+    ),
+    (
+        "a table that leaps by almost half a turn",
+        CALIBRATE,
+        Field(60, "table_angle", "2.9"),
+        &[
+            "run.csv:60: the table angle moves by 0.46",
+            "of a turn in one sample, so its direction cannot be told",
+        ],
+    ),
+    (
+        "a table that never turns",
+        CALIBRATE,
+        Column("table_angle", "0"),
+        &["run.csv: the table turns by 0.000 deg in all, the z gyro by 300."],
+    ),
+    (
+        "a run that never turns",
+        CALIBRATE,
+        Lines(LOG, 250),
+        &["run.csv: the table turns by 0.000 deg in all", "do not show"],
+    ),
+    (
+        "a run that hardly turns",
+        CALIBRATE,
+        Lines(LOG, 684),
+        &["run.csv: only 43 samples are left after the rest at the start; at least 100 are needed"],
+    ),
+    (
+        "no rest to align on",
+        ALIGN,
+        Without(LOG, 2..=641),
+        &["run.csv: the IMU never stands still for 5 s"],
+    ),
+    (
+        "neither attitude nor rest",
+        CALIBRATE,
+        All(&[
+            Without(LOG, 2..=641),
+            Replace(
+                "rig.toml",
+                "[attitude]\nroll = \"30 deg\"\npitch = \"20 deg\"\nyaw = \"40 deg\"\nsigma = \"0.05 deg\"\n",
+                "",
+            ),
+        ]),
+        &[
+            "run.csv: the attitude of the axis is not given and the log does not start with 5 s of rest",
+        ],
+    ),
+    (
+        "a gyro reading that is finite, but only just",
+        CHECK,
+        Field(200, "gyro_x", "1e300"),
+        &["run.csv: gyro.x reads 3.2e301 rad/s at 6.21875 s, which no sensor does"],
+    ),
+    (
+        "the same, calibrated",
+        CALIBRATE,
+        Field(200, "gyro_x", "-1e300"),
+        &["run.csv: gyro.x reads -3.2e301 rad/s at 6.21875 s"],
+    ),
+    (
+        "the same of an accelerometer",
+        NAVIGATE,
+        Field(200, "accel_y", "1e300"),
+        &["run.csv: accel.y reads 3.2e301 m/s^2 at 6.21875 s"],
+    ),
+    (
+        "the same, aligned on",
+        ALIGN,
+        Field(200, "accel_z", "1e300"),
+        &["run.csv: accel.z reads 3.2e301 m/s^2 at 6.21875 s"],
+    ),
+    (
+        "a table in degrees that is calibrated",
+        CALIBRATE,
+        Replace("rig.toml", "\"table_angle\", unit = \"rad\"", "\"table_angle\", unit = \"deg\""),
+        &["rig.toml: the z gyro counts 57.", "of the table's turn", "the table's unit is wrong"],
+    ),
+    (
+        "a gyro triad upside down that is calibrated",
+        CALIBRATE,
+        Replace("rig.toml", "unit = \"rad\"", "unit = \"rad\", axes = [\"x\", \"-y\", \"-z\"]"),
+        &["rig.toml: the z gyro counts -1.0", "the table's sense is opposite to the gyro's"],
+    ),
+];
+
+#[test]
+fn log_that_cannot_be_read() {
+    refused(DATA, FILE);
+}
+
+#[test]
+fn log_that_cannot_be_drafted_from() {
+    refused(DATA, DRAFTED);
+}
+
+#[test]
+fn psins_log_that_is_none() {
+    refused(DATA, PSINS);
+}
+
+#[test]
+fn line_that_holds_no_numbers() {
+    refused(DATA, LINES);
+}
+
+#[test]
+fn time_that_does_not_go_on() {
+    refused(DATA, TIMES);
+}
+
+#[test]
+fn readings_that_no_sensor_gives() {
+    refused(DATA, READINGS);
+}

@@ -1,0 +1,103 @@
+//! `rins demo`: a first run with nothing at hand leaves a result, and next steps that work.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::support::{list, magnitude, number, object, result_in, rins_in};
+
+/// Runs a line of a shell, whose `rins` is the one under test.
+fn in_shell(line: &str, folder: &Path) -> (Option<i32>, String) {
+    let program = rins_tests::rins().get_program().to_owned();
+    let ours = Path::new(&program).parent().expect("a program lies in a folder").to_owned();
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(std::iter::once(ours).chain(std::env::split_paths(&others)));
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", line]).env("PATH", path.unwrap()).current_dir(folder);
+    let output = shell.output().expect("there is a shell");
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[test]
+fn demo_leaves_a_result_that_others_can_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let finished = rins_in(folder.path(), "demo");
+    assert_eq!((finished.code, finished.err.as_str()), (Some(0), ""));
+    assert!(finished.out.ends_with("\nReport: rins-demo/report.html\n"), "{}", finished.out);
+
+    let mut names: Vec<String> = fs::read_dir(folder.path().join("rins-demo"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let expected = ["calibration.toml", "report.html", "result.json", "rig.toml", "run.csv"];
+    assert_eq!(names, expected);
+    for (name, opening) in [("report.html", "<!"), ("run.csv", "time,"), ("result.json", "{")] {
+        let content = fs::read_to_string(folder.path().join("rins-demo").join(name)).unwrap();
+        assert!(content.starts_with(opening), "{name}");
+    }
+    // The report works with the network cut: nothing in it is fetched.
+    let page = fs::read_to_string(folder.path().join("rins-demo/report.html")).unwrap();
+    for fetched in ["src=\"http", "href=\"http", "src=\"//", "@import", "fetch("] {
+        assert!(!page.contains(fetched), "the report holds {fetched}");
+    }
+    let written = fs::read_to_string(folder.path().join("rins-demo/result.json")).unwrap();
+    let result: Value = serde_json::from_str(&written).unwrap();
+    assert_eq!((&result["schema"], &result["command"]), (&1.into(), &"demo".into()));
+    let (before, after) = (
+        magnitude(&result, "/navigation/before/velocity_m_s"),
+        magnitude(&result, "/navigation/after/velocity_m_s"),
+    );
+    assert!(before > 100.0 * after, "{before} m/s before, {after} m/s after");
+}
+
+/// The embedded run was made with the paper's errors: 60″ and 300 ppm,
+/// and a bias of 0.05 deg/h that looks like 0.2866″ and 1.3895 ppm more at 10 deg/s.
+#[test]
+fn demo_prints_one_object_that_tells_the_truth() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = result_in(folder.path(), "demo -o here");
+    assert_eq!(result["command"], "demo");
+    let parameters = list(&result, "/parameters");
+    assert_eq!(parameters.len(), 3);
+    for (parameter, truth, floor) in [
+        (&parameters[0], 60.2866, 0.03),
+        (&parameters[1], 60.2866, 0.03),
+        (&parameters[2], 301.3895, 0.1),
+    ] {
+        let (value, sigma) = (number(parameter, "/value"), number(parameter, "/sigma"));
+        let within = 4.0 * sigma.max(floor);
+        assert!((value - truth).abs() < within, "{truth} found as {value} ± {sigma}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn next_steps_of_the_demo_work_as_they_are_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["rins-demo", "second run"] {
+        let mut demo = rins_tests::rins();
+        demo.args(["demo", "-o", name]).current_dir(folder.path());
+        let text = String::from_utf8(demo.output().unwrap().stdout).unwrap();
+        let steps: Vec<&str> =
+            text.lines().map(str::trim).filter(|line| line.starts_with("rins ")).collect();
+        assert_eq!(steps.len(), 3, "{text}");
+        for step in steps {
+            let (code, error) = in_shell(step, folder.path());
+            assert_eq!((code, error.as_str()), (Some(0), ""), "{step}");
+        }
+        assert!(folder.path().join("my-calibration/report.html").is_file());
+        fs::remove_dir_all(folder.path().join("my-calibration")).unwrap();
+    }
+}
+
+#[test]
+fn demo_replaces_its_result_only_if_told_to() {
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(rins_in(folder.path(), "demo").code, Some(0));
+    let again = rins_in(folder.path(), "demo");
+    assert_eq!((again.code, again.out.as_str()), (Some(1), ""));
+    assert!(again.err.contains("rins-demo: exists already"), "{}", again.err);
+    assert_eq!(object(&rins_in(folder.path(), "demo --force --json"))["command"], "demo");
+}

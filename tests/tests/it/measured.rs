@@ -1,0 +1,185 @@
+//! Logs that others have measured, with all that is odd about them.
+//!
+//! Expected figures were counted in the files with awk, or are those of the project that measured
+//! them; none is what `rins` said. The rigs are in `tests/rigs`, with how their figures were found.
+
+use std::fs;
+use std::path::PathBuf;
+
+use rins_testing::assert_close;
+use rins_tests::{outside_data, workspace};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::{list, magnitude, number, numbers, result_in, rins_in, texts};
+
+/// A folder with a rig of `tests/rigs` in it that leads to the measured log, where that is at hand.
+fn rig(name: &str) -> Option<TempDir> {
+    outside_data(&format!("real/{name}")).filter(|log| log.is_dir())?;
+    let data = PathBuf::from(std::env::var_os("RINS_DATA")?).canonicalize().unwrap();
+    let rig = fs::read_to_string(workspace().join(format!("tests/rigs/{name}.toml"))).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let rig = rig.replace("RINS_DATA", &data.display().to_string());
+    fs::write(folder.path().join("rig.toml"), rig).unwrap();
+    Some(folder)
+}
+
+fn checked(folder: &TempDir) -> Value {
+    result_in(folder.path(), "check rig.toml")
+}
+
+/// Whether an oddity is told in these words.
+fn is_odd(check: &Value, words: &str) -> bool {
+    texts(check, "/oddities").iter().any(|oddity| oddity.contains(words))
+}
+
+#[test]
+fn laser_gyro_is_at_rest_and_sees_the_earth_turn() {
+    let Some(folder) = rig("psins_lasergyro") else { return };
+    let check = checked(&folder);
+    assert_eq!(check["samples"], 184718);
+    assert_close!(number(&check, "/rate_hz"), 100.0, 1e-6);
+    assert!(list(&check, "/gaps").is_empty());
+    assert!(texts(&check, "/suspicions").is_empty(), "{check}");
+    assert_eq!(check["earth_rate_visible"], true);
+    assert!(is_odd(&check, "no time column"), "{check}");
+    let rests = list(&check, "/rests");
+    assert_eq!(rests.len(), 1);
+    // But for the last part of a second, it rests throughout.
+    assert!(number(&rests[0], "/to_s") - number(&rests[0], "/from_s") > 1846.0);
+    // The header's g and the normal gravity differ by less than an accelerometer's scale error.
+    assert_close!(number(&rests[0], "/gravity_m_s2"), 9.7955, 1e-3);
+    assert_close!(number(&rests[0], "/rate_deg_h"), 15.0, 0.3);
+}
+
+#[test]
+fn laser_gyro_finds_its_latitude_and_north() {
+    let Some(folder) = rig("psins_lasergyro") else { return };
+    let align = result_in(folder.path(), "align rig.toml");
+    let latitude_sigma = number(&align, "/seen/latitude_sigma_deg");
+    let rate_sigma = number(&align, "/seen/earth_rate_sigma_deg_h");
+    // A sigma that covers anything would be no finding.
+    assert!((1e-3..0.2).contains(&latitude_sigma), "{latitude_sigma} deg");
+    assert!((1e-4..0.1).contains(&rate_sigma), "{rate_sigma} deg/h");
+    assert_close!(number(&align, "/seen/latitude_deg"), 34.246048, 4.0 * latitude_sigma);
+    assert_close!(number(&align, "/seen/earth_rate_deg_h"), 15.041067, 4.0 * rate_sigma);
+    // The header gives the heading to a tenth of a degree and leaves level at zero.
+    assert_close!(number(&align, "/header_attitude_deg/yaw"), -90.6, 1e-9);
+    let heading = number(&align, "/attitude_deg/yaw");
+    assert_close!(heading, -90.6, 0.1 + 4.0 * number(&align, "/sigma_deg/up"));
+    for angle in ["roll", "pitch"] {
+        assert!(number(&align, &format!("/attitude_deg/{angle}")).abs() < 1.5, "{align}");
+    }
+}
+
+#[test]
+fn laser_gyro_navigates_within_a_mile() {
+    let Some(folder) = rig("psins_lasergyro") else { return };
+    let navigate = result_in(folder.path(), "navigate rig.toml");
+    assert_close!(number(&navigate, "/duration_s"), 1847.18, 1e-6);
+    let runs = list(&navigate, "/runs");
+    let names: Vec<&str> = runs.iter().filter_map(|run| run["name"].as_str()).collect();
+    assert_eq!(names, ["as recorded", "gyro bias removed"]);
+    for run in runs {
+        // In half an hour a navigation-grade IMU is off by about a nautical mile at most.
+        let (speed, position) =
+            (magnitude(run, "/velocity_m_s"), magnitude(run, "/position_error_m"));
+        assert!((0.01..3.0).contains(&speed), "{run}");
+        assert!((10.0..1852.0).contains(&position), "{run}");
+        for angle in ["roll", "pitch", "yaw"] {
+            let error = number(run, &format!("/attitude_error_deg/{angle}"));
+            assert!(error.abs() < 0.5, "{angle} in {run}");
+        }
+    }
+    let [recorded, removed] = [0, 1].map(|run| numbers(&runs[run], "/velocity_m_s"));
+    let change = (recorded[0] - removed[0]).hypot(recorded[1] - removed[1]);
+    assert!(change > 0.05, "removing the gyro bias changes the velocity by {change} m/s only");
+}
+
+#[test]
+fn wheel_has_gaps_and_no_rest() {
+    let Some(folder) = rig("worklab_wheel_right") else { return };
+    let check = checked(&folder);
+    // 14039 lines of which 31 repeat the one before them.
+    assert_eq!(check["samples"], 14008);
+    assert_close!(number(&check, "/rate_hz"), 1.0 / 0.0024638, 0.5);
+    let gaps: Vec<f64> = list(&check, "/gaps").iter().map(|gap| number(gap, "/length_s")).collect();
+    let long: Vec<f64> = gaps.iter().copied().filter(|gap| *gap > 0.01).collect();
+    // 236 samples are missing one at a time; 15 times more than 14 ms are, and 17.2 ms once.
+    assert_eq!((gaps.len(), long.len()), (251, 15));
+    assert_close!(gaps.iter().copied().fold(0.0, f64::max), 0.01725, 1e-4);
+    // Gaps make up all of the 0.516 ms by which the steps scatter; the others hardly do.
+    let (count, jitter) = (14007.0, number(&check, "/jitter_rms_s"));
+    assert!(jitter < 0.05e-3, "{jitter}");
+    let mean = 0.00251889;
+    let regular = 1.0 / number(&check, "/rate_hz");
+    let off = |step: f64| (step - mean) * (step - mean);
+    let others = (count - gaps.len() as f64) * (off(regular) + jitter * jitter);
+    let scatter = ((gaps.iter().copied().map(off).sum::<f64>() + others) / count).sqrt();
+    assert_close!(scatter, 0.516e-3, 0.01e-3);
+
+    assert!(list(&check, "/rests").is_empty());
+    assert!(is_odd(&check, "251 gap(s)") && is_odd(&check, "never at rest"), "{check}");
+    // About 16 turns of the wheel, and the swaying about its axis before and after.
+    assert!((16.0..24.0).contains(&number(&check, "/turns")), "{check}");
+    for command in ["align", "navigate"] {
+        let refused = rins_in(folder.path(), &format!("{command} rig.toml --json"));
+        assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
+        assert!(refused.err.contains("sensors.csv: the IMU never stands still for 5 s"));
+    }
+}
+
+#[test]
+fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
+    let Some(folder) = rig("imucal_nilspod") else { return };
+    let check = checked(&folder);
+    assert_eq!(check["samples"], 10376);
+    assert_close!(number(&check, "/rate_hz"), 102.4, 1e-6);
+    assert!(list(&check, "/gaps").is_empty() && number(&check, "/jitter_rms_s") < 1e-9);
+    let rests = list(&check, "/rests");
+    assert_eq!(rests.len(), 13);
+    let gravity: Vec<f64> = rests.iter().map(|rest| number(rest, "/gravity_m_s2")).collect();
+    let (least, most) = (
+        gravity.iter().copied().fold(f64::MAX, f64::min),
+        gravity.iter().copied().fold(0.0, f64::max),
+    );
+    assert!((9.1..9.4).contains(&least) && (10.3..10.6).contains(&most), "{gravity:?}");
+    // A bias of some percent is no wrong unit.
+    assert!(texts(&check, "/suspicions").is_empty(), "{check}");
+    assert!(is_odd(&check, "the accelerometers are not calibrated"), "{check}");
+    assert_eq!(check["earth_rate_visible"], false);
+
+    let align = result_in(folder.path(), "align rig.toml");
+    assert!(align["attitude_deg"]["yaw"].is_null() && align["seen"]["latitude_deg"].is_null());
+    let rins = rins_in(folder.path(), "align rig.toml");
+    assert!(rins.out.contains("the gyros do not show north"), "{}", rins.out);
+}
+
+/// What its columns hold; its rests are another test.
+#[test]
+fn xsens_is_read_from_two_files_of_counts() {
+    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let check = checked(&folder);
+    assert_eq!(check["samples"], 51175);
+    assert_close!(number(&check, "/rate_hz"), 100.0, 0.1);
+    assert!(list(&check, "/gaps").is_empty());
+    assert_eq!(check["earth_rate_visible"], false);
+    assert!(texts(&check, "/suspicions").is_empty(), "{check}");
+}
+
+#[test]
+#[ignore = "a rest is not found where a second's mean of the gyros' noise exceeds 0.05 deg/s"]
+fn xsens_rests_38_times_and_reads_gravity_each_time() {
+    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let check = checked(&folder);
+    let rests = list(&check, "/rests");
+    assert!((36..=40).contains(&rests.len()), "{} rests", rests.len());
+    // The first lasts 52 s.
+    assert!(number(&rests[0], "/to_s") - number(&rests[0], "/from_s") > 45.0, "{}", rests[0]);
+    for rest in rests {
+        // The worst misses by 0.1 m/s^2; misalignment leaves that.
+        assert_close!(number(rest, "/gravity_m_s2"), 9.8065, 0.13);
+    }
+    let align = result_in(folder.path(), "align rig.toml");
+    assert!(align["attitude_deg"]["yaw"].is_null(), "{align}");
+}

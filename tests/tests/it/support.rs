@@ -1,0 +1,75 @@
+//! Running `rins` in a folder, and looking at what came of it.
+
+use std::path::Path;
+use std::process::Output;
+
+use rins_tests::rins;
+use serde_json::Value;
+
+/// What a run of `rins` left behind.
+#[derive(Debug)]
+pub(crate) struct Finished {
+    /// Its exit code.
+    pub(crate) code: Option<i32>,
+    /// Its standard output.
+    pub(crate) out: String,
+    /// Its standard error.
+    pub(crate) err: String,
+}
+
+impl From<Output> for Finished {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("rins writes UTF-8");
+        Self { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+    }
+}
+
+/// Runs `rins` in `folder` with the words of `arguments`.
+pub(crate) fn rins_in(folder: &Path, arguments: &str) -> Finished {
+    let mut command = rins();
+    command.args(arguments.split_whitespace()).current_dir(folder);
+    command.output().expect("rins starts").into()
+}
+
+/// What `rins --json` prints in `folder`, after it has succeeded without a word on standard error.
+pub(crate) fn result_in(folder: &Path, arguments: &str) -> Value {
+    let finished = rins_in(folder, &format!("{arguments} --json"));
+    assert_eq!((finished.code, finished.err.as_str()), (Some(0), ""), "rins {arguments}");
+    object(&finished)
+}
+
+/// The one JSON object of standard output.
+pub(crate) fn object(finished: &Finished) -> Value {
+    let value: Value = serde_json::from_str(&finished.out)
+        .unwrap_or_else(|error| panic!("{error} in {:?}", finished.out));
+    assert!(value.is_object(), "{value}");
+    assert_eq!(value["schema"], 1);
+    value
+}
+
+/// The number at `pointer`, as in `/seen/latitude_deg`.
+pub(crate) fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("no number at {pointer} of {value:#}"))
+}
+
+/// The list at `pointer`.
+pub(crate) fn list<'v>(value: &'v Value, pointer: &str) -> &'v [Value] {
+    let found = value.pointer(pointer).and_then(Value::as_array);
+    found.unwrap_or_else(|| panic!("no list at {pointer} of {value:#}"))
+}
+
+/// The numbers of the list at `pointer`.
+pub(crate) fn numbers(value: &Value, pointer: &str) -> Vec<f64> {
+    list(value, pointer).iter().map(|item| item.as_f64().expect("a list of numbers")).collect()
+}
+
+/// The texts of the list at `pointer`.
+pub(crate) fn texts<'v>(value: &'v Value, pointer: &str) -> Vec<&'v str> {
+    list(value, pointer).iter().map(|item| item.as_str().expect("a list of texts")).collect()
+}
+
+/// The magnitude of the vector at `pointer`.
+pub(crate) fn magnitude(value: &Value, pointer: &str) -> f64 {
+    numbers(value, pointer).iter().map(|component| component * component).sum::<f64>().sqrt()
+}
