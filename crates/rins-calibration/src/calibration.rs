@@ -1,21 +1,22 @@
 //! A calibration: from a recording to parameters, their covariance, and what they are worth.
 
+use std::ops::Range;
+
 use nalgebra::{Matrix3, SVector, Vector3};
 use rins_ekf::UpdateError;
+use rins_frames::units::{ARCSEC, PPM};
 use rins_frames::{Body, Dcm, Increments, Nav, Table};
 use rins_imu::{ImuCompensationError, ImuError, TriadError};
 use rins_motion::{AlignmentError, MeanUncertainty, Recording, RestMean, align, rest_spans};
 
 use crate::consistency::Consistency;
-use crate::filter::{
-    AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading, gyro_error,
-};
+use crate::filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
 use crate::history::Thinning;
 use crate::layout::{AXIS, SPIN_AXIS_ERRORS};
 use crate::navigation::{FreeNavigation, navigate_freely};
 use crate::parameter::{Parameter, ParameterKind};
 use crate::separability::SpinRateSums;
-use crate::setup::Setup;
+use crate::setup::{Setup, TableSpec};
 
 /// The shortest rest at the start that is left out, and can be aligned on \[s\].
 const SHORTEST_REST: f64 = 5.0;
@@ -25,6 +26,10 @@ const FEWEST_SAMPLES: usize = 100;
 
 /// The mean spin rate, root mean square \[rad/s\], below which the table has not turned.
 const LEAST_SPIN_RATE: f64 = 1e-3;
+
+/// What accelerometer errors, which the filter does not have, put into `M_xz`, `M_yz` \[rad\] and `S_z`
+/// by way of zero velocity, for biases of some 200 µg: less than this of a gyro bias is not told.
+const SYSTEMATIC: [f64; 3] = [0.03 * ARCSEC, 0.03 * ARCSEC, 0.1 * PPM];
 
 /// Why a recording could not be calibrated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -101,7 +106,7 @@ pub enum AttitudeSource {
 #[derive(Clone, Debug)]
 pub struct Calibration {
     /// The samples the filter ran over: those after the rest at the start.
-    pub span: std::ops::Range<usize>,
+    pub span: Range<usize>,
     /// Where the start attitude came from.
     pub attitude_source: AttitudeSource,
     /// The estimates.
@@ -110,8 +115,6 @@ pub struct Calibration {
     pub correlation: Matrix3<f64>,
     /// The estimates as a sensor error, to be compensated.
     pub imu_error: ImuError,
-    /// Their 1σ, in the same places.
-    pub imu_error_sigma: ImuError,
     /// The attitude of the axis frame, from the whole run.
     pub nav_from_table: Dcm<Nav, Table>,
     /// The 1σ of the three components of its error in n \[rad\].
@@ -142,77 +145,148 @@ pub fn calibrate(
     setup: &Setup,
     mut progress: impl FnMut(usize),
 ) -> Result<Calibration, CalibrationError> {
-    let angles = table_angles(recording, setup.table.latency).ok_or(CalibrationError::NoTable)?;
-    let rest = rest_spans(recording, SHORTEST_REST)
-        .into_iter()
-        .next()
-        .filter(|span| span.start == 0)
-        .map_or(0..0, |span| span);
-    let (start, attitude_source) = start(recording, setup, rest.clone(), &angles)?;
-
-    let span = rest.end..recording.len();
-    let samples = span.len();
-    if samples < FEWEST_SAMPLES {
-        return Err(CalibrationError::TooShort { samples, fewest: FEWEST_SAMPLES });
-    }
-    let mut filter = SpinAxisFilter::new(*setup, &start);
+    let run = Run::prepare(recording, setup)?;
+    let samples = run.span.len();
     let mut history = Vec::new();
     let mut innovations = Vec::with_capacity(samples);
-    let mut sums = SpinRateSums::default();
     let thinning = Thinning::of(samples);
-    for (done, index) in span.clone().enumerate() {
-        let sample = &recording.increments[index];
-        let time = recording.times[index];
-        let reading = match (&recording.table_angle, &recording.table_rate) {
-            (None, Some(rate)) => TableReading::Rate(rate[index]),
-            _ => TableReading::Angle(angles[index + 1]),
-        };
-        let whitened = filter
-            .step(sample, &Reference::fixed(reading))
-            .map_err(|source| CalibrationError::Update { time, source })?;
+    let filter = run.pass(setup, samples, |done, filter, whitened| {
         innovations.push(whitened);
-        sums.add(sample.angle.components().z / sample.interval, sample.interval);
         if thinning.keeps(done) {
             history.push(EstimatePoint {
-                time,
+                time: recording.times[run.span.start + done],
                 estimate: *filter.estimate(),
-                sigma: sigma(&filter, SPIN_AXIS_ERRORS.start()),
+                sigma: sigma(filter, SPIN_AXIS_ERRORS.start()),
             });
             progress(done);
         }
-    }
-    let spin_rate = sums.root_mean_square();
-    if spin_rate < LEAST_SPIN_RATE {
-        return Err(CalibrationError::NoTurn { spin_rate });
-    }
+    })?;
+    let sums = run.spin_rate_sums();
 
     let imu_error = ImuError { gyro: filter.gyro_error(), accel: TriadError::default() };
-    let run = recording.slice(span.start, span.end);
-    let angles = &angles[span.start..];
+    let span = run.span.clone();
+    let turned = recording.slice(span.start, span.end);
+    let angles = &run.angles[span.start..];
     let axis = filter.nav_from_table();
-    let navigate = |compensation| navigate_freely(&run, angles, axis, &setup.station, compensation);
+    let navigate =
+        |compensation| navigate_freely(&turned, angles, axis, &setup.station, compensation);
     let before = navigate(None);
     let after = navigate(Some(&imu_error.compensation()?));
     Ok(Calibration {
         parameters: parameters(&filter, &sums, setup),
         correlation: correlation(&filter),
         imu_error,
-        imu_error_sigma: ImuError {
-            gyro: gyro_error(&sigma(&filter, SPIN_AXIS_ERRORS.start())),
-            accel: TriadError::default(),
-        },
         nav_from_table: axis,
         axis_sigma: sigma(&filter, AXIS.start()),
         consistency: Consistency::of(&innovations)
             .ok_or(CalibrationError::TooShort { samples, fewest: FEWEST_SAMPLES })?,
         span,
-        attitude_source,
+        attitude_source: run.attitude_source,
         history,
-        innovation_times: run.times.clone(),
+        innovation_times: turned.times,
         innovations,
         before,
         after,
     })
+}
+
+/// How steady the spin axis most likely stands, 1σ of each component of its direction \[rad\], for
+/// a table of which that is not known.
+///
+/// It is the wobble under which the recording is most probable, to within a factor of two, from a ten
+/// thousandth to ten times the encoder's noise. A wobble that is not white is not told so.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn likely_wobble(recording: &Recording, setup: &Setup) -> Result<f64, CalibrationError> {
+    /// The first minutes show it; more would only take longer.
+    const MOST_SAMPLES: usize = 10_000;
+    let run = Run::prepare(recording, setup)?;
+    let samples = run.span.len().min(MOST_SAMPLES);
+    let log_likelihood = |wobble: f64| {
+        let tried = Setup { table: TableSpec { wobble, ..setup.table }, ..*setup };
+        // A wobble so small that the filter cannot resolve it is not a candidate.
+        run.pass(&tried, samples, |_, _, _| ()).map_or(f64::NEG_INFINITY, |f| f.log_likelihood())
+    };
+    let mut best = (setup.table.angle_noise, log_likelihood(setup.table.angle_noise));
+    for (decades, factor) in [(-4..=1, 10.0), (-1..=1, 3.0)] {
+        let centre = best.0;
+        for decade in decades {
+            let wobble = if factor > 5.0 { setup.table.angle_noise } else { centre }
+                * f64::powi(factor, decade);
+            let tried = (wobble, log_likelihood(wobble));
+            if tried.1 > best.1 {
+                best = tried;
+            }
+        }
+    }
+    Ok(best.0)
+}
+
+/// A recording made ready for the filter.
+struct Run<'a> {
+    recording: &'a Recording,
+    /// The table angle before the first sample and after each.
+    angles: Vec<f64>,
+    /// What is left after the rest at the start.
+    span: Range<usize>,
+    start: Start,
+    attitude_source: AttitudeSource,
+}
+
+impl<'a> Run<'a> {
+    fn prepare(recording: &'a Recording, setup: &Setup) -> Result<Self, CalibrationError> {
+        let angles =
+            table_angles(recording, setup.table.latency).ok_or(CalibrationError::NoTable)?;
+        let rest = rest_spans(recording, SHORTEST_REST)
+            .into_iter()
+            .next()
+            .filter(|span| span.start == 0)
+            .unwrap_or(0..0);
+        let (start, attitude_source) = start(recording, setup, rest.clone(), &angles)?;
+        let run =
+            Self { recording, angles, span: rest.end..recording.len(), start, attitude_source };
+        let samples = run.span.len();
+        if samples < FEWEST_SAMPLES {
+            return Err(CalibrationError::TooShort { samples, fewest: FEWEST_SAMPLES });
+        }
+        let spin_rate = run.spin_rate_sums().root_mean_square();
+        if spin_rate < LEAST_SPIN_RATE {
+            return Err(CalibrationError::NoTurn { spin_rate });
+        }
+        Ok(run)
+    }
+
+    /// Runs the filter over the first `samples` of the span; `seen` is shown each step.
+    fn pass(
+        &self,
+        setup: &Setup,
+        samples: usize,
+        mut seen: impl FnMut(usize, &SpinAxisFilter, SVector<f64, MEASUREMENTS>),
+    ) -> Result<SpinAxisFilter, CalibrationError> {
+        let recording = self.recording;
+        let mut filter = SpinAxisFilter::new(*setup, &self.start);
+        for (done, index) in self.span.clone().take(samples).enumerate() {
+            let reading = match (&recording.table_angle, &recording.table_rate) {
+                (None, Some(rate)) => TableReading::Rate(rate[index]),
+                _ => TableReading::Angle(self.angles[index + 1]),
+            };
+            let whitened =
+                filter.step(&recording.increments[index], &Reference::fixed(reading)).map_err(
+                    |source| CalibrationError::Update { time: recording.times[index], source },
+                )?;
+            seen(done, &filter, whitened);
+        }
+        Ok(filter)
+    }
+
+    fn spin_rate_sums(&self) -> SpinRateSums {
+        let mut sums = SpinRateSums::default();
+        for sample in &self.recording.increments[self.span.clone()] {
+            sums.add(sample.angle.components().z / sample.interval, sample.interval);
+        }
+        sums
+    }
 }
 
 /// The table angle before the first sample of a recording and after each \[rad\]: as read, brought
@@ -243,7 +317,7 @@ pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
 fn start(
     recording: &Recording,
     setup: &Setup,
-    rest: std::ops::Range<usize>,
+    rest: Range<usize>,
     angles: &[f64],
 ) -> Result<(Start, AttitudeSource), CalibrationError> {
     let angle = angles[rest.end];
@@ -288,7 +362,10 @@ fn parameters(filter: &SpinAxisFilter, sums: &SpinRateSums, setup: &Setup) -> Ve
         kind,
         value: filter.estimate()[row],
         sigma: sigma[row],
-        partners: sums.partner(&setup.imu.gyro, partner).into_iter().collect(),
+        partners: sums
+            .partner(&setup.imu.gyro, sigma[row].hypot(SYSTEMATIC[row]), partner)
+            .into_iter()
+            .collect(),
     })
     .collect()
 }
@@ -302,6 +379,12 @@ fn correlation(filter: &SpinAxisFilter) -> Matrix3<f64> {
     let covariance = filter.covariance().fixed_view::<3, 3>(start, start);
     Matrix3::from_fn(|row, column| {
         let product = covariance[(row, row)] * covariance[(column, column)];
-        if row == column { 1.0 } else { covariance[(row, column)] / product.sqrt() }
+        if row == column {
+            1.0
+        } else if product > 0.0 {
+            covariance[(row, column)] / product.sqrt()
+        } else {
+            0.0
+        }
     })
 }

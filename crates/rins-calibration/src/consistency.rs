@@ -15,7 +15,8 @@ pub struct Consistency {
     pub nis_dof: usize,
     /// How probable a mean so far off is, if the model is right (two-sided).
     pub nis_p: f64,
-    /// How probable innovations so far from white are, if the model is right.
+    /// How probable innovations so far from white are, if the model is right; channels for which too
+    /// much noise was claimed are left out.
     pub whiteness_p: f64,
     /// For each channel the RMS of its whitened innovation; 1 if the model is right.
     pub channel_rms: [f64; MEASUREMENTS],
@@ -23,8 +24,23 @@ pub struct Consistency {
     pub periodogram_distance: [f64; MEASUREMENTS],
 }
 
+/// What the two tests say together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The innovations are what the model says they should be.
+    Fits,
+    /// They are smaller: more noise was claimed than there is, and the sigmas are too large.
+    NoiseOverstated,
+    /// They are larger or coloured: there is more in the data than in the model, and the sigmas are too small.
+    Misfit,
+}
+
+/// A channel whose innovations are smaller than this share of what was claimed is not tested for
+/// whiteness: a filter that is told of too much noise colours them itself.
+const OVERSTATED: f64 = 0.8;
+
 impl Consistency {
-    /// The significance below which [`Self::fits`] says no, of either test.
+    /// The significance below which a test says no.
     pub const SIGNIFICANCE: f64 = 0.005;
 
     /// The consistency of whitened innovations in order of time; `None` if there are fewer than 8.
@@ -46,7 +62,9 @@ impl Consistency {
             channel_rms[channel] = (series.iter().map(|nu| nu * nu).sum::<f64>() / count).sqrt();
             let (largest, p) = cumulative_periodogram(&series);
             distance[channel] = largest;
-            least_p = least_p.min(p);
+            if channel_rms[channel] > OVERSTATED {
+                least_p = least_p.min(p);
+            }
         }
         Some(Self {
             nis_mean: sum / count,
@@ -58,9 +76,17 @@ impl Consistency {
         })
     }
 
-    /// Whether neither test speaks against the model.
-    pub fn fits(&self) -> bool {
-        self.nis_p >= Self::SIGNIFICANCE && self.whiteness_p >= Self::SIGNIFICANCE
+    /// What the tests say together.
+    pub fn verdict(&self) -> Verdict {
+        let size_is_off = self.nis_p < Self::SIGNIFICANCE;
+        let too_large = self.nis_mean > self.nis_dof as f64;
+        if self.whiteness_p < Self::SIGNIFICANCE || (size_is_off && too_large) {
+            Verdict::Misfit
+        } else if size_is_off {
+            Verdict::NoiseOverstated
+        } else {
+            Verdict::Fits
+        }
     }
 }
 
@@ -171,6 +197,21 @@ mod tests {
         // The 5 % and 1 % points of Smirnov's table.
         assert_close!(kolmogorov(1.3581), 0.05, 1e-5);
         assert_close!(kolmogorov(1.6276), 0.01, 1e-5);
+    }
+
+    #[test]
+    fn verdicts_tell_too_much_noise_from_a_misfit() {
+        let verdict = |spoil: fn(usize, &mut SVector<f64, MEASUREMENTS>)| {
+            let mut innovations = white(5);
+            for (index, innovation) in innovations.iter_mut().enumerate() {
+                spoil(index, innovation);
+            }
+            Consistency::of(&innovations).unwrap().verdict()
+        };
+        assert_eq!(verdict(|_, _| ()), Verdict::Fits);
+        assert_eq!(verdict(|_, innovation| *innovation *= 0.9), Verdict::NoiseOverstated);
+        assert_eq!(verdict(|_, innovation| *innovation *= 1.1), Verdict::Misfit);
+        assert_eq!(verdict(|_, innovation| innovation[1] += 0.5), Verdict::Misfit);
     }
 
     #[test]

@@ -81,6 +81,7 @@ pub struct SpinAxisFilter {
     nav_from_table: Dcm<Nav, Table>,
     estimate: Vector3<f64>,
     filter: Filter<STATES>,
+    log_likelihood: f64,
 }
 
 impl SpinAxisFilter {
@@ -109,7 +110,14 @@ impl SpinAxisFilter {
         AXIS.set(AXIS, &mut p, axis_covariance);
         SPIN_AXIS_ERRORS.set(SPIN_AXIS_ERRORS, &mut p, &square(sensor));
         let filter = Filter { state: SVector::zeros(), covariance: p };
-        Self { setup, navigator, nav_from_table, estimate: Vector3::zeros(), filter }
+        Self {
+            setup,
+            navigator,
+            nav_from_table,
+            estimate: Vector3::zeros(),
+            filter,
+            log_likelihood: 0.0,
+        }
     }
 
     /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated so far.
@@ -130,6 +138,11 @@ impl SpinAxisFilter {
     /// The attitude of the axis frame as estimated so far.
     pub const fn nav_from_table(&self) -> Dcm<Nav, Table> {
         self.nav_from_table
+    }
+
+    /// The logarithm of the probability density of all references so far, under this setup.
+    pub const fn log_likelihood(&self) -> f64 {
+        self.log_likelihood
     }
 
     /// The navigator, as corrected so far.
@@ -160,6 +173,7 @@ impl SpinAxisFilter {
         let velocity = self.navigator.state().velocity - reference.velocity;
         measurement.value.fixed_rows_mut::<3>(0).copy_from(velocity.components());
         let innovation = self.filter.update(&measurement)?;
+        self.log_likelihood += innovation.log_likelihood();
         self.correct();
         Ok(innovation.whitened)
     }

@@ -25,9 +25,10 @@ mod separability;
 mod setup;
 
 pub use calibration::{
-    AttitudeSource, Calibration, CalibrationError, EstimatePoint, calibrate, table_angles,
+    AttitudeSource, Calibration, CalibrationError, EstimatePoint, calibrate, likely_wobble,
+    table_angles,
 };
-pub use consistency::Consistency;
+pub use consistency::{Consistency, Verdict};
 pub use filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
 pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};
 pub use parameter::{Parameter, ParameterKind, Partner};

@@ -1,16 +1,12 @@
-//! Which of the three spin-axis errors a schedule tells from the gyro biases.
+//! How much of the gyro biases a schedule leaves in the three estimates.
 
 use rins_imu::TriadSpec;
 
 use crate::parameter::{ParameterKind, Partner};
 
-/// A parameter is told from its partner if not knowing the partner costs less than this factor in sigma.
-const LARGEST_COST: f64 = 3.0;
-
-/// Sums over the samples of a run from which separability follows.
+/// Sums over the samples of a run, from which the biases' share in the estimates follows.
 ///
-/// Along each axis the gyro error is `x ω_z + b`, with `x` one of `M_xz`, `M_yz`, `S_z`. The
-/// information on `(x, b)` is then the Gram matrix of `ω_z` and 1, whatever the axis.
+/// Along each axis the gyro error is `x ω_z + b`, with `x` one of `M_xz`, `M_yz`, `S_z`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SpinRateSums {
     duration: f64,
@@ -31,19 +27,22 @@ impl SpinRateSums {
         if self.duration > 0.0 { (self.square / self.duration).sqrt() } else { 0.0 }
     }
 
-    /// The bias that hides in the estimate, or `None` if the schedule separates them.
+    /// The bias that hides in an estimate of 1σ `sigma`, or `None` if this schedule keeps it out.
     ///
-    /// The share is the regression of a constant on the spin rate, `Σω / Σω²`, which for one
-    /// constant rate is `1/(ω + ω_ie,z)`.
-    pub(crate) fn partner(&self, spec: &TriadSpec, id: &'static str) -> Option<Partner> {
-        let noise = spec.noise_density * spec.noise_density;
-        let bias_prior = noise / (spec.bias_sigma * spec.bias_sigma);
-        // Sigma without and with the bias unknown: 1/a against c/(a c - b²).
-        let cost =
-            1.0 / (1.0 - self.rate * self.rate / (self.square * (self.duration + bias_prior)));
-        (cost.sqrt() > LARGEST_COST).then(|| Partner {
+    /// The filter has no bias states: whatever the schedule could separate, a bias goes into the
+    /// estimate by the regression of a constant on the spin rate, `Σω / Σω²`, which for one constant
+    /// rate is `1/(ω + ω_ie,z)` and after an even reversal is nothing. It is told when a bias of
+    /// the data sheet's size would move the estimate by more than its sigma.
+    pub(crate) fn partner(
+        &self,
+        spec: &TriadSpec,
+        sigma: f64,
+        id: &'static str,
+    ) -> Option<Partner> {
+        let share = self.rate / self.square;
+        (share.abs() * spec.bias_sigma > sigma).then_some(Partner {
             id,
-            share: self.rate / self.square,
+            share,
             kind: ParameterKind::GyroBias,
         })
     }
@@ -52,7 +51,7 @@ impl SpinRateSums {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rins_frames::units::{DEG_PER_HOUR, DEG_PER_SECOND};
+    use rins_frames::units::{ARCSEC, DEG_PER_HOUR, DEG_PER_SECOND};
     use rins_testing::assert_close;
 
     const SPEC: TriadSpec = TriadSpec {
@@ -66,22 +65,37 @@ mod tests {
         resolution: None,
     };
 
-    #[test]
-    fn one_rate_hides_the_bias_and_a_reversal_shows_it() {
-        let rate = 10.0 * DEG_PER_SECOND;
+    const SIGMA: f64 = 0.006 * ARCSEC;
+
+    fn sums(profile: &[(f64, f64)]) -> SpinRateSums {
         let mut sums = SpinRateSums::default();
-        sums.add(rate, 360.0);
-        let partner = sums.partner(&SPEC, "gyro.bias.x").unwrap();
-        assert_close!(partner.share, 1.0 / rate, 1e-12);
-        sums.add(-rate, 360.0);
-        assert_eq!(sums.partner(&SPEC, "gyro.bias.x"), None);
+        for (rate, duration) in profile {
+            sums.add(rate * DEG_PER_SECOND, *duration);
+        }
+        sums
     }
 
     #[test]
-    fn a_gyro_known_to_have_no_bias_hides_none() {
-        let mut sums = SpinRateSums::default();
-        sums.add(10.0 * DEG_PER_SECOND, 360.0);
+    fn one_rate_holds_the_bias_and_an_even_reversal_does_not() {
+        let partner = sums(&[(10.0, 360.0)]).partner(&SPEC, SIGMA, "gyro.bias.x").unwrap();
+        assert_close!(partner.share, 1.0 / (10.0 * DEG_PER_SECOND), 1e-12);
+        let reversed = sums(&[(10.0, 360.0), (-10.0, 360.0)]);
+        assert_eq!(reversed.partner(&SPEC, SIGMA, "gyro.bias.x"), None);
+    }
+
+    #[test]
+    fn schedules_that_could_separate_but_whose_filter_does_not_are_told() {
+        let dwell = [(10.0, 300.0), (0.0, 60.0)];
+        let two_rates = [(10.0, 300.0), (30.0, 300.0)];
+        let uneven_reversal = [(10.0, 400.0), (-10.0, 100.0)];
+        for profile in [&dwell, &two_rates, &uneven_reversal] {
+            assert!(sums(profile).partner(&SPEC, SIGMA, "gyro.bias.x").is_some(), "{profile:?}");
+        }
+    }
+
+    #[test]
+    fn a_gyro_known_to_have_no_bias_holds_none() {
         let known = TriadSpec { bias_sigma: 1e-6 * DEG_PER_HOUR, ..SPEC };
-        assert_eq!(sums.partner(&known, "gyro.bias.x"), None);
+        assert_eq!(sums(&[(10.0, 360.0)]).partner(&known, SIGMA, "gyro.bias.x"), None);
     }
 }

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use rins_calibration::{Calibration, FreeNavigation, Parameter, calibrate};
+use rins_calibration::{
+    Calibration, FreeNavigation, MEASUREMENTS, Parameter, Verdict, calibrate, likely_wobble,
+};
 use rins_frames::units::DEG;
 use rins_io::Loaded;
 use rins_motion::{Suspicion, inspect};
@@ -15,6 +17,9 @@ use crate::commands::setup::{load, setup, shown};
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{SYSTEMATIC_NOTE, calibration_report, calibration_text, euler_json, meaning};
+
+/// A mean NIS above this is no matter of a sensor error more or less.
+const ABSURD_NIS: f64 = 100.0;
 
 /// A table that turns by less in all \[rad\] stands still.
 const LEAST_TURN: f64 = 1.0 * DEG;
@@ -29,8 +34,12 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
 
 /// Calibrates a run, with progress shown.
 pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
-    let setup = setup(loaded)?;
+    let mut setup = setup(loaded)?;
     refuse_mistaken(loaded)?;
+    if loaded.rig.table.as_ref().is_none_or(|table| table.wobble.is_none()) {
+        setup.table.wobble = likely_wobble(&loaded.recording, &setup)
+            .with_context(|| loaded.rig.log.path.display().to_string())?;
+    }
     let bar = progress::bar(loaded.recording.len(), "calibrating");
     let calibration = calibrate(&loaded.recording, &setup, |done| bar.set_position(done as u64));
     bar.finish_and_clear();
@@ -79,18 +88,28 @@ pub(crate) fn outcome(calibration: &Calibration, loaded: &Loaded, rig: &Path) ->
         loaded.recording.times[span.end - 1],
         loaded.rig.log.path.file_name().map_or_else(String::new, |name| name.display().to_string()),
     );
-    let file = rins_io::Calibration {
-        path: PathBuf::new(),
-        error: calibration.imu_error,
-        sigma: Some(calibration.imu_error_sigma),
-    };
+    let file =
+        rins_io::Calibration { path: PathBuf::new(), error: calibration.imu_error, sigma: None };
     Outcome {
         json: json(calibration, rig),
         text: calibration_text(calibration, &title),
+        failure: absurd(calibration),
         report: Some(calibration_report(calibration, &title, &subtitle)),
         files: vec![("calibration.toml", file.to_toml().into_bytes())],
         ..Outcome::default()
     }
+}
+
+/// Why estimates mean nothing, if the innovations are beyond what any sensor error explains.
+fn absurd(calibration: &Calibration) -> Option<String> {
+    let nis = calibration.consistency.nis_mean;
+    (nis > ABSURD_NIS).then(|| {
+        format!(
+            "the innovations are {:.0} times larger than the rig's figures allow: units, axes, signs, attitude or table \
+             profile are wrong, and so are the estimates",
+            (nis / MEASUREMENTS as f64).sqrt()
+        )
+    })
 }
 
 fn json(calibration: &Calibration, rig: &Path) -> Value {
@@ -116,7 +135,12 @@ fn json(calibration: &Calibration, rig: &Path) -> Value {
             "nis_p": consistency.nis_p,
             "whiteness_p": consistency.whiteness_p,
             "channel_rms": consistency.channel_rms,
-            "model_fits": consistency.fits(),
+            "model_fits": consistency.verdict() != Verdict::Misfit,
+            "verdict": match consistency.verdict() {
+                Verdict::Fits => "fits",
+                Verdict::NoiseOverstated => "noise_overstated",
+                Verdict::Misfit => "misfit",
+            },
         },
         "notes": [SYSTEMATIC_NOTE],
     })

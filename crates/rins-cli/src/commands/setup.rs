@@ -41,11 +41,11 @@ fn refuse_beyond_reason(loaded: &Loaded) -> anyhow::Result<()> {
 
 /// What a rig says of station, table and IMU.
 ///
-/// Where the rig gives no figure for the direction of the axis, it is taken to be as steady as
-/// the encoder reads.
+/// Where the rig gives no figure for the direction of the axis, it is taken for now to be as steady
+/// as the encoder reads.
 pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
     let rig = &loaded.rig;
-    let imu = *rig.require_imu().context("the filter's noise and priors come from there")?;
+    let imu = *rig.require_imu().context("the calibration needs the IMU's data sheet")?;
     let encoder = rig.log.table_angle();
     let read = encoder.and_then(|angle| angle.noise).unwrap_or(TableSpec::DEFAULT_ANGLE_NOISE);
     // A reading rounded to its last bit is off by that of a uniform deviate.

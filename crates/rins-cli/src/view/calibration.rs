@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use nalgebra::Vector3;
 use rins_calibration::{
-    AttitudeSource, Calibration, Consistency, EstimatePoint, MEASUREMENTS, Parameter,
+    AttitudeSource, Calibration, Consistency, EstimatePoint, MEASUREMENTS, Parameter, Verdict,
 };
 use rins_frames::units::{ARCSEC, DEG};
 
@@ -17,7 +17,11 @@ use crate::view::table::aligned;
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
 pub(crate) const SYSTEMATIC_NOTE: &str = "Zero velocity also sees accelerometer biases, which this \
-model does not have: up to 0.03 arcsec and 0.1 ppm of them may be in the estimates beyond sigma.";
+model does not have. Of a bias of 200 ug about 0.03 arcsec and 0.1 ppm may be in the estimates \
+beyond sigma, of a larger one more.";
+
+/// A change of the velocity error by less than this factor is none.
+const LEAST_GAIN: f64 = 1.5;
 
 /// What the rows of the innovation are.
 const CHANNELS: [&str; MEASUREMENTS] =
@@ -26,22 +30,19 @@ const CHANNELS: [&str; MEASUREMENTS] =
 /// A parameter as a person reads it: `M_xz`, or the combination that the schedule shows.
 pub(crate) fn meaning(parameter: &Parameter) -> String {
     if parameter.identifiable() {
-        return "told apart by this schedule".into();
+        return "alone, by this schedule".into();
     }
     let partners: Vec<String> = parameter
         .partners
         .iter()
         .map(|partner| {
             let share = partner.share * partner.kind.factor() / parameter.kind.factor();
-            format!(
-                "{share:.4} {}/({}) x {}",
-                parameter.kind.unit(),
-                partner.kind.unit(),
-                partner.id
-            )
+            let sign = if share < 0.0 { "-" } else { "+" };
+            let unit = parameter.kind.unit();
+            format!("{sign} {:.4} {unit}/({}) x {}", share.abs(), partner.kind.unit(), partner.id)
         })
         .collect();
-    format!("only the combination {} + {}", parameter.id, partners.join(" + "))
+    format!("only the combination {} {}", parameter.id, partners.join(" "))
 }
 
 /// The summary for a terminal.
@@ -75,12 +76,9 @@ fn summary(calibration: &Calibration) -> Vec<String> {
         (Some(first), Some(last)) => last.time - first.time,
         _ => 0.0,
     };
-    let (worse, better) = (before.velocity.norm(), after.velocity.norm());
-    let mut sentences = vec![format!(
-        "Compensating the gyro errors along the spin axis brings the velocity error after {duration:.0} s of free \
-         inertial navigation from {worse:.3} m/s down to {better:.4} m/s, {:.0} times less.",
-        worse / better,
-    )];
+    let consistency = consistency_sentence(&calibration.consistency);
+    let gain = gain_sentence(before.velocity.norm(), after.velocity.norm(), duration);
+    let mut sentences = vec![gain, consistency];
     let combined = calibration.parameters.iter().filter(|p| !p.identifiable()).count();
     if combined > 0 {
         let which = if combined == calibration.parameters.len() {
@@ -89,17 +87,38 @@ fn summary(calibration: &Calibration) -> Vec<String> {
             format!("{combined} of the {} parameters", calibration.parameters.len())
         };
         sentences.push(format!(
-            "This schedule cannot tell {which} from a gyro bias: what is estimated, and what \
-             compensating it undoes at this rate, is the combination. Reverse the table to separate them.",
+            "This schedule leaves gyro bias in {which}: what is estimated, and what compensating it undoes \
+             at this rate, is the combination. Turn as long backwards as forwards to keep it out.",
         ));
     }
-    sentences.push(consistency_sentence(&calibration.consistency));
     if calibration.attitude_source == AttitudeSource::Aligned {
         sentences.push(
             "The attitude at the start was found from the rest before the table turned.".into(),
         );
     }
     sentences
+}
+
+/// What compensating the estimates does to free navigation.
+fn gain_sentence(before: f64, after: f64, duration: f64) -> String {
+    let navigation =
+        format!("the velocity error after {duration:.0} s of free inertial navigation");
+    if after * LEAST_GAIN < before {
+        // Beyond this the remainder is the noise's, and its ratio means nothing.
+        let ratio = (before / after.max(1e-9)).min(1e6);
+        format!(
+            "Compensating the gyro errors along the spin axis brings {navigation} from {before:.3} m/s down to \
+             {after:.4} m/s, {ratio:.0} times less."
+        )
+    } else if before * LEAST_GAIN < after {
+        format!(
+            "Compensating the estimates makes it worse: {navigation} goes from {before:.3} m/s up to {after:.3} m/s."
+        )
+    } else {
+        format!(
+            "Compensating the estimates gains nothing: {navigation} is {before:.3} m/s before and {after:.3} m/s after."
+        )
+    }
 }
 
 /// A p-value as a person reads it.
@@ -120,13 +139,18 @@ fn consistency_sentence(consistency: &Consistency) -> String {
         consistency.nis_dof,
         probability(consistency.whiteness_p)
     );
-    if consistency.fits() {
-        format!("The innovations are what the model says they should be ({figures}).")
-    } else {
-        format!(
+    match consistency.verdict() {
+        Verdict::Fits => {
+            format!("The innovations are what the model says they should be ({figures}).")
+        }
+        Verdict::NoiseOverstated => format!(
+            "The innovations are smaller than the rig's noise figures claim ({figures}): the sigmas are too \
+             large rather than too small."
+        ),
+        Verdict::Misfit => format!(
             "The model does not fit these data ({figures}): there is more in them than its states, \
-             and the sigmas are too small by what that does."
-        )
+             and the sigmas do not hold what that does to the estimates."
+        ),
     }
 }
 
@@ -334,11 +358,12 @@ fn consistency_section(calibration: &Calibration) -> Section {
             ..Plot::default()
         })
     });
-    let (tone, verdict) = if consistency.fits() {
-        (Tone::Good, consistency_sentence(consistency))
-    } else {
-        (Tone::Warning, consistency_sentence(consistency))
+    let tone = match consistency.verdict() {
+        Verdict::Fits => Tone::Good,
+        Verdict::NoiseOverstated => Tone::Neutral,
+        Verdict::Misfit => Tone::Warning,
     };
+    let verdict = consistency_sentence(consistency);
     let mut items = vec![
         Item::Note(tone, verdict),
         Item::Text(
