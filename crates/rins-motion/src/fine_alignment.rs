@@ -42,6 +42,15 @@ const RELINEARISATIONS: usize = 1;
 /// A gyro bias before anything is known of it, 1σ \[rad/s\]; the azimuth that it could feign is wider.
 const WIDE_BIAS_SIGMA: f64 = 2.0 * DEG_PER_HOUR;
 
+/// What a data sheet says of the gyros.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GyroFigures {
+    /// The 1σ of a bias \[rad/s\].
+    pub bias_sigma: f64,
+    /// The root power spectral density of white noise \[rad/s/√Hz\].
+    pub noise_density: f64,
+}
+
 /// What a fine alignment found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FineAlignment {
@@ -90,8 +99,8 @@ pub enum FineAlignmentError {
 /// the base's sway, which a mean over the rest would take for a part of the Earth's rate.
 ///
 /// Azimuth and the bias along east cannot be told apart at rest. The filter is told that the bias
-/// along east is zero to within `bias_sigma` \[rad/s\] or, where that is `None`, within the bias found
-/// along north and up.
+/// along east is zero to within the gyros' figure or, where there is none, within the bias found
+/// along north and up. A noise that is not known is the one under which the rest is most probable.
 ///
 /// # Errors
 /// [`FineAlignmentError`] if the coarse alignment fails or the span is too short.
@@ -99,7 +108,7 @@ pub fn align_finely(
     recording: &Recording,
     span: Range<usize>,
     station: &Station,
-    bias_sigma: Option<f64>,
+    gyro: Option<&GyroFigures>,
 ) -> Result<FineAlignment, FineAlignmentError> {
     let samples = span.len();
     let mean =
@@ -131,14 +140,21 @@ pub fn align_finely(
     // The first pass finds how large a bias is; what it leaves open between azimuth and the bias
     // along east is settled afterwards. The next ones start from there, so that little is left to
     // move: an azimuth that turns by a tenth of a radian is no small error.
-    let first = Prior { nav_from_body: coarse.nav_from_body, bias_along_east: WIDE_BIAS_SIGMA };
+    let bias_elsewhere = gyro.map_or(WIDE_BIAS_SIGMA, |gyro| gyro.bias_sigma);
+    let first = Prior {
+        nav_from_body: coarse.nav_from_body,
+        bias_along_east: WIDE_BIAS_SIGMA,
+        bias_elsewhere: WIDE_BIAS_SIGMA,
+    };
     let (mut pass, _) = run(&first, guess)?;
     let found = pass.start.matrix() * pass.bias;
-    let bias_along_east =
-        bias_sigma.unwrap_or_else(|| found.y.hypot(found.z) / std::f64::consts::SQRT_2);
+    let bias_along_east = gyro
+        .map(|gyro| gyro.bias_sigma)
+        .unwrap_or_else(|| found.y.hypot(found.z) / std::f64::consts::SQRT_2);
     pass.settle_bias_along_east(bias_along_east)?;
-    let mut prior = Prior { nav_from_body: pass.start, bias_along_east };
-    let noise = most_likely(guess, |noise| Ok(run(&prior, noise)?.1.log_likelihood))?;
+    let mut prior = Prior { nav_from_body: pass.start, bias_along_east, bias_elsewhere };
+    let known = gyro.map(|gyro| gyro.noise_density);
+    let noise = most_likely(guess, known, |noise| Ok(run(&prior, noise)?.1.log_likelihood))?;
     for _ in 0..RELINEARISATIONS {
         prior.nav_from_body = run(&prior, noise)?.0.start;
     }
@@ -150,8 +166,10 @@ pub fn align_finely(
 #[derive(Clone, Copy, Debug)]
 struct Prior {
     nav_from_body: Dcm<Nav, Body>,
-    /// The 1σ of the gyro bias along east \[rad/s\]; along north and up it is wide.
+    /// The 1σ of the gyro bias along east \[rad/s\].
     bias_along_east: f64,
+    /// The 1σ of the gyro bias along north and up \[rad/s\].
+    bias_elsewhere: f64,
 }
 
 /// What a pass over the rest says of the noise that it was run with.
@@ -171,16 +189,19 @@ struct Noise([f64; 3]);
 /// The scatter of a rest does not tell sensor noise from sway; the innovations do.
 fn most_likely(
     guess: Noise,
+    gyro: Option<f64>,
     mut log_likelihood: impl FnMut(Noise) -> Result<f64, UpdateError>,
 ) -> Result<Noise, UpdateError> {
     const FACTORS: [f64; 3] = [3.0, 1.5, 1.2];
     const ROUNDS: usize = 20;
     let mut best = guess;
+    best.0[0] = gyro.unwrap_or(guess.0[0]);
+    let first = usize::from(gyro.is_some());
     let mut most = log_likelihood(best)?;
     for factor in FACTORS {
         for _ in 0..ROUNDS {
             let before = most;
-            for coordinate in 0..3 {
+            for coordinate in first..3 {
                 for factor in [factor, 1.0 / factor] {
                     let mut tried = best;
                     tried.0[coordinate] *= factor;
@@ -196,6 +217,9 @@ fn most_likely(
                 break;
             }
         }
+    }
+    if gyro.is_some() {
+        return Ok(best);
     }
     // Zero-velocity updates say little of so small a noise as a gyro's: of all densities that are
     // within a sigma of the most likely, the largest keeps the covariance honest.
@@ -288,7 +312,7 @@ impl Pass {
             square(Vector3::new(COARSE_TILT_SIGMA, COARSE_TILT_SIGMA, COARSE_AZIMUTH_SIGMA));
         let mut p = SMatrix::<f64, STATES, STATES>::zeros();
         VELOCITY.set(VELOCITY, &mut p, &(Matrix2::identity() * (velocity * velocity)));
-        let wide = WIDE_BIAS_SIGMA;
+        let wide = prior.bias_elsewhere;
         let c_nb = nav_from_body.matrix();
         let bias = square(Vector3::new(prior.bias_along_east, wide, wide));
         GYRO_BIAS.set(GYRO_BIAS, &mut p, &(c_nb.transpose() * bias * c_nb));

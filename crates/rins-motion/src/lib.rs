@@ -45,7 +45,7 @@ mod turntable;
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
-pub use fine_alignment::{FineAlignment, FineAlignmentError, align_finely};
+pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{CHANNELS, Inspection, RestSeen, Suspicion, Timing, inspect};
 pub use recording::Recording;
 pub use rest::{RestMean, rest_spans};

@@ -8,8 +8,8 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
 use rins_io::Loaded;
 use rins_motion::{
-    AlignmentError, FineAlignment, FineAlignmentError, MeanUncertainty, PlaceSeen, RestMean,
-    align_finely, level, place_seen, residual, rest_spans,
+    AlignmentError, FineAlignment, FineAlignmentError, GyroFigures, MeanUncertainty, PlaceSeen,
+    RestMean, align_finely, level, place_seen, residual, rest_spans,
 };
 use serde_json::{Value, json};
 
@@ -70,10 +70,13 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
     let mean = RestMean::of(recording, span.clone())
         .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;
     let uncertainty = uncertainty(loaded, &mean);
-    let prior = loaded.rig.imu.map(|imu| imu.gyro.bias_sigma);
+    let figures = loaded.rig.imu.map(|imu| GyroFigures {
+        bias_sigma: imu.gyro.bias_sigma,
+        noise_density: imu.gyro.noise_density,
+    });
     let spinner = indicatif::ProgressBar::new_spinner().with_message("aligning");
     spinner.enable_steady_tick(std::time::Duration::from_millis(100));
-    let aligned = align_finely(recording, span.clone(), &loaded.station, prior);
+    let aligned = align_finely(recording, span.clone(), &loaded.station, figures.as_ref());
     spinner.finish_and_clear();
     let levelling = uncertainty.specific_force / loaded.station.gravity;
     let (nav_from_body, sigma, fine, hidden) = match aligned {

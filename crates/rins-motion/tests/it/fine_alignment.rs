@@ -5,13 +5,14 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G};
 use rins_frames::{Body, Dcm, EulerAngles, InFrame, Increments, Nav, Site};
-use rins_motion::{MeanUncertainty, Recording, RestMean, Station, align, align_finely};
+use rins_motion::{
+    GyroFigures, MeanUncertainty, Recording, RestMean, Station, align, align_finely,
+};
 
 const INTERVAL: f64 = 0.1;
 const SAMPLES: usize = 4000;
-const BIAS_EAST: f64 = 0.02 * DEG_PER_HOUR;
-/// As wide as the filter takes a bias to be before it knows: what the test draws must be its prior.
-const BIAS_ELSEWHERE: f64 = 2.0 * DEG_PER_HOUR;
+const BIAS: f64 = 0.02 * DEG_PER_HOUR;
+const GYRO: GyroFigures = GyroFigures { bias_sigma: BIAS, noise_density: 0.02 * DEG_PER_HOUR };
 
 fn station() -> Station {
     Station::with_normal_gravity(Site { latitude: 0.6, longitude: 0.0, height: 100.0 })
@@ -48,9 +49,7 @@ fn run(seed: u128) -> Run {
     let angles = draws.vector(1.0);
     let start: Dcm<Nav, Body> =
         EulerAngles { roll: 0.3 * angles.x, pitch: 0.3 * angles.y, yaw: angles.z }.dcm();
-    let mut bias_n = draws.vector(BIAS_ELSEWHERE);
-    bias_n.x *= BIAS_EAST / BIAS_ELSEWHERE;
-    let bias = start.inverse().matrix() * bias_n;
+    let bias = draws.vector(BIAS);
     let earth_turn = station.site.earth_rate().components() * INTERVAL;
     let attitude = |time: f64| start * Dcm::<Body, Body>::from_rotation_vector(&sway(time));
     let root = INTERVAL.sqrt();
@@ -64,7 +63,7 @@ fn run(seed: u128) -> Run {
         let middle = attitude(0.5 * (from + to));
         let force = middle.inverse() * -station.gravity_vector();
         let angle =
-            turn.rotation_vector() + bias * INTERVAL + draws.vector(0.02 * DEG_PER_HOUR * root);
+            turn.rotation_vector() + bias * INTERVAL + draws.vector(GYRO.noise_density * root);
         let velocity = force.components() * INTERVAL + draws.vector(30.0 * MICRO_G * root);
         recording.times.push(to);
         recording.increments.push(Increments {
@@ -82,7 +81,7 @@ fn covariance_is_honest_and_the_bias_found_is_the_true_one() {
     let (mut nees, mut nees_if_halved, mut off) = (0.0, 0.0, 0.0_f64);
     for seed in 0..RUNS {
         let run = run(u128::from(seed));
-        let found = align_finely(&run.recording, 0..SAMPLES, &station(), Some(BIAS_EAST)).unwrap();
+        let found = align_finely(&run.recording, 0..SAMPLES, &station(), Some(&GYRO)).unwrap();
         let phi = -(found.nav_from_body * run.start.inverse()).rotation_vector();
         let factor = found.covariance.cholesky().unwrap();
         nees += phi.dot(&factor.solve(&phi)) / f64::from(RUNS);
@@ -104,7 +103,7 @@ fn sway_spoils_the_mean_of_a_rest_and_not_the_filter() {
     let mean = RestMean::of(&recording, 0..SAMPLES).unwrap();
     let uncertainty = MeanUncertainty { angular_rate: 1e-9, specific_force: 1e-5 };
     let coarse = align(&mean.rates, &uncertainty, &station()).unwrap();
-    let fine = align_finely(&recording, 0..SAMPLES, &station(), Some(BIAS_EAST)).unwrap();
+    let fine = align_finely(&recording, 0..SAMPLES, &station(), Some(&GYRO)).unwrap();
     let error = |found: Dcm<Nav, Body>| (found * start.inverse()).rotation_vector().xy().norm();
     assert!(error(coarse.nav_from_body) > 0.02 * DEG);
     assert!(error(fine.nav_from_body) < 0.002 * DEG);
