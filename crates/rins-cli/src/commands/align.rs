@@ -44,6 +44,11 @@ pub(crate) struct Found {
 }
 
 impl Found {
+    /// Whether the Earth's rotation showed north.
+    pub(crate) const fn north_found(&self) -> bool {
+        self.hidden.is_none()
+    }
+
     /// The 1σ of the Earth's rate \[rad/s\] and of the latitude \[rad\] that the gyros see.
     fn seen_sigma(&self) -> (f64, f64) {
         let level = self.uncertainty.specific_force / self.place.gravity;
@@ -78,12 +83,14 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
     spinner.enable_steady_tick(std::time::Duration::from_millis(100));
     let aligned = align_finely(recording, span.clone(), &loaded.station, figures.as_ref());
     spinner.finish_and_clear();
-    let levelling = uncertainty.specific_force / loaded.station.gravity;
+    // Without a data sheet, what gravity is off by is the least that the tilt may be off by.
+    let gravity_error = mean.rates.specific_force.norm() / loaded.station.gravity - 1.0;
+    let levelling = (uncertainty.specific_force / loaded.station.gravity).hypot(gravity_error);
     let (nav_from_body, sigma, fine, hidden) = match aligned {
         Ok(fine) => {
             let sigma = fine.covariance.diagonal().map(f64::sqrt);
             // The filter knows of noise, not of what an accelerometer is off by for good.
-            let constant = accel_sigma(loaded) / loaded.station.gravity;
+            let constant = (accel_sigma(loaded) / loaded.station.gravity).hypot(gravity_error);
             let tilt = |sigma: f64| sigma.hypot(constant);
             (fine.nav_from_body, (tilt(sigma.x), tilt(sigma.y), Some(sigma.z)), Some(fine), None)
         }
@@ -260,6 +267,10 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
             format!("the station lies at {:.5} deg", site.latitude / DEG),
         ));
     }
+    if !found.north_found() {
+        // Without north what is left of the rates is no bias.
+        return rows;
+    }
     let bias_sigma = found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
     for (axis, name) in ["gyro bias x", "gyro bias y", "gyro bias z"].into_iter().enumerate() {
         rows.push(row(
@@ -302,7 +313,7 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path) -> Value {
             "earth_rate_deg_h": site.earth_rate().norm() / DEG_PER_HOUR,
             "latitude_deg": site.latitude / DEG,
         },
-        "gyro_bias_found_deg_h": bias.as_slice(),
+        "gyro_bias_found_deg_h": up.map(|_| bias.as_slice()),
         "accel_bias_found_ug": (found.residual.specific_force.components() / MICRO_G).as_slice(),
         "header_attitude_deg": loaded.psins_header.map(|header| euler_json(&header.attitude)),
     })

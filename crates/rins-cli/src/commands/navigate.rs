@@ -8,6 +8,7 @@ use rins_frames::units::DEG;
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_io::Loaded;
+use rins_motion::Recording;
 use serde_json::{Value, json};
 
 use crate::args::Navigate;
@@ -41,6 +42,9 @@ struct Start {
     /// What the rest shows of the gyro biases, where the attitude came from it.
     gyro_bias: Option<ImuError>,
     source: String,
+    /// What is navigated: all of the run or, where no table tells how the body stood before, what
+    /// follows the start of the rest.
+    recording: Recording,
     /// The table angle before each sample and after the last.
     angles: Vec<f64>,
 }
@@ -55,24 +59,28 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
             nav_from_table: attitude.angles.dcm(),
             gyro_bias: None,
             source: "the attitude that the rig gives".into(),
+            recording: recording.clone(),
             angles,
         });
     }
     let found = found(loaded)?;
+    let has_table = recording.table_angle.is_some() || recording.table_rate.is_some();
+    let first = if has_table { 0 } else { found.span.start };
     let angle = angles[found.span.start];
     let table_from_body = Dcm::<Table, Body>::about_z(angle);
     let gyro =
         TriadError { bias: *found.residual.angular_rate.components(), ..TriadError::default() };
     Ok(Start {
         nav_from_table: found.nav_from_body * table_from_body.inverse(),
-        gyro_bias: Some(ImuError { gyro, ..ImuError::default() }),
+        gyro_bias: found.north_found().then(|| ImuError { gyro, ..ImuError::default() }),
         source: format!(
-            "the attitude and the gyro bias found over the rest from {:.0} s to {:.0} s, which is part of what is \
-             navigated",
+            "the attitude{} found over the rest from {:.0} s to {:.0} s, which is part of what is navigated",
+            if found.north_found() { " and the gyro bias" } else { ", its yaw any," },
             found.start,
             recording.times[found.span.end - 1]
         ),
-        angles,
+        recording: recording.slice(first, recording.len()),
+        angles: angles[first..].to_vec(),
     })
 }
 
@@ -82,7 +90,7 @@ fn navigated(
     compensation: Option<&Compensation>,
 ) -> FreeNavigation {
     navigate_freely(
-        &loaded.recording,
+        &start.recording,
         &start.angles,
         start.nav_from_table,
         &loaded.station,
@@ -96,7 +104,7 @@ fn outcome(
     loaded: &Loaded,
     rig: &Path,
 ) -> Outcome {
-    let recording = &loaded.recording;
+    let recording = &start.recording;
     let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
     let mut rows = vec![
         [
