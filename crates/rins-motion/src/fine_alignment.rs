@@ -118,12 +118,12 @@ pub fn align_finely(
         angular_rate: scattered(&mean.angular_rate_sigma),
         specific_force: scattered(&mean.specific_force_sigma),
     };
-    let coarse = align(&mean.rates, &uncertainty, station)?;
     let excess = mean.rates.angular_rate.norm() - EARTH_RATE;
     if excess > EARTH_RATE {
         let azimuth_sigma = excess / (EARTH_RATE * station.site.latitude.cos());
         return Err(AlignmentError::NorthNotFound { azimuth_sigma }.into());
     }
+    let coarse = align(&mean.rates, &uncertainty, station)?;
     let seconds = seconds(recording, span);
     let guess = scatter(&seconds).ok_or(FineAlignmentError::TooShort { samples })?;
 
@@ -149,8 +149,7 @@ pub fn align_finely(
     let (mut pass, _) = run(&first, guess)?;
     let found = pass.start.matrix() * pass.bias;
     let bias_along_east = gyro
-        .map(|gyro| gyro.bias_sigma)
-        .unwrap_or_else(|| found.y.hypot(found.z) / std::f64::consts::SQRT_2);
+        .map_or_else(|| found.y.hypot(found.z) / std::f64::consts::SQRT_2, |gyro| gyro.bias_sigma);
     pass.settle_bias_along_east(bias_along_east)?;
     let mut prior = Prior { nav_from_body: pass.start, bias_along_east, bias_elsewhere };
     let known = gyro.map(|gyro| gyro.noise_density);
