@@ -13,6 +13,7 @@ use super::lines::Lines;
 use super::problem::LogProblem;
 use super::summary::LogSummary;
 use crate::error::{IoError, LogError};
+use crate::quantity::kinds;
 use crate::rig::{Rig, Stamp};
 
 /// What a PSINS log says of itself, in SI units and radians.
@@ -118,7 +119,7 @@ pub(crate) fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<PsinsHeader, Io
         let limits: &[(usize, f64, f64, &'static str)] = match index {
             0 => &[(0, -90.0, 90.0, "a pitch from -90 to 90 deg")],
             1 => &[
-                (0, -90.0, 90.0, "a latitude from -90 to 90 deg"),
+                (0, -kinds::MOST_LATITUDE, kinds::MOST_LATITUDE, kinds::LATITUDE_RANGE),
                 (1, -360.0, 360.0, "a longitude from -360 to 360 deg"),
                 (2, -1e3, 2e4, "a height from -1000 to 20000 m"),
                 (4, 1e-3, 1e6, "an interval of more than 0.001 ms"),

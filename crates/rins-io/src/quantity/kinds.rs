@@ -2,6 +2,8 @@
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
+use rins_frames::units::DEG;
+
 use super::{Dimension, Quantity, QuantityError};
 
 /// A kind of quantity that a key of a file stands for.
@@ -21,6 +23,7 @@ enum Range {
     Any,
     NotNegative,
     Positive,
+    PositiveUpTo { high: f64, words: &'static str },
     Within { low: f64, high: f64, words: &'static str },
 }
 
@@ -61,6 +64,7 @@ impl Kind {
             Range::Any => None,
             Range::NotNegative => (value < 0.0).then_some("zero or more"),
             Range::Positive => (value <= 0.0).then_some("more than zero"),
+            Range::PositiveUpTo { high, words } => (value <= 0.0 || value > high).then_some(words),
             Range::Within { low, high, words } => (!(low..=high).contains(&value)).then_some(words),
         };
         match out_of_range {
@@ -70,12 +74,18 @@ impl Kind {
     }
 }
 
+/// The latitude up to which east is told from north \[deg\].
+pub(crate) const MOST_LATITUDE: f64 = 89.9;
+/// What a latitude should be.
+pub(crate) const LATITUDE_RANGE: &str = "a latitude from -89.9 to 89.9 deg; the poles at -90 and \
+                                         90 deg are left out: east is not defined there";
+
 /// A latitude, north positive.
 pub const LATITUDE: Kind = Kind::new(
     "a latitude",
     Dimension::ANGLE,
     "34.25 deg",
-    Range::Within { low: -FRAC_PI_2, high: FRAC_PI_2, words: "a latitude from -90 to 90 deg" },
+    Range::Within { low: -MOST_LATITUDE * DEG, high: MOST_LATITUDE * DEG, words: LATITUDE_RANGE },
 );
 /// A longitude, east positive.
 pub const LONGITUDE: Kind = Kind::new(
@@ -112,9 +122,22 @@ pub const PITCH: Kind = Kind::new(
     "20 deg",
     Range::Within { low: -FRAC_PI_2, high: FRAC_PI_2, words: "a pitch from -90 to 90 deg" },
 );
-/// The standard deviation, or another size, of a small angle.
-pub const ANGLE_SIGMA: Kind =
-    Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::NotNegative);
+/// The standard deviation of an attitude that an alignment need not find.
+pub const ATTITUDE_SIGMA: Kind = Kind::new(
+    "an angle",
+    Dimension::ANGLE,
+    "0.1 deg",
+    Range::PositiveUpTo {
+        high: 20.0 * DEG,
+        words: "more than zero and at most 20 deg; leave [attitude] out if it is known no better, \
+                and it is aligned",
+    },
+);
+/// The standard deviation of a small angle.
+pub const ANGLE_SIGMA: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
+/// The resolution of an angle; zero is none.
+pub const ANGLE_RESOLUTION: Kind =
+    Kind::new("an angle", Dimension::ANGLE, "0.1 arcsec", Range::NotNegative);
 /// A small angle of either sign.
 pub const SMALL_ANGLE: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Any);
 /// The least significant bit of an angle increment.
@@ -150,7 +173,7 @@ pub const TABLE_ACCELERATION: Kind = Kind::new(
     Range::Positive,
 );
 /// A ratio's standard deviation.
-pub const RATIO_SIGMA: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::NotNegative);
+pub const RATIO_SIGMA: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Positive);
 /// A ratio of either sign.
 pub const RATIO: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Any);
 /// The root power density of a gyro's noise.
@@ -158,14 +181,17 @@ pub const GYRO_NOISE: Kind = Kind::new(
     "a rate noise density",
     Dimension::RATE_NOISE,
     "0.02 deg/h/sqrt(Hz)",
-    Range::NotNegative,
+    Range::Positive,
 );
 /// A gyro's bias.
 pub const GYRO_BIAS: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Any);
-/// The size of a gyro's bias.
+/// The standard deviation of a gyro's bias.
 pub const GYRO_BIAS_SIGMA: Kind =
-    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::NotNegative);
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Positive);
+/// A gyro's bias instability.
+pub const GYRO_BIAS_INSTABILITY: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.005 deg/h", Range::NotNegative);
 /// A gyro's range or resolution.
 pub const GYRO_READING: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "300 deg/s", Range::Positive);
@@ -181,14 +207,17 @@ pub const ACCEL_NOISE: Kind = Kind::new(
     "an acceleration noise density",
     Dimension::ACCELERATION_NOISE,
     "30 ug/sqrt(Hz)",
-    Range::NotNegative,
+    Range::Positive,
 );
 /// An accelerometer's bias.
 pub const ACCEL_BIAS: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Any);
-/// The size of an accelerometer's bias.
+/// The standard deviation of an accelerometer's bias.
 pub const ACCEL_BIAS_SIGMA: Kind =
-    Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::NotNegative);
+    Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Positive);
+/// An accelerometer's bias instability.
+pub const ACCEL_BIAS_INSTABILITY: Kind =
+    Kind::new("an acceleration", Dimension::ACCELERATION, "10 ug", Range::NotNegative);
 /// An accelerometer's range or resolution.
 pub const ACCEL_READING: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "10 g", Range::Positive);

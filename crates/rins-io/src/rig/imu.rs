@@ -10,6 +10,7 @@ use crate::section::Section;
 struct Figures {
     noise: &'static Kind,
     bias_sigma: &'static Kind,
+    bias_instability: &'static Kind,
     random_walk: &'static Kind,
     reading: &'static Kind,
 }
@@ -17,6 +18,7 @@ struct Figures {
 const GYRO: Figures = Figures {
     noise: &kinds::GYRO_NOISE,
     bias_sigma: &kinds::GYRO_BIAS_SIGMA,
+    bias_instability: &kinds::GYRO_BIAS_INSTABILITY,
     random_walk: &kinds::GYRO_RANDOM_WALK,
     reading: &kinds::GYRO_READING,
 };
@@ -24,6 +26,7 @@ const GYRO: Figures = Figures {
 const ACCEL: Figures = Figures {
     noise: &kinds::ACCEL_NOISE,
     bias_sigma: &kinds::ACCEL_BIAS_SIGMA,
+    bias_instability: &kinds::ACCEL_BIAS_INSTABILITY,
     random_walk: &kinds::ACCEL_RANDOM_WALK,
     reading: &kinds::ACCEL_READING,
 };
@@ -54,7 +57,7 @@ fn triad(imu: &Section<'_>, key: &str, figures: &Figures) -> Result<TriadSpec, I
         bias_sigma: section.require_quantity("bias_sigma", figures.bias_sigma)?,
         scale_sigma: section.require_quantity("scale_sigma", &kinds::RATIO_SIGMA)?,
         misalignment_sigma: section.require_quantity("misalignment_sigma", &kinds::ANGLE_SIGMA)?,
-        bias_instability: section.quantity("bias_instability", figures.bias_sigma)?,
+        bias_instability: section.quantity("bias_instability", figures.bias_instability)?,
         random_walk: section.quantity("random_walk", figures.random_walk)?,
         range: section.quantity("range", figures.reading)?,
         resolution: section.quantity("resolution", figures.reading)?,

@@ -294,7 +294,7 @@ pub(crate) fn angle_figures<'d>(
         column: String::new(),
         factor: 1.0,
         noise: section.quantity("noise", &kinds::ANGLE_SIGMA)?,
-        resolution: section.quantity("resolution", &kinds::ANGLE_SIGMA)?,
+        resolution: section.quantity("resolution", &kinds::ANGLE_RESOLUTION)?,
         latency: section.quantity("latency", &kinds::LATENCY)?,
     };
     Ok(Some((section, figures)))

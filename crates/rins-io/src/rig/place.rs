@@ -33,7 +33,7 @@ pub(super) fn attitude(root: &Section<'_>) -> Result<Option<InitialAttitude>, Io
     let known = ["roll", "pitch", "yaw", "sigma"];
     let Some(section) = root.section("attitude", &known)? else { return Ok(None) };
     let angles = angles(&section)?;
-    let sigma = section.require_quantity("sigma", &kinds::ANGLE_SIGMA)?;
+    let sigma = section.require_quantity("sigma", &kinds::ATTITUDE_SIGMA)?;
     Ok(Some(InitialAttitude { angles, sigma }))
 }
 

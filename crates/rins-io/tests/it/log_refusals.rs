@@ -213,7 +213,7 @@ const PSINS_CASES: &[(&str, &str, &str)] = &[
     (
         "34.2 108.9",
         "94.2 108.9",
-        "laser.imu:4: the header's latitude is 94.2, expected a latitude from -90 to 90 deg",
+        "laser.imu:4: the header's latitude is 94.2, expected a latitude from -89.9 to 89.9 deg; the poles at -90 and 90 deg are left out: east is not defined there",
     ),
     (
         "0 10 9.78",

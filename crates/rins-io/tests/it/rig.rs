@@ -74,7 +74,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("[attitude]", "[axis]", "rig.toml:16: [axis] roll: unknown key, expected one of spin"),
     ("latitude = ", "latitud = ", "rig.toml:3: [site] latitud: unknown key; did you mean \"latitude\"?"),
     ("latitude = \"34.25 deg\"\n", "", "rig.toml:2: [site] latitude: missing, expected a latitude such as \"34.25 deg\""),
-    ("sigma = \"0.1 deg\"", "", "rig.toml:15: [attitude] sigma: missing, expected an angle such as \"60 arcsec\""),
+    ("sigma = \"0.1 deg\"", "", "rig.toml:15: [attitude] sigma: missing, expected an angle such as \"0.1 deg\""),
     ("noise = \"30 ug/sqrt(Hz)\"", "", "rig.toml:27: [imu.accel] noise: missing, expected an acceleration noise density such as \"30 ug/sqrt(Hz)\""),
     ("path = \"run.csv\"\n", "", "rig.toml:7: [log] path: missing, expected the log's file, such as \"run.csv\""),
     ("path = \"run.csv\"", "path = \"run.bin\"", "rig.toml:7: [log] format: missing, expected \"csv\", \"psins\" or \"kf-gins\" for a file of this name"),
@@ -101,17 +101,18 @@ const CASES: &[(&str, &str, &str)] = &[
     ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"0.05 deg/hr/sqrt(Hz)\"", "rig.toml:22: [imu.gyro] noise: \"0.05 deg/hr/sqrt(Hz)\": unknown unit \"hr\"; did you mean \"h\"?"),
     ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"low\"", "rig.toml:22: [imu.gyro] noise: \"low\" does not begin with a number"),
     ("noise = \"0.02 deg/h/sqrt(Hz)\"", "noise = \"nan deg/h/sqrt(Hz)\"", "rig.toml:22: [imu.gyro] noise: \"nan deg/h/sqrt(Hz)\" is not finite"),
-    ("noise = \"30 ug/sqrt(Hz)\"", "noise = \"-30 ug/sqrt(Hz)\"", "rig.toml:28: [imu.accel] noise: \"-30 ug/sqrt(Hz)\" is out of range, expected zero or more"),
+    ("noise = \"30 ug/sqrt(Hz)\"", "noise = \"-30 ug/sqrt(Hz)\"", "rig.toml:28: [imu.accel] noise: \"-30 ug/sqrt(Hz)\" is out of range, expected more than zero"),
     ("bias_sigma = \"200 ug\"", "bias_sigma = \"5 rad/s\"", "rig.toml:29: [imu.accel] bias_sigma: \"5 rad/s\" is an angular rate, expected an acceleration such as \"100 ug\""),
     ("scale_sigma = \"300 ppm\"", "scale_sigma = \"3 mm\"", "rig.toml:30: [imu.accel] scale_sigma: \"3 mm\" is a length, expected a ratio such as \"300 ppm\""),
     ("misalignment_sigma = \"60 arcsec\"", "misalignment_sigma = \"60 ppm\"", "rig.toml:31: [imu.accel] misalignment_sigma: \"60 ppm\" is a ratio, expected an angle such as \"60 arcsec\""),
-    ("latitude = \"34.25 deg\"", "latitude = \"95 deg\"", "rig.toml:3: [site] latitude: \"95 deg\" is out of range, expected a latitude from -90 to 90 deg"),
+    ("latitude = \"34.25 deg\"", "latitude = \"95 deg\"", "rig.toml:3: [site] latitude: \"95 deg\" is out of range, expected a latitude from -89.9 to 89.9 deg; the poles at -90 and 90 deg are left out: east is not defined there"),
     ("longitude = \"108.9 deg\"", "longitude = \"1089 deg\"", "rig.toml:4: [site] longitude: \"1089 deg\" is out of range, expected a longitude from -360 to 360 deg"),
     ("height = \"400 m\"", "height = \"400 km\"", "rig.toml:5: [site] height: \"400 km\" is out of range, expected a height from -1 to 20 km"),
     ("height = \"400 m\"", "height = \"400 m\"\ngravity = \"1 g\"\ngravit = 3", "rig.toml:7: [site] gravit: unknown key; did you mean \"gravity\"?"),
     ("height = \"400 m\"", "height = \"400 m\"\ngravity = \"9.5 m/s^2\"", "rig.toml:6: [site] gravity: \"9.5 m/s^2\" is out of range, expected a gravity from 9.7 to 9.9 m/s^2"),
     ("pitch = \"20 deg\"", "pitch = \"91 deg\"", "rig.toml:17: [attitude] pitch: \"91 deg\" is out of range, expected a pitch from -90 to 90 deg"),
-    ("sigma = \"0.1 deg\"", "sigma = \"-0.1 deg\"", "rig.toml:19: [attitude] sigma: \"-0.1 deg\" is out of range, expected zero or more"),
+    ("sigma = \"0.1 deg\"", "sigma = \"-0.1 deg\"", "rig.toml:19: [attitude] sigma: \"-0.1 deg\" is out of range, expected more than zero and at most 20 deg; leave [attitude] out if it is known no better, and it is aligned"),
+    ("sigma = \"0.1 deg\"", "sigma = \"21 deg\"", "rig.toml:19: [attitude] sigma: \"21 deg\" is out of range, expected more than zero and at most 20 deg; leave [attitude] out if it is known no better, and it is aligned"),
     ("rate = \"50 Hz\"", "rate = \"0 Hz\"", "rig.toml:9: [log] rate: \"0 Hz\" is out of range, expected a sampling rate from 0.001 Hz to 1 MHz"),
     ("rate = \"50 Hz\"", "rate = \"50 rad/s\"", "rig.toml:9: [log] rate: \"50 rad/s\" is an angular rate, expected a sampling rate such as \"50 Hz\""),
     // Units and choices of the log.
@@ -160,6 +161,60 @@ fn wrong_rigs_are_refused_with_file_line_key_and_expectation() {
     }
     assert!(wrong.is_empty(), "{wrong}");
     assert!(CASES.len() >= 60);
+}
+
+/// What no filter can use is refused; what may well not be there may be zero.
+#[test]
+fn zero_is_refused_where_a_filter_divides_by_it_and_nowhere_else() {
+    let figures = [
+        ("gyro", "noise", "deg/h/sqrt(Hz)"),
+        ("gyro", "bias_sigma", "deg/h"),
+        ("gyro", "scale_sigma", "ppm"),
+        ("gyro", "misalignment_sigma", "arcsec"),
+        ("accel", "noise", "ug/sqrt(Hz)"),
+        ("accel", "bias_sigma", "ug"),
+        ("accel", "scale_sigma", "ppm"),
+        ("accel", "misalignment_sigma", "arcsec"),
+    ];
+    for (triad, key, unit) in figures {
+        let imu = RIG.find(&format!("[imu.{triad}]")).unwrap();
+        let from = imu + RIG[imu..].find(&format!("\n{key} =")).unwrap() + 1;
+        let to = from + RIG[from..].find('\n').unwrap();
+        let with = |value: &str| {
+            let (before, after) = (&RIG[..from], &RIG[to..]);
+            parse(&format!("{before}{key} = \"{value} {unit}\"{after}"))
+        };
+        assert!(with("1e-9").is_ok(), "{triad} {key}");
+        let said = with("0").unwrap_err().to_string();
+        let expected =
+            format!("[imu.{triad}] {key}: \"0 {unit}\" is out of range, expected more than zero");
+        assert!(said.ends_with(&expected), "{said}");
+    }
+    let noise = parse(&replaced(RIG, "0.3 arcsec", "0 arcsec")).unwrap_err().to_string();
+    assert_eq!(
+        noise,
+        "rig.toml:13: [log] table_angle.noise: \"0 arcsec\" is out of range, expected more than zero"
+    );
+    let wobble = parse(&format!("{RIG}[table]\nwobble = \"0 arcsec\"\n")).unwrap_err().to_string();
+    assert!(
+        wobble.ends_with("[table] wobble: \"0 arcsec\" is out of range, expected more than zero")
+    );
+    assert!(parse(&replaced(RIG, "sigma = \"0.1 deg\"", "sigma = \"0 deg\"")).is_err());
+    assert!(parse(&replaced(RIG, "sigma = \"0.1 deg\"", "sigma = \"20 deg\"")).is_ok());
+    let absent = "noise = \"0.3 arcsec\", resolution = \"0 arcsec\"";
+    assert!(parse(&replaced(RIG, "noise = \"0.3 arcsec\"", absent)).is_ok());
+    let flicker = "[imu.gyro]\nbias_instability = \"0 deg/h\"\nrandom_walk = \"0 deg/h/sqrt(h)\"";
+    assert!(parse(&replaced(RIG, "[imu.gyro]", flicker)).is_ok());
+}
+
+#[test]
+fn latitudes_end_before_the_poles() {
+    for (latitude, is_read) in
+        [("89.9", true), ("-89.9", true), ("0", true), ("90", false), ("-89.91", false)]
+    {
+        let text = replaced(RIG, "34.25 deg", &format!("{latitude} deg"));
+        assert_eq!(parse(&text).is_ok(), is_read, "{latitude}");
+    }
 }
 
 #[test]

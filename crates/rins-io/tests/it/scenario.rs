@@ -233,6 +233,18 @@ const CASES: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
+fn true_errors_may_be_zero() {
+    let zero = "[truth]\nseed = 7\n\n[truth.gyro]\nbias = [\"0 deg/h\", \"0 deg/h\", \"0 deg/h\"]\n\
+                scale = [\"0 ppm\", \"0 ppm\", \"0 ppm\"]\nmisalignment = { xz = \"0 arcsec\" }\n\n\
+                [truth.accel]\nbias = [\"0 ug\", \"0 ug\", \"0 ug\"]\n\n\
+                [truth.noise]\ngyro = \"off\"\naccel = \"off\"\ntable_angle = \"off\"\n";
+    let text = format!("{}{zero}", &SCENARIO[..SCENARIO.find("[truth]").unwrap()]);
+    let scenario = parse(&text).unwrap().scenario;
+    assert_eq!(scenario.imu_error, rins_imu::ImuError::default());
+    assert_eq!(scenario.noise, None);
+}
+
+#[test]
 fn wrong_scenarios_are_refused_with_file_line_key_and_expectation() {
     let mut wrong = String::new();
     for (from, to, message) in CASES {
