@@ -1,5 +1,6 @@
 //! Calibration files: what an IMU gets wrong, to be undone in other runs.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rins_imu::{Compensation, ImuError, TriadError};
@@ -7,7 +8,7 @@ use rins_imu::{Compensation, ImuError, TriadError};
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::output::{Overwrite, write_file};
-use crate::parameter::{self, LeftOut};
+use crate::parameter::{self, LeftOut, Parameter};
 use crate::section::Section;
 
 /// The version of the format that this crate writes, and the only one that it reads.
@@ -24,18 +25,32 @@ const MEANING: &str = "\
 # gyro.misalignment.xz is what gyro x sees of a rate about z.
 ";
 
+/// What stands above the standard deviations.
+const SIGMAS: &str = "
+# 1 sigma of each number that was estimated. The others are what was assumed of them.
+[sigma]
+";
+
 /// The errors of an IMU and how well they are known, as a calibration file holds them.
 ///
 /// ```
 /// # use std::path::Path;
 /// use rins_imu::{Axis, ImuError, TriadError};
-/// use rins_io::Calibration;
+/// use rins_io::{Calibration, Parameter};
 ///
-/// let gyro = TriadError::default().with_bias(Axis::X, 1e-6);
-/// let calibration = Calibration::of(ImuError { gyro, ..ImuError::default() });
+/// let gyro = TriadError::default().with_scale(Axis::Z, 300e-6);
+/// let sigma = Parameter { id: "gyro.scale.z".into(), value: 0.02, unit: "ppm" };
+/// let calibration = Calibration {
+///     sigmas: vec![sigma],
+///     notes: vec!["gyro.scale.z: also a bias of the z gyro".into()],
+///     ..Calibration::of(ImuError { gyro, ..ImuError::default() })
+/// };
 /// let text = calibration.to_toml();
+/// assert!(text.contains("[sigma]\ngyro.scale.z = \"0.02 ppm\"\n"));
 /// let again = Calibration::parse(&text, Path::new("calibration.toml"))?;
-/// assert!((again.error.gyro.bias.x - 1e-6).abs() < 1e-21);
+/// assert!((again.error.gyro.matrix[(2, 2)] - 300e-6).abs() < 1e-18);
+/// // Of no other number does the file claim to know how far off it is.
+/// assert_eq!((again.sigmas.len(), again.notes), (1, calibration.notes));
 /// # Ok::<(), rins_io::IoError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -44,22 +59,26 @@ pub struct Calibration {
     pub path: PathBuf,
     /// The errors.
     pub error: ImuError,
-    /// The standard deviation of each number of the errors, in the same place.
-    pub sigma: Option<ImuError>,
+    /// The standard deviations of those numbers that were estimated, by id and in the units of
+    /// [`parameters`](crate::parameters); of the others none is known.
+    pub sigmas: Vec<Parameter>,
+    /// What else a reader must know of the numbers: which of them are combinations, and where
+    /// these hold.
+    pub notes: Vec<String>,
 }
 
 impl Calibration {
-    /// A calibration without standard deviations.
+    /// A calibration without standard deviations and notes.
     pub fn of(error: ImuError) -> Self {
-        Self { path: PathBuf::new(), error, sigma: None }
+        Self { path: PathBuf::new(), error, sigmas: Vec::new(), notes: Vec::new() }
     }
 
     /// Reads the calibration file at `path`.
     ///
     /// # Errors
     /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if one of its numbers is missing,
-    /// unknown or of the wrong dimension, if the errors cannot be undone, or if it is written in
-    /// another version of the format.
+    /// unknown or of the wrong dimension, if a standard deviation is not more than zero, if the
+    /// errors cannot be undone, or if it is written in another version of the format.
     pub fn read(path: &Path) -> Result<Self, IoError> {
         Self::from_document(&Document::read(path)?)
     }
@@ -73,27 +92,19 @@ impl Calibration {
     }
 
     fn from_document(document: &Document) -> Result<Self, IoError> {
-        let root = Section::root(document, &["schema", "gyro", "accel", "sigma"])?;
+        let root = Section::root(document, &["schema", "notes", "gyro", "accel", "sigma"])?;
         match root.count("schema", "1")? {
             Some(SCHEMA) => {}
             Some(_) => return Err(root.not_allowed("schema", "1")),
             None => return Err(root.missing("schema", "1")),
         }
         let error = both(&root)?;
-        let sigma = root.section("sigma", &["gyro", "accel"])?;
-        let sigma = match sigma {
-            Some(section) => {
-                let sigma = both(&section)?;
-                let triads = [sigma.gyro, sigma.accel];
-                let mut numbers = triads.iter().flat_map(|t| t.bias.iter().chain(t.matrix.iter()));
-                if numbers.any(|sigma| *sigma < 0.0) {
-                    return Err(root.conflict("sigma", "a standard deviation is negative"));
-                }
-                Some(sigma)
-            }
-            None => None,
+        let notes = root.list_of_texts("notes", "a list of texts")?;
+        let sigmas = match root.section("sigma", &["gyro", "accel"])? {
+            Some(section) => parameter::read_sigmas(&section)?,
+            None => Vec::new(),
         };
-        let calibration = Self { path: document.path.clone(), error, sigma };
+        let calibration = Self { path: document.path.clone(), error, sigmas, notes };
         calibration.compensation()?;
         Ok(calibration)
     }
@@ -117,6 +128,12 @@ impl Calibration {
     /// The text of the calibration's file.
     pub fn to_toml(&self) -> String {
         let mut text = format!("{MEANING}schema = {SCHEMA}\n");
+        if !self.notes.is_empty() {
+            // Writing to a string cannot fail, here and below.
+            let notes: String =
+                self.notes.iter().map(|note| format!("    {},\n", quoted(note))).collect();
+            let _ = writeln!(text, "notes = [\n{notes}]");
+        }
         let mut push = |header: &str, triad: &TriadError, keys| {
             text.push_str("\n[");
             text.push_str(header);
@@ -125,9 +142,11 @@ impl Calibration {
         };
         push("gyro", &self.error.gyro, &parameter::GYRO);
         push("accel", &self.error.accel, &parameter::ACCEL);
-        if let Some(sigma) = &self.sigma {
-            push("sigma.gyro", &sigma.gyro, &parameter::GYRO);
-            push("sigma.accel", &sigma.accel, &parameter::ACCEL);
+        if !self.sigmas.is_empty() {
+            text.push_str(SIGMAS);
+        }
+        for Parameter { id, value, unit } in &self.sigmas {
+            let _ = writeln!(text, "{id} = \"{value} {unit}\"");
         }
         text
     }
@@ -150,4 +169,19 @@ fn both(section: &Section<'_>) -> Result<ImuError, IoError> {
     };
     let gyro = triad("gyro", &parameter::GYRO)?;
     Ok(ImuError { gyro, accel: triad("accel", &parameter::ACCEL)? })
+}
+
+/// `text` as a basic string of TOML.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            letter if letter.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(letter));
+            }
+            letter => quoted.push(letter),
+        }
+    }
+    quoted + "\""
 }

@@ -7,7 +7,7 @@ use crate::error::IoError;
 use crate::quantity::{Kind, kinds};
 use crate::section::{Section, such_as};
 
-/// A number of an [`ImuError`].
+/// A number of an [`ImuError`], or its standard deviation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name, such as `gyro.misalignment.xz`: what gyro x sees of a rate about z.
@@ -28,14 +28,23 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(crate) struct TriadKeys {
     name: &'static str,
     bias: &'static Kind,
+    bias_sigma: &'static Kind,
     bias_unit: (&'static str, f64),
 }
 
-pub(crate) const GYRO: TriadKeys =
-    TriadKeys { name: "gyro", bias: &kinds::GYRO_BIAS, bias_unit: ("deg/h", DEG_PER_HOUR) };
+pub(crate) const GYRO: TriadKeys = TriadKeys {
+    name: "gyro",
+    bias: &kinds::GYRO_BIAS,
+    bias_sigma: &kinds::GYRO_BIAS_SIGMA,
+    bias_unit: ("deg/h", DEG_PER_HOUR),
+};
 
-pub(crate) const ACCEL: TriadKeys =
-    TriadKeys { name: "accel", bias: &kinds::ACCEL_BIAS, bias_unit: ("ug", MICRO_G) };
+pub(crate) const ACCEL: TriadKeys = TriadKeys {
+    name: "accel",
+    bias: &kinds::ACCEL_BIAS,
+    bias_sigma: &kinds::ACCEL_BIAS_SIGMA,
+    bias_unit: ("ug", MICRO_G),
+};
 
 const SCALE_UNIT: (&str, f64) = ("ppm", PPM);
 const MISALIGNMENT_UNIT: (&str, f64) = ("arcsec", ARCSEC);
@@ -116,6 +125,35 @@ pub(crate) fn read(
         triad.matrix[(row, column)] = angle.unwrap_or(0.0);
     }
     Ok(triad)
+}
+
+/// The standard deviations that a section gives, each behind its id, in the order of
+/// [`parameters`].
+pub(crate) fn read_sigmas(section: &Section<'_>) -> Result<Vec<Parameter>, IoError> {
+    let mut sigmas = Vec::new();
+    for keys in [&GYRO, &ACCEL] {
+        let Some(triad) = section.inline(keys.name, &KEYS)? else { continue };
+        let groups: [(&str, &[&str], &Kind, (&'static str, f64)); 3] = [
+            ("bias", &AXES, keys.bias_sigma, keys.bias_unit),
+            ("scale", &AXES, &kinds::RATIO_SIGMA, SCALE_UNIT),
+            (
+                "misalignment",
+                &MISALIGNMENTS.map(|(name, ..)| name),
+                &kinds::ANGLE_SIGMA,
+                MISALIGNMENT_UNIT,
+            ),
+        ];
+        for (group, places, kind, (unit, factor)) in groups {
+            let Some(table) = triad.inline(group, places)? else { continue };
+            for place in places {
+                if let Some(sigma) = table.quantity(place, kind)? {
+                    let id = format!("{}.{group}.{place}", keys.name);
+                    sigmas.push(Parameter { id, value: sigma / factor, unit });
+                }
+            }
+        }
+    }
+    Ok(sigmas)
 }
 
 /// The keys of a triad as TOML.

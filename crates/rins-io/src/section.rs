@@ -139,6 +139,19 @@ impl<'d> Section<'d> {
         Ok(Some(texts))
     }
 
+    /// The texts in the list behind `key`, however many.
+    pub(crate) fn list_of_texts(&self, key: &str, expected: &str) -> Result<Vec<String>, IoError> {
+        let Some(Entry { value, .. }) = self.get(key) else { return Ok(Vec::new()) };
+        let Node::List(items) = &value.node else {
+            return Err(self.wrong_type(key, value, expected.into()));
+        };
+        let text = |item: &Value| match &item.node {
+            Node::Text(text) => Ok(text.clone()),
+            _ => Err(self.wrong_type(key, item, expected.into())),
+        };
+        items.iter().map(text).collect()
+    }
+
     /// The number behind `key`, or three of them, as three.
     pub(crate) fn numbers(&self, key: &str, expected: &str) -> Result<Option<[f64; 3]>, IoError> {
         let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };

@@ -88,8 +88,12 @@ pub(crate) fn outcome(calibration: &Calibration, loaded: &Loaded, rig: &Path) ->
         loaded.recording.times[span.end - 1],
         loaded.rig.log.path.file_name().map_or_else(String::new, |name| name.display().to_string()),
     );
-    let file =
-        rins_io::Calibration { path: PathBuf::new(), error: calibration.imu_error, sigma: None };
+    let file = rins_io::Calibration {
+        path: PathBuf::new(),
+        error: calibration.imu_error,
+        sigmas: calibration.parameters.iter().map(sigma).collect(),
+        notes: calibration.parameters.iter().filter_map(combination_note).collect(),
+    };
     Outcome {
         json: json(calibration, rig),
         text: calibration_text(calibration, &title),
@@ -98,6 +102,24 @@ pub(crate) fn outcome(calibration: &Calibration, loaded: &Loaded, rig: &Path) ->
         files: vec![("calibration.toml", file.to_toml().into_bytes())],
         ..Outcome::default()
     }
+}
+
+/// A parameter's sigma as a calibration file holds it.
+fn sigma(parameter: &Parameter) -> rins_io::Parameter {
+    let (value, unit) = (parameter.sigma / parameter.kind.factor(), parameter.kind.unit());
+    rins_io::Parameter { id: parameter.id.into(), value, unit }
+}
+
+/// What a calibration file says of a parameter that is estimated together with a bias.
+fn combination_note(parameter: &Parameter) -> Option<String> {
+    let partner = parameter.partners.first()?;
+    Some(format!(
+        "{}: {}; compensating it also undoes {} at a table rate of {:.4} deg/s, and at no other",
+        parameter.id,
+        meaning(parameter),
+        partner.id,
+        1.0 / partner.share / DEG
+    ))
 }
 
 /// Why estimates mean nothing, if the innovations are beyond what any sensor error explains.

@@ -5,7 +5,7 @@ use std::path::Path;
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use rins_imu::{ImuError, TriadError};
-use rins_io::{Calibration, Overwrite};
+use rins_io::{Calibration, Overwrite, Parameter, parameters};
 
 use crate::support::replaced;
 
@@ -34,20 +34,24 @@ proptest! {
     fn what_is_written_is_read_again(
         gyro in any_triad(1e-2),
         accel in any_triad(1e-2),
-        known in any::<bool>(),
+        known in prop::collection::vec(any::<bool>(), 24),
+        notes in prop::collection::vec(any::<String>(), 0..3),
     ) {
         let error = ImuError { gyro, accel };
-        let positive = |triad: &TriadError| TriadError {
-            bias: triad.bias.abs(),
-            matrix: triad.matrix.abs(),
-        };
-        let sigma = known.then(|| ImuError { gyro: positive(&gyro), accel: positive(&accel) });
-        let text = Calibration { sigma, ..Calibration::of(error) }.to_toml();
-        let again = Calibration::parse(&text, Path::new("calibration.toml")).unwrap();
+        let mut sigmas = parameters(&error);
+        let mut known = known.into_iter();
+        sigmas.retain_mut(|sigma| {
+            sigma.value = sigma.value.abs() + 1e-6;
+            known.next().unwrap()
+        });
+        let written = Calibration { sigmas, notes, ..Calibration::of(error) };
+        let again = Calibration::parse(&written.to_toml(), Path::new("calibration.toml")).unwrap();
         prop_assert!(near(&again.error, &error));
-        prop_assert_eq!(again.sigma.is_some(), known);
-        if let (Some(got), Some(want)) = (again.sigma, sigma) {
-            prop_assert!(near(&got, &want));
+        prop_assert_eq!(again.notes, written.notes);
+        prop_assert_eq!(again.sigmas.len(), written.sigmas.len());
+        for (got, want) in again.sigmas.iter().zip(&written.sigmas) {
+            prop_assert_eq!((&got.id, got.unit), (&want.id, want.unit));
+            prop_assert!((got.value - want.value).abs() <= ROUNDING * want.value);
         }
     }
 }
@@ -90,7 +94,13 @@ const CASES: &[(&str, &str, &str)] = &[
     ("\"100 ppm\"", "\"-1 1\"", "c.toml: [gyro]: the three axes read nearly the same: I + [S, M] has determinant 0"),
     ("\"0 g\"", "\"0 gee\"", "c.toml:10: [accel] bias[2]: \"0 gee\": unknown unit \"gee\""),
     ("schema = 1", "schema = 1\nsigma = 3", "c.toml:3: sigma: 3 is a bare number, expected a table with the keys gyro, accel"),
-    ("schema = 1", "schema = 1\nsigma = {}", "c.toml:3: [sigma] gyro: missing, expected the keys bias, scale and misalignment"),
+    ("schema = 1", "schema = 1\nnotes = \"none\"", "c.toml:3: notes: \"none\" is a text, expected a list of texts"),
+    ("schema = 1", "schema = 1\nnotes = [\n\"one\",\n2]", "c.toml:5: notes: 2 is a bare number, expected a list of texts"),
+    ("[accel]", "[sigma]\ngyro.scale.z = \"1 ppm\"\ngyro.misalignment.xx = \"1 arcsec\"\n[accel]", "c.toml:11: [sigma] gyro.misalignment.xx: unknown key; did you mean \"xy\"?"),
+    ("[accel]", "[sigma]\ngyro.scale.z = \"1 arcsec\"\n[accel]", "c.toml:10: [sigma] gyro.scale.z: \"1 arcsec\" is an angle, expected a ratio such as \"300 ppm\""),
+    ("[accel]", "[sigma]\naccel.bias.x = \"0 ug\"\n[accel]", "c.toml:10: [sigma] accel.bias.x: \"0 ug\" is out of range, expected more than zero"),
+    ("[accel]", "[sigma]\naccel.bias.x = \"-1 mg\"\n[accel]", "c.toml:10: [sigma] accel.bias.x: \"-1 mg\" is out of range, expected more than zero"),
+    ("[accel]", "[sigma.gyro]\nbias = [\"1 deg/h\"]\n[accel]", "c.toml:10: [sigma] gyro.bias: a list, expected a table with the keys x, y, z"),
 ];
 
 #[test]
@@ -109,13 +119,18 @@ fn wrong_calibrations_are_refused_with_file_line_key_and_expectation() {
 }
 
 #[test]
-fn a_negative_standard_deviation_is_refused() {
-    let triads = &TEXT[TEXT.find("[gyro]").unwrap()..];
-    let sigma = triads.replace("[gyro]", "[sigma.gyro]").replace("[accel]", "[sigma.accel]");
-    assert!(Calibration::parse(&format!("{TEXT}{sigma}"), Path::new("c.toml")).is_ok());
-    let negative = sigma.replace("1 mg", "-1 mg");
-    let error = Calibration::parse(&format!("{TEXT}{negative}"), Path::new("c.toml")).unwrap_err();
-    assert_eq!(error.to_string(), "c.toml:13: sigma: a standard deviation is negative");
+fn only_what_was_estimated_has_a_sigma() {
+    let text = format!(
+        "{TEXT}\n[sigma]\naccel.bias.z = \"10 ug\"\ngyro.misalignment.xz = \"0.0065 arcsec\"\n"
+    );
+    let sigmas = Calibration::parse(&text, Path::new("c.toml")).unwrap().sigmas;
+    let ids: Vec<(&str, &str)> =
+        sigmas.iter().map(|Parameter { id, unit, .. }| (id.as_str(), *unit)).collect();
+    assert_eq!(ids, [("gyro.misalignment.xz", "arcsec"), ("accel.bias.z", "ug")]);
+    assert!((sigmas[0].value - 0.0065).abs() < 1e-15);
+    let without = Calibration::parse(TEXT, Path::new("c.toml")).unwrap();
+    assert!(without.sigmas.is_empty());
+    assert!(!without.to_toml().contains("sigma"));
 }
 
 #[test]
