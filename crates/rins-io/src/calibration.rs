@@ -129,10 +129,12 @@ impl Calibration {
     pub fn to_toml(&self) -> String {
         let mut text = format!("{MEANING}schema = {SCHEMA}\n");
         if !self.notes.is_empty() {
-            // Writing to a string cannot fail, here and below.
-            let notes: String =
-                self.notes.iter().map(|note| format!("    {},\n", quoted(note))).collect();
-            let _ = writeln!(text, "notes = [\n{notes}]");
+            text.push_str("notes = [\n");
+            for note in &self.notes {
+                // Writing to a string cannot fail, here and below.
+                let _ = writeln!(text, "    {},", quoted(note));
+            }
+            text.push_str("]\n");
         }
         let mut push = |header: &str, triad: &TriadError, keys| {
             text.push_str("\n[");

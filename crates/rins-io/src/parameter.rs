@@ -133,25 +133,20 @@ pub(crate) fn read_sigmas(section: &Section<'_>) -> Result<Vec<Parameter>, IoErr
     let mut sigmas = Vec::new();
     for keys in [&GYRO, &ACCEL] {
         let Some(triad) = section.inline(keys.name, &KEYS)? else { continue };
-        let groups: [(&str, &[&str], &Kind, (&'static str, f64)); 3] = [
-            ("bias", &AXES, keys.bias_sigma, keys.bias_unit),
-            ("scale", &AXES, &kinds::RATIO_SIGMA, SCALE_UNIT),
-            (
-                "misalignment",
-                &MISALIGNMENTS.map(|(name, ..)| name),
-                &kinds::ANGLE_SIGMA,
-                MISALIGNMENT_UNIT,
-            ),
-        ];
-        for (group, places, kind, (unit, factor)) in groups {
-            let Some(table) = triad.inline(group, places)? else { continue };
+        let mut read = |group: &str, places: &[&str], kind: &Kind, (unit, factor)| {
+            let Some(table) = triad.inline(group, places)? else { return Ok(()) };
             for place in places {
                 if let Some(sigma) = table.quantity(place, kind)? {
                     let id = format!("{}.{group}.{place}", keys.name);
                     sigmas.push(Parameter { id, value: sigma / factor, unit });
                 }
             }
-        }
+            Ok::<(), IoError>(())
+        };
+        read("bias", &AXES, keys.bias_sigma, keys.bias_unit)?;
+        read("scale", &AXES, &kinds::RATIO_SIGMA, SCALE_UNIT)?;
+        let places = MISALIGNMENTS.map(|(name, ..)| name);
+        read("misalignment", &places, &kinds::ANGLE_SIGMA, MISALIGNMENT_UNIT)?;
     }
     Ok(sigmas)
 }
