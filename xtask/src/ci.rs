@@ -36,6 +36,8 @@ const STEPS: &[Row] = &[
     ),
     ("test-book", None, "cargo test --quiet --profile tool -p xtask --features book --bin book"),
     ("doc", Some(("RUSTDOCFLAGS", "-D warnings")), "cargo doc --quiet --workspace --no-deps"),
+    ("verify", None, "cargo xtask verify"),
+    ("reproduce", None, "cargo xtask reproduce --check"),
     ("book", None, "cargo xtask doc"),
     ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
     ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),

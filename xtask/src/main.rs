@@ -10,7 +10,9 @@ use clap::{Parser, Subcommand};
 mod ci;
 mod doc;
 mod manifest;
+mod reproduce;
 mod tidy;
+mod verify;
 
 /// How a command ends when it cannot do its work.
 type Result<T, E = Box<dyn Error>> = std::result::Result<T, E>;
@@ -28,8 +30,12 @@ enum Command {
     Ci(ci::Options),
     /// Build the book into target/book and check its equations and links
     Doc,
+    /// Run the paper's experiments and write the book's page about them
+    Reproduce(reproduce::Options),
     /// Check the rules of CONTRIBUTING.md that rustc and clippy cannot
     Tidy,
+    /// Check the paper's closed forms against numerical integration
+    Verify,
 }
 
 fn main() -> ExitCode {
@@ -37,7 +43,9 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Ci(options) => ci::run(&root, &options),
         Command::Doc => doc::run(&root),
+        Command::Reproduce(options) => reproduce::run(&root, &options),
         Command::Tidy => tidy::run(&root),
+        Command::Verify => verify::run(&root),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -13,7 +13,7 @@ const LAYERS: &[&[&str]] = &[
     &["rins-imu", "rins-motion"],
     &["rins-simulation", "rins-calibration"],
     &["rins-io"],
-    &["rins-cli"],
+    &["rins-cli", "rins-reproduction"],
 ];
 
 /// The crate that is for tests only: a dev-dependency of any other, and in no layer.

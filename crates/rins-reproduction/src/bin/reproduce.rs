@@ -1,0 +1,84 @@
+//! Runs the paper's experiments and writes, or with `--check` compares, the page that shows them.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use rins_reproduction::differences;
+use rins_reproduction::report::{FIGURES, File, Results, Scale, files};
+
+/// How many differences are shown before it is clear that the page is old.
+const SHOWN: usize = 20;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => write(),
+        ["--check"] => check(),
+        _ => {
+            eprintln!("usage: reproduce [--check]");
+            return ExitCode::from(2);
+        }
+    };
+    match done {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error}");
+            let mut source = error.source();
+            while let Some(cause) = source {
+                eprintln!("  because {cause}");
+                source = cause.source();
+            }
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn root() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().nth(2).expect("the package lies in crates/ of the workspace")
+}
+
+fn made() -> Result<Vec<File>, Box<dyn Error>> {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {elapsed}")?;
+    let bar = ProgressBar::new(Scale::FULL.total()).with_style(style);
+    let results = Results::compute(Scale::FULL, || bar.inc(1))?;
+    bar.finish_and_clear();
+    Ok(files(&results))
+}
+
+fn write() -> Result<bool, Box<dyn Error>> {
+    let files = made()?;
+    fs::create_dir_all(root().join(FIGURES))?;
+    for File { path, text } in &files {
+        fs::write(root().join(path), text)?;
+        println!("{path}");
+    }
+    Ok(true)
+}
+
+/// Whether the files kept say what is made now.
+fn check() -> Result<bool, Box<dyn Error>> {
+    let mut fresh = true;
+    for File { path, text } in made()? {
+        let kept = fs::read_to_string(root().join(&path)).unwrap_or_default();
+        let found = differences(&kept, &text);
+        for difference in found.iter().take(SHOWN) {
+            println!("{path}: {difference}");
+        }
+        if found.len() > SHOWN {
+            println!("{path}: and {} lines more", found.len() - SHOWN);
+        }
+        fresh &= found.is_empty();
+    }
+    if fresh {
+        println!("the page and its figures are up to date");
+    } else {
+        eprintln!("error: the page is old; make it again with `cargo xtask reproduce`");
+    }
+    Ok(fresh)
+}

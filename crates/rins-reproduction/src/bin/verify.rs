@@ -1,0 +1,82 @@
+//! Prints eqs. (6), (8) and (9) against numerical integration; fails if a bound is broken.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
+
+use std::process::ExitCode;
+
+use rins_reproduction::ReproductionError;
+use rins_reproduction::grid::{ATTITUDES, Errors, RATES, Row, TIMES, grid};
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(broken) => {
+            eprintln!("error: {broken} bounds are broken");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints the grid and returns how many bounds it breaks.
+fn run() -> Result<usize, ReproductionError> {
+    let rows = grid(&TIMES, &ATTITUDES, &RATES)?;
+    println!(
+        "velocity errors [m/s]: printed = eqs. (8), (9); mended = their sign turned; flat = integrated on a flat Earth;\n\
+         extended = linear on the round Earth, second order on the flat one; navigator = integrated on the round Earth\n"
+    );
+    println!(
+        "{:>16} {:>5} {:>4}   {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>9}",
+        "roll/pitch/yaw",
+        "deg/s",
+        "s",
+        "printed",
+        "mended",
+        "flat",
+        "mended/flat",
+        "extended",
+        "navigator",
+        "ext./nav.",
+    );
+    for row in &rows {
+        for (axis, name) in ["E", "N"].into_iter().enumerate() {
+            print_line(row, axis, name);
+        }
+    }
+    let worst = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+    println!("\n{} places; largest relative differences of velocity or attitude", rows.len());
+    println!(
+        "  mended to flat integration   {:.1e}",
+        worst(&|row| row.corrected.relative_to(&row.flat))
+    );
+    println!("  flat integration to its form {:.1e}", worst(&|row| row.integration));
+    println!(
+        "  extended to navigator        {:.1e}",
+        worst(&|row| row.extended.relative_to(&row.navigated))
+    );
+    let broken: Vec<String> = rows.iter().flat_map(Row::broken).collect();
+    for bound in &broken {
+        println!("broken: {bound}");
+    }
+    Ok(broken.len())
+}
+
+fn print_line(row: &Row, axis: usize, name: &str) {
+    let of = |errors: &Errors| errors.velocity[axis];
+    let [roll, pitch, yaw] = row.attitude;
+    println!(
+        "{:>16} {:>5} {:>4} {name} {:>9.4} {:>9.4} {:>9.4} {:>11.4} {:>9.4} {:>9.4} {:>9.5}",
+        format!("{roll}/{pitch}/{yaw}"),
+        row.rate,
+        row.time,
+        of(&row.printed),
+        of(&row.corrected),
+        of(&row.flat),
+        of(&row.corrected) / of(&row.flat),
+        of(&row.extended),
+        of(&row.navigated),
+        of(&row.extended) / of(&row.navigated),
+    );
+}

@@ -1,0 +1,253 @@
+//! Named causes of a disagreement, and how large each would have to be.
+
+use nalgebra::{SVector, Vector3};
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
+use rins_frames::{Dcm, EARTH_RATE, Nav, Site};
+use rins_motion::{Profile, Segment, Station};
+
+use crate::error::ReproductionError;
+use crate::experiment::spin_axis_error;
+use crate::pure_navigation::PureNavigation;
+
+/// What may be wrong with a navigation on a table that turns at one rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// A gyro's bias that was there during the alignment too: what lies east in it then has turned
+    /// the azimuth. By axis of the body.
+    GyroBias(usize),
+    /// A gyro's bias that came after the alignment.
+    GyroBiasChange(usize),
+    /// An accelerometer's bias that was there during the alignment too, which it tilted.
+    AccelBias(usize),
+    /// An accelerometer's bias that came after the alignment.
+    AccelBiasChange(usize),
+    /// An attitude error at the start, by axis of n.
+    Start(usize),
+    /// A start attitude that is older than the data: turned back about the spin axis.
+    StartLag,
+    /// An error of the compensation: true less compensated, of `M_xz`, `M_yz`, `S_z`.
+    Estimate(usize),
+    /// The table stands further north.
+    Latitude,
+    /// Gravity is larger, where the data come from and where they are navigated.
+    Gravity,
+    /// The navigation takes longer.
+    Duration,
+    /// The axis tips over by the end, by axis of n: what is read changes, and no velocity error comes of it.
+    Tilt(usize),
+    /// The attitude that is read is older than its reference, or the table went past its end.
+    Readout,
+}
+
+impl Cause {
+    /// Those that can be behind a velocity after a known start.
+    pub const OF_VELOCITY: [Self; 16] = [
+        Self::GyroBiasChange(0),
+        Self::GyroBiasChange(1),
+        Self::GyroBiasChange(2),
+        Self::AccelBiasChange(0),
+        Self::AccelBiasChange(1),
+        Self::AccelBiasChange(2),
+        Self::Estimate(0),
+        Self::Estimate(1),
+        Self::Estimate(2),
+        Self::Start(0),
+        Self::Start(1),
+        Self::Start(2),
+        Self::StartLag,
+        Self::Latitude,
+        Self::Gravity,
+        Self::Duration,
+    ];
+
+    /// Its name, in the words of a list.
+    pub fn name(self) -> String {
+        let body = |axis: usize| ["x", "y", "z"][axis];
+        let nav = |axis: usize| ["east", "north", "up"][axis];
+        match self {
+            Self::GyroBias(axis) => format!("gyro bias {}, aligned with it", body(axis)),
+            Self::GyroBiasChange(axis) => format!("gyro bias {}", body(axis)),
+            Self::AccelBias(axis) => format!("accelerometer bias {}, aligned with it", body(axis)),
+            Self::AccelBiasChange(axis) => format!("accelerometer bias {}", body(axis)),
+            Self::Start(axis) => format!("start attitude off about {}", nav(axis)),
+            Self::StartLag => "start attitude older than the data".into(),
+            Self::Estimate(row) => {
+                format!("${}$ not compensated", ["M_{xz}", "M_{yz}", "S_z"][row])
+            }
+            Self::Latitude => "another latitude".into(),
+            Self::Gravity => "another gravity".into(),
+            Self::Duration => "a longer navigation".into(),
+            Self::Tilt(axis) => format!("axis tipped about {}", nav(axis)),
+            Self::Readout => "attitude older than its reference".into(),
+        }
+    }
+
+    /// Its unit, and that in SI.
+    pub fn unit(self) -> (&'static str, f64) {
+        match self {
+            Self::GyroBias(_) | Self::GyroBiasChange(_) => ("°/h", DEG_PER_HOUR),
+            Self::AccelBias(_) | Self::AccelBiasChange(_) => ("µg", MICRO_G),
+            Self::Start(_) | Self::Tilt(_) | Self::Estimate(0 | 1) => ("″", ARCSEC),
+            Self::Estimate(_) => ("ppm", PPM),
+            Self::StartLag | Self::Readout => ("ms", 1e-3),
+            Self::Latitude => ("°", DEG),
+            Self::Gravity => ("m/s²", 1.0),
+            Self::Duration => ("s", 1.0),
+        }
+    }
+
+    /// What one unit of it does to velocity \[m/s\] and attitude \[deg\], in the order of
+    /// [`Outcome::figures`](crate::Outcome::figures), about `base`.
+    ///
+    /// # Errors
+    /// [`ReproductionError`] if the navigation cannot be done.
+    pub fn effect(self, base: &PureNavigation) -> Result<SVector<f64, 5>, ReproductionError> {
+        // Where a unit is too little to be seen or too much to be straight.
+        let units = match self {
+            Self::Gravity => 1e-3,
+            Self::Duration => 0.2,
+            Self::AccelBias(_) | Self::AccelBiasChange(_) => 10.0,
+            Self::GyroBias(_) | Self::GyroBiasChange(_) => 0.01,
+            _ => 1.0,
+        };
+        let step = units * self.unit().1;
+        let either = [self.applied(base, step)?, self.applied(base, -step)?];
+        Ok((either[0] - either[1]) / (2.0 * units))
+    }
+
+    /// What a navigation ends with where this cause has the given size, in SI units.
+    fn applied(
+        self,
+        base: &PureNavigation,
+        size: f64,
+    ) -> Result<SVector<f64, 5>, ReproductionError> {
+        let mut changed = base.clone();
+        let scenario = &mut changed.scenario;
+        let station = scenario.station;
+        let c_nb = *scenario.nav_from_table.matrix();
+        match self {
+            Self::GyroBias(axis) => {
+                scenario.imu_error.gyro.bias[axis] += size;
+                changed.start_error += azimuth_error(&station, c_nb[(0, axis)] * size);
+            }
+            Self::GyroBiasChange(axis) => scenario.imu_error.gyro.bias[axis] += size,
+            Self::AccelBias(axis) => {
+                scenario.imu_error.accel.bias[axis] += size;
+                changed.start_error += tilt_error(&station, &(c_nb.column(axis) * size));
+            }
+            Self::AccelBiasChange(axis) => scenario.imu_error.accel.bias[axis] += size,
+            Self::Start(axis) => changed.start_error[axis] += size,
+            Self::StartLag => {
+                // Turned back by ω times the lag: φ is minus that turn.
+                let back = scenario.profile.rate(scenario.profile.duration()) * size;
+                changed.start_error += c_nb.column(2) * back;
+            }
+            Self::Estimate(row) => {
+                let mut off = Vector3::zeros();
+                off[row] = size;
+                scenario.imu_error.gyro.matrix += spin_axis_error(&off).matrix;
+            }
+            Self::Latitude => {
+                let site = Site { latitude: station.site.latitude + size, ..station.site };
+                scenario.station = Station::with_normal_gravity(site);
+            }
+            Self::Gravity => scenario.station.gravity += size,
+            Self::Duration => {
+                let (rate, duration) = (scenario.profile.rate(0.0), scenario.profile.duration());
+                let longer = Segment { rate, duration: duration + size };
+                scenario.profile = Profile::new(&[longer], None)?;
+            }
+            Self::Tilt(axis) => return Ok(tipped(base, axis, size)),
+            Self::Readout => {
+                let reference = scenario.nav_from_table.euler_angles();
+                let rate = scenario.profile.rate(scenario.profile.duration());
+                return Ok(changed.outcome()?.read_out_late(&reference, rate, size).vector());
+            }
+        }
+        Ok(changed.outcome()?.vector())
+    }
+}
+
+/// What is read where the axis has tipped about an axis of n \[rad\], less nothing else.
+fn tipped(base: &PureNavigation, axis: usize, size: f64) -> SVector<f64, 5> {
+    let mut turn = Vector3::zeros();
+    turn[axis] = size;
+    let upright = base.scenario.nav_from_table;
+    let tipped = (Dcm::<Nav, Nav>::from_rotation_vector(&turn) * upright).euler_angles();
+    let reference = upright.euler_angles();
+    SVector::from([
+        0.0,
+        0.0,
+        (tipped.roll - reference.roll) / DEG,
+        (tipped.pitch - reference.pitch) / DEG,
+        (tipped.yaw - reference.yaw) / DEG,
+    ])
+}
+
+/// What an east gyro error \[rad/s\] during a static alignment leaves: `φ_U = -δω_E / (Ω cos L)`.
+fn azimuth_error(station: &Station, east: f64) -> Vector3<f64> {
+    Vector3::new(0.0, 0.0, -east / (EARTH_RATE * station.site.latitude.cos()))
+}
+
+/// What an accelerometer error in n \[m/s²\] during a static alignment leaves:
+/// `φ_E = -δf_N / g`, `φ_N = δf_E / g`, `φ_U = φ_N tan L`.
+fn tilt_error(station: &Station, force: &Vector3<f64>) -> Vector3<f64> {
+    let north = force.x / station.gravity;
+    Vector3::new(-force.y / station.gravity, north, north * station.site.latitude.tan())
+}
+
+/// A cause at the size that explains most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Explanation {
+    /// The cause.
+    pub cause: Cause,
+    /// Its size, in its unit.
+    pub size: f64,
+    /// What it leaves, root mean square, over what there was: 0 explains all, 1 nothing.
+    pub left: f64,
+}
+
+/// The causes, each taken alone at its best size against the velocities of `misfit` (printed less
+/// model \[m/s\]), best first.
+///
+/// # Errors
+/// [`ReproductionError`] if a navigation cannot be done.
+pub fn velocity_explanations(
+    causes: &[Cause],
+    base: &PureNavigation,
+    misfit: [f64; 2],
+) -> Result<Vec<Explanation>, ReproductionError> {
+    let misfit = SVector::from(misfit);
+    let mut explanations = Vec::with_capacity(causes.len());
+    for &cause in causes {
+        let effect = cause.effect(base)?.fixed_rows::<2>(0).into_owned();
+        let size = effect.dot(&misfit) / effect.norm_squared();
+        let left = (misfit - effect * size).norm() / misfit.norm();
+        explanations.push(Explanation { cause, size, left });
+    }
+    explanations.sort_by(|one, other| one.left.total_cmp(&other.left));
+    Ok(explanations)
+}
+
+/// A cause with the size that the paper's description of its instruments allows it, in its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Graded {
+    /// The cause.
+    pub cause: Cause,
+    /// The size allowed, in its unit.
+    pub grade: f64,
+    /// What a size of one unit does: m/s and degrees.
+    pub effect: SVector<f64, 5>,
+}
+
+impl Graded {
+    /// How large it would have to be, in its unit, to make the error `wanted` in one figure alone.
+    pub fn needed(&self, figure: usize, wanted: f64) -> f64 {
+        wanted / self.effect[figure]
+    }
+
+    /// The same over the size allowed.
+    pub fn multiple(&self, figure: usize, wanted: f64) -> f64 {
+        (self.needed(figure, wanted) / self.grade).abs()
+    }
+}

@@ -1,0 +1,130 @@
+//! Section 4's Monte Carlo: seeded runs of the paper's filter, the same whatever the thread count.
+
+use nalgebra::{Matrix3, Vector3};
+use rayon::prelude::*;
+use rins_calibration::{Calibration, EstimatePoint, NavigationPoint, calibrate};
+use rins_frames::units::{ARCSEC, PPM};
+use rins_simulation::Simulated;
+
+use crate::error::ReproductionError;
+use crate::experiment::Experiment;
+use crate::pure_navigation::Outcome;
+use crate::statistics::Sample;
+
+/// One of `M_xz`, `M_yz` \[rad\] and `S_z` in the paper's units: arc seconds, arc seconds, ppm.
+pub(crate) const UNITS: [f64; 3] = [ARCSEC, ARCSEC, PPM];
+
+/// A finished run of the paper's filter.
+#[derive(Clone, Debug)]
+pub struct Calibrated {
+    /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated.
+    pub estimate: Vector3<f64>,
+    /// Their 1σ, as the filter claims it.
+    pub sigma: Vector3<f64>,
+    /// The squared error of the three, normalised by the covariance claimed: χ² with three degrees
+    /// of freedom if that is honest.
+    pub nees: f64,
+    /// The mean normalised innovation squared over what it should be.
+    pub nis_ratio: f64,
+    /// The estimates on the way.
+    pub history: Vec<EstimatePoint>,
+    /// What navigation ends with, nothing compensated.
+    pub before: Outcome,
+    /// The same with the estimates compensated.
+    pub after: Outcome,
+    /// The way through the navigation before.
+    pub before_history: Vec<NavigationPoint>,
+}
+
+/// The runs of a Monte Carlo, in order of their index.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// The true `M_xz`, `M_yz` \[rad\] and `S_z`.
+    pub truth: Vector3<f64>,
+    /// The runs.
+    pub runs: Vec<Calibrated>,
+}
+
+impl Campaign {
+    /// `n_runs` runs of an experiment; `progress` is told of each that is done, from any thread.
+    ///
+    /// # Errors
+    /// [`ReproductionError`] of the first run that fails.
+    pub fn of(
+        experiment: &Experiment,
+        n_runs: u64,
+        progress: impl Fn() + Sync,
+    ) -> Result<Self, ReproductionError> {
+        let truth = experiment.scenario.imu_error.gyro.matrix.column(2).into_owned();
+        let runs = (0..n_runs).into_par_iter().map(|run| {
+            let done = calibrated(experiment, run, &truth)?;
+            progress();
+            Ok(done)
+        });
+        Ok(Self { truth, runs: runs.collect::<Result<_, ReproductionError>>()? })
+    }
+
+    /// The estimates of one of the three, in arc seconds, arc seconds and ppm.
+    pub fn estimates(&self, parameter: usize) -> Sample {
+        Sample::of(self.runs.iter().map(|run| run.estimate[parameter] / UNITS[parameter]))
+    }
+
+    /// The 1σ that the filter claims for one of the three, in the same units.
+    pub fn claimed(&self, parameter: usize) -> f64 {
+        Sample::of(self.runs.iter().map(|run| run.sigma[parameter] / UNITS[parameter])).mean
+    }
+
+    /// The error of one of the three, root mean square over the runs, over the 1σ claimed.
+    pub fn overconfidence(&self, parameter: usize) -> f64 {
+        let squares = self.runs.iter().map(|run| {
+            let off = (run.estimate[parameter] - self.truth[parameter]) / run.sigma[parameter];
+            off * off
+        });
+        Sample::of(squares).mean.sqrt()
+    }
+
+    /// The mean normalised squared error of the three together.
+    pub fn nees(&self) -> f64 {
+        Sample::of(self.runs.iter().map(|run| run.nees)).mean
+    }
+
+    /// One of the five figures of the navigations before or after, in m/s and degrees.
+    pub fn navigated(&self, outcome: impl Fn(&Calibrated) -> Outcome, figure: usize) -> Sample {
+        Sample::of(self.runs.iter().map(|run| outcome(run).figures()[figure]))
+    }
+}
+
+fn calibrated(
+    experiment: &Experiment,
+    run: u64,
+    truth: &Vector3<f64>,
+) -> Result<Calibrated, ReproductionError> {
+    let Simulated { recording, .. } = experiment.run(run)?;
+    let calibration = calibrate(&recording, &experiment.setup, |_| ())
+        .map_err(|source| ReproductionError::Calibration { run, source })?;
+    let (estimate, sigma) = figures(&calibration);
+    let covariance = Matrix3::from_fn(|row, column| {
+        calibration.correlation[(row, column)] * sigma[row] * sigma[column]
+    });
+    let error = estimate - truth;
+    let inverse = covariance.try_inverse().ok_or(ReproductionError::Singular { run })?;
+    Ok(Calibrated {
+        estimate,
+        sigma,
+        nees: error.dot(&(inverse * error)),
+        nis_ratio: calibration.consistency.nis_mean / calibration.consistency.nis_dof as f64,
+        history: calibration.history,
+        before: Outcome::from(&calibration.before),
+        after: Outcome::from(&calibration.after),
+        before_history: calibration.before.history,
+    })
+}
+
+/// The three estimates of a calibration and their 1σ.
+pub(crate) fn figures(calibration: &Calibration) -> (Vector3<f64>, Vector3<f64>) {
+    let parameters = &calibration.parameters;
+    (
+        Vector3::from_fn(|row, _| parameters[row].value),
+        Vector3::from_fn(|row, _| parameters[row].sigma),
+    )
+}

@@ -1,0 +1,147 @@
+//! Inertial navigation without any aid over a scenario, and what it ends with.
+
+use nalgebra::{SVector, Vector3};
+use rins_calibration::{FreeNavigation, navigate_freely};
+use rins_frames::{Dcm, EulerAngles, Nav, Table, units::DEG};
+use rins_imu::ImuError;
+use rins_simulation::{Scenario, Simulated, simulate};
+
+use crate::error::ReproductionError;
+
+/// What a navigation on a table ends with, as errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// Velocity east and north \[m/s\].
+    pub velocity: [f64; 2],
+    /// Of the axis frame's roll, pitch and yaw \[rad\].
+    pub attitude: EulerAngles,
+}
+
+impl Outcome {
+    /// East, north \[m/s\], roll, pitch, yaw \[deg\]: the paper's units, so as to be compared with it.
+    pub fn figures(&self) -> [f64; 5] {
+        let ([east, north], EulerAngles { roll, pitch, yaw }) = (self.velocity, self.attitude);
+        [east, north, roll / DEG, pitch / DEG, yaw / DEG]
+    }
+
+    /// The same as a vector.
+    pub(crate) fn vector(&self) -> SVector<f64, 5> {
+        SVector::from(self.figures())
+    }
+
+    /// The same outcome, its attitude read out `lag` \[s\] too early on a table that turns at
+    /// `rate` \[rad/s\] and compared with the reference of now.
+    ///
+    /// `reference` is the true attitude of the axis frame.
+    #[must_use]
+    pub fn read_out_late(&self, reference: &EulerAngles, rate: f64, lag: f64) -> Self {
+        let EulerAngles { roll, pitch, yaw } = self.attitude;
+        let computed = EulerAngles {
+            roll: reference.roll + roll,
+            pitch: reference.pitch + pitch,
+            yaw: reference.yaw + yaw,
+        };
+        let lagging = computed.dcm::<Nav, Table>() * Dcm::<Table, Table>::about_z(-rate * lag);
+        let read = lagging.euler_angles();
+        let attitude = EulerAngles {
+            roll: read.roll - reference.roll,
+            pitch: read.pitch - reference.pitch,
+            yaw: read.yaw - reference.yaw,
+        };
+        Self { attitude, ..*self }
+    }
+}
+
+impl From<&FreeNavigation> for Outcome {
+    fn from(end: &FreeNavigation) -> Self {
+        Self { velocity: [end.velocity.x, end.velocity.y], attitude: end.attitude_error }
+    }
+}
+
+/// A navigation on a table: the data, what is compensated, and how it starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PureNavigation {
+    /// The data.
+    pub scenario: Scenario,
+    /// The sensor errors that are compensated.
+    pub compensated: ImuError,
+    /// The attitude error at the start, `φ(0)` of `C~ = (I - φ×) C`, in n \[rad\].
+    pub start_error: Vector3<f64>,
+    /// What the attitude at the end is compared with.
+    pub reference: Reference,
+}
+
+/// What an attitude is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// The true attitude of the axis frame.
+    Truth,
+    /// The attitude that the navigation started with, as where the truth is not known.
+    Start,
+}
+
+impl PureNavigation {
+    /// A navigation of raw data that starts right.
+    pub fn of(scenario: &Scenario) -> Self {
+        Self {
+            scenario: scenario.clone(),
+            compensated: ImuError::default(),
+            start_error: Vector3::zeros(),
+            reference: Reference::Truth,
+        }
+    }
+
+    /// The same, with the data free of noise.
+    #[must_use]
+    pub fn noiseless(mut self) -> Self {
+        self.scenario.noise = None;
+        self
+    }
+
+    /// The same, with these errors compensated.
+    #[must_use]
+    pub fn compensating(mut self, errors: ImuError) -> Self {
+        self.compensated = errors;
+        self
+    }
+
+    /// The way through the navigation, and its end.
+    ///
+    /// # Errors
+    /// [`ReproductionError`] if the data cannot be simulated or the errors not be compensated.
+    pub fn navigate(&self) -> Result<FreeNavigation, ReproductionError> {
+        let Simulated { recording, truth } = simulate(&self.scenario)?;
+        let angles: Vec<f64> = std::iter::once(0.0).chain(truth.table_angle).collect();
+        let compensation = self.compensated.compensation()?;
+        let start = Dcm::<Nav, Nav>::from_rotation_vector(&-self.start_error)
+            * self.scenario.nav_from_table;
+        let mut end = navigate_freely(
+            &recording,
+            &angles,
+            start,
+            &self.scenario.station,
+            Some(&compensation),
+        );
+        if self.reference == Reference::Truth {
+            // It is told against the attitude at the start.
+            let (begun, truth) =
+                (start.euler_angles(), self.scenario.nav_from_table.euler_angles());
+            let from_truth = |error: &mut EulerAngles| {
+                error.roll += begun.roll - truth.roll;
+                error.pitch += begun.pitch - truth.pitch;
+                error.yaw += begun.yaw - truth.yaw;
+            };
+            from_truth(&mut end.attitude_error);
+            end.history.iter_mut().for_each(|point| from_truth(&mut point.attitude_error));
+        }
+        Ok(end)
+    }
+
+    /// What it ends with.
+    ///
+    /// # Errors
+    /// As [`PureNavigation::navigate`].
+    pub fn outcome(&self) -> Result<Outcome, ReproductionError> {
+        Ok(Outcome::from(&self.navigate()?))
+    }
+}

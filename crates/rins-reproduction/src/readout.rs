@@ -1,0 +1,133 @@
+//! The read-out lag that Table 4's attitudes hold.
+//!
+//! The attitudes that the paper prints before and after compensation differ from the model's by
+//! one and the same rotation about the spin axis. A read-out that is some time older than its
+//! reference makes just that, on a table that turns.
+
+use nalgebra::Vector3;
+use rins_frames::units::DEG;
+use rins_frames::{Dcm, EulerAngles, Nav, Table};
+
+use crate::pure_navigation::Outcome;
+use crate::statistics::root_mean_square;
+
+/// An outcome of the model, and the roll, pitch and yaw errors printed for it \[deg\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// The model's.
+    pub model: Outcome,
+    /// The paper's: roll, pitch, yaw \[deg\].
+    pub printed: [f64; 3],
+}
+
+impl Pair {
+    /// The rotation that takes the model's attitude to the printed one, as a vector in the axis frame
+    /// \[deg\]: what a lag makes of it has a z component alone.
+    pub fn rotation(&self, reference: &EulerAngles) -> Vector3<f64> {
+        let attitude = |roll: f64, pitch: f64, yaw: f64| -> Dcm<Nav, Table> {
+            EulerAngles {
+                roll: reference.roll + roll,
+                pitch: reference.pitch + pitch,
+                yaw: reference.yaw + yaw,
+            }
+            .dcm()
+        };
+        let [roll, pitch, yaw] = self.printed.map(|angle| angle * DEG);
+        let EulerAngles { roll: r, pitch: p, yaw: y } = self.model.attitude;
+        let apart: Dcm<Table, Table> = attitude(r, p, y).inverse() * attitude(roll, pitch, yaw);
+        apart.rotation_vector() / DEG
+    }
+}
+
+/// A table that turns while it is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turning {
+    /// The true attitude of the axis frame.
+    pub reference: EulerAngles,
+    /// The rate \[rad/s\].
+    pub rate: f64,
+}
+
+/// The disagreement of model and print for a lag.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// The lag \[s\].
+    pub lag: f64,
+    /// Model less print, three for each pair \[deg\].
+    pub residuals: Vec<f64>,
+}
+
+impl Disagreement {
+    /// Of these pairs, were the attitude read out `lag` \[s\] late.
+    pub fn of(pairs: &[Pair], turning: &Turning, lag: f64) -> Self {
+        let residuals = pairs.iter().flat_map(|pair| {
+            let model = pair.model.read_out_late(&turning.reference, turning.rate, lag).figures();
+            [0, 1, 2].map(|angle| model[2 + angle] - pair.printed[angle])
+        });
+        Self { lag, residuals: residuals.collect() }
+    }
+
+    /// With the lag that fits best, by least squares.
+    pub fn least(pairs: &[Pair], turning: &Turning) -> Self {
+        /// A tenth of a millisecond: the residuals are straight over a hundred of them.
+        const STEP: f64 = 1e-4;
+        let mut lag = 0.0;
+        for _ in 0..4 {
+            let at = |lag| Self::of(pairs, turning, lag).residuals;
+            let (here, after, before) = (at(lag), at(lag + STEP), at(lag - STEP));
+            let slopes = after.iter().zip(&before).map(|(a, b)| (a - b) / (2.0 * STEP));
+            let (mut along, mut square) = (0.0, 0.0);
+            for (slope, residual) in slopes.zip(&here) {
+                along += slope * residual;
+                square += slope * slope;
+            }
+            lag -= along / square;
+        }
+        Self::of(pairs, turning, lag)
+    }
+
+    /// The root mean square of the residuals \[deg\].
+    pub fn root_mean_square(&self) -> f64 {
+        root_mean_square(&self.residuals)
+    }
+
+    /// The largest residual \[deg\].
+    pub fn largest(&self) -> f64 {
+        self.residuals.iter().fold(0.0, |largest, residual| residual.abs().max(largest))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_frames::units::{DEG, DEG_PER_SECOND};
+    use rins_testing::assert_close;
+
+    #[test]
+    fn a_lag_put_in_is_found() {
+        let turning = Turning {
+            reference: EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG },
+            rate: 10.0 * DEG_PER_SECOND,
+        };
+        let errors = [[-0.3, 0.5, 1.0], [0.01, 0.02, -0.03]];
+        let pairs = errors.map(|[roll, pitch, yaw]| {
+            let attitude = EulerAngles { roll: roll * DEG, pitch: pitch * DEG, yaw: yaw * DEG };
+            let model = Outcome { velocity: [0.0; 2], attitude };
+            let [_, _, roll, pitch, yaw] =
+                model.read_out_late(&turning.reference, turning.rate, 0.013).figures();
+            Pair { model, printed: [roll, pitch, yaw] }
+        });
+        let found = Disagreement::least(&pairs, &turning);
+        assert_close!(found.lag, 0.013, 1e-12);
+        assert!(found.root_mean_square() < 1e-12);
+        assert!(Disagreement::of(&pairs, &turning, 0.0).root_mean_square() > 0.05);
+        for pair in &pairs {
+            let rotation = pair.rotation(&turning.reference);
+            assert_close!(rotation.z, -0.13, 1e-9);
+            assert!(rotation.xy().norm() < 1e-9);
+        }
+        // An upright axis turns the whole lag into yaw: 0.13 deg.
+        let upright = pairs[0].model.read_out_late(&EulerAngles::default(), turning.rate, 0.013);
+        assert_close!(upright.attitude.yaw, pairs[0].model.attitude.yaw - 0.13 * DEG, 1e-5 * DEG);
+    }
+}

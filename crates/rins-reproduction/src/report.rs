@@ -1,0 +1,53 @@
+//! The page of the book that sets the paper's figures beside ours, and its charts.
+
+mod attitude;
+mod chart;
+mod errata;
+mod experiment;
+mod figures;
+mod filter;
+mod mechanism;
+mod navigation;
+mod number;
+mod overview;
+mod results;
+
+pub use results::{Results, Scale};
+
+/// Where the page stands, from the workspace's root.
+pub const PAGE: &str = "docs/src/reproduction.md";
+
+/// The folder of its charts, from the workspace's root.
+pub const FIGURES: &str = "docs/src/figures";
+
+/// A file of the report: its path from the workspace's root, and what it holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// The path.
+    pub path: String,
+    /// The text.
+    pub text: String,
+}
+
+/// The page and its charts.
+pub fn files(results: &Results) -> Vec<File> {
+    let page = File { path: PAGE.into(), text: page(results) };
+    let charts = figures::all(results)
+        .into_iter()
+        .map(|(name, text)| File { path: format!("{FIGURES}/{name}"), text });
+    std::iter::once(page).chain(charts).collect()
+}
+
+fn page(results: &Results) -> String {
+    [
+        overview::section(results),
+        filter::section(results),
+        navigation::section(results),
+        attitude::section(results),
+        navigation::velocities(results),
+        experiment::section(results),
+        mechanism::section(results),
+        errata::section(results),
+    ]
+    .concat()
+}

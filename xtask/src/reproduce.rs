@@ -1,0 +1,32 @@
+//! The paper's experiments, run by a program of its own: they need an optimised build, and this does not.
+
+use std::path::Path;
+use std::process::Command;
+
+use clap::Args;
+
+use crate::Result;
+
+/// Whether to write the page or to look at it.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Write nothing; fail if the page or a figure in the repository says something else
+    #[arg(long)]
+    check: bool,
+}
+
+/// Runs the experiments and writes `docs/src/reproduction.md` with its figures, or checks them.
+pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
+    let arguments: &[&str] = if options.check { &["--", "--check"] } else { &[] };
+    program(root, "reproduce", arguments)
+}
+
+/// Runs a program of `rins-reproduction`.
+pub(crate) fn program(root: &Path, name: &str, arguments: &[&str]) -> Result<()> {
+    let status = Command::new("cargo")
+        .args(["run", "--quiet", "--release", "--package", "rins-reproduction", "--bin", name])
+        .args(arguments)
+        .current_dir(root)
+        .status()?;
+    if status.success() { Ok(()) } else { Err(format!("{name} failed ({status})").into()) }
+}
