@@ -78,7 +78,7 @@ pub(crate) struct Simulate {
 pub(crate) struct Input {
     /// The rig file
     pub(crate) rig: PathBuf,
-    /// Folder for result.json and report.html
+    /// Folder for result.json, report.html and what else the command makes
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
 }

@@ -56,8 +56,8 @@ const CALIBRATIONS: &[Row] = &[
     (
         "a negative sigma",
         NAVIGATE,
-        Replace(FILE, "[sigma.gyro]\nbias = [\"0", "[sigma.gyro]\nbias = [\"-1"),
-        &["calibration.toml:", "sigma: a standard deviation is negative"],
+        Replace(FILE, "gyro.scale.z = \"", "gyro.scale.z = \"-"),
+        &["calibration.toml:{line}: [sigma] gyro.scale.z", "expected more than zero"],
     ),
     (
         "NaN",

@@ -80,7 +80,7 @@ const KEYS: &[Row] = &[
         "no data sheet",
         CALIBRATE,
         Without(RIG, 20..=30),
-        &["rig.toml: [imu.gyro]: missing, expected the gyros' data sheet figures", "priors"],
+        &["rig.toml: [imu.gyro]: missing, expected the gyros' data sheet figures", "data sheet"],
     ),
     (
         "no gyro noise",
