@@ -31,17 +31,17 @@ impl Check {
     }
 }
 
-/// The bounded `C_s^n(1,1)` term in the north velocity, by quadrature of eq. (7), after a quarter
-/// of a turn \[m/s\].
+/// The bounded `C_s^n(1,1)` term in the north velocity, by quadrature of eq. (7), after half a
+/// turn \[m/s\].
 ///
 /// "Corrected" is eq. (9) with its plus, "printed" the same with a minus, a reading of (A.7); all
 /// three are the printed form's whole `δv_y`, so that only that term differs.
 pub fn bounded_term() -> Check {
     let turn = turn([30.0, 20.0, 40.0], 10.0);
     let form = ClosedForm::new(turn, ERRORS, Sign::Printed);
-    let time = 9.0;
+    let time = 18.0;
     // Simpson's rule over the acceleration error.
-    let steps = 900_u32;
+    let steps = 1800_u32;
     let interval = time / f64::from(steps);
     let north = |time: f64| form.acceleration_error(time).components().y;
     let evaluated: f64 = (0..steps)

@@ -4,7 +4,7 @@
 //! Carlo of its Tables 3 and 4 ([`Campaign`]), the honesty of the filter's covariance
 //! ([`coverage`]), the read-out lag that its attitudes hold ([`readout`]), the experiment of its section 5,
 //! emulated ([`real_test`]), and the equations against numerical integration ([`grid`]). [`report`] turns all
-//! of it into a page of the book and its figures; [`stale`] says where a page kept in the
+//! of it into a page of the book and its figures; [`differences`] says where a page kept in the
 //! repository has fallen behind.
 //!
 //! **What it does not do.** It holds no algorithm that the other crates should have, but for one:

@@ -90,7 +90,7 @@ impl Axis {
     fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Linear => {
-                let step = round_step((self.to - self.from) / 4.0);
+                let step = round_step((self.to - self.from) / 5.0);
                 let decimals = decimals_of(step);
                 let first = (self.from / step - 1e-9).ceil();
                 std::iter::successors(Some(first), |count| Some(count + 1.0))
@@ -199,13 +199,23 @@ fn draw(out: &mut String, panel: &Panel, left: f64) {
         TOP + 0.5 * PANEL_HEIGHT,
         y.label,
     );
-    for series in series {
-        // What lies outside is drawn at the edge, not beyond it.
-        let places = series
-            .points
-            .iter()
-            .map(|&(at, value)| (across(at.clamp(x.from, x.to)), up(value.clamp(y.from, y.to))));
-        push_marks(out, series, places);
+    let _ = writeln!(
+        out,
+        "<clipPath id=\"c{left:.0}\"><rect x=\"{left:.0}\" y=\"{TOP}\" width=\"{PANEL_WIDTH}\" \
+         height=\"{PANEL_HEIGHT}\"/></clipPath>\n<g clip-path=\"url(#c{left:.0})\">",
+    );
+    let (crosses, lines): (Vec<&Series>, Vec<&Series>) =
+        series.iter().partition(|series| series.mark == Mark::Cross);
+    let places = |series: &Series| -> Vec<(f64, f64)> {
+        series.points.iter().map(|&(at, value)| (across(at), up(value))).collect()
+    };
+    for series in lines {
+        push_marks(out, series, places(series).into_iter());
+    }
+    out.push_str("</g>\n");
+    // A cross on the frame is drawn whole.
+    for series in crosses {
+        push_marks(out, series, places(series).into_iter());
     }
     let _ = writeln!(
         out,
@@ -279,7 +289,7 @@ mod tests {
             axis.ticks().into_iter().map(|(_, name)| name).collect::<Vec<_>>().join(" ")
         };
         assert_eq!(ticks(Scale::Linear, 0.0, 360.0), "0 100 200 300");
-        assert_eq!(ticks(Scale::Linear, -0.2, 0.21), "−0.2 0.0 0.2");
+        assert_eq!(ticks(Scale::Linear, -0.2, 0.21), "−0.2 −0.1 0.0 0.1 0.2");
         assert_eq!(
             ticks(Scale::Logarithmic, 0.01, 100.0),
             "0.01 0.10 1 10 100".replace("0.10", "0.1")
@@ -287,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn points_lie_where_the_axes_say_and_never_outside() {
+    fn points_lie_where_the_axes_say_and_are_cut_off_outside() {
         let panel = Panel {
             title: "a",
             x: Axis::new("t [s]", Scale::Linear, (0.0, 10.0)),
@@ -296,7 +306,7 @@ mod tests {
                 label: Some("one"),
                 mark: Mark::Line,
                 colour: 0,
-                points: vec![(0.0, 0.0), (10.0, 2.0)],
+                points: vec![(0.0, 0.0), (10.0, 1.0)],
             }],
         };
         let text = svg("test", &[panel]);
@@ -304,5 +314,6 @@ mod tests {
             format!("M{LEFT:.1} {:.1}L{:.1} {TOP:.1}", TOP + PANEL_HEIGHT, LEFT + PANEL_WIDTH);
         assert!(text.contains(&path), "{path} in {text}");
         assert!(text.contains(">t [s]<") && text.contains(">one<"), "{text}");
+        assert!(text.contains("<g clip-path=\"url(#c62)\">"), "{text}");
     }
 }

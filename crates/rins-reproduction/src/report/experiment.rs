@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use rins_frames::units::{ARCSEC, DEG};
 
-use super::number::{Table, fixed, signed, significant, spread, tuple};
+use super::number::{Table, fixed, signed, significant, spread, tuple, with_unit};
 use super::results::Results;
 use crate::causes::{Cause, Graded};
 use crate::monte_carlo::UNITS;
@@ -12,7 +12,8 @@ use crate::real_test::{self, Emulated};
 use crate::{Sample, printed};
 
 const FIGURES: [&str; 5] = ["$V_x$ [m/s]", "$V_y$ [m/s]", "roll [°]", "pitch [°]", "yaw [°]"];
-const DECIMALS: [usize; 5] = [4, 4, 4, 4, 4];
+/// The decimals that the emulation's spread leaves sense in.
+const DECIMALS: [usize; 5] = [2, 2, 4, 4, 4];
 
 /// How many deviations from the emulation's mean still pass for chance.
 const CHANCE: f64 = 3.0;
@@ -32,7 +33,7 @@ pub(super) fn section(results: &Results) -> String {
         "## Section 5: the real test, emulated {{#real-test}}\n\n\
          The log was not published. [scenarios/paper/real-test.toml] emulates it: 100 Hz, 140 s at rest, 900 s at 10 °/s \
          near the level, the errors of Table 5, biases drawn from 0.1 °/h and 100 µg, the noise of Tables 1 and 2 for want \
-         of any. Each of {} runs is aligned on its rest, calibrated, and navigated as the paper says; attitudes are \
+         of any. Each of {} runs is aligned on its rest, calibrated on 100 s of its turn, and navigated over all of it; attitudes are \
          compared with the start, as there.\n\n\
          ### Table 5: the estimates {{#table-5}}\n\n\
          Printed {}; emulated, with these as the truth, {}, {} and {}. The spread is what the biases of the grade hide in \
@@ -68,7 +69,7 @@ fn table_6(out: &mut String, results: &Results) {
                 when.to_owned(),
                 name.to_owned(),
                 format!("**{}**", fixed(said, 4)),
-                fixed(model[place], DECIMALS[place]),
+                fixed(model[place], 4),
                 spread(&sample, DECIMALS[place]),
                 signed(off, 1),
                 if off.abs() < CHANCE { "within the grade" } else { "**outside**" }.to_owned(),
@@ -93,17 +94,8 @@ fn table_6(out: &mut String, results: &Results) {
 
 /// A table of causes: the size that each needs for one figure alone, over what it is allowed.
 fn sizes(out: &mut String, causes: &[Graded], wanted: [f64; 5]) {
-    let mut table = Table::new(&[
-        "cause",
-        "allowed>",
-        "$V_x$>",
-        "$V_y$>",
-        "roll>",
-        "pitch>",
-        "yaw>",
-        "for roll>",
-        "for yaw>",
-    ]);
+    let titles = ["cause", "allowed>", "$V_x$>", "$V_y$>", "roll>", "pitch>", "yaw>"];
+    let mut table = Table::new(&titles);
     let mut ranked: Vec<&Graded> = causes.iter().collect();
     let least = |graded: &Graded| {
         (0..5).map(|figure| graded.multiple(figure, wanted[figure])).fold(f64::INFINITY, f64::min)
@@ -119,24 +111,14 @@ fn sizes(out: &mut String, causes: &[Graded], wanted: [f64; 5]) {
                 "–".to_owned()
             }
         };
-        let size = |figure: usize| {
-            let multiple = graded.multiple(figure, wanted[figure]);
-            if multiple < 1000.0 {
-                format!("{} {unit}", significant(graded.needed(figure, wanted[figure]), 2))
-            } else {
-                "–".to_owned()
-            }
-        };
         table.row(&[
             graded.cause.name(),
-            format!("{} {unit}", significant(graded.grade, 2)),
+            with_unit(&significant(graded.grade, 2), unit),
             cell(0),
             cell(1),
             cell(2),
             cell(3),
             cell(4),
-            size(2),
-            size(4),
         ]);
     }
     out.push_str(&table.finish());
@@ -149,7 +131,7 @@ fn after(out: &mut String, results: &Results) {
          How large each cause would have to be to make one of the figures after compensation by itself, as a multiple of \
          what is allowed it: the IMU's stated grade, the table's 2″, half a sample of timing, and for an estimate what a bias \
          of the grade hides in it. A dash is more than a thousand times. Causes are ranked by the figure that they explain \
-         most cheaply; the last two columns are the sizes.\n\n",
+         most cheaply.\n\n",
     );
     sizes(out, &results.causes_after, wanted);
     let needed = |name: &str, figure: usize| {
@@ -169,7 +151,7 @@ fn after(out: &mut String, results: &Results) {
          calibration on the same turn takes it for scale and removes it. It takes a drift that *changed* by {} °/h, or \
          {} ppm of scale error, or an attitude {} ms newer than its reference ({} of a sample).\n\
          - **Roll** (−0.0734°) is the figure that no sensor error of the grade makes: a tilt of the computed level that large \
-         at the start would show as {} m/s. It needs an axis that stood {}″ off at the end, a hundred times the table's \
+         at the start would show as {} m/s. It needs an axis that stood {}″ off at the end, more than a hundred times the table's \
          accuracy, or a table that was not back at its start with an IMU mounted off the axis by at least {}°.\n\n",
         significant(needed("accelerometer bias x, aligned with it", 0), 2),
         significant(needed("accelerometer bias y, aligned with it", 1), 2),
@@ -212,17 +194,22 @@ fn between(out: &mut String, results: &Results) {
         ]);
     }
     out.push_str(&table.finish());
+    let percent = |place: usize| fixed(100.0 * (left[place] / model[place]).abs(), 0);
     let needed = |name: &str, figure: usize| {
         let found = results.causes_between.iter().find(|graded| graded.cause.name() == name);
         found.map_or(f64::NAN, |graded| graded.needed(figure, left[figure]))
     };
     let _ = write!(
         out,
-        "Signs and sizes are right, and no figure is: velocities 10 and 15 % below, yaw 5 % and tilt 23 % above what \
+        "Signs and sizes are right, and no figure is: the velocities are {} and {} % below, yaw {} % and tilt {} % above what \
          Table 5 must change in 900 s. So the two navigations differed in something else too. By size: start attitudes \
          that differ by {}″ about east and {}″ about north make the velocities; a z drift of {} °/h that one of \
          them also had compensated makes the yaw, and so would {} s more (the paper says \"at least 900 s\"), which would \
          take the velocities further away. The tilt is made by neither.\n\n",
+        percent(0),
+        percent(1),
+        percent(4),
+        percent(2),
         significant(needed("start attitude off about east", 1), 2),
         significant(needed("start attitude off about north", 0), 2),
         significant(needed("gyro bias z", 4), 2),

@@ -228,7 +228,7 @@ fn table_6(results: &Results) -> String {
 }
 
 fn mechanism() -> String {
-    let panels: Vec<Panel> = [("east", 0, (-0.05, 0.05)), ("north", 1, (-0.1, 0.1))]
+    let panels: Vec<Panel> = [("east", 0, (-0.08, 0.08)), ("north", 1, (-0.1, 0.1))]
         .into_iter()
         .map(|(title, axis, range)| {
             let one_turn = |sign| {

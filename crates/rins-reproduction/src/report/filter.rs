@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::number::{Table, fixed, spread};
+use super::number::{Table, fixed, spread, with_unit};
 use super::results::Results;
 use crate::coverage::{Model, Schedule};
 use crate::monte_carlo::Campaign;
@@ -139,7 +139,7 @@ fn honesty(results: &Results) -> String {
             fixed(honesty.claimed.x / rins_frames::units::ARCSEC, 4),
             fixed(honesty.errors.x / rins_frames::units::ARCSEC, 4),
             fixed(honesty.nees / honesty.dof as f64, 2),
-            format!("{}–{} %", fixed(100.0 * lowest, 1), fixed(100.0 * highest, 1)),
+            [fixed(100.0 * lowest, 1), with_unit(&fixed(100.0 * highest, 1), "%")].join("–"),
             verdict.to_owned(),
         ]);
     }

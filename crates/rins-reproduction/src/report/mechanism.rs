@@ -15,9 +15,9 @@ pub(super) fn section(results: &Results) -> String {
         out,
         "`cargo xtask verify` integrates numerically over {} places: times of 9, 36, 90 and 360 s, {} attitudes, {} rates. \
          The strapdown result is *minus* the printed one in every term. With the sign mended the closed form is within {} % \
-         of a flat Earth that does not turn ($S_z\\omega t$, the second order, is up to {} %). The *extended* form, linear \
+         of a *flat* Earth that does not turn, integrated ($S_z\\omega t$, the second order, is up to {} %). The *extended* form, linear \
          on the round Earth and to second order on the flat one, is within {} % of the navigator. {} bounds are broken.\n\n\
-         At roll 30°, pitch 20°, yaw 40° and 10 °/s:\n\n",
+         At roll 30°, pitch 20°, yaw 40° and 10 °/s, in m/s, with the ratios to the navigator:\n\n",
         results.grid.len(),
         ATTITUDES.len(),
         RATES.len(),
@@ -31,15 +31,15 @@ pub(super) fn section(results: &Results) -> String {
         "",
         "printed>",
         "mended>",
-        "flat, integrated>",
+        "flat>",
         "extended>",
         "navigator>",
-        "printed / navigator>",
-        "extended / navigator>",
+        "printed: ratio>",
+        "extended: ratio>",
     ]);
     let shown = |row: &&Row| is(&row.attitude, &ATTITUDES[0]) && is(&[row.rate], &RATES[..1]);
     for row in results.grid.iter().filter(shown) {
-        for (axis, name) in ["$\\delta v_x$ [m/s]", "$\\delta v_y$ [m/s]"].into_iter().enumerate() {
+        for (axis, name) in ["$\\delta v_x$", "$\\delta v_y$"].into_iter().enumerate() {
             let of = |errors: &crate::grid::Errors| errors.velocity[axis];
             table.row(&[
                 fixed(row.time, 0),
@@ -107,7 +107,7 @@ fn misprints(out: &mut String, results: &Results) {
     row(
         "(A.7)",
         "a minus at the bounded $C_s^n(1,1)$ term, if a copy has one; (9) has the plus",
-        "quadrature of (7) over 9 s",
+        "quadrature of (7) over 18 s",
         &results.bounded_term,
     );
     row(

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::number::{Table, fixed, signed, significant, spread, tuple};
+use super::number::{Table, fixed, signed, significant, spread, tuple, with_unit};
 use super::results::{Results, VelocityCase};
 use crate::pure_navigation::Outcome;
 use crate::{Sample, printed};
@@ -79,8 +79,8 @@ fn choices(out: &mut String, results: &Results) {
          A model written apart from the navigator, which integrates the differential equations, and what each choice \
          that the paper leaves open is worth. For the three errors along the spin axis the navigator has {} m/s. A run's \
          noise spreads the two by {} and {} m/s. The (2.967, −17.431) m/s of another model, which the [theory \
-         page](theory/error-mechanism.md#what-table-4-shows) quotes, is 0.004 m/s away: no choice of the Earth makes that, \
-         first-order integration does, and so could the noise of one run.\n\n",
+         page](theory/error-mechanism.md#what-table-4-shows) quotes, is 0.004 m/s away in $V_x$: no choice of the \
+         Earth makes that, first-order integration does, and the noise of one run could.\n\n",
         tuple(three, 4),
         fixed(noise(0), 4),
         fixed(noise(1), 4),
@@ -128,8 +128,8 @@ pub(super) fn velocities(results: &Results) -> String {
             let same = case.explanations.iter().find(|other| other.cause == best.cause);
             same.map_or([String::new(), String::new()], |found| {
                 let unit = found.cause.unit().0;
-                let size = format!("{} {unit}", significant(found.size, 2));
-                [size, format!("{} %", fixed(100.0 * found.left, 0))]
+                let size = with_unit(&significant(found.size, 2), unit);
+                [size, with_unit(&fixed(100.0 * found.left, 0), "%")]
             })
         };
         let ([a, b], [c, d], [e, f]) = (cell(before), cell(table), cell(text));
@@ -140,7 +140,7 @@ pub(super) fn velocities(results: &Results) -> String {
         out,
         "No cause has one size in all three columns, and none that fits a column has a size that the paper states: a start \
          attitude off by arc seconds is no start \"without attitude error\", and accelerometer biases of 10 mg are none of \
-         a 100 µg sensor. The accelerometer errors of Table 1, at their stated size, take $V_x$ 0.2 m/s away from every \
+         a 100 µg sensor. The accelerometer errors of Table 1, at their stated size, take $V_x$ 0.15 to 0.2 m/s away from every \
          printed pair. Compensating with the measured rate moves the velocities after by 0.005 m/s. An end at another moment \
          does not help: after compensation the model's velocity is never nearer than {} m/s to Table 4's, and {} m/s to the \
          text's. **Not explained.**\n\n",

@@ -33,9 +33,14 @@ pub(super) fn significant(number: f64, digits: i32) -> String {
     fixed(number, decimals)
 }
 
+/// A number with its unit, which stay on one line.
+pub(super) fn with_unit(number: &str, unit: &str) -> String {
+    format!("{number}\u{a0}{unit}")
+}
+
 /// `mean ± deviation` with so many decimals.
 pub(super) fn spread(sample: &crate::Sample, decimals: usize) -> String {
-    format!("{} ± {}", fixed(sample.mean, decimals), fixed(sample.deviation, decimals))
+    [fixed(sample.mean, decimals), fixed(sample.deviation, decimals)].join("\u{a0}±\u{a0}")
 }
 
 /// Some numbers with so many decimals, in brackets.
