@@ -46,7 +46,10 @@ pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
-pub use inspection::{CHANNELS, Inspection, RestSeen, Suspicion, Timing, inspect};
+pub use inspection::{
+    CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, SignedAxes,
+    Suspicion, Timing, inspect,
+};
 pub use recording::Recording;
 pub use rest::{RestMean, rest_spans};
 pub use station::Station;

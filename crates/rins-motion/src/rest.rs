@@ -1,5 +1,7 @@
 //! When an IMU stands still, and what it measures on average then.
 
+mod drift;
+
 use std::ops::Range;
 
 use nalgebra::Vector3;
@@ -28,7 +30,10 @@ const LEAST_GYRO_SCATTER: f64 = 0.125 * DEG_PER_SECOND;
 /// Without a table, a mean rate that is so far from the median of all rests \[rad/s\] is a slow turn.
 const LARGEST_RATE_CHANGE: f64 = 0.05 * DEG_PER_SECOND;
 
-/// The same of accelerometers \[m/s²\].
+/// So many sigma of a noisy gyro's mean are no turn either.
+const NOISE_SIGMAS: f64 = 6.0;
+
+/// What [`LEAST_GYRO_SCATTER`] is to gyros, to accelerometers \[m/s²\].
 const LEAST_ACCEL_SCATTER: f64 = 1e-7;
 
 /// A disturbance of at most so long \[s\] ...
@@ -84,7 +89,9 @@ impl RestMean {
 /// The stretches of at least `shortest` \[s\] over which the IMU stood still, as ranges of samples.
 ///
 /// Where the table's angle or rate is known, it must stand; the IMU's own scatter over a second
-/// must in any case be near that of the quietest seconds.
+/// must in any case be near that of the quietest seconds. Where the table is not known, neither may
+/// gravity turn in the body, beyond what a base sways: a turn that is too slow to tell from a gyro
+/// bias shows in it, unless it is about the vertical.
 pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
     let windows = windows(recording);
     let quiet = |of: fn(&Window) -> f64, least: f64| {
@@ -92,6 +99,7 @@ pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
         scatter.sort_by(f64::total_cmp);
         scatter.get(scatter.len() / 10).map_or(0.0, |quiet| quiet.max(least) * SCATTER_RATIO)
     };
+    let gyro_noise = quiet(|window| window.gyro_scatter, 0.0) / SCATTER_RATIO;
     let gyro = quiet(|window| window.gyro_scatter, LEAST_GYRO_SCATTER);
     let accel = quiet(|window| window.accel_scatter, LEAST_ACCEL_SCATTER);
     let quiet = |window: &Window| {
@@ -99,7 +107,10 @@ pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
     };
     let usual_rate = usual_rate(windows.iter().filter(|window| quiet(window)));
     let at_rest = |window: &Window| {
-        let turns = (window.rate - usual_rate).norm() > LARGEST_RATE_CHANGE;
+        // The mean of a coarse gyro's second scatters more than a good one's rate changes.
+        let noise = gyro_noise / (window.span.len() as f64).sqrt();
+        let turns =
+            (window.rate - usual_rate).norm() > LARGEST_RATE_CHANGE.max(NOISE_SIGMAS * noise);
         quiet(window) && (window.table_known || !turns)
     };
 
@@ -112,23 +123,34 @@ pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
             && (turn - usual_rate * lasting).norm() < LARGEST_DISTURBANCE
             && !windows.iter().any(|window| window.table_known)
     };
-    let mut spans: Vec<Range<usize>> = Vec::new();
+    let mut rests: Vec<Vec<&Window>> = Vec::new();
     for window in windows.iter().filter(|window| at_rest(window)) {
-        match spans.last_mut() {
-            Some(last)
-                if last.end == window.span.start || undisturbed(last.end..window.span.start) =>
-            {
-                last.end = window.span.end;
+        let gap =
+            rests.last().and_then(|rest| rest.last()).map(|last| last.span.end..window.span.start);
+        match rests.last_mut() {
+            Some(rest) if gap.is_some_and(|gap| gap.is_empty() || undisturbed(gap)) => {
+                rest.push(window);
             }
-            _ => spans.push(window.span.clone()),
+            _ => rests.push(vec![window]),
         }
     }
+    let mut spans: Vec<Range<usize>> = rests.iter().flat_map(|rest| still_parts(rest)).collect();
     spans.retain(|span| {
         let lasting: f64 =
             recording.increments[span.clone()].iter().map(|sample| sample.interval).sum();
         lasting >= shortest * (1.0 - 1e-9)
     });
     spans
+}
+
+/// The parts of a rest in which the IMU does not turn so slowly that only gravity shows it.
+fn still_parts(rest: &[&Window]) -> Vec<Range<usize>> {
+    let span = |part: &[&Window]| part[0].span.start..part[part.len() - 1].span.end;
+    if rest.iter().any(|window| window.table_known) {
+        return vec![span(rest)];
+    }
+    let forces: Vec<Vector3<f64>> = rest.iter().map(|window| window.force).collect();
+    drift::parts(&forces).into_iter().map(|part| span(&rest[part])).collect()
 }
 
 /// The median of each component of the windows' mean rates.
@@ -147,6 +169,8 @@ struct Window {
     table_known: bool,
     /// The mean angular rate \[rad/s\].
     rate: Vector3<f64>,
+    /// The mean specific force \[m/s²\].
+    force: Vector3<f64>,
     gyro_scatter: f64,
     accel_scatter: f64,
 }
@@ -188,6 +212,7 @@ fn window(recording: &Recording, span: Range<usize>) -> Window {
         },
         table_known: table_rate.is_some(),
         rate: *rates.angular_rate.components(),
+        force: *rates.specific_force.components(),
         gyro_scatter: scatter(|rates| *rates.angular_rate.components()),
         accel_scatter: scatter(|rates| *rates.specific_force.components()),
         span,

@@ -8,11 +8,11 @@ use rins_calibration::{
 };
 use rins_frames::units::DEG;
 use rins_io::Loaded;
-use rins_motion::{Suspicion, inspect};
+use rins_motion::Suspicion;
 use serde_json::{Value, json};
 
 use crate::args::{Calibrate, Model};
-use crate::commands::check::suspicion_in_words;
+use crate::commands::check::{inspected, suspicion_in_words};
 use crate::commands::setup::{load, setup, shown};
 use crate::outcome::Outcome;
 use crate::progress;
@@ -48,8 +48,8 @@ pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
 
 /// Refuses a run whose units, signs or axes are wrong: estimates from it would mean nothing.
 fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
-    let Loaded { rig, recording, station, .. } = loaded;
-    let inspection = inspect(recording, Some(station));
+    let Loaded { rig, recording, .. } = loaded;
+    let inspection = inspected(loaded);
     let mistaken = inspection.suspicions.iter().find(|suspicion| {
         // A coarse accelerometer may well say the same throughout.
         !matches!(suspicion, Suspicion::StuckChannel { .. })

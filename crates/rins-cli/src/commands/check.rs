@@ -1,29 +1,31 @@
 //! `rins check`: what a run holds, and what looks wrong with it.
 
+mod oddities;
+mod words;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
 use rins_frames::Increments;
 use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_io::Loaded;
-use rins_motion::{CHANNELS, Inspection, RestSeen, Suspicion, inspect};
+use rins_motion::{CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect};
 use serde_json::{Value, json};
 
+use self::oddities::oddities;
+pub(crate) use self::words::suspicion_in_words;
 use crate::commands::align::table;
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
 use crate::report::{Item, Plot, Report, Section, Series, Style, Tone};
 use crate::view::table::aligned;
 
-/// How far gravity may be off before it is odd: a calibrated accelerometer is better by far.
-const LARGEST_GRAVITY_ERROR: f64 = 0.005;
-
 /// How many gaps and rests are listed one by one.
 const LISTED: usize = 12;
 
 pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     let loaded = load(rig)?;
-    let inspection = inspect(&loaded.recording, Some(&loaded.station));
+    let inspection = inspected(&loaded);
     let title = format!("Check of {}", shown(rig));
     let rows = rows(&inspection, &loaded);
     let oddities = oddities(&inspection, &loaded);
@@ -48,6 +50,27 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
         }),
         ..Outcome::default()
     })
+}
+
+/// What a run holds, held against all that its rig says.
+pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
+    let rig = &loaded.rig;
+    let triad = |spec: &rins_imu::TriadSpec| ExpectedTriad {
+        bias_sigma: Some(spec.bias_sigma),
+        range: spec.range,
+    };
+    let axis = |attitude: rins_io::InitialAttitude| ExpectedAxis {
+        angles: attitude.angles,
+        sigma: attitude.sigma,
+    };
+    let expected = Expected {
+        station: Some(loaded.station),
+        axis: rig.attitude.map(axis),
+        table_latency: rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default(),
+        gyro: rig.imu.map(|imu| triad(&imu.gyro)).unwrap_or_default(),
+        accel: rig.imu.map(|imu| triad(&imu.accel)).unwrap_or_default(),
+    };
+    inspect(&loaded.recording, &expected)
 }
 
 fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
@@ -95,6 +118,10 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         }
     }
     rows.push(row("table", table_in_words(loaded)));
+    if let Some(ratio) = inspection.spin_ratio {
+        let value = format!("the z gyro counts {ratio:.6} of the table's turn");
+        rows.push(row("spin", value));
+    }
     if let (Some(first), Some(last)) = (
         recording.temperature.as_ref().and_then(|t| t.first()),
         recording.temperature.as_ref().and_then(|t| t.last()),
@@ -147,10 +174,20 @@ fn longest(inspection: &Inspection) -> Option<&RestSeen> {
 
 fn step_in_words(channel: usize, step: f64) -> String {
     if channel < 3 {
-        format!("{:.4} arcsec", step / DEG * 3600.0)
+        format!("{} arcsec", significant(step / DEG * 3600.0))
     } else {
-        format!("{:.4} mm/s", step * 1e3)
+        format!("{} mm/s", significant(step * 1e3))
     }
+}
+
+/// A number with four significant digits.
+fn significant(value: f64) -> String {
+    let (mut digits, mut scaled) = (0, value.abs());
+    while scaled < 1000.0 && digits < 15 {
+        scaled *= 10.0;
+        digits += 1;
+    }
+    format!("{value:.digits$}")
 }
 
 fn table_in_words(loaded: &Loaded) -> String {
@@ -196,73 +233,6 @@ fn rests(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         rows.push(vec![format!("and {} more", inspection.rests.len() - LISTED)]);
     }
     rows
-}
-
-/// What is odd, each in a sentence: suspected mistakes first.
-fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
-    let mut found: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
-    let timing = &inspection.timing;
-    if !timing.gaps.is_empty() {
-        found.push(format!(
-            "{} gap(s): the mean rate of the sample after each is held over it",
-            timing.gaps.len()
-        ));
-    }
-    if timing.jitter > 0.02 * timing.interval {
-        found.push(format!(
-            "time stamps jitter by {:.2} ms rms, {:.0} % of an interval",
-            timing.jitter * 1e3,
-            timing.jitter / timing.interval * 100.0
-        ));
-    }
-    if let Some(rest) = longest(inspection) {
-        let off = rest.mean.rates.specific_force.norm() / loaded.station.gravity - 1.0;
-        if off.abs() > LARGEST_GRAVITY_ERROR {
-            found.push(format!(
-                "gravity is {:+.1} % off in the longest rest: the accelerometers are not calibrated",
-                off * 100.0
-            ));
-        }
-    }
-    if inspection.rests.is_empty() {
-        found.push("never at rest for a second: nothing to align on".into());
-    }
-    if loaded.psins_header.is_some() {
-        found.push("no time column: samples are taken to follow each other without a gap".into());
-    }
-    for (channel, &run) in inspection.longest_repeat.iter().enumerate() {
-        if run > 20 && run < loaded.recording.len() && inspection.resolution[channel].is_none() {
-            found.push(format!("{} repeats one reading {run} times in a row", CHANNELS[channel]));
-        }
-    }
-    found
-}
-
-/// A suspicion as a person reads it.
-pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
-    let because = |cause: Option<&'static str>| {
-        cause.map_or_else(
-            || "no single unit mistake explains it; check units, scale and axes".to_owned(),
-            |cause| format!("that is as if {cause}"),
-        )
-    };
-    match suspicion {
-        Suspicion::Gravity { seen, expected, cause } => format!(
-            "specific force at rest is {seen:.5} m/s^2 where gravity is {expected:.5}: {}",
-            because(*cause)
-        ),
-        Suspicion::SpinScale { ratio, cause } => {
-            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(*cause))
-        }
-        Suspicion::SpinAxis { channel, ratio } => format!(
-            "{channel} counts {ratio:.4} of the table's turn and gyro.z does not: the axes are exchanged; set `axes` \
-             under [log] gyro, or [axis] spin"
-        ),
-        Suspicion::StuckChannel { channel } => {
-            format!("{channel} repeats one reading throughout: not connected?")
-        }
-        other => format!("{other:?}"),
-    }
 }
 
 fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Loaded) -> Report {
@@ -386,6 +356,7 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         "gaps": gaps,
         "rests": rests,
         "turns": inspection.turns,
+        "spin_ratio": inspection.spin_ratio,
         "earth_rate_visible": inspection.earth_rate_visible,
         "expected_gravity_m_s2": loaded.station.gravity,
         "suspicions": suspicions,

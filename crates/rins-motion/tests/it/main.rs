@@ -2,13 +2,17 @@
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod alignment;
+mod axes;
 mod closed_form;
 mod fine_alignment;
+mod inspection;
 mod linear_model;
 mod moving;
 mod oscillations;
 mod rest;
+mod run;
 mod schuler;
+mod slow_turn;
 mod strapdown;
 mod support;
 mod truth;

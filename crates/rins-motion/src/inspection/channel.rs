@@ -1,0 +1,202 @@
+//! What each channel's readings show by themselves: steps, repeats, spikes and cut-off tops.
+
+use super::suspicion::Suspicion;
+use super::{CHANNELS, Expected};
+use crate::recording::Recording;
+
+/// A spike is so many times the robust scatter of the differences between neighbours ...
+const SPIKE_RATIO: f64 = 50.0;
+
+/// ... and so many times the largest difference nearby: an impact has others beside it.
+const SPIKE_ALONE: f64 = 10.0;
+
+/// How many samples to each side are nearby.
+const NEARBY: usize = 25;
+
+/// A run of equal extreme readings is a flat top if so many are expected to be found by chance.
+const LEAST_CHANCE: f64 = 1e-9;
+
+/// Of a sensor so coarse that it repeats more than this share of its readings, a constant rate may
+/// be one reading throughout.
+const MOST_REPEATS: f64 = 0.2;
+
+/// The shortest run of equal readings that is a flat top.
+const SHORTEST_TOP: usize = 5;
+
+/// Half of the steps between distinct readings are at most so many times the resolution.
+const USUAL_STEPS: f64 = 10.0;
+
+/// The mistakes that the six channels show, one at a time. `stands` tells which samples are at rest.
+pub(super) fn suspicions(
+    recording: &Recording,
+    expected: &Expected,
+    stands: &[bool],
+) -> Vec<Suspicion> {
+    let mut found = Vec::new();
+    for (channel, name) in CHANNELS.into_iter().enumerate() {
+        let readings: Vec<f64> = recording
+            .increments
+            .iter()
+            .map(|sample| {
+                let rates = sample.rates();
+                if channel < 3 {
+                    rates.angular_rate.components()[channel]
+                } else {
+                    rates.specific_force.components()[channel - 3]
+                }
+            })
+            .collect();
+        let range = if channel < 3 { expected.gyro.range } else { expected.accel.range };
+        found.extend(spikes(&readings, name, recording));
+        let cut = range.and_then(|range| saturated(&readings, range, name, recording));
+        found.extend(cut.or_else(|| flat_top(&readings, stands, name, recording)));
+    }
+    found
+}
+
+pub(super) fn longest_repeat(readings: &[f64]) -> usize {
+    runs(readings).map(|(_, length)| length).max().unwrap_or_default()
+}
+
+/// The least step between distinct readings, if most readings are shared by several samples and
+/// every step is a multiple of it.
+pub(super) fn resolution(readings: &[f64]) -> Option<f64> {
+    let mut sorted = readings.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let range = sorted.last()? - sorted.first()?;
+    // Readings that differ by rounding only are one.
+    let same = 1e-9 * range;
+    let mut steps: Vec<f64> =
+        sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > same).collect();
+    if steps.is_empty() || (steps.len() + 1) * 4 >= readings.len() {
+        return None;
+    }
+    steps.sort_by(f64::total_cmp);
+    let least = steps[0];
+    // Of decimals that were rounded to so many digits, the least step is not a sensor's.
+    let dense = steps[steps.len() / 2] <= USUAL_STEPS * least;
+    let multiple = |step: &f64| {
+        let count = step / least;
+        // The rounding of the least step itself grows with the count.
+        count > 100.0 || (count - count.round()).abs() < 0.01 + 1e-3 * count
+    };
+    (dense && steps.iter().all(multiple)).then_some(least)
+}
+
+/// Each run of equal readings: its start and its length.
+fn runs(readings: &[f64]) -> impl Iterator<Item = (usize, usize)> {
+    let mut start = 0;
+    readings
+        .chunk_by(|a, b| {
+            #[expect(clippy::float_cmp, reason = "a repeated reading is the same to the last bit")]
+            let same = a == b;
+            same
+        })
+        .map(move |run| {
+            let first = start;
+            start += run.len();
+            (first, run.len())
+        })
+}
+
+fn spikes(readings: &[f64], channel: &'static str, recording: &Recording) -> Option<Suspicion> {
+    let steps: Vec<f64> = readings.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let mut sizes: Vec<f64> = steps.iter().map(|step| step.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
+    let usual = 1.4826 * sizes.get(sizes.len() / 2)?;
+    let coarse = sizes.iter().copied().find(|size| *size > 0.0)?;
+    let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
+    let scatter = if usual > 0.0 { usual } else { coarse };
+    // What is left of rounding in readings without noise is no scatter.
+    let least = (SPIKE_RATIO * scatter).max(1e-9 * most);
+    let alone = |index: usize, size: f64| {
+        let nearby = index.saturating_sub(NEARBY)..(index + 1 + NEARBY).min(steps.len());
+        nearby.filter(|&other| other + 1 != index && other != index).all(|other| {
+            // Steps next to another spike are not the motion's.
+            steps[other].abs() * SPIKE_ALONE < size || is_spike(&steps, other, least)
+        })
+    };
+    let mut count = 0;
+    let mut largest = (0.0, 0);
+    for index in 1..steps.len() {
+        let size = steps[index - 1].abs().min(steps[index].abs());
+        let returns = (steps[index - 1] + steps[index]).abs() < 0.2 * size;
+        if size > least && returns && alone(index, size) {
+            count += 1;
+            if size > largest.0 {
+                largest = (size, index);
+            }
+        }
+    }
+    let (_, index) = largest;
+    (count > 0).then(|| Suspicion::Spike {
+        channel,
+        count,
+        time: recording.times[index],
+        reading: readings[index],
+    })
+}
+
+/// Whether the step is one of the two that a spike makes.
+fn is_spike(steps: &[f64], index: usize, least: f64) -> bool {
+    let returns = |a: f64, b: f64| {
+        let size = a.abs().min(b.abs());
+        size > least && (a + b).abs() < 0.2 * size
+    };
+    let before = index.checked_sub(1).is_some_and(|before| returns(steps[before], steps[index]));
+    before || steps.get(index + 1).is_some_and(|after| returns(steps[index], *after))
+}
+
+fn saturated(
+    readings: &[f64],
+    range: f64,
+    channel: &'static str,
+    recording: &Recording,
+) -> Option<Suspicion> {
+    // A range in round figures and its last count differ.
+    let beyond = |reading: &f64| reading.abs() >= range * (1.0 - 1e-3);
+    let first = readings.iter().position(beyond)?;
+    let count = readings.iter().filter(|reading| beyond(reading)).count();
+    Some(Suspicion::Saturated { channel, count, time: recording.times[first], range })
+}
+
+/// The largest or the least reading, repeated while moving so often as no other reading is.
+fn flat_top(
+    readings: &[f64],
+    stands: &[bool],
+    channel: &'static str,
+    recording: &Recording,
+) -> Option<Suspicion> {
+    let least = readings.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    #[expect(clippy::float_cmp, reason = "they are the very readings")]
+    let extreme = |index: usize| readings[index] == least || readings[index] == most;
+    let (mut repeats, mut others) = (0.0, 0.0_f64);
+    let mut top = (0, 0);
+    for (start, length) in runs(readings) {
+        if !extreme(start) {
+            repeats += (length - 1) as f64;
+            others += length as f64;
+        } else if length > top.1 && !stands[start..start + length].contains(&true) {
+            top = (start, length);
+        }
+    }
+    let (start, count) = top;
+    // A channel that says little but its extremes is stuck or a perfect one.
+    if count < SHORTEST_TOP || others < 0.1 * readings.len() as f64 {
+        return None;
+    }
+    // One repeat more than was seen: that none was does not say that there can be none.
+    let chance = (repeats + 1.0) / others;
+    if chance > MOST_REPEATS {
+        return None;
+    }
+    let by_chance = readings.len() as f64 * chance.powf((count - 1) as f64);
+    (by_chance < LEAST_CHANCE).then(|| Suspicion::FlatTop {
+        channel,
+        count,
+        time: recording.times[start],
+        reading: readings[start],
+    })
+}

@@ -1,0 +1,240 @@
+//! What a look through a recording finds in its channels and in the table's turn.
+
+use nalgebra::Vector3;
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND};
+use rins_frames::{InFrame, Increments};
+use rins_motion::{Expected, ExpectedTriad, Profile, Recording, Segment, Suspicion, inspect};
+use rins_testing::assert_close;
+
+use crate::run::{
+    CHIP, INTERVAL, NAVIGATION, assert_unsuspected, expected, profile, record, usual,
+};
+
+/// The one suspicion about a recording.
+fn only_suspicion(recording: &Recording, expected: &Expected) -> Suspicion {
+    let found = inspect(recording, expected).suspicions;
+    assert_eq!(found.len(), 1, "{found:?}");
+    found[0].clone()
+}
+
+/// The recording with the table's rate as `commanded` in place of its angle.
+fn commanded(recording: Recording, commanded: &Profile) -> Recording {
+    let rate = |time: &f64| (commanded.angle(*time) - commanded.angle(time - INTERVAL)) / INTERVAL;
+    let table_rate = Some(recording.times.iter().map(rate).collect());
+    Recording { table_rate, table_angle: None, ..recording }
+}
+
+fn with_table_angle(recording: &Recording, of: impl Fn(f64) -> f64) -> Recording {
+    let table_angle = recording.table_angle.iter().flatten().map(|angle| of(*angle)).collect();
+    Recording { table_angle: Some(table_angle), ..recording.clone() }
+}
+
+#[test]
+fn profile_that_the_table_did_not_follow_is_suspected() {
+    let segments = [(0.0, 20.0), (10.0, 120.0), (0.0, 20.0)];
+    for grade in [NAVIGATION, CHIP] {
+        let recording = record(profile(&segments), grade, 1);
+        let right = commanded(recording.clone(), &profile(&segments));
+        assert_unsuspected(&right, &expected(grade));
+
+        // Without its ramps the profile turns 10 deg farther in the first two seconds.
+        let jumps = segments.map(|(rate, duration)| Segment { rate: rate * DEG, duration });
+        let abrupt = commanded(recording.clone(), &Profile::new(&jumps, None).unwrap());
+        let late = commanded(recording, &profile(&[(0.0, 22.0), (10.0, 118.0), (0.0, 20.0)]));
+        for (wrong, turn) in [(abrupt, 10.0), (late, 20.0)] {
+            let Suspicion::SpinProfile { apart, time } = only_suspicion(&wrong, &expected(grade))
+            else {
+                panic!("no profile is suspected");
+            };
+            assert_close!(apart, turn * DEG, 0.2 * DEG);
+            assert!((21.0..31.0).contains(&time) || (141.0..151.0).contains(&time), "{time}");
+        }
+    }
+}
+
+#[test]
+fn encoder_that_loses_a_degree_is_suspected() {
+    let mut recording = record(usual(), NAVIGATION, 2);
+    for angle in recording.table_angle.iter_mut().flatten().skip(5000) {
+        *angle -= DEG;
+    }
+    let Suspicion::SpinProfile { apart, .. } = only_suspicion(&recording, &expected(NAVIGATION))
+    else {
+        panic!("no profile is suspected");
+    };
+    assert_close!(apart, DEG, 0.05 * DEG);
+}
+
+#[test]
+fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
+    let recording = record(usual(), CHIP, 3);
+    let known = expected(CHIP);
+    for (factor, words) in [
+        (1.0, None),
+        // As a sensor comes from the factory.
+        (1.03, None),
+        (0.93, None),
+        (1.0 / 0.9, Some("gon was declared as deg")),
+        (0.9, Some("deg was declared as gon")),
+        (-1.0, Some("sense is opposite")),
+        (DEG, Some("deg were declared as rad")),
+    ] {
+        let turned = with_table_angle(&recording, |angle| angle * factor);
+        let inspection = inspect(&turned, &Expected { axis: None, ..known });
+        // The gyro's bias is 2.4 % of its rate here, and not in the ratio.
+        let ratio = inspection.spin_ratio.unwrap();
+        assert_close!(ratio * factor, 1.0, 1e-3);
+        let causes: Vec<&str> = inspection
+            .suspicions
+            .iter()
+            .filter_map(|suspicion| match suspicion {
+                Suspicion::SpinScale { cause, .. } => Some(cause.unwrap_or_default()),
+                _ => None,
+            })
+            .collect();
+        match words {
+            None => assert!(causes.is_empty(), "{factor}: {causes:?}"),
+            Some(words) => assert!(causes.len() == 1 && causes[0].contains(words), "{causes:?}"),
+        }
+    }
+    assert_eq!(inspect(&Recording { table_angle: None, ..recording }, &known).spin_ratio, None);
+}
+
+#[test]
+fn spikes_are_found_in_each_channel() {
+    for (channel, size) in [(0, 100.0), (2, 0.5), (3, 1e6), (5, -3.0)] {
+        let mut recording = record(usual(), NAVIGATION, 4);
+        for (index, factor) in [(1000, 0.5), (9000, 1.0)] {
+            let Increments { angle, velocity, .. } = &mut recording.increments[index];
+            let mut spike = Vector3::zeros();
+            spike[channel % 3] = size * factor * INTERVAL;
+            let target = if channel < 3 { angle } else { velocity };
+            *target += InFrame::from_components(spike);
+        }
+        let found = inspect(&recording, &expected(NAVIGATION)).suspicions;
+        let Some(Suspicion::Spike { channel: name, count, time, reading }) =
+            found.iter().find(|suspicion| matches!(suspicion, Suspicion::Spike { .. }))
+        else {
+            panic!("{found:?}");
+        };
+        assert_eq!((*name, *count), (rins_motion::CHANNELS[channel], 2));
+        assert_close!(*time, 180.02, 1e-9);
+        assert!((reading - size).abs() < 10.0, "{reading}");
+    }
+}
+
+/// Turned by hand, set down with a knock, and picked up again: none of it is a spike.
+#[test]
+fn motion_by_hand_is_no_spike() {
+    let mut rng = Pcg64::seed_from_u64(5);
+    let mut one = || -> f64 { StandardNormal.sample(&mut rng) };
+    let mut recording = Recording::default();
+    for index in 0..6000_u32 {
+        let time = f64::from(index) * 0.01;
+        let phase = time % 10.0;
+        // A turn of three seconds, then a knock that rings, then rest.
+        let rate = if phase < 3.0 { 100.0 * DEG * (phase * 2.1).sin().powi(2) } else { 0.0 };
+        let after = phase - 3.0;
+        let ring =
+            if after > 0.0 { 20.0 * (-after / 0.02).exp() * (after * 300.0).cos() } else { 0.0 };
+        recording.times.push(time + 0.01);
+        recording.increments.push(Increments {
+            angle: InFrame::new(rate + 1e-3 * one(), 0.3 * rate + 1e-3 * one(), 1e-3 * one())
+                * 0.01,
+            velocity: InFrame::new(
+                ring + 0.02 * one(),
+                0.02 * one(),
+                9.8 + 0.4 * ring + 0.02 * one(),
+            ) * 0.01,
+            interval: 0.01,
+        });
+    }
+    assert_unsuspected(&recording, &Expected::default());
+}
+
+#[test]
+fn saturated_gyros_are_found_by_their_range_and_without_it() {
+    let mut recording = record(profile(&[(0.0, 20.0), (40.0, 60.0)]), NAVIGATION, 6);
+    recording.table_angle = None;
+    let known = expected(NAVIGATION);
+    let range = Some(50.0 * DEG_PER_SECOND);
+    assert_unsuspected(
+        &recording,
+        &Expected { gyro: ExpectedTriad { range, ..known.gyro }, ..known },
+    );
+    let limit = 30.0 * DEG_PER_SECOND;
+    for sample in &mut recording.increments {
+        let cut = sample.angle.components().map(|angle| angle.min(limit * sample.interval));
+        sample.angle = InFrame::from_components(cut);
+    }
+    // 20 s at rest and 6 s of ramp come before.
+    let (channel, first) = ("gyro.z", 26.0);
+    match only_suspicion(&recording, &known) {
+        Suspicion::FlatTop { channel: found, count, time, reading } => {
+            assert_eq!(found, channel);
+            assert!(count.abs_diff(2700) < 3, "{count}");
+            assert_close!(time, first, 0.05);
+            assert_close!(reading, limit, 1e-9);
+        }
+        other => panic!("{other:?}"),
+    }
+    let known = Expected { gyro: ExpectedTriad { range: Some(limit), ..known.gyro }, ..known };
+    match only_suspicion(&recording, &known) {
+        Suspicion::Saturated { channel: found, count, time, range } => {
+            assert_eq!((found, range), (channel, limit));
+            assert!(count.abs_diff(2700) < 3, "{count}");
+            assert_close!(time, first, 0.05);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A coarse sensor repeats its readings, the largest too, and is not cut off.
+#[test]
+fn coarse_sensors_are_not_cut_off_and_show_their_step() {
+    let step = 20.0 * ARCSEC;
+    let mut recording = record(usual(), CHIP, 7);
+    for sample in &mut recording.increments {
+        let rounded = sample.angle.components().map(|angle| (angle / step).round() * step);
+        sample.angle = InFrame::from_components(rounded);
+    }
+    let inspection = assert_unsuspected(&recording, &expected(CHIP));
+    for axis in 0..3 {
+        assert_close!(inspection.resolution[axis].unwrap(), step, 1e-3 * step);
+    }
+    assert_eq!(inspection.resolution[3..], [None; 3]);
+}
+
+/// Decimals with so many significant digits have no step of their own.
+#[test]
+fn rounded_decimals_are_no_resolution() {
+    let mut recording = record(usual(), NAVIGATION, 8);
+    for sample in &mut recording.increments {
+        let written = sample.angle.components().map(|angle| format!("{:.5e}", angle / INTERVAL));
+        let read = Vector3::from_fn(|axis, _| written[axis].parse::<f64>().unwrap() * INTERVAL);
+        sample.angle = InFrame::from_components(read);
+    }
+    let inspection = assert_unsuspected(&recording, &expected(NAVIGATION));
+    assert_eq!(inspection.resolution, [None; 6]);
+}
+
+#[test]
+fn recordings_of_nothing_are_looked_through() {
+    let nothing = inspect(&Recording::default(), &expected(NAVIGATION));
+    assert!(nothing.rests.is_empty() && nothing.suspicions.is_empty());
+    for samples in 1..4 {
+        let few = record(usual(), NAVIGATION, 9).slice(0, samples);
+        assert_unsuspected(&few, &Expected { station: None, ..expected(NAVIGATION) });
+    }
+    let mut zero = record(usual(), NAVIGATION, 10).slice(0, 500);
+    for sample in &mut zero.increments {
+        *sample = Increments { angle: InFrame::zeros(), velocity: InFrame::zeros(), ..*sample };
+    }
+    zero.table_angle = None;
+    let suspicions = inspect(&zero, &Expected::default()).suspicions;
+    assert!(suspicions.iter().all(|suspicion| matches!(suspicion, Suspicion::StuckChannel { .. })));
+    assert_eq!(suspicions.len(), 6);
+}
