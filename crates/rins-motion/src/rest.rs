@@ -99,7 +99,7 @@ pub fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
         scatter.sort_by(f64::total_cmp);
         scatter.get(scatter.len() / 10).map_or(0.0, |quiet| quiet.max(least) * SCATTER_RATIO)
     };
-    let gyro_noise = quiet(|window| window.gyro_scatter, 0.0) / SCATTER_RATIO;
+    let gyro_noise = quiet(|window| window.gyro_noise, 0.0) / SCATTER_RATIO;
     let gyro = quiet(|window| window.gyro_scatter, LEAST_GYRO_SCATTER);
     let accel = quiet(|window| window.accel_scatter, LEAST_ACCEL_SCATTER);
     let quiet = |window: &Window| {
@@ -172,6 +172,8 @@ struct Window {
     /// The mean specific force \[m/s²\].
     force: Vector3<f64>,
     gyro_scatter: f64,
+    /// What is left of that in differences between neighbours, which motion hardly shows in \[rad/s\].
+    gyro_noise: f64,
     accel_scatter: f64,
 }
 
@@ -198,6 +200,13 @@ fn window(recording: &Recording, span: Range<usize>) -> Window {
             samples.iter().map(|sample| (of(&sample.rates()) - of(&rates)).norm_squared()).sum();
         (sum / samples.len() as f64).sqrt()
     };
+    let differences: f64 = samples
+        .windows(2)
+        .map(|pair| {
+            let (before, after) = (pair[0].rates().angular_rate, pair[1].rates().angular_rate);
+            (after - before).components().norm_squared()
+        })
+        .sum();
     let table_rate = recording
         .table_rate
         .as_ref()
@@ -214,6 +223,7 @@ fn window(recording: &Recording, span: Range<usize>) -> Window {
         rate: *rates.angular_rate.components(),
         force: *rates.specific_force.components(),
         gyro_scatter: scatter(|rates| *rates.angular_rate.components()),
+        gyro_noise: (differences / (2.0 * samples.len() as f64)).sqrt(),
         accel_scatter: scatter(|rates| *rates.specific_force.components()),
         span,
     }

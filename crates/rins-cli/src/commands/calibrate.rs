@@ -50,13 +50,14 @@ pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
 fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
     let Loaded { rig, recording, .. } = loaded;
     let inspection = inspected(loaded);
-    let mistaken = inspection.suspicions.iter().find(|suspicion| {
+    let mistaken: Vec<String> = inspection
+        .suspicions
+        .iter()
         // A coarse accelerometer may well say the same throughout.
-        !matches!(suspicion, Suspicion::StuckChannel { .. })
-    });
-    if let Some(suspicion) = mistaken {
-        anyhow::bail!("{}: {}", rig.path.display(), suspicion_in_words(suspicion));
-    }
+        .filter(|suspicion| !matches!(suspicion, Suspicion::StuckChannel { .. }))
+        .map(suspicion_in_words)
+        .collect();
+    anyhow::ensure!(mistaken.is_empty(), "{}: {}", rig.path.display(), mistaken.join("; and "));
     let turned = match (&recording.table_angle, &recording.table_rate) {
         (Some(angle), _) => {
             let most = angle.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -161,8 +161,11 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
     let table_angle = table_angle(recording);
     let spin = Spin::of(recording, table_angle.as_deref());
     let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected));
+    let right_units = gravity.is_none() && spin.as_ref().is_none_or(Spin::counts);
+    suspicions.extend(gravity);
+    suspicions.extend(spun);
     // Directions mean something once units are right.
-    if gravity.is_none() && spin.as_ref().is_none_or(Spin::counts) {
+    if right_units {
         let rest = longest.map(|rest| {
             let angle =
                 table_angle.as_ref().and_then(|angle| median(angle[rest.span.clone()].to_vec()));
@@ -172,8 +175,6 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         let evidence = Evidence::new(expected, rest, spin.as_ref(), turning);
         suspicions.extend(evidence.suspicions());
     }
-    suspicions.extend(gravity);
-    suspicions.extend(spun);
     Inspection {
         turns: recording.increments.iter().map(|s| s.angle.components().z.abs()).sum::<f64>()
             / std::f64::consts::TAU,

@@ -1,10 +1,10 @@
 //! Turns too slow for the gyros to tell from a bias end a rest; a base that sways does not.
 
 use rins_frames::InFrame;
-use rins_frames::units::DEG;
+use rins_frames::units::{DEG, DEG_PER_SECOND};
 use rins_motion::{Recording, rest_spans};
 
-use crate::run::{CHIP, NAVIGATION, profile, record};
+use crate::run::{CHIP, Grade, NAVIGATION, profile, record};
 
 /// A recording of these segments without a word of the table.
 fn unattended(segments: &[(f64, f64)]) -> Recording {
@@ -37,10 +37,14 @@ fn short_steady_turn_is_no_rest() {
 
 #[test]
 fn noisy_sensors_rest_as_well() {
-    let recording = record(profile(&[(0.0, 300.0)]), CHIP, 2);
-    let recording = Recording { table_angle: None, ..recording };
-    let spans = rest_spans(&recording, 1.0);
-    assert!(spans.len() == 1 && spans[0] == (0..15000), "{spans:?}");
+    // The means of a second scatter by 0.05 deg/s, which of a good gyro would be a turn.
+    let coarse = Grade { gyro_noise: 0.03 * DEG_PER_SECOND, ..CHIP };
+    for (grade, seed) in [(CHIP, 2), (coarse, 3)] {
+        let recording = record(profile(&[(0.0, 300.0)]), grade, seed);
+        let recording = Recording { table_angle: None, ..recording };
+        let spans = rest_spans(&recording, 1.0);
+        assert!(spans.len() == 1 && spans[0] == (0..15000), "{spans:?}");
+    }
 }
 
 /// A floor that gives way by 0.2 deg in three seconds, and back, under a stander-by.
