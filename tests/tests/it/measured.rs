@@ -168,7 +168,6 @@ fn xsens_is_read_from_two_files_of_counts() {
 }
 
 #[test]
-#[ignore = "a rest is not found where a second's mean of the gyros' noise exceeds 0.05 deg/s"]
 fn xsens_rests_38_times_and_reads_gravity_each_time() {
     let Some(folder) = rig("imu_tk_xsens") else { return };
     let check = checked(&folder);
