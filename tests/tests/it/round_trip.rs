@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use rins_calibration::{
-    AxisAttitude, Calibration, Setup, TableSpec, calibrate, likely_wobble,
-};
+use rins_calibration::{AxisAttitude, Calibration, Setup, TableSpec, calibrate, likely_wobble};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_frames::{EulerAngles, Site};
 use rins_imu::{ImuSpec, TriadSpec};
