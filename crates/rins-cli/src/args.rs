@@ -64,7 +64,7 @@ pub(crate) struct Init {
 
 #[derive(Debug, Args)]
 pub(crate) struct Simulate {
-    /// The scenario file: a rig file plus [truth]
+    /// The scenario file: a rig file with a truth section
     pub(crate) scenario: PathBuf,
     /// Folder for the run
     #[arg(short, long, value_name = "DIR")]
