@@ -209,11 +209,10 @@ pub fn likely_wobble(recording: &Recording, setup: &Setup) -> Result<f64, Calibr
         run.pass(&tried, samples, |_, _, _| ()).map_or(f64::NEG_INFINITY, |f| f.log_likelihood())
     };
     let mut best = (setup.table.angle_noise, log_likelihood(setup.table.angle_noise));
-    for (decades, factor) in [(-4..=1, 10.0), (-1..=1, 3.0)] {
+    for (factor, powers) in [(10.0, &[-4, -3, -2, -1, 1][..]), (3.0, &[-1, 1])] {
         let centre = best.0;
-        for decade in decades {
-            let wobble = if factor > 5.0 { setup.table.angle_noise } else { centre }
-                * f64::powi(factor, decade);
+        for &power in powers {
+            let wobble = centre * f64::powi(factor, power);
             let tried = (wobble, log_likelihood(wobble));
             if tried.1 > best.1 {
                 best = tried;

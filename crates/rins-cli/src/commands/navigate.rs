@@ -64,8 +64,7 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
         });
     }
     let found = found(loaded)?;
-    let has_table = recording.table_angle.is_some() || recording.table_rate.is_some();
-    let first = if has_table { 0 } else { found.span.start };
+    let first = if has_table(recording) { 0 } else { found.span.start };
     let angle = angles[found.span.start];
     let table_from_body = Dcm::<Table, Body>::about_z(angle);
     let gyro =
@@ -82,6 +81,11 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
         recording: recording.slice(first, recording.len()),
         angles: angles[first..].to_vec(),
     })
+}
+
+/// Whether anything tells how the table stood.
+const fn has_table(recording: &Recording) -> bool {
+    recording.table_angle.is_some() || recording.table_rate.is_some()
 }
 
 fn navigated(
@@ -149,8 +153,7 @@ fn outcome(
     }
     text.push('\n');
     text.push_str(&aligned(&rows));
-    let has_table = recording.table_angle.is_some() || recording.table_rate.is_some();
-    let intro = if has_table {
+    let intro = if has_table(recording) {
         "The truth is a base that does not move; attitude is told of the axis frame."
     } else {
         "The truth is a base that does not leave its place. Attitude is told against that at the \
