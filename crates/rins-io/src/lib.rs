@@ -36,15 +36,16 @@ pub use calibration::Calibration;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{
-    Delimiter, Gap, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, PsinsHeader, peek, read,
-    read_log,
+    Delimiter, Gap, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, PsinsHeader, Redivided,
+    peek, read, read_log,
 };
 pub use output::{OutputProblem, Overwrite, write_file, write_folder};
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
-    AngleColumn, Axes, ColumnSpec, Gaps, InitialAttitude, LogFormat, LogSpec, Reading, Rig,
-    ScaledColumn, Stamp, TableSpec, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+    AngleColumn, Axes, ColumnSpec, Gaps, InitialAttitude, LogFormat, LogSpec, OwnClock, Reading,
+    Rig, ScaledColumn, Stamp, Table, TableSpec, TemperatureColumn, TimeColumn, TimeUnit,
+    TriadColumns,
 };
 pub use run::{truth_json, write_recording};
 pub use scenario::ScenarioFile;

@@ -29,6 +29,7 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
         Delimiter::Semicolon => "semicolons",
         Delimiter::Comma => "commas",
         Delimiter::Blanks => "blanks",
+        Delimiter::Other(_) => "what its first line says",
     };
     let header = if sample.names.is_some() {
         "named by a header"

@@ -1,30 +1,24 @@
-//! From columns of text logs to a recording.
-
-use std::path::{Path, PathBuf};
+//! From a log's columns to a recording.
 
 use nalgebra::Vector3;
 use rins_frames::{InFrame, Increments};
 use rins_motion::Recording;
 
 use super::clock::{Clock, Stamps};
-use super::columns::{self, Columns};
+use super::files::{Files, TriadValues};
 use super::instant::Instants;
 use super::problem::LogProblem;
+use super::redivide::redivide;
 use super::series::{between, unwrap};
-use super::summary::{LogPolicy, LogSummary};
+use super::summary::{LogPolicy, LogSummary, Redivided};
+use super::table::{self, Wanted};
 use crate::error::{IoError, LogError};
 use crate::rig::{
-    Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, TemperatureColumn, TimeUnit, TriadColumns,
+    Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn, TriadColumns,
 };
-
-/// How far the times of two files may be apart, in intervals.
-const TOGETHER_WITHIN: f64 = 0.1;
 
 /// How many of its own intervals a temperature may be held before its first and after its last.
 const HELD_TEMPERATURES: f64 = 2.0;
-
-/// How many samples it takes to call a channel stuck.
-const ENOUGH_TO_BE_STUCK: usize = 10;
 
 /// Reads the recording that a rig's columns describe.
 pub(super) fn read(
@@ -47,20 +41,37 @@ pub(super) fn read(
     files.compare(clock.summary.nominal_interval)?;
 
     let times = if times.is_empty() { clock.ends.clone() } else { times.clone() };
-    let gyro = files.triad(&spec.gyro, "gyro")?;
-    let accel = files.triad(&spec.accel, "accel")?;
+    let gyro = files.gyro(spec)?;
+    let accel = files.accel(spec)?;
     let gyro = Channel { spec: &spec.gyro, values: gyro, axes: rig.spin.after(&rig.log.gyro_axes) };
     let accel =
         Channel { spec: &spec.accel, values: accel, axes: rig.spin.after(&rig.log.accel_axes) };
     let angles = gyro.increments(&clock, spec.gaps)?;
-    let velocities = accel.increments(&clock, spec.gaps)?;
-    let increments = angles.into_iter().zip(velocities).zip(&clock.intervals);
+    let (kept, velocities) = match files.accel_clock(spec, &clock, policy)? {
+        None => (0..clock.ends.len(), accel.increments(&clock, spec.gaps)?),
+        Some(own) => {
+            let (kept, velocities) = redivide(&own, &accel.increments(&own, spec.gaps)?, &clock);
+            if kept.len() < 2 {
+                let other = spec.accel.path.display().to_string();
+                return Err(LogError::of(&main.path, LogProblem::NoOverlap { other }));
+            }
+            let left_out = clock.ends.len() - kept.len();
+            let late = clock.intervals[..kept.start].iter().sum();
+            let samples = own.ends.len();
+            clock.summary.redivided = Some(Redivided { samples, left_out, late });
+            (kept, velocities)
+        }
+    };
+    let angles = angles.into_iter().skip(kept.start);
+    let intervals = &clock.intervals[kept.clone()];
+    let increments = angles.zip(velocities).zip(intervals);
     let increments = increments.map(|((angle, velocity), &interval)| Increments {
         angle: InFrame::from_components(angle),
         velocity: InFrame::from_components(velocity),
         interval,
     });
     let increments = increments.collect();
+    clock.keep(kept.clone());
 
     let table_angle = match &spec.table_angle {
         Some(column) => {
@@ -76,7 +87,8 @@ pub(super) fn read(
     };
     let table_rate = spec.table_rate.as_ref().map(|column| {
         let mut rates = files.file(&rig.log.path).column(&column.column, column.factor);
-        rates.truncate(clock.ends.len());
+        rates.truncate(kept.end);
+        rates.drain(..kept.start);
         rates
     });
     let temperature = match &spec.temperature {
@@ -87,7 +99,7 @@ pub(super) fn read(
             }
             Some(at(&times, &values, &clock.ends))
         }
-        Some(column) => files.temperature(column, &clock.ends)?,
+        Some(column) => temperature(column, files.instants, &clock.ends)?,
         None => None,
     };
     let Clock { ends: times, summary, .. } = clock;
@@ -104,7 +116,7 @@ fn at(times: &[f64], values: &[f64], ends: &[f64]) -> Vec<f64> {
 /// The numbers of a triad, row by row, and what they are.
 struct Channel<'s> {
     spec: &'s TriadColumns,
-    values: Vec<Vector3<f64>>,
+    values: TriadValues,
     axes: Axes,
 }
 
@@ -133,168 +145,35 @@ impl Channel<'_> {
     }
 }
 
-/// The files of a run: that of the gyros, and perhaps others.
-struct Files {
-    files: Vec<OneFile>,
+/// The temperature at the ends of the intervals, from a file of its own.
+fn temperature(
+    TemperatureColumn { file, column, offset }: &TemperatureColumn,
     instants: Option<Instants>,
-}
-
-struct OneFile {
-    path: PathBuf,
-    names: Vec<String>,
-    columns: Columns,
-}
-
-impl OneFile {
-    fn column(&self, name: &str, factor: f64) -> Vec<f64> {
-        let place = self.names.iter().position(|known| known == name);
-        let numbers = &self.columns.numbers[place.expect("every column in use was asked for")];
-        numbers.iter().map(|number| number * factor).collect()
-    }
-}
-
-impl Files {
-    fn read(rig: &Rig, spec: &ColumnSpec) -> Result<Self, IoError> {
-        let mut wanted: Vec<(&Path, Vec<String>)> = vec![(&spec.gyro.path, Vec::new())];
-        let mut want = |path, name: &String| {
-            let known = wanted.iter().position(|(known, _)| *known == path);
-            let place = known.unwrap_or_else(|| {
-                wanted.push((path, Vec::new()));
-                wanted.len() - 1
-            });
-            let names = &mut wanted[place].1;
-            if !names.contains(name) {
-                names.push(name.clone());
-            }
-        };
-        for triad in [&spec.gyro, &spec.accel] {
-            triad.columns.iter().for_each(|name| want(&triad.path, name));
-        }
-        let log = rig.log.path.as_path();
-        spec.table_angle.iter().for_each(|angle| want(log, &angle.column));
-        spec.table_rate.iter().for_each(|rate| want(log, &rate.column));
-        for temperature in spec.temperature.iter().filter(|column| column.file.is_none()) {
-            want(log, &temperature.column);
-        }
-
-        let unit = spec.time.as_ref().map(|time| match time.unit {
-            TimeUnit::Seconds(unit) => unit,
-            TimeUnit::Samples => 1.0,
-        });
-        let mut instants = unit.map(Instants::new);
-        let mut files = Vec::with_capacity(wanted.len());
-        for (path, names) in wanted {
-            let asked: Vec<&str> = names.iter().map(String::as_str).collect();
-            let time = spec.time.as_ref().map(|time| time.column.as_str());
-            let mut columns = columns::read(path, &asked, time.zip(instants.as_mut()))?;
-            if let Some(time) = spec.time.as_ref().filter(|time| time.unit == TimeUnit::Samples) {
-                let interval = rig.log.rate.map_or(1.0, |rate| 1.0 / rate);
-                count(path, &time.column, &mut columns, interval)?;
-            }
-            files.push(OneFile { path: path.into(), names, columns });
-        }
-        Ok(Self { files, instants })
-    }
-
-    fn main(&self) -> &OneFile {
-        &self.files[0]
-    }
-
-    fn file(&self, path: &Path) -> &OneFile {
-        let found = self.files.iter().find(|file| file.path == path);
-        found.expect("every file in use was read")
-    }
-
-    /// Refuses files that were not sampled together with the gyros'.
-    fn compare(&self, interval: f64) -> Result<(), IoError> {
-        let (main, others) = (self.main(), &self.files[1..]);
-        for file in others {
-            let other = || main.path.display().to_string();
-            let (samples, expected) = (file.columns.lines.len(), main.columns.lines.len());
-            if samples != expected {
-                let problem = LogProblem::UnequalLength { samples, other: other(), expected };
-                return Err(LogError::of(&file.path, problem));
-            }
-            let pairs = file.columns.time.iter().zip(&main.columns.time);
-            for ((&time, &expected), &line) in pairs.zip(&file.columns.lines) {
-                if (time - expected).abs() > TOGETHER_WITHIN * interval {
-                    let problem = LogProblem::UnequalTimes { time, other: other(), expected };
-                    return Err(LogError::at(&file.path, line, problem));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// A triad's values in SI units along the sensors' axes, none of them stuck.
-    fn triad(&self, spec: &TriadColumns, sensor: &str) -> Result<Vec<Vector3<f64>>, IoError> {
-        let file = self.file(&spec.path);
-        let (Reading::Rate(factor) | Reading::Increment(factor)) = spec.reading;
-        let mut values = vec![Vector3::zeros(); file.columns.lines.len()];
-        let mut stuck = Vec::new();
-        for (axis, name) in spec.columns.iter().enumerate() {
-            let numbers = file.column(name, 1.0);
-            let first = numbers[0];
-            let moves = numbers.iter().any(|n| n - first != 0.0);
-            if numbers.len() >= ENOUGH_TO_BE_STUCK && !moves {
-                let channel = format!("{sensor} {} ({name:?})", ["x", "y", "z"][axis]);
-                stuck.push((channel, first));
-            }
-            for (value, number) in values.iter_mut().zip(numbers) {
-                value[axis] = (number - spec.offset[axis]) * spec.scale[axis] * factor;
-            }
-        }
-        // At rest a coarse accelerometer may well say the same all along, but not all three zero.
-        let dead = sensor == "gyro" || stuck.len() == 3 && stuck.iter().all(|(_, n)| *n == 0.0);
-        match stuck.into_iter().next().filter(|_| dead) {
-            Some((channel, value)) => {
-                Err(LogError::of(&file.path, LogProblem::Stuck { channel, value }))
-            }
-            None => Ok(values),
-        }
-    }
-
-    /// The temperature at the ends of the intervals, from a file of its own.
-    fn temperature(
-        &self,
-        TemperatureColumn { file, column, offset }: &TemperatureColumn,
-        ends: &[f64],
-    ) -> Result<Option<Vec<f64>>, IoError> {
-        let (Some((path, time)), Some(mut instants)) = (file, self.instants) else {
-            return Ok(None);
-        };
-        let read = columns::read(path, &[column], Some((&time.column, &mut instants)))?;
-        let (times, values) = (&read.time, &read.numbers[0]);
-        for (pair, &line) in times.windows(2).zip(&read.lines[1..]) {
-            if pair[1] <= pair[0] {
-                let problem = LogProblem::TimeNotIncreasing { before: pair[0], now: pair[1] };
-                return Err(LogError::at(path, line, problem));
-            }
-        }
-        let (first, last) = (times[0], times[times.len() - 1]);
-        let own = (last - first) / (times.len().max(2) - 1) as f64;
-        let reach = HELD_TEMPERATURES * own;
-        let mut temperatures = Vec::with_capacity(ends.len());
-        for &end in ends {
-            if end < first - reach || end > last + reach {
-                let problem = LogProblem::NoTemperature { first, last, time: end };
-                return Err(LogError::of(path, problem));
-            }
-            let held = if end < first { values[0] } else { values[values.len() - 1] };
-            temperatures.push(between(times, values, end).unwrap_or(held) + offset);
-        }
-        Ok(Some(temperatures))
-    }
-}
-
-/// Turns a counter of samples into seconds.
-fn count(path: &Path, name: &str, columns: &mut Columns, interval: f64) -> Result<(), IoError> {
-    for (time, &line) in columns.time.iter_mut().zip(&columns.lines) {
-        if time.fract() != 0.0 {
-            let problem = LogProblem::PartOfASample { column: name.into(), count: *time };
+    ends: &[f64],
+) -> Result<Option<Vec<f64>>, IoError> {
+    let (Some((path, time)), Some(mut instants)) = (file, instants) else {
+        return Ok(None);
+    };
+    let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)) };
+    let read = table::read(path, Table::of(path), wanted)?;
+    let (times, values) = (&read.time, &read.numbers[0]);
+    for (pair, &line) in times.windows(2).zip(&read.lines[1..]) {
+        if pair[1] <= pair[0] {
+            let problem = LogProblem::TimeNotIncreasing { before: pair[0], now: pair[1] };
             return Err(LogError::at(path, line, problem));
         }
-        *time *= interval;
     }
-    Ok(())
+    let (first, last) = (times[0], times[times.len() - 1]);
+    let own = (last - first) / (times.len().max(2) - 1) as f64;
+    let reach = HELD_TEMPERATURES * own;
+    let mut temperatures = Vec::with_capacity(ends.len());
+    for &end in ends {
+        if end < first - reach || end > last + reach {
+            let problem = LogProblem::NoTemperature { first, last, time: end };
+            return Err(LogError::of(path, problem));
+        }
+        let held = if end < first { values[0] } else { values[values.len() - 1] };
+        temperatures.push(between(times, values, end).unwrap_or(held) + offset);
+    }
+    Ok(Some(temperatures))
 }

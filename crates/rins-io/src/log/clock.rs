@@ -1,5 +1,6 @@
 //! From time stamps to the intervals that samples cover.
 
+use std::ops::Range;
 use std::path::Path;
 
 use super::problem::LogProblem;
@@ -24,6 +25,19 @@ pub(super) struct Clock {
     /// The length of each sample's interval \[s\].
     pub(super) intervals: Vec<f64>,
     pub(super) summary: LogSummary,
+}
+
+impl Clock {
+    /// Keeps the samples of `range` only.
+    pub(super) fn keep(&mut self, range: Range<usize>) {
+        self.ends = self.ends[range.clone()].to_vec();
+        self.intervals = self.intervals[range.clone()].to_vec();
+        self.summary.samples = range.len();
+        self.summary.gaps.retain(|gap| range.contains(&gap.sample));
+        for gap in &mut self.summary.gaps {
+            gap.sample -= range.start;
+        }
+    }
 }
 
 /// What a log's rows say of time.

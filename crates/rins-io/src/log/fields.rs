@@ -11,6 +11,8 @@ pub enum Delimiter {
     Comma,
     /// Any number of blanks.
     Blanks,
+    /// Another character, which a line `sep=` has named.
+    Other(char),
 }
 
 impl Delimiter {
@@ -30,6 +32,22 @@ impl Delimiter {
         chosen.map_or(Self::Comma, |index| all[index])
     }
 
+    /// The delimiter that a first line such as `sep=;` names, as spreadsheets write it.
+    pub(super) fn stated(line: &str) -> Option<Self> {
+        let line = line.trim_matches(['"', '\r']);
+        let rest = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep="));
+        let mut letters = line[rest?.len()..].chars();
+        let delimiter = match letters.next()? {
+            '\t' => Self::Tab,
+            ';' => Self::Semicolon,
+            ',' => Self::Comma,
+            ' ' => Self::Blanks,
+            other if other.is_alphanumeric() || "+-.\"".contains(other) => return None,
+            other => Self::Other(other),
+        };
+        letters.next().is_none().then_some(delimiter)
+    }
+
     /// What stands before the first delimiter and, if there is one, what stands after it.
     fn cut(self, text: &str) -> (&str, Option<&str>) {
         match text.split_once(|letter| self.divides(letter)) {
@@ -44,6 +62,7 @@ impl Delimiter {
             Self::Semicolon => letter == ';',
             Self::Comma => letter == ',',
             Self::Blanks => letter.is_whitespace(),
+            Self::Other(other) => letter == other,
         }
     }
 }

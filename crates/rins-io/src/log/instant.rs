@@ -1,4 +1,4 @@
-//! Time stamps as text, read without losing what a double cannot hold.
+//! Time stamps, read without losing what a double cannot hold.
 
 /// Stamps beyond this \[s\] (48 days) are counted from a whole second near the first: a double
 /// near it steps by a nanosecond, and near the seconds since 1970 by a quarter of a microsecond.
@@ -23,11 +23,34 @@ impl Instants {
 
     /// The stamp's time after the origin \[s\]; `None` if it is not a number.
     pub(super) fn seconds(&mut self, text: &str) -> Option<f64> {
-        let plain = text.parse::<f64>().ok()?;
+        Some(self.after_origin(text.parse().ok()?, || fixed(text)))
+    }
+
+    /// The same of a stamp that is a number.
+    pub(super) fn of_number(&mut self, stamp: f64) -> f64 {
+        self.after_origin(stamp, || None)
+    }
+
+    /// The same of a stamp that is a whole number.
+    pub(super) fn of_integer(&mut self, stamp: i64) -> f64 {
+        self.after_origin(stamp as f64, || {
+            i128::from(stamp).checked_mul(10_i128.pow(DECIMALS.unsigned_abs()))
+        })
+    }
+
+    /// The same of a stamp of `whole` units and, written out, a part of `text` units.
+    pub(super) fn of_sum(&mut self, whole: i64, text: &str) -> Option<f64> {
+        let plain = whole as f64 + text.parse::<f64>().ok()?;
+        let whole = i128::from(whole) * 10_i128.pow(DECIMALS.unsigned_abs());
+        Some(self.after_origin(plain, || fixed(text)?.checked_add(whole)))
+    }
+
+    /// The time after the origin of a stamp that is nearly `plain`, and to 10⁻¹² `fixed`.
+    fn after_origin(&mut self, plain: f64, fixed: impl Fn() -> Option<i128>) -> f64 {
         if !plain.is_finite() {
-            return Some(plain);
+            return plain;
         }
-        let origin = *self.origin.get_or_insert_with(|| match fixed(text) {
+        let origin = *self.origin.get_or_insert_with(|| match fixed() {
             Some(stamp) if (plain * self.unit).abs() > LARGEST => {
                 let second = (1.0 / self.unit).round() * 10_f64.powi(DECIMALS);
                 // A second is at most 10²¹ of these units.
@@ -38,13 +61,13 @@ impl Instants {
             _ => 0,
         });
         if origin == 0 {
-            return Some(plain * self.unit);
+            return plain * self.unit;
         }
         let scale = 10_f64.powi(DECIMALS);
-        Some(match fixed(text) {
+        match fixed() {
             Some(stamp) => (stamp - origin) as f64 / scale * self.unit,
             None => (plain - origin as f64 / scale) * self.unit,
-        })
+        }
     }
 
     /// The origin \[s\].

@@ -18,6 +18,8 @@ pub(crate) struct Lines<R> {
     buffer: Vec<u8>,
     number: u64,
     comment: Option<String>,
+    /// Whether lines that begin with `#` or `%` are comments.
+    commented: bool,
 }
 
 impl Lines<BufReader<File>> {
@@ -25,11 +27,23 @@ impl Lines<BufReader<File>> {
         let file = File::open(path).map_err(IoError::file("read", path))?;
         Ok(Self::new(BufReader::with_capacity(1 << 16, file), path))
     }
+
+    /// The lines of a log whose messages begin as elsewhere comments do.
+    pub(super) fn messages(path: &Path) -> Result<Self, IoError> {
+        Ok(Self { commented: false, ..Self::open(path)? })
+    }
 }
 
 impl<R: BufRead> Lines<R> {
     pub(crate) fn new(reader: R, path: &Path) -> Self {
-        Self { reader, path: path.into(), buffer: Vec::new(), number: 0, comment: None }
+        Self {
+            reader,
+            path: path.into(),
+            buffer: Vec::new(),
+            number: 0,
+            comment: None,
+            commented: true,
+        }
     }
 
     /// The next line's number, from 1, and its text; `None` at the end.
@@ -37,7 +51,8 @@ impl<R: BufRead> Lines<R> {
         while self.fill()? {
             let text = self.text()?;
             let trimmed = text.trim();
-            if let Some(comment) = trimmed.strip_prefix(['#', '%']) {
+            let comment = trimmed.strip_prefix(['#', '%']).filter(|_| self.commented);
+            if let Some(comment) = comment {
                 self.comment = Some(comment.trim().to_string());
             } else if !trimmed.is_empty() {
                 let number = self.number;

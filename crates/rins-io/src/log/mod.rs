@@ -2,28 +2,30 @@
 
 mod assemble;
 mod clock;
-mod columns;
 mod fields;
+mod files;
 mod instant;
 mod lines;
 mod problem;
 mod psins;
+mod redivide;
 mod series;
 mod summary;
+mod table;
 
 use std::path::Path;
 
 use rins_motion::{Recording, Station};
 
-pub(crate) use columns::Head;
-pub use columns::{LogHead, peek};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
 pub(crate) use lines::Lines;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
-pub use summary::{Gap, LogPolicy, LogSummary};
+pub use summary::{Gap, LogPolicy, LogSummary, Redivided};
+pub(crate) use table::Head;
+pub use table::{LogHead, peek};
 
 use crate::error::{IoError, LogError};
 use crate::rig::{LogFormat, Rig};
@@ -79,20 +81,22 @@ pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
         None => *rig.require_station()?,
     };
     if recording.table_angle.is_none() && recording.table_rate.is_none() {
-        recording.table_rate = commanded(&rig, &recording)?;
+        let late = summary.redivided.map_or(0.0, |redivided| redivided.late);
+        recording.table_rate = commanded(&rig, &recording, late)?;
     }
     Ok(Loaded { rig, station, recording, summary, psins_header })
 }
 
-/// The commanded table rate over each interval, if the rig tells the profile.
-fn commanded(rig: &Rig, recording: &Recording) -> Result<Option<Vec<f64>>, IoError> {
+/// The commanded table rate over each interval, if the rig tells the profile, which begins `late`
+/// seconds before the recording.
+fn commanded(rig: &Rig, recording: &Recording, late: f64) -> Result<Option<Vec<f64>>, IoError> {
     let Some(profile) = rig.table.as_ref().and_then(|table| table.profile.as_ref()) else {
         return Ok(None);
     };
     let (Some(first), Some(last)) = (recording.increments.first(), recording.times.last()) else {
         return Ok(None);
     };
-    let start = recording.times[0] - first.interval;
+    let start = recording.times[0] - first.interval - late;
     let (log, commanded) = (last - start, profile.duration());
     if log > commanded + 1.5 * first.interval {
         let problem = LogProblem::BeyondProfile { log, profile: commanded };

@@ -167,6 +167,12 @@ pub enum LogProblem {
         /// The time there \[s\].
         expected: f64,
     },
+    /// Two files of one run have no time in common.
+    #[error("has no time in common with {other}; check the units and offset of their clocks")]
+    NoOverlap {
+        /// The other file.
+        other: String,
+    },
     /// The temperatures do not cover the log.
     #[error("temperatures from {first} s to {last} s do not cover the log's {time} s")]
     NoTemperature {
@@ -184,6 +190,48 @@ pub enum LogProblem {
         log: f64,
         /// How long the profile lasts \[s\].
         profile: f64,
+    },
+    /// A binary file ends within a row.
+    #[error("the last row is cut short: rows have {bytes} bytes")]
+    PartOfARow {
+        /// How many bytes a row has.
+        bytes: usize,
+    },
+    /// A file says of few bytes that they are very many rows.
+    #[error("more than {most} rows, which a file of this size cannot hold of a sensor's readings")]
+    ManyRows {
+        /// The most that are read.
+        most: u64,
+    },
+    /// A file is not what its format demands.
+    #[error("not a {format} file, or a damaged one: {message}")]
+    Damaged {
+        /// The format.
+        format: &'static str,
+        /// What is wrong.
+        message: String,
+    },
+    /// A column holds no numbers, or not one a row.
+    #[error("column {column:?} is {found}, expected one number a row")]
+    WrongColumn {
+        /// The column.
+        column: String,
+        /// What it is.
+        found: String,
+    },
+    /// None of a log's messages is one of the IMU's.
+    #[error("no RAWIMUA, RAWIMUSA, RAWIMUXA or RAWIMUSXA message")]
+    NoMessages,
+    /// A message has no checksum.
+    #[error("a message without a checksum; is the line cut short?")]
+    NoChecksum,
+    /// A message is not what was sent.
+    #[error("the checksum is {found:08x}, the line says {stated:?}; the line is damaged")]
+    Checksum {
+        /// What the message says it is.
+        stated: String,
+        /// What it is.
+        found: u32,
     },
     /// A PSINS header's number makes no sense.
     #[error("the header's {name} is {value}, expected {expected}")]

@@ -31,6 +31,19 @@ pub struct LogSummary {
     /// What is to be added to a recording's times to have those of the log \[s\]. It is zero
     /// unless the log counts from so long ago that a double would lose nanoseconds.
     pub time_origin: f64,
+    /// What became of accelerometers that have a clock of their own.
+    pub redivided: Option<Redivided>,
+}
+
+/// Samples of one clock that were divided anew at the ticks of another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Redivided {
+    /// How many samples there were.
+    pub samples: usize,
+    /// How many samples of the other clock are left out, because they lie outside of these.
+    pub left_out: usize,
+    /// How long those last that are left out at the start \[s\].
+    pub late: f64,
 }
 
 /// A gap in a log.
@@ -50,6 +63,7 @@ impl LogSummary {
     /// Of samples without jitter or gaps.
     pub(super) fn even(samples: usize, nominal_interval: f64) -> Self {
         let (gaps, repeated) = (Vec::new(), Vec::new());
-        Self { samples, nominal_interval, jitter_rms: 0.0, gaps, repeated, time_origin: 0.0 }
+        let (jitter_rms, time_origin, redivided) = (0.0, 0.0, None);
+        Self { samples, nominal_interval, jitter_rms, gaps, repeated, time_origin, redivided }
     }
 }

@@ -160,6 +160,8 @@ pub const LATENCY: Kind = Kind::new(
     "1 ms",
     Range::Within { low: -10.0, high: 10.0, words: "a latency from -10 to 10 s" },
 );
+/// By how much one clock is ahead of another.
+pub const CLOCK_OFFSET: Kind = Kind::new("a time", Dimension::TIME, "12 ms", Range::Any);
 /// A time span.
 pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::Positive);
 /// A table's rate.

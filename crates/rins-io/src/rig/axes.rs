@@ -23,6 +23,9 @@ impl Axes {
     /// The axes as they are.
     pub const IDENTITY: Self = Self { source: [0, 1, 2], sign: [1.0; 3] };
 
+    /// From front, right, down to right, front, up; and back.
+    pub const FRONT_RIGHT_DOWN: Self = Self { source: [1, 0, 2], sign: [1.0, 1.0, -1.0] };
+
     /// The axes that three texts name; `None` unless each of x, y and z occurs once.
     pub fn parse(names: [&str; 3]) -> Option<Self> {
         let mut axes = Self::IDENTITY;

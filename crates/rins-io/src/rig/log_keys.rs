@@ -4,18 +4,20 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use super::axes::Axes;
+use super::formats::Fixed;
 use super::log_spec::{
-    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, Reading, ScaledColumn, Stamp,
-    TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, ScaledColumn, Stamp,
+    Table, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
 };
 use crate::error::IoError;
 use crate::quantity::{Dimension, QuantityError, Unit, kinds};
 use crate::section::Section;
 
 /// The keys of `[log]`.
-pub(crate) const KEYS: [&str; 10] = [
+pub(crate) const KEYS: [&str; 11] = [
     "path",
     "format",
+    "imu",
     "rate",
     "time",
     "gyro",
@@ -26,14 +28,29 @@ pub(crate) const KEYS: [&str; 10] = [
     "gaps",
 ];
 
-const FORMATS: [(&str, Format); 3] =
-    [("csv", Format::Csv), ("psins", Format::Psins), ("kf-gins", Format::KfGins)];
+const FORMATS: [(&str, Format); 8] = [
+    ("csv", Format::Table(Table::Text)),
+    ("parquet", Format::Table(Table::Parquet)),
+    ("mat", Format::Table(Table::Mat)),
+    ("psins", Format::Psins),
+    ("psins-bin", Format::Fixed(Fixed::PsinsBinary)),
+    ("kf-gins", Format::Fixed(Fixed::KfGins)),
+    ("euroc", Format::Fixed(Fixed::Euroc)),
+    ("novatel", Format::Fixed(Fixed::NovAtel)),
+];
+
+/// The formats in words.
+const ANY_FORMAT: &str =
+    r#""csv", "parquet", "mat", "psins", "psins-bin", "kf-gins", "euroc" or "novatel""#;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Format {
-    Csv,
+    /// Columns that the rig file tells.
+    Table(Table),
+    /// Columns that the format tells.
+    Fixed(Fixed),
+    /// Columns of which the log's header tells.
     Psins,
-    KfGins,
 }
 
 pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError> {
@@ -41,9 +58,9 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
         return Err(root.missing("[log]", "path, time, gyro and accel"));
     };
     let rate = log.quantity("rate", &kinds::SAMPLE_RATE)?;
-    let triad_keys = ["path", "columns", "unit", "scale", "offset", "axes"];
-    let gyro = log.inline("gyro", &triad_keys)?;
-    let accel = log.inline("accel", &triad_keys)?;
+    let gyro = log.inline("gyro", &["path", "columns", "unit", "scale", "offset", "axes"])?;
+    let accel =
+        log.inline("accel", &["path", "time", "columns", "unit", "scale", "offset", "axes"])?;
     let path = match (log.text("path", PATH)?, &gyro, &accel) {
         (Some(path), ..) => path,
         (None, Some(gyro), Some(accel)) if gyro.has("path") && accel.has("path") => {
@@ -52,6 +69,9 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
         _ => return Err(log.missing("path", PATH)),
     };
     let format = format(&log, path)?;
+    if format != Format::Fixed(Fixed::NovAtel) {
+        refuse_own(&log, &["imu"], "only a novatel log's counts depend on the IMU")?;
+    }
     let path = folder.join(path);
     let gyro_axes = axes(gyro.as_ref())?;
     let accel_axes = axes(accel.as_ref())?;
@@ -60,29 +80,23 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
         Format::Psins => {
             let own = ["time", "table_angle", "table_rate", "temperature", "gaps"];
             refuse_own(&log, &own, "a psins log has no such column")?;
-            let own = ["path", "columns", "unit", "scale", "offset"];
+            let own = ["path", "time", "columns", "unit", "scale", "offset"];
             for triad in [&gyro, &accel].into_iter().flatten() {
                 refuse_own(triad, &own, "a psins log's header says so itself")?;
             }
             Ok(spec)
         }
-        Format::KfGins => {
-            refuse_own(&log, &["time"], "a kf-gins log's first column is the time in s")?;
-            let own = ["columns", "unit", "scale", "offset"];
-            for triad in [&gyro, &accel].into_iter().flatten() {
-                refuse_own(triad, &own, "a kf-gins log's columns are fixed")?;
-            }
-            let columns = kf_gins(&log, folder, &spec.path)?;
-            // The format's axes are front, right, down; ours are right, front, up.
-            let body = Axes::parse(["y", "x", "-z"]).expect("each axis once");
+        Format::Fixed(fixed) => {
+            let columns = fixed.columns(&log, [gyro.as_ref(), accel.as_ref()], &spec.path)?;
+            let columns = others(&log, folder, columns)?;
             Ok(LogSpec {
                 format: LogFormat::Columns(Box::new(columns)),
-                gyro_axes: spec.gyro_axes.after(&body),
-                accel_axes: spec.accel_axes.after(&body),
+                gyro_axes: spec.gyro_axes.after(&fixed.axes()),
+                accel_axes: spec.accel_axes.after(&fixed.axes()),
                 ..spec
             })
         }
-        Format::Csv => {
+        Format::Table(table) => {
             let time = time(&log, rate)?;
             let (Some(gyro), Some(accel)) = (&gyro, &accel) else {
                 let (key, unit) =
@@ -91,8 +105,10 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
                 return Err(log.missing(key, example));
             };
             let gyro = triad(gyro, folder, &spec.path, &GYRO)?;
+            let accel_clock = own_clock(accel, time.as_ref())?;
             let accel = triad(accel, folder, &spec.path, &ACCEL)?;
-            let columns = others(&log, folder, ColumnSpec::of(time, gyro, accel))?;
+            let imu = ColumnSpec { accel_clock, ..ColumnSpec::of(table, time, gyro, accel) };
+            let columns = others(&log, folder, imu)?;
             Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec })
         }
     }
@@ -101,20 +117,23 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
 const PATH: &str = r#"the log's file, such as "run.csv""#;
 
 fn format(log: &Section<'_>, path: &str) -> Result<Format, IoError> {
-    if log.text("format", r#""csv", "psins" or "kf-gins""#)? == Some("parquet") {
-        return Err(log.not_allowed("format", r#""csv", "psins" or "kf-gins""#));
-    }
     if let Some(format) = log.choice("format", &FORMATS)? {
         return Ok(format);
     }
     let ending = Path::new(path).extension().map(OsStr::to_ascii_lowercase);
     match ending.as_ref().and_then(|ending| ending.to_str()) {
-        Some("csv" | "tsv" | "txt" | "dat" | "asc") => Ok(Format::Csv),
-        _ => Err(log.missing("format", r#""csv", "psins" or "kf-gins" for a file of this name"#)),
+        Some("csv" | "tsv" | "txt" | "dat" | "asc") => Ok(Format::Table(Table::Text)),
+        Some("parquet") => Ok(Format::Table(Table::Parquet)),
+        Some("mat") => Ok(Format::Table(Table::Mat)),
+        _ => Err(log.missing("format", format!("{ANY_FORMAT} for a file of this name"))),
     }
 }
 
-fn refuse_own(section: &Section<'_>, keys: &[&str], reason: &str) -> Result<(), IoError> {
+pub(super) fn refuse_own(
+    section: &Section<'_>,
+    keys: &[&str],
+    reason: &str,
+) -> Result<(), IoError> {
     match keys.iter().find(|key| section.has(key)) {
         Some(key) => Err(section.conflict(key, reason)),
         None => Ok(()),
@@ -131,7 +150,17 @@ fn time(log: &Section<'_>, rate: Option<f64>) -> Result<Option<TimeColumn>, IoEr
             )),
         };
     };
-    let column = column(&time, "column")?;
+    let time = time_column(&time)?;
+    if time.unit == TimeUnit::Samples && rate.is_none() {
+        return Err(
+            log.missing("rate", r#"a sampling rate such as "50 Hz", as time counts samples"#)
+        );
+    }
+    Ok(Some(time))
+}
+
+fn time_column(time: &Section<'_>) -> Result<TimeColumn, IoError> {
+    let column = column(time, "column")?;
     let units = [
         ("s", TimeUnit::Seconds(1.0)),
         ("ms", TimeUnit::Seconds(1e-3)),
@@ -142,32 +171,49 @@ fn time(log: &Section<'_>, rate: Option<f64>) -> Result<Option<TimeColumn>, IoEr
     let Some(unit) = time.choice("unit", &units)? else {
         return Err(time.missing("unit", r#""s", "ms", "us", "ns" or "sample""#));
     };
-    if unit == TimeUnit::Samples && rate.is_none() {
-        return Err(
-            log.missing("rate", r#"a sampling rate such as "50 Hz", as time counts samples"#)
-        );
-    }
     let stamps = [("start", Stamp::Start), ("middle", Stamp::Middle), ("end", Stamp::End)];
     let stamp = time.choice("stamp", &stamps)?.unwrap_or(Stamp::End);
-    Ok(Some(TimeColumn { column, unit, stamp }))
+    Ok(TimeColumn { column, unit, stamp })
+}
+
+/// The accelerometers' own clock, if the rig file gives them one.
+fn own_clock(
+    accel: &Section<'_>,
+    log_time: Option<&TimeColumn>,
+) -> Result<Option<OwnClock>, IoError> {
+    let Some(section) = accel.inline("time", &["column", "unit", "stamp", "offset"])? else {
+        return Ok(None);
+    };
+    if !accel.has("path") {
+        let reason = "accelerometers in the gyros' file have the gyros' time; give theirs a path";
+        return Err(accel.conflict("time", reason));
+    }
+    let in_seconds = |time: &TimeColumn| matches!(time.unit, TimeUnit::Seconds(_));
+    let time = time_column(&section)?;
+    if !(in_seconds(&time) && log_time.is_some_and(in_seconds)) {
+        let reason = "two clocks are compared in s, ms, us or ns, the log's and this one";
+        return Err(accel.conflict("time", reason));
+    }
+    let offset = section.quantity("offset", &kinds::CLOCK_OFFSET)?.unwrap_or_default();
+    Ok(Some(OwnClock { time, offset }))
 }
 
 /// The two dimensions of a triad's numbers, and how an error calls them.
-struct Readings {
-    rate: Dimension,
-    increment: Dimension,
+pub(super) struct Readings {
+    pub(super) rate: Dimension,
+    pub(super) increment: Dimension,
     expected: &'static str,
     example: &'static str,
 }
 
-const GYRO: Readings = Readings {
+pub(super) const GYRO: Readings = Readings {
     rate: Dimension::ANGULAR_RATE,
     increment: Dimension::ANGLE,
     expected: "an angular rate or an angle increment",
     example: "deg/s",
 };
 
-const ACCEL: Readings = Readings {
+pub(super) const ACCEL: Readings = Readings {
     rate: Dimension::ACCELERATION,
     increment: Dimension::VELOCITY,
     expected: "a specific force or a velocity increment",
@@ -193,21 +239,27 @@ fn triad(
     } else {
         Reading::Increment(unit.factor)
     };
-    let numbers = "a number, or one for each column";
-    let scale = triad.numbers("scale", numbers)?.unwrap_or([1.0; 3]);
-    if scale.contains(&0.0) {
-        return Err(triad.not_allowed("scale", "factors other than zero"));
-    }
+    let scale = scale_of(triad)?;
     Ok(TriadColumns {
         path: triad.text("path", PATH)?.map_or_else(|| log.into(), |path| folder.join(path)),
         columns: columns.map(Into::into),
         reading,
-        offset: triad.numbers("offset", numbers)?.unwrap_or([0.0; 3]),
+        offset: triad.numbers("offset", NUMBERS)?.unwrap_or([0.0; 3]),
         scale,
     })
 }
 
-fn unit(
+const NUMBERS: &str = "a number, or one for each column";
+
+pub(super) fn scale_of(triad: &Section<'_>) -> Result<[f64; 3], IoError> {
+    let scale = triad.numbers("scale", NUMBERS)?.unwrap_or([1.0; 3]);
+    if scale.contains(&0.0) {
+        return Err(triad.not_allowed("scale", "factors other than zero"));
+    }
+    Ok(scale)
+}
+
+pub(super) fn unit(
     section: &Section<'_>,
     allowed: &[Dimension],
     Readings { expected, example, .. }: &Readings,
@@ -240,10 +292,24 @@ fn column(section: &Section<'_>, key: &str) -> Result<String, IoError> {
 }
 
 impl ColumnSpec {
-    fn of(time: Option<TimeColumn>, gyro: TriadColumns, accel: TriadColumns) -> Self {
-        let none = (None, None, None, None);
-        let (table_angle, table_rate, temperature, gaps) = none;
-        Self { time, gyro, accel, table_angle, table_rate, temperature, gaps }
+    /// Columns of the IMU alone.
+    pub(super) fn of(
+        table: Table,
+        time: Option<TimeColumn>,
+        gyro: TriadColumns,
+        accel: TriadColumns,
+    ) -> Self {
+        Self {
+            table,
+            time,
+            gyro,
+            accel,
+            accel_clock: None,
+            table_angle: None,
+            table_rate: None,
+            temperature: None,
+            gaps: None,
+        }
     }
 }
 
@@ -327,18 +393,4 @@ fn temperature(
         Some(offset) => Ok(Some(TemperatureColumn { file, column, offset })),
         None => Err(section.missing("unit", r#""degC" or "K""#)),
     }
-}
-
-/// The columns of a KF-GINS increments file: time in s, angles in rad, velocities in m/s.
-fn kf_gins(log: &Section<'_>, folder: &Path, path: &Path) -> Result<ColumnSpec, IoError> {
-    let triad = |columns: [&str; 3]| TriadColumns {
-        path: path.into(),
-        columns: columns.map(Into::into),
-        reading: Reading::Increment(1.0),
-        offset: [0.0; 3],
-        scale: [1.0; 3],
-    };
-    let unit = TimeUnit::Seconds(1.0);
-    let time = Some(TimeColumn { column: "1".into(), unit, stamp: Stamp::End });
-    others(log, folder, ColumnSpec::of(time, triad(["2", "3", "4"]), triad(["5", "6", "7"])))
 }

@@ -1,8 +1,10 @@
 //! Where a log is and how it is to be read.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use super::axes::Axes;
+
 /// Where a log is and how it is to be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogSpec {
@@ -22,23 +24,44 @@ pub struct LogSpec {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LogFormat {
-    /// Columns of text.
+    /// Columns of numbers.
     Columns(Box<ColumnSpec>),
     /// A PSINS text log, whose header says what its columns are.
     Psins,
 }
 
+/// How columns of numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Table {
+    /// Text, with any delimiter.
+    Text,
+    /// A Parquet file.
+    Parquet,
+    /// Matrices in a MATLAB level 5 file.
+    Mat,
+    /// Rows of so many little-endian doubles.
+    Doubles(usize),
+    /// NovAtel's RAWIMU messages.
+    NovAtel,
+}
+
 /// What stands in which column.
 ///
-/// A column is named by its header or, where there is none, by its place from "1".
+/// A column is named by its header or, where there is none, by its place from "1"; in a MATLAB
+/// file as `imu(:,1)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnSpec {
+    /// How the columns are written.
+    pub table: Table,
     /// The time; without it samples follow each other at the nominal rate.
     pub time: Option<TimeColumn>,
     /// The gyros.
     pub gyro: TriadColumns,
     /// The accelerometers.
     pub accel: TriadColumns,
+    /// The accelerometers' own clock, if they have one.
+    pub accel_clock: Option<OwnClock>,
     /// The measured table angle.
     pub table_angle: Option<AngleColumn>,
     /// The table's mean rate over each interval \[rad/s\].
@@ -60,6 +83,17 @@ pub struct TimeColumn {
     pub stamp: Stamp,
 }
 
+/// The clock of a file that was not sampled together with the gyros'.
+///
+/// Its increments are divided anew at the ends of the gyros' intervals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OwnClock {
+    /// Its time column.
+    pub time: TimeColumn,
+    /// What it shows when the gyros' clock shows zero \[s\].
+    pub offset: f64,
+}
+
 /// What a time column counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TimeUnit {
@@ -67,6 +101,28 @@ pub enum TimeUnit {
     Seconds(f64),
     /// Samples at the nominal rate.
     Samples,
+}
+
+impl TimeUnit {
+    /// One unit \[s\]; `None` where samples are counted.
+    pub fn seconds(self) -> Option<f64> {
+        match self {
+            Self::Seconds(seconds) => Some(seconds),
+            Self::Samples => None,
+        }
+    }
+}
+
+impl Table {
+    /// How the columns of a file of this name are most likely written.
+    pub(crate) fn of(path: &Path) -> Self {
+        let ending = path.extension().map(OsStr::to_ascii_lowercase);
+        match ending.as_ref().and_then(|ending| ending.to_str()) {
+            Some("parquet") => Self::Parquet,
+            Some("mat") => Self::Mat,
+            _ => Self::Text,
+        }
+    }
 }
 
 /// Which instant of a sample's interval a time stamp tells.

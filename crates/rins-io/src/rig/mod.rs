@@ -1,9 +1,11 @@
 //! A rig: where a run was measured, with what, and what the data sheets say.
 
 mod axes;
+mod formats;
 mod imu;
 mod log_keys;
 mod log_spec;
+mod novatel;
 mod place;
 mod table;
 
@@ -15,8 +17,8 @@ use rins_motion::Station;
 pub use axes::Axes;
 pub(crate) use log_keys::{KEYS as LOG_KEYS, angle_figures};
 pub use log_spec::{
-    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, Reading, ScaledColumn, Stamp,
-    TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, ScaledColumn, Stamp,
+    Table, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
 };
 pub use place::InitialAttitude;
 pub(crate) use place::{angles, station};

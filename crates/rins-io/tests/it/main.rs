@@ -10,6 +10,7 @@
 
 mod calibration;
 mod draft;
+mod formats;
 mod log_refusals;
 mod logs;
 mod measured;

@@ -262,10 +262,10 @@ const LOG_KEYS: &[Row] = &[
         &["{line}: [log] format: \"cvs\" is not known; did you mean \"csv\"?"],
     ),
     (
-        "parquet",
+        "a Parquet file that is none",
         CHECK,
         Replace(RIG, "rate = ", "format = \"parquet\"\nrate = "),
-        &["{line}: [log] format: \"parquet\" is not allowed, expected \"csv\""],
+        &["run.csv: not a Parquet file, or a damaged one: "],
     ),
     (
         "a file name that tells no format",

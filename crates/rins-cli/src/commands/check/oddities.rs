@@ -54,6 +54,13 @@ pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> 
     if inspection.rests.is_empty() {
         found.push("never at rest for a second: nothing to align on".into());
     }
+    if let Some(redivided) = loaded.summary.redivided {
+        found.push(format!(
+            "the accelerometers' {} samples have a clock of their own and were divided anew at the gyros' intervals; {} \
+             gyro sample(s) outside of them are left out",
+            redivided.samples, redivided.left_out
+        ));
+    }
     if loaded.psins_header.is_some() {
         found.push("no time column: samples are taken to follow each other without a gap".into());
     }

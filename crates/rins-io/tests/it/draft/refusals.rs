@@ -163,7 +163,7 @@ fn what_is_no_log_is_refused() {
     let cases: [(&[u8], &str); 9] = [
         (b"", "run.csv: the file is empty"),
         (b"t,gx,gy\n", "run.csv: only a header, no samples"),
-        (b"t,gx\ns,deg/s\n1,2\n2,3\n", "run.csv:2: column \"t\": \"s\" is not a number"),
+        (b"t,gx\ns,deg/s\nx,y\n2,3\n", "run.csv:3: column \"t\": \"x\" is not a number"),
         (
             b"t;gx\n0,1;2,5\n0,2;2,5\n",
             "run.csv:2: column \"t\": \"0,1\" is not a number; write decimals with a point",

@@ -1,49 +1,21 @@
-//! Columns of numbers, picked by name or number from a text log.
+//! Columns of text, between delimiters that are found out.
 
 use std::io::BufRead;
 use std::path::Path;
 
-use super::fields::{Delimiter, Fields};
-use super::instant::Instants;
-use super::lines::Lines;
-use super::problem::LogProblem;
+use super::{Columns, MOST_COLUMNS, Wanted, listed, place};
 use crate::error::{IoError, LogError};
-use crate::section::quoted;
-use crate::suggestion::nearest;
+use crate::log::fields::{Delimiter, Fields};
+use crate::log::lines::Lines;
+use crate::log::problem::LogProblem;
 
-/// The most columns that are read.
-const MOST_COLUMNS: usize = 4096;
-
-/// The most columns that an error lists.
-const MOST_LISTED: usize = 30;
-
-/// The numbers of some columns.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Columns {
-    /// The time stamps \[s\], if time was asked for.
-    pub(super) time: Vec<f64>,
-    /// The numbers of each column that was asked for.
-    pub(super) numbers: Vec<Vec<f64>>,
-    /// The line of each row.
-    pub(super) lines: Vec<u64>,
-    /// The lines that repeat, time stamp and all, the one before them.
-    pub(super) repeated: Vec<u64>,
+/// Reads columns of the text log at `path`.
+pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    read_from(&mut Lines::open(path)?, wanted)
 }
 
-/// Reads the columns `names` of the log at `path`, and the column of time stamps.
-pub(super) fn read(
-    path: &Path,
-    names: &[&str],
-    time: Option<(&str, &mut Instants)>,
-) -> Result<Columns, IoError> {
-    read_from(&mut Lines::open(path)?, names, time)
-}
-
-pub(super) fn read_from<R: BufRead>(
-    lines: &mut Lines<R>,
-    names: &[&str],
-    mut time: Option<(&str, &mut Instants)>,
-) -> Result<Columns, IoError> {
+fn read_from<R: BufRead>(lines: &mut Lines<R>, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    let Wanted { names, mut time } = wanted;
     let head = Head::read(lines)?;
     let mut places = Vec::with_capacity(names.len() + 1);
     for (index, name) in names.iter().enumerate() {
@@ -157,12 +129,19 @@ pub(crate) struct Head {
 
 impl Head {
     pub(crate) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
-        let Some((line, first)) = lines.next()?.map(|(line, text)| (line, text.to_string())) else {
-            return Err(LogError::of(lines.path(), LogProblem::Empty));
-        };
+        let owned = |(line, text): (u64, &str)| (line, text.to_string());
+        let empty = |lines: &Lines<R>| LogError::of(lines.path(), LogProblem::Empty);
+        let mut opening = lines.next()?.map(owned).ok_or_else(|| empty(lines))?;
+        let stated = Delimiter::stated(&opening.1);
+        if stated.is_some() {
+            opening = lines.next()?.map(owned).ok_or_else(|| empty(lines))?;
+        }
+        let (line, first) = opening;
         let comment = lines.comment().map(str::to_string);
-        let second = lines.next()?.map(|(line, text)| (line, text.to_string()));
-        let delimiter = Delimiter::sniff(&first, second.as_ref().map(|(_, text)| text.as_str()));
+        let mut second = lines.next()?.map(owned);
+        let delimiter = stated.unwrap_or_else(|| {
+            Delimiter::sniff(&first, second.as_ref().map(|(_, text)| text.as_str()))
+        });
         let fields = |text: &str| -> Vec<String> {
             Fields::of(text, delimiter).map(str::to_string).collect()
         };
@@ -174,6 +153,11 @@ impl Head {
         }
         let is_word = |field: &String| field.parse::<f64>().is_err();
         if opening.iter().filter(|field| is_word(field)).count() * 2 >= count {
+            // Below their names some columns have their units.
+            let units = |(_, text): &(u64, String)| fields(text).iter().all(is_word);
+            if second.as_ref().is_some_and(|second| units(second) && !second.1.is_empty()) {
+                second = lines.next()?.map(owned);
+            }
             let rows = second.into_iter().collect();
             return Ok(Self { delimiter, names: Some(opening), count, line, rows });
         }
@@ -186,33 +170,23 @@ impl Head {
 
     /// The place from zero of the column called `name`.
     fn place(&self, name: &str, path: &Path) -> Result<usize, IoError> {
-        let refuse = |problem| Err(LogError::at(path, self.line, problem));
         let names = self.names.as_deref().unwrap_or_default();
-        let mut found = names.iter().enumerate().filter(|(_, present)| *present == name);
-        if let Some((place, _)) = found.next() {
-            return match found.next() {
-                None => Ok(place),
-                Some(_) => refuse(LogProblem::TwoColumns { column: name.into() }),
-            };
-        }
-        if let Some(place) = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1))
-            && place < self.count
-        {
-            return Ok(place);
-        }
-        let suggestion = nearest(name, names.iter().map(String::as_str)).map(Into::into);
-        refuse(LogProblem::NoColumn { column: name.into(), suggestion, present: self.present() })
+        let by_number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let found = match (place(name, names), by_number) {
+            (Err(LogProblem::NoColumn { .. }), Some(place)) if place < self.count => Ok(place),
+            (Err(LogProblem::NoColumn { column, suggestion, .. }), _) => {
+                Err(LogProblem::NoColumn { column, suggestion, present: self.present() })
+            }
+            (found, _) => found,
+        };
+        found.map_err(|problem| LogError::at(path, self.line, problem))
     }
 
     /// The columns that there are, in words.
     fn present(&self) -> String {
-        let Some(names) = &self.names else {
-            return format!("\"1\" to \"{}\", as the log has no header", self.count);
-        };
-        let words = quoted(names.iter().take(MOST_LISTED).map(String::as_str));
-        match names.len().checked_sub(MOST_LISTED) {
-            None | Some(0) => words,
-            Some(more) => format!("{words} and {more} more"),
+        match &self.names {
+            Some(names) => listed(names),
+            None => format!("\"1\" to \"{}\", as the log has no header", self.count),
         }
     }
 }

@@ -1,0 +1,212 @@
+//! The files of a run, and of each the columns that are asked for.
+
+use std::path::{Path, PathBuf};
+
+use nalgebra::Vector3;
+
+use super::clock::{Clock, Stamps};
+use super::instant::Instants;
+use super::problem::LogProblem;
+use super::summary::LogPolicy;
+use super::table::{self, Columns, Wanted};
+use crate::error::{IoError, LogError};
+use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, TimeUnit, TriadColumns};
+
+/// How far the times of two files may be apart, in intervals.
+const TOGETHER_WITHIN: f64 = 0.1;
+
+/// How many samples it takes to call a channel stuck.
+const ENOUGH_TO_BE_STUCK: usize = 10;
+
+/// The files of a run.
+pub(super) struct Files {
+    /// Those that were sampled together, the gyros' first.
+    together: Vec<OneFile>,
+    /// That of accelerometers with a clock of their own.
+    accel: Option<OneFile>,
+    pub(super) instants: Option<Instants>,
+}
+
+/// One file, and of its columns those that are asked for.
+pub(super) struct OneFile {
+    pub(super) path: PathBuf,
+    names: Vec<String>,
+    pub(super) columns: Columns,
+}
+
+/// A triad's values in SI units along the sensors' axes, one a row.
+pub(super) type TriadValues = Vec<Vector3<f64>>;
+
+impl OneFile {
+    pub(super) fn column(&self, name: &str, factor: f64) -> Vec<f64> {
+        let place = self.names.iter().position(|known| known == name);
+        let numbers = &self.columns.numbers[place.expect("every column in use was asked for")];
+        numbers.iter().map(|number| number * factor).collect()
+    }
+}
+
+impl Files {
+    pub(super) fn read(rig: &Rig, spec: &ColumnSpec) -> Result<Self, IoError> {
+        let mut wanted: Vec<(&Path, Vec<String>)> = vec![(&spec.gyro.path, Vec::new())];
+        let mut want = |path, name: &String| {
+            let known = wanted.iter().position(|(known, _)| *known == path);
+            let place = known.unwrap_or_else(|| {
+                wanted.push((path, Vec::new()));
+                wanted.len() - 1
+            });
+            let names = &mut wanted[place].1;
+            if !names.contains(name) {
+                names.push(name.clone());
+            }
+        };
+        let together = spec.accel_clock.is_none();
+        for triad in std::iter::once(&spec.gyro).chain(Some(&spec.accel).filter(|_| together)) {
+            triad.columns.iter().for_each(|name| want(&triad.path, name));
+        }
+        let log = rig.log.path.as_path();
+        spec.table_angle.iter().for_each(|angle| want(log, &angle.column));
+        spec.table_rate.iter().for_each(|rate| want(log, &rate.column));
+        for temperature in spec.temperature.iter().filter(|column| column.file.is_none()) {
+            want(log, &temperature.column);
+        }
+
+        let unit = spec.time.as_ref().map(|time| match time.unit {
+            TimeUnit::Seconds(unit) => unit,
+            TimeUnit::Samples => 1.0,
+        });
+        let mut instants = unit.map(Instants::new);
+        let mut files = Vec::with_capacity(wanted.len());
+        for (path, names) in wanted {
+            let asked: Vec<&str> = names.iter().map(String::as_str).collect();
+            let time = spec.time.as_ref().map(|time| time.column.as_str());
+            let wanted = Wanted { names: &asked, time: time.zip(instants.as_mut()) };
+            let mut columns = table::read(path, spec.table, wanted)?;
+            if let Some(time) = spec.time.as_ref().filter(|time| time.unit == TimeUnit::Samples) {
+                let interval = rig.log.rate.map_or(1.0, |rate| 1.0 / rate);
+                count(path, &time.column, &mut columns, interval)?;
+            }
+            files.push(OneFile { path: path.into(), names, columns });
+        }
+        let accel = spec.accel_clock.as_ref().map(|clock| own_clock(spec, clock, instants));
+        Ok(Self { together: files, instants, accel: accel.transpose()? })
+    }
+
+    pub(super) fn main(&self) -> &OneFile {
+        &self.together[0]
+    }
+
+    pub(super) fn file(&self, path: &Path) -> &OneFile {
+        let found = self.together.iter().find(|file| file.path == path);
+        found.expect("every file in use was read")
+    }
+
+    /// Refuses files that were not sampled together with the gyros'.
+    pub(super) fn compare(&self, interval: f64) -> Result<(), IoError> {
+        let (main, others) = (self.main(), &self.together[1..]);
+        for file in others {
+            let other = || main.path.display().to_string();
+            let (samples, expected) = (file.columns.lines.len(), main.columns.lines.len());
+            if samples != expected {
+                let problem = LogProblem::UnequalLength { samples, other: other(), expected };
+                return Err(LogError::of(&file.path, problem));
+            }
+            let pairs = file.columns.time.iter().zip(&main.columns.time);
+            for ((&time, &expected), &line) in pairs.zip(&file.columns.lines) {
+                if (time - expected).abs() > TOGETHER_WITHIN * interval {
+                    let problem = LogProblem::UnequalTimes { time, other: other(), expected };
+                    return Err(LogError::at(&file.path, line, problem));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The gyros' values, none of them stuck.
+    pub(super) fn gyro(&self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
+        self.file(&spec.gyro.path).triad(&spec.gyro, "gyro")
+    }
+
+    /// The accelerometers' values.
+    pub(super) fn accel(&self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
+        let file = self.accel.as_ref().unwrap_or_else(|| self.file(&spec.accel.path));
+        file.triad(&spec.accel, "accel")
+    }
+
+    /// The intervals of accelerometers with a clock of their own, in the gyros' time.
+    pub(super) fn accel_clock(
+        &self,
+        spec: &ColumnSpec,
+        gyro: &Clock,
+        policy: LogPolicy,
+    ) -> Result<Option<Clock>, IoError> {
+        let (Some(own), Some(file)) = (&spec.accel_clock, &self.accel) else { return Ok(None) };
+        let stamp = own.time.stamp;
+        let (path, lines) = (&file.path, &file.columns.lines);
+        let stamps = Stamps { path, lines, stamp, nominal: None };
+        // A gap in the one is as long as in the other, however often it is sampled.
+        let largest_gap = policy.largest_gap.max(gyro.summary.nominal_interval);
+        stamps.timed(&file.columns.time, LogPolicy { largest_gap }).map(Some)
+    }
+}
+
+/// Reads the file of accelerometers with a clock of their own, its stamps in the gyros' time.
+fn own_clock(
+    spec: &ColumnSpec,
+    clock: &OwnClock,
+    gyro: Option<Instants>,
+) -> Result<OneFile, IoError> {
+    let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
+    let names = spec.accel.columns.to_vec();
+    let asked: Vec<&str> = names.iter().map(String::as_str).collect();
+    let wanted = Wanted { names: &asked, time: Some((&clock.time.column, &mut instants)) };
+    let mut columns = table::read(&spec.accel.path, spec.table, wanted)?;
+    let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
+    if shift != 0.0 {
+        for time in &mut columns.time {
+            *time += shift;
+        }
+    }
+    Ok(OneFile { path: spec.accel.path.clone(), names, columns })
+}
+
+impl OneFile {
+    /// A triad's values in SI units along the sensors' axes, none of them stuck.
+    fn triad(&self, spec: &TriadColumns, sensor: &str) -> Result<TriadValues, IoError> {
+        let file = self;
+        let (Reading::Rate(factor) | Reading::Increment(factor)) = spec.reading;
+        let mut values = vec![Vector3::zeros(); file.columns.lines.len()];
+        let mut stuck = Vec::new();
+        for (axis, name) in spec.columns.iter().enumerate() {
+            let numbers = file.column(name, 1.0);
+            let first = numbers[0];
+            let moves = numbers.iter().any(|n| n - first != 0.0);
+            if numbers.len() >= ENOUGH_TO_BE_STUCK && !moves {
+                let channel = format!("{sensor} {} ({name:?})", ["x", "y", "z"][axis]);
+                stuck.push((channel, first));
+            }
+            for (value, number) in values.iter_mut().zip(numbers) {
+                value[axis] = (number - spec.offset[axis]) * spec.scale[axis] * factor;
+            }
+        }
+        // At rest a coarse accelerometer may well say the same all along, but not all three zero.
+        let dead = sensor == "gyro" || stuck.len() == 3 && stuck.iter().all(|(_, n)| *n == 0.0);
+        match stuck.into_iter().next().filter(|_| dead) {
+            Some((channel, value)) => {
+                Err(LogError::of(&file.path, LogProblem::Stuck { channel, value }))
+            }
+            None => Ok(values),
+        }
+    }
+}
+
+/// Turns a counter of samples into seconds.
+fn count(path: &Path, name: &str, columns: &mut Columns, interval: f64) -> Result<(), IoError> {
+    for (time, &line) in columns.time.iter_mut().zip(&columns.lines) {
+        if time.fract() != 0.0 {
+            let problem = LogProblem::PartOfASample { column: name.into(), count: *time };
+            return Err(LogError::at(path, line, problem));
+        }
+        *time *= interval;
+    }
+    Ok(())
+}

@@ -1,0 +1,129 @@
+//! Increments over the intervals of one clock, divided anew at the ticks of another.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+
+use super::clock::Clock;
+
+/// By how much of an interval two files may miss each other where they begin and end: the rounding
+/// of their stamps.
+const ROUNDING: f64 = 1e-6;
+
+/// The increments over those intervals of `onto` that the intervals of `from` cover, and which these
+/// are.
+///
+/// The mean rate of each of `from`'s intervals is held over it, so that whatever is divided, the
+/// sum stays what it was.
+pub(super) fn redivide(
+    from: &Clock,
+    increments: &[Vector3<f64>],
+    onto: &Clock,
+) -> (Range<usize>, Vec<Vector3<f64>>) {
+    let (Some(last), Some(first_end), Some(first_interval)) =
+        (from.ends.last(), from.ends.first(), from.intervals.first())
+    else {
+        return (0..0, Vec::new());
+    };
+    let start = first_end - first_interval;
+    let slack = ROUNDING * from.summary.nominal_interval;
+    let begins = |index: usize| onto.ends[index] - onto.intervals[index];
+    let first = (0..onto.ends.len()).find(|&index| begins(index) >= start - slack);
+    let first = first.unwrap_or(onto.ends.len());
+    let end = onto.ends.partition_point(|end| *end <= last + slack).max(first);
+    let mut divided = Vec::with_capacity(end - first);
+    let mut place = 0;
+    for index in first..end {
+        let (begin, end) = (begins(index).max(start), onto.ends[index].min(*last));
+        while place + 1 < from.ends.len() && from.ends[place] <= begin {
+            place += 1;
+        }
+        let mut sum = Vector3::zeros();
+        let mut other = place;
+        while other < from.ends.len() {
+            let (from_end, interval) = (from.ends[other], from.intervals[other]);
+            let overlap = end.min(from_end) - begin.max(from_end - interval);
+            if overlap > 0.0 {
+                sum += increments[other] * (overlap / interval);
+            }
+            if from_end >= end {
+                break;
+            }
+            other += 1;
+        }
+        divided.push(sum);
+    }
+    (first..end, divided)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::redivide;
+    use crate::log::clock::Clock;
+    use crate::log::summary::LogSummary;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+    use rins_testing::assert_close;
+
+    /// Intervals one after another from `start`.
+    fn clock(start: f64, intervals: Vec<f64>) -> Clock {
+        let mut end = start;
+        let ends = intervals.iter().map(|interval| {
+            end += interval;
+            end
+        });
+        let ends: Vec<f64> = ends.collect();
+        let summary = LogSummary::even(ends.len(), intervals[0]);
+        Clock { ends, intervals, summary }
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_divided_is_not_lost(
+            from in prop::collection::vec((0.5..1.5_f64, -1.0..1.0_f64), 1..40),
+            onto in prop::collection::vec(0.2..3.0_f64, 1..40),
+            start in -3.0..3.0_f64,
+        ) {
+            let increments: Vec<Vector3<f64>> =
+                from.iter().map(|(_, value)| Vector3::new(*value, -value, 1.0)).collect();
+            let from = clock(0.0, from.iter().map(|(interval, _)| *interval).collect());
+            let onto = clock(start, onto);
+            let (range, divided) = redivide(&from, &increments, &onto);
+            prop_assert_eq!(range.len(), divided.len());
+            prop_assume!(!range.is_empty());
+            // The sum over the common time is that of the whole less what sticks out.
+            let begin = onto.ends[range.start] - onto.intervals[range.start];
+            let end = onto.ends[range.end - 1];
+            let up_to = |time: f64| -> Vector3<f64> {
+                let mut sum = Vector3::zeros();
+                for (index, increment) in increments.iter().enumerate() {
+                    let begin = from.ends[index] - from.intervals[index];
+                    let part = ((time - begin) / from.intervals[index]).clamp(0.0, 1.0);
+                    sum += increment * part;
+                }
+                sum
+            };
+            let sum: Vector3<f64> = divided.iter().sum();
+            prop_assert!((sum - (up_to(end) - up_to(begin))).norm() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn a_clock_that_ticks_at_the_same_time_changes_nothing() {
+        let clock = clock(0.0, vec![0.25; 8]);
+        let increments: Vec<Vector3<f64>> =
+            (0..8).map(|value| Vector3::repeat(f64::from(value))).collect();
+        assert_eq!(redivide(&clock, &increments, &clock), (0..8, increments));
+    }
+
+    #[test]
+    fn a_constant_rate_stays_one() {
+        let (from, onto) = (clock(0.0, vec![0.3; 20]), clock(0.1, vec![0.25; 40]));
+        let (range, divided) = redivide(&from, &[Vector3::repeat(0.6); 20], &onto);
+        // The one ends after 6 s, and the other reaches 5.85 s in 23 intervals.
+        assert_eq!(range, 0..23);
+        for increment in divided {
+            assert_close!(increment.x, 0.5, 1e-12);
+        }
+    }
+}

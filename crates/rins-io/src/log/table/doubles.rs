@@ -1,0 +1,62 @@
+//! Rows of little-endian doubles, one after another without a header.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::Path;
+
+use super::{Columns, Wanted, typed};
+use crate::error::{IoError, LogError};
+use crate::log::problem::LogProblem;
+
+/// Reads columns, named by their places from "1", of the file at `path` whose rows have `count`
+/// doubles.
+pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    let failed = || IoError::file("read", path);
+    let mut reader = BufReader::with_capacity(1 << 16, File::open(path).map_err(failed())?);
+    let Wanted { names, time } = wanted;
+    let present: Vec<String> = (1..=count).map(|place| place.to_string()).collect();
+    let place =
+        |name: &str| super::place(name, &present).map_err(|problem| LogError::of(path, problem));
+    let places = names.iter().map(|name| place(name)).collect::<Result<Vec<_>, _>>()?;
+    let time_place = time.as_ref().map(|(name, _)| place(name)).transpose()?;
+    let mut numbers = vec![Vec::new(); names.len()];
+    let mut stamps = Vec::new();
+    let mut row = vec![0; count * size_of::<f64>()];
+    let mut rows = 0_u64;
+    while fill(&mut reader, &mut row)
+        .map_err(failed())?
+        .ok_or_else(|| LogError::at(path, rows + 1, LogProblem::PartOfARow { bytes: row.len() }))?
+    {
+        let number = |place: usize| {
+            let bytes = row[place * 8..][..8].try_into().expect("a double has eight bytes");
+            f64::from_le_bytes(bytes)
+        };
+        for (list, place) in numbers.iter_mut().zip(&places) {
+            list.push(number(*place));
+        }
+        stamps.extend(time_place.map(number));
+        rows += 1;
+    }
+    if rows == 0 {
+        return Err(LogError::of(path, LogProblem::Empty));
+    }
+    let time = time.map(|(name, instants)| {
+        (name, stamps.into_iter().map(|stamp| instants.of_number(stamp)).collect())
+    });
+    typed::together(path, names, numbers, time)
+}
+
+/// Fills `row`: true if it did, false at the end, nothing if there was only a part of a row.
+fn fill(reader: &mut impl Read, row: &mut [u8]) -> std::io::Result<Option<bool>> {
+    let mut filled = 0;
+    while filled < row.len() {
+        match reader.read(&mut row[filled..]) {
+            Ok(0) if filled == 0 => return Ok(Some(false)),
+            Ok(0) => return Ok(None),
+            Ok(read) => filled += read,
+            Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(Some(true))
+}

@@ -1,0 +1,83 @@
+//! Columns of numbers, picked by name or number from a log of any format.
+
+mod doubles;
+mod mat;
+mod novatel;
+mod parquet;
+mod text;
+mod typed;
+
+use std::path::Path;
+
+pub(crate) use text::Head;
+pub use text::{LogHead, peek};
+
+use super::instant::Instants;
+use super::problem::LogProblem;
+use crate::error::IoError;
+use crate::rig::Table;
+use crate::section::quoted;
+use crate::suggestion::nearest;
+
+/// The most columns that are read.
+const MOST_COLUMNS: usize = 4096;
+
+/// The most columns that an error lists.
+const MOST_LISTED: usize = 30;
+
+/// The numbers of some columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Columns {
+    /// The time stamps \[s\], if time was asked for.
+    pub(super) time: Vec<f64>,
+    /// The numbers of each column that was asked for.
+    pub(super) numbers: Vec<Vec<f64>>,
+    /// The line of each row; its number from 1 where a log has no lines.
+    pub(super) lines: Vec<u64>,
+    /// The lines that repeat, time stamp and all, the one before them.
+    pub(super) repeated: Vec<u64>,
+}
+
+/// What of a log is asked for: columns by name, and perhaps one of time stamps.
+pub(super) struct Wanted<'w> {
+    pub(super) names: &'w [&'w str],
+    pub(super) time: Option<(&'w str, &'w mut Instants)>,
+}
+
+/// Reads the columns that are `wanted` from the log at `path`, which is written as `table`.
+///
+/// # Errors
+/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is not what it is said to be, if
+/// a column is not there, or if one holds anything but finite numbers.
+pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    match table {
+        Table::Text => text::read(path, wanted),
+        Table::Parquet => parquet::read(path, wanted),
+        Table::Mat => mat::read(path, wanted),
+        Table::Doubles(count) => doubles::read(path, count, wanted),
+        Table::NovAtel => novatel::read(path, wanted),
+    }
+}
+
+/// The place of the only one of `names` that is `wanted`.
+fn place(wanted: &str, names: &[String]) -> Result<usize, LogProblem> {
+    let mut found = names.iter().enumerate().filter(|(_, present)| *present == wanted);
+    match (found.next(), found.next()) {
+        (Some((place, _)), None) => Ok(place),
+        (Some(_), Some(_)) => Err(LogProblem::TwoColumns { column: wanted.into() }),
+        (None, _) => Err(LogProblem::NoColumn {
+            column: wanted.into(),
+            suggestion: nearest(wanted, names.iter().map(String::as_str)).map(Into::into),
+            present: listed(names),
+        }),
+    }
+}
+
+/// The columns that there are, in words.
+fn listed(names: &[String]) -> String {
+    let words = quoted(names.iter().take(MOST_LISTED).map(String::as_str));
+    match names.len().checked_sub(MOST_LISTED) {
+        None | Some(0) => words,
+        Some(more) => format!("{words} and {more} more"),
+    }
+}

@@ -1,0 +1,171 @@
+//! NovAtel's RAWIMU logs in ASCII: counts summed over each sample, in an order of their own.
+//!
+//! ‹novatel-oem7›: after the header come the GNSS week and the seconds into it, the IMU's status, and
+//! the counts along z, −y and x, of velocity first and then of angle. The extended logs begin with a
+//! word of information and the IMU's type.
+
+use std::path::Path;
+
+use super::{Columns, Wanted, place};
+use crate::error::{IoError, LogError};
+use crate::log::lines::Lines;
+use crate::log::problem::LogProblem;
+
+/// The columns that there are, in the order of the log.
+pub(crate) const COUNTS: [&str; 6] =
+    ["accel_z", "accel_y", "accel_x", "gyro_z", "gyro_y", "gyro_x"];
+
+/// What stands for the sign in the log: y counts backwards.
+const SIGNS: [f64; 6] = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
+
+const SECONDS_OF_A_WEEK: i64 = 604_800;
+
+/// The most weeks that a log may count: some 190 years.
+const MOST_WEEKS: i64 = 10_000;
+
+/// The longest checksum.
+const CHECKSUM_DIGITS: usize = 8;
+
+/// Reads columns of the RAWIMU, RAWIMUS, RAWIMUX and RAWIMUSX messages of the log at `path`. Other
+/// messages are passed over.
+pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    let Wanted { names, mut time } = wanted;
+    let present = COUNTS.map(String::from);
+    let places = names.iter().map(|name| place(name, &present)).collect::<Result<Vec<_>, _>>();
+    let places = places.map_err(|problem| LogError::of(path, problem))?;
+    let mut lines = Lines::messages(path)?;
+    let mut columns = Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() };
+    let mut any = false;
+    let mut before = String::new();
+    while let Some((line, text)) = lines.next()? {
+        any = true;
+        let refuse = |problem| LogError::at(path, line, problem);
+        let Some(message) = Message::of(text.trim_end()).map_err(refuse)? else { continue };
+        if message.body == before {
+            columns.repeated.push(line);
+            continue;
+        }
+        before.clear();
+        before.push_str(message.body);
+        let (counts, week, seconds) = message.fields().map_err(refuse)?;
+        if let Some((_, instants)) = &mut time {
+            let stamp = instants.of_sum(week * SECONDS_OF_A_WEEK, seconds);
+            let stamp = stamp.filter(|stamp| stamp.is_finite());
+            columns.time.push(stamp.ok_or_else(|| refuse(not_a_number("seconds", seconds)))?);
+        }
+        for (list, &place) in columns.numbers.iter_mut().zip(&places) {
+            list.push(counts[place]);
+        }
+        columns.lines.push(line);
+    }
+    match (any, columns.lines.is_empty()) {
+        (_, false) => Ok(columns),
+        (true, true) => Err(LogError::of(path, LogProblem::NoMessages)),
+        (false, true) => Err(LogError::of(path, LogProblem::Empty)),
+    }
+}
+
+/// One message.
+struct Message<'l> {
+    body: &'l str,
+    extended: bool,
+}
+
+impl<'l> Message<'l> {
+    /// `None` if the line holds another message, or none.
+    fn of(line: &'l str) -> Result<Option<Self>, LogProblem> {
+        let Some(text) = line.strip_prefix(['%', '#']) else { return Ok(None) };
+        let name = text.split([',', ';']).next().unwrap_or_default();
+        let extended = match name {
+            "RAWIMUA" | "RAWIMUSA" => false,
+            "RAWIMUXA" | "RAWIMUSXA" => true,
+            _ => return Ok(None),
+        };
+        let Some((content, checksum)) = text.rsplit_once('*') else {
+            return Err(LogProblem::NoChecksum);
+        };
+        let digits = checksum.len() <= CHECKSUM_DIGITS;
+        let stated = u32::from_str_radix(checksum, 16).ok().filter(|_| digits);
+        let found = checksum_of(content.as_bytes());
+        if stated != Some(found) {
+            let stated = checksum.chars().take(40).collect();
+            return Err(LogProblem::Checksum { stated, found });
+        }
+        let Some((_, body)) = content.split_once(';') else {
+            return Err(LogProblem::FieldCount { got: 0, expected: 9 });
+        };
+        Ok(Some(Self { body, extended }))
+    }
+
+    /// The counts along x, y and z as [`COUNTS`] names them, the week, and the seconds into it.
+    fn fields(&self) -> Result<([f64; 6], i64, &'l str), LogProblem> {
+        let fields: Vec<&str> = self.body.split(',').map(str::trim).collect();
+        let first = if self.extended { 2 } else { 0 };
+        if fields.len() != first + 9 {
+            return Err(LogProblem::FieldCount { got: fields.len(), expected: first + 9 });
+        }
+        let week = fields[first].parse().ok().filter(|week| (0..=MOST_WEEKS).contains(week));
+        let week = week.ok_or_else(|| not_a_number("week", fields[first]))?;
+        let mut counts = [0.0; 6];
+        for (place, count) in counts.iter_mut().enumerate() {
+            let text = fields[first + 3 + place];
+            let number: i32 = text.parse().map_err(|_| not_a_number(COUNTS[place], text))?;
+            *count = SIGNS[place] * f64::from(number);
+        }
+        Ok((counts, week, fields[first + 1]))
+    }
+}
+
+fn not_a_number(column: &str, text: &str) -> LogProblem {
+    LogProblem::NotANumber { column: column.into(), text: text.chars().take(40).collect() }
+}
+
+/// The CRC-32 of NovAtel's logs: reflected, from zero, and not inverted at the end.
+fn checksum_of(bytes: &[u8]) -> u32 {
+    bytes.iter().fold(0, |sum, &byte| {
+        (0..8).fold(sum ^ u32::from(byte), |sum, _| {
+            if sum & 1 == 1 { (sum >> 1) ^ 0xEDB8_8320 } else { sum >> 1 }
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COUNTS, Message};
+
+    /// The examples of NovAtel's manual.
+    const EXAMPLES: [&str; 3] = [
+        "%RAWIMUSA,2209,491612.254;2209,491612.253588,ea5afe00,329303960,-2512321,4410363,309705,607017,-1009773*1fb76c28",
+        "%RAWIMUSXA,2209,491674.014;04,41,2209,491674.013699,ea59fe00,329308016,-2706935,4508389,196192,417138,-1000837*038422a7",
+        "#RAWIMUXA,USB1,0,64.5,FINESTEERING,2209,491740.110,02000020,0dc5,16809;04,41,2209,491740.109817,ea57fe00,329394068,-2396829,4481425,321199,257329,-936077*cf9c035d",
+    ];
+
+    #[test]
+    fn the_manual_s_examples_are_read() {
+        for example in EXAMPLES {
+            let message = Message::of(example).unwrap().unwrap();
+            let (counts, week, seconds) = message.fields().unwrap();
+            assert_eq!((week, &seconds[..3]), (2209, "491"));
+            // On that receiver z is up; y counts backwards in the log.
+            let named = |name| counts[COUNTS.iter().position(|known| *known == name).unwrap()];
+            assert!((329303960.0..329394069.0).contains(&named("accel_z")), "{example}");
+            assert!((2396829.0..2706936.0).contains(&named("accel_y")), "{example}");
+            assert!((-607017.0..=-257329.0).contains(&named("gyro_y")), "{example}");
+            assert!((-1009773.0..=-936077.0).contains(&named("gyro_x")), "{example}");
+        }
+    }
+
+    #[test]
+    fn a_digit_that_has_changed_is_noticed() {
+        for example in EXAMPLES {
+            let changed = example.replacen("3293", "3294", 1);
+            assert!(Message::of(&changed).is_err(), "{changed}");
+        }
+    }
+
+    #[test]
+    fn other_messages_are_passed_over() {
+        assert!(Message::of("#BESTPOSA,COM1,0;SOL_COMPUTED*00000000").unwrap().is_none());
+        assert!(Message::of("free text").unwrap().is_none());
+    }
+}

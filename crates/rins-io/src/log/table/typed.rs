@@ -1,0 +1,99 @@
+//! Columns of a log whose numbers are binary: what holds for all such formats.
+
+use std::path::Path;
+
+use super::Columns;
+use crate::error::{IoError, LogError};
+use crate::log::instant::Instants;
+use crate::log::problem::LogProblem;
+
+/// The rows that any file may have, however small it is.
+const ALWAYS_ROWS: u64 = 1 << 20;
+
+/// The most rows that a file of this length \[bytes\] may have.
+///
+/// Compressed formats can say of a few bytes that they are billions of rows; no sensor that is
+/// alive takes less than a byte to say its seven numbers.
+pub(super) fn most_rows(length: u64) -> u64 {
+    length.max(ALWAYS_ROWS)
+}
+
+/// Time stamps as a file has them.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Numbers {
+    Real(Vec<f64>),
+    Whole(Vec<i64>),
+}
+
+impl Numbers {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Real(numbers) => numbers.len(),
+            Self::Whole(numbers) => numbers.len(),
+        }
+    }
+
+    /// The numbers as such.
+    pub(super) fn plain(self) -> Vec<f64> {
+        match self {
+            Self::Real(numbers) => numbers,
+            Self::Whole(numbers) => numbers.into_iter().map(|number| number as f64).collect(),
+        }
+    }
+
+    /// The numbers as stamps \[s\].
+    pub(super) fn stamps(self, instants: &mut Instants) -> Vec<f64> {
+        match self {
+            Self::Real(numbers) => {
+                numbers.into_iter().map(|number| instants.of_number(number)).collect()
+            }
+            Self::Whole(numbers) => {
+                numbers.into_iter().map(|number| instants.of_integer(number)).collect()
+            }
+        }
+    }
+}
+
+/// Puts columns together, without rows that repeat the one before them.
+///
+/// # Errors
+/// [`IoError::Log`] if there are no rows, or a number is not finite.
+pub(super) fn together(
+    path: &Path,
+    names: &[&str],
+    numbers: Vec<Vec<f64>>,
+    time: Option<(&str, Vec<f64>)>,
+) -> Result<Columns, IoError> {
+    let rows = numbers.first().map_or(0, Vec::len);
+    if rows == 0 {
+        return Err(LogError::of(path, LogProblem::OnlyHeader));
+    }
+    let of_time = time.iter().map(|(name, list)| (*name, list));
+    for (name, list) in names.iter().copied().zip(&numbers).chain(of_time) {
+        if let Some(row) = list.iter().position(|number| !number.is_finite()) {
+            let (column, text) = (name.into(), list[row].to_string());
+            let problem = LogProblem::NotFinite { column, text };
+            return Err(LogError::at(path, row as u64 + 1, problem));
+        }
+    }
+    let timed = time.is_some();
+    let time = time.map_or_else(Vec::new, |(_, list)| list);
+    let mut columns = Columns { time, numbers, lines: Vec::new(), repeated: Vec::new() };
+    let same = |columns: &Columns, row: usize| {
+        let mut lists = columns.numbers.iter().chain(std::iter::once(&columns.time));
+        lists.all(|list| list[row].to_bits() == list[row - 1].to_bits())
+    };
+    // Without a time stamp a row that is repeated may well be two samples.
+    let kept: Vec<bool> = (0..rows).map(|row| !timed || row == 0 || !same(&columns, row)).collect();
+    for (row, kept) in kept.iter().enumerate() {
+        let lines = if *kept { &mut columns.lines } else { &mut columns.repeated };
+        lines.push(row as u64 + 1);
+    }
+    if !columns.repeated.is_empty() {
+        for list in columns.numbers.iter_mut().chain(std::iter::once(&mut columns.time)) {
+            let mut kept = kept.iter();
+            list.retain(|_| kept.next().copied().unwrap_or_default());
+        }
+    }
+    Ok(columns)
+}
