@@ -153,9 +153,16 @@ impl Head {
         }
         let is_word = |field: &String| field.parse::<f64>().is_err();
         if opening.iter().filter(|field| is_word(field)).count() * 2 >= count {
-            // Below their names some columns have their units.
-            let units = |(_, text): &(u64, String)| fields(text).iter().all(is_word);
-            if second.as_ref().is_some_and(|second| units(second) && !second.1.is_empty()) {
+            // Below their names some columns have their units; a number that is miswritten is none.
+            let is_unit = |field: &String| {
+                is_word(field)
+                    && !field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l))
+            };
+            let units = |(_, text): &(u64, String)| {
+                let fields = fields(text);
+                fields.len() == count && fields.iter().all(|f| f.is_empty() || is_unit(f))
+            };
+            if second.as_ref().is_some_and(units) {
                 second = lines.next()?.map(owned);
             }
             let rows = second.into_iter().collect();
