@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use rins_io::Overwrite;
+use rins_io::{LogFile, Overwrite};
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
 ///
@@ -36,6 +36,8 @@ pub(crate) enum Command {
     Init(Init),
     /// Write a measured-looking run (run.csv, rig.toml, truth.json) from a scenario
     Simulate(Simulate),
+    /// Write a log in another format, with the rig file that reads it
+    Convert(Convert),
     /// Say what is in a run: rate, gaps, rest, gravity, Earth rate, suspected mistakes
     Check(Input),
     /// Find the attitude from a rest: level from gravity, north from the Earth's rotation
@@ -72,6 +74,51 @@ pub(crate) struct Simulate {
     /// Use this seed in place of the scenario's
     #[arg(long)]
     pub(crate) seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Convert {
+    /// The rig file
+    pub(crate) rig: PathBuf,
+    /// The new log; its rig file lies beside it and ends in .toml
+    #[arg(short, long, value_name = "LOG")]
+    pub(crate) output: PathBuf,
+    /// How to write it; by default .csv, .parquet, .mat, .imu (psins) and .bin (psins-bin) tell
+    #[arg(long, value_enum)]
+    pub(crate) format: Option<Format>,
+}
+
+/// The formats that logs are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Text with a header
+    Csv,
+    /// A Parquet file
+    Parquet,
+    /// MATLAB level 5 matrices
+    Mat,
+    /// A PSINS text log
+    Psins,
+    /// PSINS' rows [wm vm t] of doubles
+    PsinsBin,
+    /// KF-GINS' text
+    KfGins,
+    /// The text of EuRoC and Kalibr
+    Euroc,
+}
+
+impl From<Format> for LogFile {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Csv => Self::Csv,
+            Format::Parquet => Self::Parquet,
+            Format::Mat => Self::Mat,
+            Format::Psins => Self::Psins,
+            Format::PsinsBin => Self::PsinsBinary,
+            Format::KfGins => Self::KfGins,
+            Format::Euroc => Self::Euroc,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -115,6 +162,8 @@ impl Command {
             Self::Demo(demo) => Some(&demo.output),
             Self::Init(init) => init.output.as_deref(),
             Self::Simulate(simulate) => Some(&simulate.output),
+            // It writes its two files itself, once it has read them.
+            Self::Convert(_) => None,
             Self::Check(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.input.output.as_deref(),

@@ -17,7 +17,7 @@ mod view;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let delivered = run(&arguments.command).and_then(|outcome| deliver(&arguments, &outcome));
+    let delivered = run(&arguments).and_then(|outcome| deliver(&arguments, &outcome));
     match delivered {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -27,11 +27,12 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: &Command) -> anyhow::Result<Outcome> {
-    match command {
+fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    match &arguments.command {
         Command::Demo(demo) => commands::demo::run(demo),
         Command::Init(init) => commands::init::run(init),
         Command::Simulate(simulate) => commands::simulate::run(simulate),
+        Command::Convert(convert) => commands::convert::run(convert, arguments.overwrite()),
         Command::Check(input) => commands::check::run(&input.rig),
         Command::Align(input) => commands::align::run(&input.rig),
         Command::Navigate(navigate) => commands::navigate::run(navigate),

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::log::LogProblem;
 use crate::output::OutputProblem;
 use crate::quantity::{QuantityError, did_you_mean};
+use crate::write::WriteProblem;
 
 /// Why a file could not be read or written.
 ///
@@ -30,6 +31,14 @@ pub enum IoError {
     /// A log says something wrong.
     #[error(transparent)]
     Log(#[from] Box<LogError>),
+    /// A recording cannot be written in a format.
+    #[error("{}: {problem}", .path.display())]
+    Write {
+        /// The log that was to be written.
+        path: PathBuf,
+        /// Why it was not.
+        problem: WriteProblem,
+    },
     /// A result cannot be put where it should go.
     #[error("{}: {problem}", .path.display())]
     Output {

@@ -31,6 +31,7 @@ mod run;
 mod scenario;
 mod section;
 mod suggestion;
+mod write;
 
 pub use calibration::Calibration;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
@@ -39,7 +40,7 @@ pub use log::{
     Delimiter, Gap, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, PsinsHeader, Redivided,
     peek, read, read_log,
 };
-pub use output::{OutputProblem, Overwrite, write_file, write_folder};
+pub use output::{OutputProblem, Overwrite, write_file, write_files, write_folder};
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
@@ -47,8 +48,11 @@ pub use rig::{
     Rig, ScaledColumn, Stamp, Table, TableSpec, TemperatureColumn, TimeColumn, TimeUnit,
     TriadColumns,
 };
-pub use run::{truth_json, write_recording};
+pub use run::truth_json;
 pub use scenario::ScenarioFile;
+pub use write::{
+    Converted, Difference, LogFile, WriteProblem, convert, write_log, write_recording,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

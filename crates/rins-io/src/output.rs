@@ -42,6 +42,9 @@ pub enum OutputProblem {
         /// What should be.
         expected: &'static str,
     },
+    /// It is one of the files that are read.
+    #[error("is read by the conversion itself; choose another name")]
+    IsInput,
     /// The path does not end in a name.
     #[error("does not end in the name of a file or folder")]
     NoName,
@@ -77,16 +80,7 @@ pub fn write_file(
     write: impl FnOnce(&mut dyn Write) -> Result<(), IoError>,
 ) -> Result<(), IoError> {
     let (parent, name) = split(path)?;
-    match fs::symlink_metadata(path) {
-        Ok(found) if found.is_dir() => {
-            let (found, expected) = ("a folder", "a file");
-            return Err(refuse(path, OutputProblem::WrongType { found, expected }));
-        }
-        Ok(_) if overwrite == Overwrite::Refuse => {
-            return Err(refuse(path, OutputProblem::Exists));
-        }
-        _ => {}
-    }
+    refuse_existing(path, overwrite)?;
     let failed = || IoError::file("write", path);
     let temporary = builder(&hidden(name), 0o666).tempfile_in(parent).map_err(failed())?;
     let mut buffered = BufWriter::new(temporary);
@@ -102,6 +96,50 @@ pub fn write_file(
         _ => failed()(error.error),
     })?;
     synchronise(parent).map_err(failed())
+}
+
+/// Writes files that belong together into one folder, each whole or not at all.
+///
+/// `fill` is given a temporary folder beside them, into which it puts files of the same names. They
+/// are synchronised with the disk, and renamed one after the other.
+///
+/// # Errors
+/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
+/// system refuses, or what `fill` returns. Nothing has then changed, unless the system refuses
+/// between one rename and the next.
+pub fn write_files(
+    paths: &[&Path],
+    overwrite: Overwrite,
+    fill: impl FnOnce(&Path) -> Result<(), IoError>,
+) -> Result<(), IoError> {
+    let Some((first, _)) = paths.split_first() else { return Ok(()) };
+    let (parent, name) = split(first)?;
+    for path in paths {
+        refuse_existing(path, overwrite)?;
+    }
+    let failed = |path: &Path| IoError::file("write", path);
+    let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed(first))?;
+    fill(staging.path())?;
+    synchronise_all(staging.path()).map_err(failed(first))?;
+    for path in paths {
+        // Whatever has come in between is not replaced either.
+        refuse_existing(path, overwrite)?;
+        let staged = staging.path().join(split(path)?.1);
+        fs::rename(staged, path).map_err(failed(path))?;
+    }
+    synchronise(parent).map_err(failed(first))
+}
+
+/// Refuses to put a file where something is that must not be replaced.
+fn refuse_existing(path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_dir() => {
+            let (found, expected) = ("a folder", "a file");
+            Err(refuse(path, OutputProblem::WrongType { found, expected }))
+        }
+        Ok(_) if overwrite == Overwrite::Refuse => Err(refuse(path, OutputProblem::Exists)),
+        _ => Ok(()),
+    }
 }
 
 /// Writes the folder at `path`, whole or not at all.

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 8] =
-    ["", "demo", "init", "simulate", "check", "align", "navigate", "calibrate"];
+const COMMANDS: [&str; 9] =
+    ["", "demo", "init", "simulate", "convert", "check", "align", "navigate", "calibrate"];
 
 fn snapshot(command: &str) -> PathBuf {
     let name = if command.is_empty() { "rins" } else { command };

@@ -2,8 +2,10 @@
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod bad_input;
+mod convert;
 mod demo;
 mod help;
+mod interrupted;
 mod measured;
 mod round_trip;
 mod support;

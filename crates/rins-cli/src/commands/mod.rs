@@ -3,6 +3,7 @@
 pub(crate) mod align;
 pub(crate) mod calibrate;
 pub(crate) mod check;
+pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod init;
 pub(crate) mod navigate;

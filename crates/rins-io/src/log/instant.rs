@@ -10,15 +10,19 @@ const DECIMALS: i32 = 12;
 /// Reads time stamps in one unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Instants {
-    /// One unit \[s\].
-    unit: f64,
+    /// Units in a second: dividing by a power of ten rounds once, multiplying by its inverse twice.
+    per_second: f64,
     /// From where stamps are counted, in units of 10⁻¹²; `None` until the first is read.
     origin: Option<i128>,
 }
 
 impl Instants {
+    /// Of stamps in units of so many seconds.
     pub(super) fn new(unit: f64) -> Self {
-        Self { unit, origin: None }
+        let per_second = unit.recip();
+        let whole = per_second.round();
+        let is_whole = (per_second - whole).abs() <= 1e-15 * per_second;
+        Self { per_second: if is_whole { whole } else { per_second }, origin: None }
     }
 
     /// The stamp's time after the origin \[s\]; `None` if it is not a number.
@@ -51,8 +55,8 @@ impl Instants {
             return plain;
         }
         let origin = *self.origin.get_or_insert_with(|| match fixed() {
-            Some(stamp) if (plain * self.unit).abs() > LARGEST => {
-                let second = (1.0 / self.unit).round() * 10_f64.powi(DECIMALS);
+            Some(stamp) if (plain / self.per_second).abs() > LARGEST => {
+                let second = self.per_second.round() * 10_f64.powi(DECIMALS);
                 // A second is at most 10²¹ of these units.
                 #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2⁷⁰")]
                 let second = second as i128;
@@ -61,18 +65,18 @@ impl Instants {
             _ => 0,
         });
         if origin == 0 {
-            return plain * self.unit;
+            return plain / self.per_second;
         }
         let scale = 10_f64.powi(DECIMALS);
         match fixed() {
-            Some(stamp) => (stamp - origin) as f64 / scale * self.unit,
-            None => (plain - origin as f64 / scale) * self.unit,
+            Some(stamp) => (stamp - origin) as f64 / (scale * self.per_second),
+            None => (plain - origin as f64 / scale) / self.per_second,
         }
     }
 
     /// The origin \[s\].
     pub(super) fn origin(&self) -> f64 {
-        self.origin.unwrap_or(0) as f64 / 10_f64.powi(DECIMALS) * self.unit
+        self.origin.unwrap_or(0) as f64 / (10_f64.powi(DECIMALS) * self.per_second)
     }
 }
 

@@ -9,6 +9,7 @@
 )]
 
 mod calibration;
+mod convert;
 mod draft;
 mod formats;
 mod log_refusals;

@@ -1,0 +1,216 @@
+//! A log of one format turned into one of another, with the rig file that reads it.
+
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use rins_frames::units::DEG;
+
+use super::compare::{Difference, differences};
+use super::exact::inverted;
+use super::rig_text::{column_keys, figures, matrix_keys, push_table};
+use super::{LogFile, write_log};
+use crate::document::{Document, Entry, Node};
+use crate::error::IoError;
+use crate::log::{Loaded, LogPolicy, read_log};
+use crate::output::{OutputProblem, Overwrite, write_files};
+use crate::rig::{LogFormat, Rig};
+
+/// What became of a conversion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Converted {
+    /// The rig file that reads the new log.
+    pub rig: PathBuf,
+    /// The number of samples.
+    pub samples: usize,
+    /// What the format has no room for.
+    pub left_out: Vec<&'static str>,
+    /// What is not the same, to the last bit, once the new log is read.
+    pub differences: Vec<Difference>,
+    /// What is to be added to the new log's times to have those of the old \[s\].
+    pub time_origin: f64,
+}
+
+/// Writes the log that the rig file at `rig` names anew, to `log` and in this format, and beside it,
+/// with the ending `toml`, the rig file that reads it.
+///
+/// The axes of the new log are the body's, right, front and up, or what its format demands; its z is
+/// the spin axis. The new log is read before it is put in its place, and whatever is not the same to
+/// the last bit is told.
+///
+/// # Errors
+/// [`IoError`] if the run cannot be read, if the format cannot hold it, or if the files cannot be put
+/// where they should go. Nothing has then changed.
+pub fn convert(
+    rig: &Path,
+    log: &Path,
+    format: LogFile,
+    overwrite: Overwrite,
+) -> Result<Converted, IoError> {
+    let document = Document::read(rig)?;
+    let loaded = read_log(Rig::read(rig)?, LogPolicy::default())?;
+    let new_rig = log.with_extension("toml");
+    refuse_inputs(&loaded, &[log, &new_rig])?;
+    let (loaded, commanded) = without_commanded(loaded);
+    let description = Description { document: &document, loaded: &loaded, format };
+    let mut least_differences = Vec::new();
+    write_files(&[log, &new_rig], overwrite, |folder| {
+        let name = |path: &Path| PathBuf::from(path.file_name().unwrap_or_default());
+        let (log_name, staged) = (name(log), folder.join(name(&new_rig)));
+        let place = folder.join(&log_name);
+        let file = File::create(&place).map_err(IoError::file("write", log))?;
+        let mut out = BufWriter::with_capacity(1 << 16, file);
+        write_log(&loaded, format, log, &mut out)?;
+        out.into_inner().map_err(|error| IoError::file("write", log)(error.into_error()))?;
+        let mut least: Option<(String, Vec<Difference>)> = None;
+        for rate in description.rates() {
+            let text = description.rig_toml(&log_name.to_string_lossy(), rate);
+            fs::write(&staged, &text).map_err(IoError::file("write", &new_rig))?;
+            let again = Rig::read(&staged).and_then(|rig| read_log(rig, LogPolicy::default()));
+            let again = match (again, &least) {
+                (Ok(again), _) => again,
+                // A rate of another kind is no more than a second try.
+                (Err(_), Some(_)) => continue,
+                (Err(error), None) => return Err(error),
+            };
+            let found =
+                differences(&loaded.recording, &again.recording, commanded.as_deref(), format);
+            if least.as_ref().is_none_or(|(_, before)| found.len() < before.len()) {
+                least = Some((text, found));
+            }
+            if least.as_ref().is_some_and(|(_, found)| found.is_empty()) {
+                break;
+            }
+        }
+        if let Some((text, found)) = least {
+            fs::write(&staged, text).map_err(IoError::file("write", &new_rig))?;
+            least_differences = found;
+        }
+        Ok(())
+    })?;
+    let time_origin = if format == LogFile::Euroc { 0.0 } else { loaded.summary.time_origin };
+    let left_out = description.left_out();
+    let differences = least_differences;
+    Ok(Converted {
+        rig: new_rig,
+        samples: loaded.recording.len(),
+        left_out,
+        differences,
+        time_origin,
+    })
+}
+
+/// Refuses to write over what is read.
+fn refuse_inputs(loaded: &Loaded, outputs: &[&Path]) -> Result<(), IoError> {
+    let mut inputs = vec![loaded.rig.path.as_path(), loaded.rig.log.path.as_path()];
+    if let LogFormat::Columns(columns) = &loaded.rig.log.format {
+        inputs.extend([columns.gyro.path.as_path(), columns.accel.path.as_path()]);
+        let temperature = columns.temperature.as_ref().and_then(|column| column.file.as_ref());
+        inputs.extend(temperature.map(|(path, _)| path.as_path()));
+    }
+    let inputs: Vec<PathBuf> = inputs.iter().filter_map(|path| path.canonicalize().ok()).collect();
+    for output in outputs {
+        if output.canonicalize().is_ok_and(|output| inputs.contains(&output)) {
+            let problem = OutputProblem::IsInput;
+            return Err(IoError::Output { path: output.to_path_buf(), problem });
+        }
+    }
+    Ok(())
+}
+
+/// The run without rates that its rig file's profile tells again, and these.
+fn without_commanded(mut loaded: Loaded) -> (Loaded, Option<Vec<f64>>) {
+    let measured = match &loaded.rig.log.format {
+        LogFormat::Columns(columns) => columns.table_rate.is_some(),
+        LogFormat::Psins => false,
+    };
+    // A profile begins with its log, from which something may have been cut.
+    let whole = loaded.summary.redivided.is_none_or(|redivided| redivided.late <= 0.0);
+    let commanded = if measured || !whole { None } else { loaded.recording.table_rate.take() };
+    (loaded, commanded)
+}
+
+/// A run, and what of it a new rig file says.
+struct Description<'d> {
+    document: &'d Document,
+    loaded: &'d Loaded,
+    format: LogFile,
+}
+
+impl Description<'_> {
+    /// The rates that the new rig file may state, so that the first interval is what it was \[Hz\].
+    fn rates(&self) -> Vec<Option<f64>> {
+        let first = self.loaded.recording.increments.first().map(|sample| sample.interval);
+        let of_first = first.and_then(|interval| inverted(interval, 1.0 / interval, f64::recip));
+        let stated = self.loaded.rig.log.rate;
+        let mut rates = vec![stated, None, of_first];
+        rates.dedup();
+        rates
+    }
+
+    fn left_out(&self) -> Vec<&'static str> {
+        if self.format.holds_more_than_the_imu() {
+            return Vec::new();
+        }
+        super::signals::others(&self.loaded.recording).into_iter().map(|(name, _)| name).collect()
+    }
+
+    fn rig_toml(&self, log_name: &str, rate: Option<f64>) -> String {
+        let Self { document, loaded, .. } = self;
+        let mut text = String::from("# Written by `rins convert`.\n");
+        if loaded.rig.station.is_none() {
+            let site = loaded.station.site;
+            let angle = |angle: f64| match inverted(angle, angle / DEG, |degrees| degrees * DEG) {
+                Some(degrees) => format!("{degrees} deg"),
+                None => format!("{angle} rad"),
+            };
+            let (latitude, longitude) = (angle(site.latitude), angle(site.longitude));
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "\n[site]\nlatitude = \"{latitude}\"\nlongitude = \"{longitude}\"\nheight = \"{} m\"",
+                site.height
+            );
+        }
+        let profile_is_void =
+            loaded.summary.redivided.is_some_and(|redivided| redivided.late > 0.0);
+        for Entry { key, value, .. } in &document.root {
+            match (key.as_str(), &value.node) {
+                // The new log's z is the spin axis.
+                ("axis", _) => {}
+                ("log", Node::Table(entries)) => {
+                    let angle = entries.iter().find(|entry| entry.key == "table_angle");
+                    let angle = angle.map_or_else(String::new, |entry| figures(&entry.value));
+                    text.push_str(&self.log_keys(log_name, rate, &angle));
+                }
+                ("table", Node::Table(entries)) if profile_is_void => {
+                    let kept: Vec<Entry> =
+                        entries.iter().filter(|entry| entry.key == "wobble").cloned().collect();
+                    push_table(&mut text, "table", &kept);
+                }
+                (key, Node::Table(entries)) => push_table(&mut text, key, entries),
+                _ => {}
+            }
+        }
+        text
+    }
+
+    fn log_keys(&self, log_name: &str, rate: Option<f64>, angle: &str) -> String {
+        let recording = &self.loaded.recording;
+        let mut keys = format!("\n[log]\npath = {log_name:?}\nformat = {:?}\n", self.format.name());
+        if let Some(rate) = rate {
+            let _ = writeln!(keys, "rate = \"{rate} Hz\"");
+        }
+        match self.format {
+            LogFile::Csv | LogFile::Parquet => keys.push_str(&column_keys(recording, angle)),
+            LogFile::Mat => keys.push_str(&matrix_keys(recording, angle)),
+            _ => {}
+        }
+        let holds_rates = self.format == LogFile::Euroc;
+        if !(self.loaded.summary.gaps.is_empty() || holds_rates || self.format == LogFile::Psins) {
+            keys.push_str("gaps = \"accumulated\"\n");
+        }
+        keys
+    }
+}

@@ -1,0 +1,177 @@
+//! Recordings written as the logs that other software reads, with the rig file that reads them.
+
+mod compare;
+mod convert;
+mod csv;
+mod doubles;
+mod euroc;
+mod exact;
+mod kf_gins;
+mod mat;
+mod parquet;
+mod psins;
+pub(crate) mod rig_text;
+mod signals;
+
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+pub use compare::Difference;
+pub use convert::{Converted, convert};
+pub use csv::write_recording;
+
+use crate::error::IoError;
+use crate::log::Loaded;
+
+/// A format that logs are written in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LogFile {
+    /// Text with a header, in SI units and radians.
+    Csv,
+    /// A Parquet file with the same columns.
+    Parquet,
+    /// A MATLAB level 5 file with the vector `time` and the matrices `gyro` and `accel`.
+    Mat,
+    /// A PSINS text log.
+    Psins,
+    /// PSINS' rows `[wm vm t]` of doubles.
+    PsinsBinary,
+    /// KF-GINS' text.
+    KfGins,
+    /// The EuRoC data set's text, which is Kalibr's too.
+    Euroc,
+}
+
+impl LogFile {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Csv,
+        Self::Parquet,
+        Self::Mat,
+        Self::Psins,
+        Self::PsinsBinary,
+        Self::KfGins,
+        Self::Euroc,
+    ];
+
+    /// How a rig file calls it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Parquet => "parquet",
+            Self::Mat => "mat",
+            Self::Psins => "psins",
+            Self::PsinsBinary => "psins-bin",
+            Self::KfGins => "kf-gins",
+            Self::Euroc => "euroc",
+        }
+    }
+
+    /// The format that a rig file calls `name`.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+
+    /// The format that a file's name tells; `None` if it could be of several.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension().map(OsStr::to_ascii_lowercase);
+        match ending.as_ref().and_then(|ending| ending.to_str())? {
+            "csv" => Some(Self::Csv),
+            "parquet" => Some(Self::Parquet),
+            "mat" => Some(Self::Mat),
+            "imu" => Some(Self::Psins),
+            "bin" => Some(Self::PsinsBinary),
+            _ => None,
+        }
+    }
+
+    /// Whether it has room for a table's angle or rate, and for a temperature.
+    pub const fn holds_more_than_the_imu(self) -> bool {
+        matches!(self, Self::Csv | Self::Parquet | Self::Mat)
+    }
+}
+
+/// Why a recording cannot be written in a format.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteProblem {
+    /// The format has no time column.
+    #[error(
+        "a psins log has no time column, and sample {sample} is {off:e} s away from even steps of \
+         {interval} s; choose another format"
+    )]
+    Uneven {
+        /// The sample, from 1.
+        sample: usize,
+        /// How far its time is from where it should be \[s\].
+        off: f64,
+        /// The interval \[s\].
+        interval: f64,
+    },
+    /// The format cannot say so much.
+    #[error("{what} cannot be written in {format}: {why}")]
+    TooMuch {
+        /// What cannot be written.
+        what: &'static str,
+        /// The format.
+        format: &'static str,
+        /// Why not.
+        why: &'static str,
+    },
+    /// The encoder refuses.
+    #[error("cannot be written as {format}: {message}")]
+    Encoder {
+        /// The format.
+        format: &'static str,
+        /// What it says.
+        message: String,
+    },
+}
+
+/// Why writing has failed, before the file is known.
+enum Failure {
+    System(std::io::Error),
+    Problem(WriteProblem),
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Self::System(error)
+    }
+}
+
+impl From<WriteProblem> for Failure {
+    fn from(problem: WriteProblem) -> Self {
+        Self::Problem(problem)
+    }
+}
+
+/// Writes what was recorded as a log of this format.
+///
+/// Every number is written such that it is read as the same, where the format can hold it.
+///
+/// # Errors
+/// [`IoError::Write`] if the format cannot hold it, [`IoError::File`] if the system refuses.
+pub fn write_log(
+    loaded: &Loaded,
+    format: LogFile,
+    path: &Path,
+    out: &mut (dyn Write + Send),
+) -> Result<(), IoError> {
+    let recording = &loaded.recording;
+    let done = match format {
+        LogFile::Csv => write_recording(recording, out).map_err(Failure::from),
+        LogFile::Parquet => parquet::write(recording, out),
+        LogFile::Mat => mat::write(recording, out),
+        LogFile::Psins => psins::write(loaded, out),
+        LogFile::PsinsBinary => doubles::write(recording, out).map_err(Failure::from),
+        LogFile::KfGins => kf_gins::write(recording, out).map_err(Failure::from),
+        LogFile::Euroc => euroc::write(loaded, out),
+    };
+    done.map_err(|failure| match failure {
+        Failure::System(source) => IoError::file("write", path)(source),
+        Failure::Problem(problem) => IoError::Write { path: PathBuf::from(path), problem },
+    })
+}
