@@ -1,10 +1,12 @@
 //! What a command found, and how it is delivered.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
-use rins_io::{IoError, Overwrite, write_file, write_folder};
+use rins_io::{IoError, Loaded, Overwrite, write_file, write_folder};
 use serde_json::Value;
 
+use crate::commands::repairs::repairs;
 use crate::report::{Report, render};
 
 /// Writes further files into the folder that it is given.
@@ -30,6 +32,21 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
+    /// The same with what reading the log has repaired or left out, so that no result is without.
+    #[must_use]
+    pub(crate) fn of_log(mut self, loaded: &Loaded) -> Self {
+        let repairs = repairs(&loaded.rig, &loaded.summary);
+        for repair in &repairs {
+            // Writing to a string cannot fail.
+            let _ = writeln!(self.text, "  ! {repair}");
+        }
+        if let Some(report) = &mut self.report {
+            report.summary.extend(repairs.iter().cloned());
+        }
+        self.json["repairs"] = repairs.into();
+        self
+    }
+
     /// Writes `result.json`, `report.html` and the further files into a folder, all or none; or the
     /// one file that is the result.
     ///

@@ -37,8 +37,8 @@ pub use calibration::Calibration;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{
-    Delimiter, Gap, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, PsinsHeader, Redivided,
-    peek, read, read_log,
+    Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
+    PsinsHeader, Redivided, peek, read, read_log,
 };
 pub use output::{OutputProblem, Overwrite, write_file, write_files, write_folder};
 pub use parameter::{Parameter, parameters};

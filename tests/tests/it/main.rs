@@ -7,6 +7,7 @@ mod demo;
 mod help;
 mod interrupted;
 mod measured;
+mod repairs;
 mod round_trip;
 mod support;
 mod synthetic;

@@ -168,7 +168,8 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
         text,
         report: Some(report),
         ..Outcome::default()
-    })
+    }
+    .of_log(&loaded))
 }
 
 /// The rows of the result as a table of the report.

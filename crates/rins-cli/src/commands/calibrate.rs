@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
     let rig = &arguments.input.rig;
     let loaded = load(rig)?;
     let calibration = calibrated(&loaded)?;
-    Ok(outcome(&calibration, &loaded, rig))
+    Ok(outcome(&calibration, &loaded, rig).of_log(&loaded))
 }
 
 /// Calibrates a run, with progress shown.

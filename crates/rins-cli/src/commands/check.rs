@@ -15,6 +15,7 @@ use serde_json::{Value, json};
 use self::oddities::oddities;
 pub(crate) use self::words::suspicion_in_words;
 use crate::commands::align::table;
+use crate::commands::repairs::repairs;
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
 use crate::report::{Item, Plot, Report, Section, Series, Style, Tone};
@@ -361,5 +362,6 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         "expected_gravity_m_s2": loaded.station.gravity,
         "suspicions": suspicions,
         "oddities": oddities,
+        "repairs": repairs(&loaded.rig, &loaded.summary),
     })
 }

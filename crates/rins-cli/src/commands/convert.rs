@@ -6,6 +6,7 @@ use rins_io::{Converted, LogFile, Overwrite, convert};
 use serde_json::{Value, json};
 
 use crate::args::Convert;
+use crate::commands::repairs::repairs;
 use crate::commands::setup::shown;
 use crate::outcome::Outcome;
 
@@ -49,6 +50,9 @@ fn remarks(converted: &Converted) -> Vec<String> {
             difference.signal, difference.numbers, difference.largest
         ));
     }
+    lines.extend(
+        repairs(&converted.old, &converted.summary).into_iter().map(|told| format!("! {told}")),
+    );
     for name in &converted.left_out {
         lines.push(format!("! {name} is left out: the format has no room for it"));
     }
@@ -82,5 +86,6 @@ fn json(converted: &Converted, arguments: &Convert, format: LogFile) -> Value {
         "differences": differences,
         "left_out": converted.left_out,
         "time_origin_s": converted.time_origin,
+        "repairs": repairs(&converted.old, &converted.summary),
     })
 }

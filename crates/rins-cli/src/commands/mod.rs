@@ -7,5 +7,6 @@ pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod init;
 pub(crate) mod navigate;
+pub(crate) mod repairs;
 mod setup;
 pub(crate) mod simulate;

@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
         let compensation = rins_io::Calibration::read(file)?.compensation()?;
         runs.push(("compensated", navigated(&loaded, &start, Some(&compensation))));
     }
-    Ok(outcome(&runs, &start, &loaded, rig))
+    Ok(outcome(&runs, &start, &loaded, rig).of_log(&loaded))
 }
 
 /// Where navigation starts.

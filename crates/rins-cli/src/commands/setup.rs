@@ -5,38 +5,13 @@ use std::path::Path;
 use anyhow::Context;
 use rins_calibration::{AxisAttitude, Setup, TableSpec};
 use rins_io::Loaded;
-use rins_motion::CHANNELS;
-
-/// No sensor reads more than this \[rad/s\] or \[m/s²\], in whatever unit it was declared.
-const BEYOND_REASON: f64 = 1e9;
 
 /// Reads a rig file and the log that it names.
 pub(crate) fn load(rig: &Path) -> anyhow::Result<Loaded> {
     let spinner = indicatif::ProgressBar::new_spinner().with_message("reading");
     let loaded = rins_io::read(rig);
     spinner.finish_and_clear();
-    let loaded = loaded?;
-    refuse_beyond_reason(&loaded)?;
-    Ok(loaded)
-}
-
-/// Refuses finite readings whose squares and sums would not be.
-fn refuse_beyond_reason(loaded: &Loaded) -> anyhow::Result<()> {
-    let recording = &loaded.recording;
-    for (sample, time) in recording.increments.iter().zip(&recording.times) {
-        let rates = sample.rates();
-        let (gyro, accel) = (rates.angular_rate.components(), rates.specific_force.components());
-        for (channel, reading) in gyro.iter().chain(accel.iter()).enumerate() {
-            let unit = if channel < 3 { "rad/s" } else { "m/s^2" };
-            anyhow::ensure!(
-                reading.abs() <= BEYOND_REASON,
-                "{}: {} reads {reading:e} {unit} at {time} s, which no sensor does; check that line and its unit",
-                loaded.rig.log.path.display(),
-                CHANNELS[channel]
-            );
-        }
-    }
-    Ok(())
+    Ok(loaded?)
 }
 
 /// What a rig says of station, table and IMU.

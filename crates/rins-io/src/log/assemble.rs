@@ -5,7 +5,7 @@ use rins_frames::{InFrame, Increments};
 use rins_motion::Recording;
 
 use super::clock::{Clock, Stamps};
-use super::files::{Files, TriadValues};
+use super::files::{Files, OneFile, TriadValues};
 use super::instant::Instants;
 use super::problem::LogProblem;
 use super::redivide::redivide;
@@ -36,7 +36,7 @@ pub(super) fn read(
         Some(interval) if spec.time.is_none() => stamps.counted(interval)?,
         _ => stamps.timed(times, policy)?,
     };
-    clock.summary.repeated.clone_from(&main.columns.repeated);
+    clock.summary.left_out = files.left_out();
     clock.summary.time_origin = files.instants.map_or(0.0, |instants| instants.origin());
     files.compare(clock.summary.nominal_interval)?;
 
@@ -76,7 +76,7 @@ pub(super) fn read(
     let table_angle = match &spec.table_angle {
         Some(column) => {
             let file = files.file(&rig.log.path);
-            let mut angles = file.column(&column.column, column.factor);
+            let mut angles = file.column(&column.column, column.factor, "rad")?;
             unwrap(&mut angles).map_err(|(row, turns)| {
                 let problem = LogProblem::AmbiguousAngle { turns };
                 LogError::at(&file.path, file.columns.lines[row], problem)
@@ -85,21 +85,28 @@ pub(super) fn read(
         }
         None => None,
     };
-    let table_rate = spec.table_rate.as_ref().map(|column| {
-        let mut rates = files.file(&rig.log.path).column(&column.column, column.factor);
-        rates.truncate(kept.end);
-        rates.drain(..kept.start);
-        rates
-    });
+    let table_rate = match &spec.table_rate {
+        Some(column) => {
+            let log = files.file(&rig.log.path);
+            let mut rates = log.column(&column.column, column.factor, "rad/s")?;
+            rates.truncate(kept.end);
+            rates.drain(..kept.start);
+            Some(rates)
+        }
+        None => None,
+    };
     let temperature = match &spec.temperature {
         Some(TemperatureColumn { file: None, column, offset }) => {
-            let mut values = files.file(&rig.log.path).column(column, 1.0);
-            for value in &mut values {
-                *value += offset;
-            }
+            let values = files.file(&rig.log.path).temperatures(column, *offset)?;
             Some(at(&times, &values, &clock.ends))
         }
-        Some(column) => temperature(column, files.instants, &clock.ends)?,
+        Some(column) => {
+            let own = temperature(column, files.instants, &clock.ends)?;
+            own.map(|(file, temperatures)| {
+                clock.summary.left_out.extend(file.left_out());
+                temperatures
+            })
+        }
         None => None,
     };
     let Clock { ends: times, summary, .. } = clock;
@@ -145,19 +152,21 @@ impl Channel<'_> {
     }
 }
 
-/// The temperature at the ends of the intervals, from a file of its own.
+/// The file that holds the temperature, where it is not the log, and what it says at the ends of the
+/// intervals.
 fn temperature(
     TemperatureColumn { file, column, offset }: &TemperatureColumn,
     instants: Option<Instants>,
     ends: &[f64],
-) -> Result<Option<Vec<f64>>, IoError> {
+) -> Result<Option<(OneFile, Vec<f64>)>, IoError> {
     let (Some((path, time)), Some(mut instants)) = (file, instants) else {
         return Ok(None);
     };
     let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)) };
-    let read = table::read(path, Table::of(path), wanted)?;
-    let (times, values) = (&read.time, &read.numbers[0]);
-    for (pair, &line) in times.windows(2).zip(&read.lines[1..]) {
+    let columns = table::read(path, Table::of(path), wanted)?;
+    let file = OneFile { path: path.clone(), names: vec![column.clone()], columns };
+    let (times, values) = (&file.columns.time, file.temperatures(column, *offset)?);
+    for (pair, &line) in times.windows(2).zip(&file.columns.lines[1..]) {
         if pair[1] <= pair[0] {
             let problem = LogProblem::TimeNotIncreasing { before: pair[0], now: pair[1] };
             return Err(LogError::at(path, line, problem));
@@ -173,7 +182,7 @@ fn temperature(
             return Err(LogError::of(path, problem));
         }
         let held = if end < first { values[0] } else { values[values.len() - 1] };
-        temperatures.push(between(times, values, end).unwrap_or(held) + offset);
+        temperatures.push(between(times, &values, end).unwrap_or(held));
     }
-    Ok(Some(temperatures))
+    Ok(Some((file, temperatures)))
 }

@@ -17,6 +17,9 @@ const GAP: f64 = 1.5;
 /// The mean step is taken over those of at most this many medians.
 const MEAN_OVER: f64 = 2.5;
 
+/// The least and the most seconds from one sample to the next that are believed.
+const PACE: (f64, f64) = (1e-7, 1e4);
+
 /// The intervals of a log's samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Clock {
@@ -72,6 +75,11 @@ impl Stamps<'_> {
         self.need_two()?;
         let steps = self.steps(times)?;
         let median = median(&steps);
+        let (least, most) = PACE;
+        if !(least..=most).contains(&median) {
+            let problem = LogProblem::Pace { interval: median, least, most };
+            return Err(LogError::of(self.path, problem));
+        }
         if let Some(nominal) = self.nominal {
             // Missing samples spoil the mean, and coarse time stamps the median.
             let fits = |interval: f64| (interval / nominal - 1.0).abs() <= RATE_WITHIN;
@@ -96,6 +104,13 @@ impl Stamps<'_> {
             Stamp::Middle => times.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect(),
         };
         let gaps = self.gaps(times, &steps, nominal);
+        let lost = gaps.iter().map(|gap| gap.length).sum();
+        let lasting = times[times.len() - 1] - times[0];
+        if lost > policy.largest_loss * lasting {
+            let (count, most) = (gaps.len(), policy.largest_loss);
+            let problem = LogProblem::ManyGaps { count, lost, lasting, most };
+            return Err(LogError::of(self.path, problem));
+        }
         let even = steps.iter().filter(|step| **step <= GAP * nominal);
         let (count, sum) = even.fold((0.0, 0.0), |(count, sum), step| {
             (count + 1.0, sum + (step - nominal) * (step - nominal))

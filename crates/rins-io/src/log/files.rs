@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::clock::{Clock, Stamps};
 use super::instant::Instants;
 use super::problem::LogProblem;
-use super::summary::LogPolicy;
+use super::summary::{LeftOut, LogPolicy};
 use super::table::{self, Columns, Wanted};
 use crate::error::{IoError, LogError};
 use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, TimeUnit, TriadColumns};
@@ -17,6 +17,13 @@ const TOGETHER_WITHIN: f64 = 0.1;
 
 /// How many samples it takes to call a channel stuck.
 const ENOUGH_TO_BE_STUCK: usize = 10;
+
+/// No sensor reads more than this, in SI units or radians: the squares and sums of what is less are
+/// finite, and an angle is still told to a tenth of an arcsecond.
+pub(super) const BEYOND_REASON: f64 = 1e9;
+
+/// The temperatures that there are \[°C\].
+const TEMPERATURES: std::ops::RangeInclusive<f64> = -273.15..=2000.0;
 
 /// The files of a run.
 pub(super) struct Files {
@@ -30,7 +37,7 @@ pub(super) struct Files {
 /// One file, and of its columns those that are asked for.
 pub(super) struct OneFile {
     pub(super) path: PathBuf,
-    names: Vec<String>,
+    pub(super) names: Vec<String>,
     pub(super) columns: Columns,
 }
 
@@ -38,10 +45,51 @@ pub(super) struct OneFile {
 pub(super) type TriadValues = Vec<Vector3<f64>>;
 
 impl OneFile {
-    pub(super) fn column(&self, name: &str, factor: f64) -> Vec<f64> {
+    /// The lines that are no samples.
+    pub(super) fn left_out(&self) -> impl Iterator<Item = LeftOut> {
+        let named = |&(line, reason): &_| LeftOut { path: self.path.clone(), line, reason };
+        self.columns.left_out.iter().map(named)
+    }
+
+    fn numbers(&self, name: &str) -> &[f64] {
         let place = self.names.iter().position(|known| known == name);
-        let numbers = &self.columns.numbers[place.expect("every column in use was asked for")];
-        numbers.iter().map(|number| number * factor).collect()
+        &self.columns.numbers[place.expect("every column in use was asked for")]
+    }
+
+    /// The numbers of a column in units of `factor` times an SI `unit`.
+    pub(super) fn column(
+        &self,
+        name: &str,
+        factor: f64,
+        unit: &'static str,
+    ) -> Result<Vec<f64>, IoError> {
+        let values: Vec<f64> = self.numbers(name).iter().map(|number| number * factor).collect();
+        self.refuse_unless(name, &values, unit, |value| value.abs() <= BEYOND_REASON)?;
+        Ok(values)
+    }
+
+    /// The temperatures \[°C\] of a column that tells them less `offset`.
+    pub(super) fn temperatures(&self, name: &str, offset: f64) -> Result<Vec<f64>, IoError> {
+        let values: Vec<f64> = self.numbers(name).iter().map(|number| number + offset).collect();
+        self.refuse_unless(name, &values, "degC", |value| TEMPERATURES.contains(&value))?;
+        Ok(values)
+    }
+
+    fn refuse_unless(
+        &self,
+        name: &str,
+        values: &[f64],
+        unit: &'static str,
+        reasonable: impl Fn(f64) -> bool,
+    ) -> Result<(), IoError> {
+        match values.iter().position(|value| !reasonable(*value)) {
+            None => Ok(()),
+            Some(row) => {
+                let (column, value) = (name.into(), values[row]);
+                let problem = LogProblem::BeyondReason { column, value, unit };
+                Err(LogError::at(&self.path, self.columns.lines[row], problem))
+            }
+        }
     }
 }
 
@@ -89,6 +137,11 @@ impl Files {
         }
         let accel = spec.accel_clock.as_ref().map(|clock| own_clock(spec, clock, instants));
         Ok(Self { together: files, instants, accel: accel.transpose()? })
+    }
+
+    /// The lines of any of the files that are no samples.
+    pub(super) fn left_out(&self) -> Vec<LeftOut> {
+        self.together.iter().chain(&self.accel).flat_map(OneFile::left_out).collect()
     }
 
     pub(super) fn main(&self) -> &OneFile {
@@ -145,7 +198,7 @@ impl Files {
         let stamps = Stamps { path, lines, stamp, nominal: None };
         // A gap in the one is as long as in the other, however often it is sampled.
         let largest_gap = policy.largest_gap.max(gyro.summary.nominal_interval);
-        stamps.timed(&file.columns.time, LogPolicy { largest_gap }).map(Some)
+        stamps.timed(&file.columns.time, LogPolicy { largest_gap, ..policy }).map(Some)
     }
 }
 
@@ -172,27 +225,36 @@ fn own_clock(
 impl OneFile {
     /// A triad's values in SI units along the sensors' axes, none of them stuck.
     fn triad(&self, spec: &TriadColumns, sensor: &str) -> Result<TriadValues, IoError> {
-        let file = self;
         let (Reading::Rate(factor) | Reading::Increment(factor)) = spec.reading;
-        let mut values = vec![Vector3::zeros(); file.columns.lines.len()];
+        let unit = match (sensor, spec.reading) {
+            ("gyro", Reading::Rate(_)) => "rad/s",
+            ("gyro", Reading::Increment(_)) => "rad",
+            (_, Reading::Rate(_)) => "m/s^2",
+            (_, Reading::Increment(_)) => "m/s",
+        };
+        let mut values = vec![Vector3::zeros(); self.columns.lines.len()];
         let mut stuck = Vec::new();
         for (axis, name) in spec.columns.iter().enumerate() {
-            let numbers = file.column(name, 1.0);
+            let numbers = self.numbers(name);
             let first = numbers[0];
             let moves = numbers.iter().any(|n| n - first != 0.0);
             if numbers.len() >= ENOUGH_TO_BE_STUCK && !moves {
                 let channel = format!("{sensor} {} ({name:?})", ["x", "y", "z"][axis]);
                 stuck.push((channel, first));
             }
-            for (value, number) in values.iter_mut().zip(numbers) {
-                value[axis] = (number - spec.offset[axis]) * spec.scale[axis] * factor;
+            let (offset, scale) = (spec.offset[axis], spec.scale[axis]);
+            let readings: Vec<f64> =
+                numbers.iter().map(|number| (number - offset) * scale * factor).collect();
+            self.refuse_unless(name, &readings, unit, |value| value.abs() <= BEYOND_REASON)?;
+            for (value, reading) in values.iter_mut().zip(readings) {
+                value[axis] = reading;
             }
         }
         // At rest a coarse accelerometer may well say the same all along, but not all three zero.
         let dead = sensor == "gyro" || stuck.len() == 3 && stuck.iter().all(|(_, n)| *n == 0.0);
         match stuck.into_iter().next().filter(|_| dead) {
             Some((channel, value)) => {
-                Err(LogError::of(&file.path, LogProblem::Stuck { channel, value }))
+                Err(LogError::of(&self.path, LogProblem::Stuck { channel, value }))
             }
             None => Ok(values),
         }

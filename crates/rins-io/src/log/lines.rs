@@ -17,6 +17,7 @@ pub(crate) struct Lines<R> {
     path: PathBuf,
     buffer: Vec<u8>,
     number: u64,
+    unfinished: Option<u64>,
     comment: Option<String>,
     /// Whether lines that begin with `#` or `%` are comments.
     commented: bool,
@@ -41,18 +42,25 @@ impl<R: BufRead> Lines<R> {
             path: path.into(),
             buffer: Vec::new(),
             number: 0,
+            unfinished: None,
             comment: None,
             commented: true,
         }
     }
 
     /// The next line's number, from 1, and its text; `None` at the end.
+    ///
+    /// A last line without a line end is not told: what stands there may have been cut short.
     pub(crate) fn next(&mut self) -> Result<Option<(u64, &str)>, IoError> {
         while self.fill()? {
             let text = self.text()?;
             let trimmed = text.trim();
             let comment = trimmed.strip_prefix(['#', '%']).filter(|_| self.commented);
-            if let Some(comment) = comment {
+            if self.unfinished.is_some() {
+                self.unfinished =
+                    self.unfinished.filter(|_| comment.is_none() && !trimmed.is_empty());
+                return Ok(None);
+            } else if let Some(comment) = comment {
                 self.comment = Some(comment.trim().to_string());
             } else if !trimmed.is_empty() {
                 let number = self.number;
@@ -72,6 +80,11 @@ impl<R: BufRead> Lines<R> {
         &self.path
     }
 
+    /// The last line, if it carries something but has no line end.
+    pub(super) fn unfinished(&self) -> Option<u64> {
+        self.unfinished
+    }
+
     /// How many lines there have been.
     pub(super) fn number(&self) -> u64 {
         self.number
@@ -88,6 +101,8 @@ impl<R: BufRead> Lines<R> {
         self.number += 1;
         if self.buffer.last() == Some(&b'\n') {
             self.buffer.pop();
+        } else {
+            self.unfinished = Some(self.number);
         }
         if self.buffer.last() == Some(&b'\r') {
             self.buffer.pop();

@@ -23,7 +23,7 @@ pub(crate) use lines::Lines;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
-pub use summary::{Gap, LogPolicy, LogSummary, Redivided};
+pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided};
 pub(crate) use table::Head;
 pub use table::{LogHead, peek};
 
@@ -61,8 +61,8 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 ///
 /// # Errors
 /// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if it holds anything but finite
-/// numbers in the columns that are asked for, if its times do not increase, have a gap longer than
-/// `policy` accepts or do not fit the stated rate, if a gyro never moves, or if the table angle
+/// numbers in the columns that are asked for, if its times do not increase, have longer gaps or
+/// more of them than `policy` accepts or do not fit the stated rate, if a gyro never moves, or if the table angle
 /// steps by about half a turn.
 pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     let (mut recording, summary, psins_header) = match &rig.log.format {

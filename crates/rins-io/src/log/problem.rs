@@ -82,6 +82,29 @@ pub enum LogProblem {
         /// The field.
         text: String,
     },
+    /// A number is larger than any that is measured.
+    #[error("column {column:?}: {value:e} {unit} is beyond reason; check that line and the unit")]
+    BeyondReason {
+        /// The column.
+        column: String,
+        /// The number in SI units, radians or degrees Celsius.
+        value: f64,
+        /// Which of these.
+        unit: &'static str,
+    },
+    /// Samples follow each other as no log's do.
+    #[error(
+        "samples are {interval:.3e} s apart, expected from {least:e} s to {most:e} s; check the time \
+         column and its unit"
+    )]
+    Pace {
+        /// The median interval \[s\].
+        interval: f64,
+        /// The least that is believed \[s\].
+        least: f64,
+        /// The most \[s\].
+        most: f64,
+    },
     /// A sample counter is not whole.
     #[error("column {column:?}: {count} is not a whole number of samples")]
     PartOfASample {
@@ -107,6 +130,21 @@ pub enum LogProblem {
         after: f64,
         /// The longest that is accepted \[s\].
         largest: f64,
+    },
+    /// The gaps are too much of a log's time.
+    #[error(
+        "{count} gaps are {lost:.6} s of the log's {lasting:.6} s, more than {:.0} %; are its time \
+         stamps those of samples, or of the packets that brought them?", most * 100.0
+    )]
+    ManyGaps {
+        /// How many there are.
+        count: usize,
+        /// How long they are in all \[s\].
+        lost: f64,
+        /// How long the log is \[s\].
+        lasting: f64,
+        /// The largest share that is accepted.
+        most: f64,
     },
     /// Increments are missing, and nothing says what became of them.
     #[error(

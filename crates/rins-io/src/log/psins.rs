@@ -9,9 +9,10 @@ use rins_motion::Recording;
 
 use super::clock::Stamps;
 use super::fields::{Delimiter, Fields};
+use super::files::BEYOND_REASON;
 use super::lines::Lines;
 use super::problem::LogProblem;
-use super::summary::LogSummary;
+use super::summary::{LeftOut, LogSummary, Omission};
 use crate::error::{IoError, LogError};
 use crate::quantity::kinds;
 use crate::rig::{Rig, Stamp};
@@ -87,6 +88,15 @@ pub(super) fn read_from<R: BufRead>(
         let [gx, gy, gz, ax, ay, az] = row;
         let angle = header.angle_scale.component_mul(&Vector3::new(gx, gy, gz));
         let velocity = header.velocity_scale.component_mul(&Vector3::new(ax, ay, az));
+        for (unit, values, names) in
+            [("rad", angle, &NUMBERS[..3]), ("m/s", velocity, &NUMBERS[3..])]
+        {
+            if let Some(axis) = values.iter().position(|value| value.abs() > BEYOND_REASON) {
+                let (column, value) = (names[axis].into(), values[axis]);
+                let problem = LogProblem::BeyondReason { column, value, unit };
+                return Err(LogError::at(&path, lines.number(), problem));
+            }
+        }
         recording.increments.push(Increments {
             angle: InFrame::from_components(gyro_axes.apply(&angle)),
             velocity: InFrame::from_components(accel_axes.apply(&velocity)),
@@ -100,7 +110,12 @@ pub(super) fn read_from<R: BufRead>(
         return Err(LogError::of(&path, problem));
     }
     let stamps = Stamps { path: &path, lines: &numbers_of_lines, stamp: Stamp::End, nominal: None };
-    let clock = stamps.counted(header.interval)?;
+    let mut clock = stamps.counted(header.interval)?;
+    clock.summary.left_out.extend(lines.unfinished().map(|line| LeftOut {
+        path: path.clone(),
+        line,
+        reason: Omission::Unfinished,
+    }));
     recording.times = clock.ends.iter().map(|end| header.start + end).collect();
     Ok((recording, clock.summary, header))
 }
@@ -122,6 +137,7 @@ pub(crate) fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<PsinsHeader, Io
                 (0, -kinds::MOST_LATITUDE, kinds::MOST_LATITUDE, kinds::LATITUDE_RANGE),
                 (1, -360.0, 360.0, "a longitude from -360 to 360 deg"),
                 (2, -1e3, 2e4, "a height from -1000 to 20000 m"),
+                (3, -1e9, 1e9, "a start time from -1e9 to 1e9 s"),
                 (4, 1e-3, 1e6, "an interval of more than 0.001 ms"),
                 (5, 9.7, 9.9, "a gravity from 9.7 to 9.9 m/s^2"),
             ],

@@ -1,5 +1,7 @@
 //! What reading a log has shown.
 
+use std::path::PathBuf;
+
 /// What a log may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogPolicy {
@@ -7,11 +9,13 @@ pub struct LogPolicy {
     ///
     /// Over a shorter one the mean rate of the sample that ends it is held.
     pub largest_gap: f64,
+    /// The largest share of a log's time that its gaps may be.
+    pub largest_loss: f64,
 }
 
 impl Default for LogPolicy {
     fn default() -> Self {
-        Self { largest_gap: 1.0 }
+        Self { largest_gap: 1.0, largest_loss: 0.5 }
     }
 }
 
@@ -26,8 +30,8 @@ pub struct LogSummary {
     pub jitter_rms: f64,
     /// The steps longer than one and a half nominal intervals.
     pub gaps: Vec<Gap>,
-    /// The lines of the log that repeat, time stamp and all, the one before them. They are left out.
-    pub repeated: Vec<u64>,
+    /// The lines that are left out, file by file.
+    pub left_out: Vec<LeftOut>,
     /// What is to be added to a recording's times to have those of the log \[s\]. It is zero
     /// unless the log counts from so long ago that a double would lose nanoseconds.
     pub time_origin: f64,
@@ -46,6 +50,27 @@ pub struct Redivided {
     pub late: f64,
 }
 
+/// A line that is no sample of the recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The file.
+    pub path: PathBuf,
+    /// The line, from 1; the row where a file has no lines.
+    pub line: u64,
+    /// Why it is left out.
+    pub reason: Omission,
+}
+
+/// Why a line is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Omission {
+    /// It repeats, time stamp and all, the one before it, as some loggers do.
+    Repeated,
+    /// It is the last one and has no line end: its last number may be cut short and still be one.
+    Unfinished,
+}
+
 /// A gap in a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
@@ -62,8 +87,8 @@ pub struct Gap {
 impl LogSummary {
     /// Of samples without jitter or gaps.
     pub(super) fn even(samples: usize, nominal_interval: f64) -> Self {
-        let (gaps, repeated) = (Vec::new(), Vec::new());
+        let (gaps, left_out) = (Vec::new(), Vec::new());
         let (jitter_rms, time_origin, redivided) = (0.0, 0.0, None);
-        Self { samples, nominal_interval, jitter_rms, gaps, repeated, time_origin, redivided }
+        Self { samples, nominal_interval, jitter_rms, gaps, left_out, time_origin, redivided }
     }
 }

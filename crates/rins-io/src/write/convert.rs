@@ -13,7 +13,7 @@ use super::rig_text::{column_keys, figures, matrix_keys, push_table};
 use super::{LogFile, write_log};
 use crate::document::{Document, Entry, Node};
 use crate::error::IoError;
-use crate::log::{Loaded, LogPolicy, read_log};
+use crate::log::{Loaded, LogPolicy, LogSummary, read_log};
 use crate::output::{OutputProblem, Overwrite, write_files};
 use crate::rig::{LogFormat, Rig};
 
@@ -22,6 +22,10 @@ use crate::rig::{LogFormat, Rig};
 pub struct Converted {
     /// The rig file that reads the new log.
     pub rig: PathBuf,
+    /// What was read: its rig file ...
+    pub old: Rig,
+    /// ... and what reading it has shown.
+    pub summary: LogSummary,
     /// The number of samples.
     pub samples: usize,
     /// What the format has no room for.
@@ -95,6 +99,8 @@ pub fn convert(
     Ok(Converted {
         rig: new_rig,
         samples: loaded.recording.len(),
+        old: loaded.rig,
+        summary: loaded.summary,
         left_out,
         differences,
         time_origin,

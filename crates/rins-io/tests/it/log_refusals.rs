@@ -43,6 +43,10 @@ const LINES: &[(usize, &str, &str)] = &[
     (17, "0.29,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to 0.29 s, it must increase"),
     (17, "-0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to -0.32 s, it must increase"),
     (41, "3.25,1e-6,1e-6,1e-6,0.1,0.2,9.8,40", "run.csv:41: a gap of 2.470000 s after 0.78 s, more than 1 s; cut the log there"),
+    // Beyond reason.
+    (17, "0.32,1e300,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": 1e300 rad/s is beyond reason; check that line and the unit"),
+    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,-2e9,16", "run.csv:17: column \"az\": -2e9 m/s^2 is beyond reason; check that line and the unit"),
+    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,360e9", "run.csv:17: column \"table\": 6.283185307179586e9 rad is beyond reason; check that line and the unit"),
     // The table angle, in degrees.
     (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,185", "run.csv:17: the table angle moves by 0.472 of a turn in one sample, so its direction cannot be told; log it more often, or not wrapped"),
 ];
@@ -148,11 +152,36 @@ fn the_longest_gap_is_the_callers_choice() {
     let spoilt = with_line(&log(40), 41, "1.5,1e-6,1e-6,1e-6,0.1,0.2,9.8,40");
     let folder = folder(&[("rig.toml", RIG.as_bytes()), ("run.csv", spoilt.as_bytes())]);
     let rig = Rig::read(&folder.path().join("rig.toml")).unwrap();
-    assert!(read_log(rig.clone(), LogPolicy { largest_gap: 0.8 }).is_ok());
-    let error = read_log(rig, LogPolicy { largest_gap: 0.5 }).unwrap_err();
+    assert!(read_log(rig.clone(), LogPolicy { largest_gap: 0.8, ..LogPolicy::default() }).is_ok());
+    let error = read_log(rig, LogPolicy { largest_gap: 0.5, ..LogPolicy::default() }).unwrap_err();
     assert_eq!(
         without(&error, folder.path()),
         "run.csv:41: a gap of 0.720000 s after 0.78 s, more than 0.5 s; cut the log there"
+    );
+}
+
+#[test]
+fn stamps_that_are_no_samples_are_refused() {
+    let plain = plain_rig().replace("rate = \"50 Hz\"\n", "");
+    let stamped = |stamp: &dyn Fn(usize) -> f64| -> String {
+        let row = |(index, row): (usize, &str)| {
+            let (_, rest) = row.split_once(',').unwrap();
+            if index == 0 { format!("{row}\n") } else { format!("{},{rest}\n", stamp(index)) }
+        };
+        log(40).lines().enumerate().map(row).collect()
+    };
+    // Four samples come with each packet, a microsecond apart.
+    check(
+        &plain,
+        stamped(&|index| (index / 4) as f64 * 0.08 + (index % 4) as f64 * 1e-6),
+        "run.csv: 10 gaps are 0.799970 s of the log's 0.799999 s, more than 50 %; are its time \
+         stamps those of samples, or of the packets that brought them?",
+    );
+    check(
+        &plain,
+        stamped(&|index| index as f64 * 1e-9),
+        "run.csv: samples are 1.000e-9 s apart, expected from 1e-7 s to 1e4 s; check \
+         the time column and its unit",
     );
 }
 
@@ -194,6 +223,10 @@ fn temperatures_must_cover_the_log() {
     assert_eq!(
         files("t,T\n0.5,20\n0.4,21\n"),
         "t.csv:3: time goes from 0.5 s to 0.4 s, it must increase"
+    );
+    assert_eq!(
+        files("t,T\n0.01,20\n0.6,-999\n"),
+        "t.csv:3: column \"T\": -9.99e2 degC is beyond reason; check that line and the unit"
     );
     assert_eq!(files("t,T\n0.5,20\n0.6,warm\n"), "t.csv:3: column \"T\": \"warm\" is not a number");
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, STANDARD_GRAVITY};
-use rins_io::{Delimiter, Loaded, LogPolicy, Rig, peek, read_log};
+use rins_io::{Delimiter, Loaded, LogPolicy, Omission, Rig, peek, read_log};
 use rins_motion::Recording;
 use rins_testing::assert_close;
 
@@ -49,16 +49,32 @@ fn all_ways_to_write_one_table_say_the_same() {
         (RIG, right.replace('\n', "\r\n")),
         (RIG, format!("\u{feff}{right}")),
         (RIG, format!("# a comment, with a comma\n\n% another\n{right}\n\n# the end\n")),
-        (RIG, right.trim_end().to_string()),
-        (RIG, format!("# t,gx,gy,gz,ax,ay,az,table\n{}", rows.join("\n"))),
-        (RIG, format!("{}\n{}", right.lines().next().unwrap(), rows.join(",\n") + ",")),
+        (RIG, format!("# t,gx,gy,gz,ax,ay,az,table\n{}\n", rows.join("\n"))),
+        (RIG, format!("{}\n{}", right.lines().next().unwrap(), rows.join(",\n") + ",\n")),
         (RIG, right.replace("gx", "\"gx\"").replace("0.1,", "\"0.1\",")),
-        (&by_number, rows.join("\n")),
+        (&by_number, rows.join("\n") + "\n"),
         (&by_number, right.clone()),
     ];
     for (rig, text) in cases {
         assert_eq!(load(rig, &text).recording, expected, "{}", &text[..60]);
     }
+}
+
+#[test]
+fn a_last_line_that_does_not_end_is_left_out_and_told() {
+    let right = log(40);
+    let all = load(RIG, &right).recording;
+    // Whatever is cut off, down to the line before: a number that is cut may still be one.
+    for cut in 1..right.lines().last().unwrap().len() {
+        let loaded = load(RIG, &right[..right.len() - cut]);
+        assert_eq!(loaded.recording, all.slice(0, 39), "{cut}");
+        let [out] = &loaded.summary.left_out[..] else { panic!("one line") };
+        assert_eq!((out.line, out.reason), (41, Omission::Unfinished));
+        assert!(out.path.ends_with("run.csv"));
+    }
+    assert_eq!(load(RIG, &right).summary.left_out, []);
+    assert_eq!(load(RIG, &format!("{right}# cut sho")).summary.left_out, []);
+    assert_eq!(load(RIG, &format!("{right}   ")).summary.left_out, []);
 }
 
 #[test]
@@ -68,7 +84,9 @@ fn a_row_that_is_logged_twice_counts_once() {
     let twice = right.replace(line, &format!("{line}\n{line}"));
     let loaded = load(RIG, &twice);
     assert_eq!(loaded.recording, load(RIG, &right).recording);
-    assert_eq!(loaded.summary.repeated, [18]);
+    let left_out: Vec<_> =
+        loaded.summary.left_out.iter().map(|out| (out.line, out.reason)).collect();
+    assert_eq!(left_out, [(18, Omission::Repeated)]);
 }
 
 #[test]
@@ -291,7 +309,7 @@ fn a_policy_may_accept_more() {
     let text = with_line(&log(40), 41, "9.9,1e-6,1e-6,1e-6,0.1,0.2,9.8,40");
     let folder = folder(&[("rig.toml", RIG.as_bytes()), ("run.csv", text.as_bytes())]);
     let rig = Rig::read(&folder.path().join("rig.toml")).unwrap();
-    let loaded = read_log(rig, LogPolicy { largest_gap: 60.0 }).unwrap();
+    let loaded = read_log(rig, LogPolicy { largest_gap: 60.0, largest_loss: 0.95 }).unwrap();
     assert_eq!(loaded.summary.gaps.len(), 1);
 }
 

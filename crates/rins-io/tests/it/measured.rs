@@ -68,7 +68,7 @@ fn a_wheelchairs_wheel_has_gaps_repeats_and_a_slow_thermometer() {
          [axis]\nspin = \"y\"\n"
     );
     let loaded = load(&folder, &rig);
-    assert_eq!(loaded.summary.repeated.len(), 31);
+    assert_eq!(loaded.summary.left_out.len(), 31);
     assert_eq!(loaded.recording.len() + 31, 14039);
     assert!(loaded.summary.gaps.iter().any(|gap| gap.length > 0.014));
     assert_close!(loaded.summary.nominal_interval, 0.002464, 5e-6);

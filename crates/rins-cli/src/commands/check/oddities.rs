@@ -4,6 +4,7 @@ use rins_io::Loaded;
 use rins_motion::{CHANNELS, Inspection, Suspicion};
 
 use super::{longest, suspicion_in_words};
+use crate::commands::repairs::repairs;
 
 /// How far gravity may be off before it is odd: a calibrated accelerometer is better by far.
 const LARGEST_GRAVITY_ERROR: f64 = 0.005;
@@ -14,20 +15,7 @@ const LARGEST_SPIN_ERROR: f64 = 0.01;
 /// What is odd, each in a sentence: suspected mistakes first.
 pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     let mut found: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
-    let timing = &inspection.timing;
-    if !timing.gaps.is_empty() {
-        found.push(format!(
-            "{} gap(s): the mean rate of the sample after each is held over it",
-            timing.gaps.len()
-        ));
-    }
-    if timing.jitter > 0.02 * timing.interval {
-        found.push(format!(
-            "time stamps jitter by {:.2} ms rms, {:.0} % of an interval",
-            timing.jitter * 1e3,
-            timing.jitter / timing.interval * 100.0
-        ));
-    }
+    found.extend(repairs(&loaded.rig, &loaded.summary));
     let suspected = |suspicion: &Suspicion| matches!(suspicion, Suspicion::Gravity { .. });
     if let Some(rest) = longest(inspection)
         && !inspection.suspicions.iter().any(suspected)
@@ -53,16 +41,6 @@ pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> 
     }
     if inspection.rests.is_empty() {
         found.push("never at rest for a second: nothing to align on".into());
-    }
-    if let Some(redivided) = loaded.summary.redivided {
-        found.push(format!(
-            "the accelerometers' {} samples have a clock of their own and were divided anew at the gyros' intervals; {} \
-             gyro sample(s) outside of them are left out",
-            redivided.samples, redivided.left_out
-        ));
-    }
-    if loaded.psins_header.is_some() {
-        found.push("no time column: samples are taken to follow each other without a gap".into());
     }
     for (channel, &run) in inspection.longest_repeat.iter().enumerate() {
         if run > 20 && run < loaded.recording.len() && inspection.resolution[channel].is_none() {

@@ -14,6 +14,7 @@ pub use text::{LogHead, peek};
 
 use super::instant::Instants;
 use super::problem::LogProblem;
+use super::summary::Omission;
 use crate::error::IoError;
 use crate::rig::Table;
 use crate::section::quoted;
@@ -34,8 +35,8 @@ pub(super) struct Columns {
     pub(super) numbers: Vec<Vec<f64>>,
     /// The line of each row; its number from 1 where a log has no lines.
     pub(super) lines: Vec<u64>,
-    /// The lines that repeat, time stamp and all, the one before them.
-    pub(super) repeated: Vec<u64>,
+    /// The lines that are left out.
+    pub(super) left_out: Vec<(u64, Omission)>,
 }
 
 /// What of a log is asked for: columns by name, and perhaps one of time stamps.

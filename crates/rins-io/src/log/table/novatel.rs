@@ -10,6 +10,7 @@ use super::{Columns, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
+use crate::log::summary::Omission;
 
 /// The columns that there are, in the order of the log.
 pub(crate) const COUNTS: [&str; 6] =
@@ -42,7 +43,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         let refuse = |problem| LogError::at(path, line, problem);
         let Some(message) = Message::of(text.trim_end()).map_err(refuse)? else { continue };
         if message.body == before {
-            columns.repeated.push(line);
+            columns.left_out.push((line, Omission::Repeated));
             continue;
         }
         before.clear();
@@ -58,6 +59,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         }
         columns.lines.push(line);
     }
+    columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     match (any, columns.lines.is_empty()) {
         (_, false) => Ok(columns),
         (true, true) => Err(LogError::of(path, LogProblem::NoMessages)),

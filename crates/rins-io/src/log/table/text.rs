@@ -8,6 +8,7 @@ use crate::error::{IoError, LogError};
 use crate::log::fields::{Delimiter, Fields};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
+use crate::log::summary::Omission;
 
 /// Reads columns of the text log at `path`.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
@@ -33,7 +34,7 @@ fn read_from<R: BufRead>(lines: &mut Lines<R>, wanted: Wanted<'_>) -> Result<Col
         // Some loggers write a sample twice; without a time stamp it may well be two samples.
         if time.is_some() {
             if line == before {
-                columns.repeated.push(number);
+                columns.left_out.push((number, Omission::Repeated));
                 return Ok(());
             }
             before.clear();
@@ -76,6 +77,7 @@ fn read_from<R: BufRead>(lines: &mut Lines<R>, wanted: Wanted<'_>) -> Result<Col
     while let Some((number, line)) = lines.next()? {
         row(number, line)?;
     }
+    columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     if columns.lines.is_empty() {
         return Err(LogError::of(lines.path(), LogProblem::OnlyHeader));
     }

@@ -6,6 +6,7 @@ use super::Columns;
 use crate::error::{IoError, LogError};
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
+use crate::log::summary::Omission;
 
 /// The rows that any file may have, however small it is.
 const ALWAYS_ROWS: u64 = 1 << 20;
@@ -78,18 +79,20 @@ pub(super) fn together(
     }
     let timed = time.is_some();
     let time = time.map_or_else(Vec::new, |(_, list)| list);
-    let mut columns = Columns { time, numbers, lines: Vec::new(), repeated: Vec::new() };
+    let mut columns = Columns { time, numbers, ..Columns::default() };
     let same = |columns: &Columns, row: usize| {
         let mut lists = columns.numbers.iter().chain(std::iter::once(&columns.time));
         lists.all(|list| list[row].to_bits() == list[row - 1].to_bits())
     };
     // Without a time stamp a row that is repeated may well be two samples.
     let kept: Vec<bool> = (0..rows).map(|row| !timed || row == 0 || !same(&columns, row)).collect();
-    for (row, kept) in kept.iter().enumerate() {
-        let lines = if *kept { &mut columns.lines } else { &mut columns.repeated };
-        lines.push(row as u64 + 1);
+    for (row, kept) in (1..).zip(&kept) {
+        match kept {
+            true => columns.lines.push(row),
+            false => columns.left_out.push((row, Omission::Repeated)),
+        }
     }
-    if !columns.repeated.is_empty() {
+    if !columns.left_out.is_empty() {
         for list in columns.numbers.iter_mut().chain(std::iter::once(&mut columns.time)) {
             let mut kept = kept.iter();
             list.retain(|_| kept.next().copied().unwrap_or_default());
