@@ -11,7 +11,9 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 const LAYERS: &[&[&str]] = &[
     &["rins-frames", "rins-ekf"],
     &["rins-imu", "rins-motion"],
+    &["rins-terms"],
     &["rins-simulation", "rins-calibration"],
+    &["rins-estimation"],
     &["rins-io"],
     &["rins-cli", "rins-reproduction"],
 ];

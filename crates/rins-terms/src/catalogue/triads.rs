@@ -1,0 +1,155 @@
+//! Eq. (1): bias, scale and misalignment of both triads.
+
+use nalgebra::Vector3;
+use num_dual::Dual64;
+
+use crate::signals::DualVector;
+use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
+use crate::unit::Unit;
+
+/// Rows and columns of the misalignments, in the order of their names.
+const OFF_DIAGONAL: [(usize, usize); 6] = [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)];
+
+const fn bias(name: &'static str, unit: Unit, prior: Prior) -> Parameter {
+    Parameter { name, unit, prior }
+}
+
+const GYRO_BIASES: Prior = Prior::Sheet(|imu| imu.gyro.bias_sigma);
+const ACCEL_BIASES: Prior = Prior::Sheet(|imu| imu.accel.bias_sigma);
+const GYRO_SCALES: Prior = Prior::Sheet(|imu| imu.gyro.scale_sigma);
+const ACCEL_SCALES: Prior = Prior::Sheet(|imu| imu.accel.scale_sigma);
+const GYRO_MISALIGNMENTS: Prior = Prior::Sheet(|imu| imu.gyro.misalignment_sigma);
+const ACCEL_MISALIGNMENTS: Prior = Prior::Sheet(|imu| imu.accel.misalignment_sigma);
+
+macro_rules! triple {
+    ($unit:expr, $prior:expr) => {
+        &[bias("x", $unit, $prior), bias("y", $unit, $prior), bias("z", $unit, $prior)]
+    };
+}
+
+macro_rules! off_diagonal {
+    ($prior:expr) => {
+        &[
+            bias("xy", Unit::ARCSEC, $prior),
+            bias("xz", Unit::ARCSEC, $prior),
+            bias("yx", Unit::ARCSEC, $prior),
+            bias("yz", Unit::ARCSEC, $prior),
+            bias("zx", Unit::ARCSEC, $prior),
+            bias("zy", Unit::ARCSEC, $prior),
+        ]
+    };
+}
+
+fn add_constant(to: &mut DualVector, p: &[Dual64]) {
+    for axis in 0..3 {
+        to[axis] += p[axis];
+    }
+}
+
+fn add_scaled(to: &mut DualVector, p: &[Dual64], of: &Vector3<f64>) {
+    for axis in 0..3 {
+        to[axis] += p[axis] * of[axis];
+    }
+}
+
+fn add_crossed(to: &mut DualVector, p: &[Dual64], of: &Vector3<f64>) {
+    for (&p, (row, column)) in p.iter().zip(OFF_DIAGONAL) {
+        to[row] += p * of[column];
+    }
+}
+
+/// Gyro biases.
+pub static GYRO_BIAS: Term = Term {
+    id: "gyro.bias",
+    name: "gyro bias",
+    cause: "what a gyro reads at rest with respect to inertial space, from one turn-on to the next",
+    equation: "gyro += b",
+    source: "nie2019, eq. (1)",
+    parameters: triple!(Unit::DEG_PER_HOUR, GYRO_BIASES),
+    settings: &[],
+    needs: &[],
+    partners: &["gyro.misalignment", "gyro.scale"],
+    told_apart_by: "turn the table both ways, or at two rates",
+    owner: Owner::Run,
+    action: Action::Signal(|p, _, _, out| add_constant(&mut out.gyro, p)),
+};
+
+/// Gyro scale errors.
+pub static GYRO_SCALE: Term = Term {
+    id: "gyro.scale",
+    name: "gyro scale error",
+    cause: "a gyro's scale factor is off its nominal one",
+    equation: "gyro += S ω",
+    source: "nie2019, eq. (1)",
+    parameters: triple!(Unit::PPM, GYRO_SCALES),
+    settings: &[],
+    needs: &[],
+    partners: &["gyro.bias", "wrong_latitude", "clock_drift"],
+    told_apart_by: "turn the table both ways, or at two rates; for x and y, at two tilts",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| add_scaled(&mut out.gyro, p, &moment.rate)),
+};
+
+/// Gyro misalignments.
+pub static GYRO_MISALIGNMENT: Term = Term {
+    id: "gyro.misalignment",
+    name: "gyro misalignment",
+    cause: "a gyro's axis is off its body axis; xz: what gyro x sees of a rate about z",
+    equation: "gyro += M ω, M zero on its diagonal",
+    source: "nie2019, eq. (1)",
+    parameters: off_diagonal!(GYRO_MISALIGNMENTS),
+    settings: &[],
+    needs: &[],
+    partners: &["gyro.bias", "accel.misalignment", "gyro_g_sensitivity"],
+    told_apart_by: "turn the table both ways, or at two rates; zx and zy at two tilts",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| add_crossed(&mut out.gyro, p, &moment.rate)),
+};
+
+/// Accelerometer biases.
+pub static ACCEL_BIAS: Term = Term {
+    id: "accel.bias",
+    name: "accelerometer bias",
+    cause: "what an accelerometer reads in free fall, from one turn-on to the next",
+    equation: "accel += b",
+    source: "nie2019, eq. (1)",
+    parameters: triple!(Unit::MICRO_G, ACCEL_BIASES),
+    settings: &[],
+    needs: &[],
+    partners: &["accel.scale", "accel_lever_arm"],
+    told_apart_by: "tilt the axis otherwise; turn the table at two rates",
+    owner: Owner::Run,
+    action: Action::Signal(|p, _, _, out| add_constant(&mut out.accel, p)),
+};
+
+/// Accelerometer scale errors.
+pub static ACCEL_SCALE: Term = Term {
+    id: "accel.scale",
+    name: "accelerometer scale error",
+    cause: "an accelerometer's scale factor is off its nominal one",
+    equation: "accel += S f",
+    source: "nie2019, eq. (1)",
+    parameters: triple!(Unit::PPM, ACCEL_SCALES),
+    settings: &[],
+    needs: &[Need::Tilt],
+    partners: &["axis.attitude", "wrong_gravity", "accel.bias"],
+    told_apart_by: "tilt the axis otherwise",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| add_scaled(&mut out.accel, p, &moment.force)),
+};
+
+/// Accelerometer misalignments.
+pub static ACCEL_MISALIGNMENT: Term = Term {
+    id: "accel.misalignment",
+    name: "accelerometer misalignment",
+    cause: "an accelerometer's axis is off its body axis; xz: what accelerometer x sees of a force along z",
+    equation: "accel += M f, M zero on its diagonal",
+    source: "nie2019, eq. (1)",
+    parameters: off_diagonal!(ACCEL_MISALIGNMENTS),
+    settings: &[],
+    needs: &[Need::Tilt],
+    partners: &["axis.attitude", "gyro.misalignment", "mounting", "accel.bias"],
+    told_apart_by: "tilt the axis otherwise",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| add_crossed(&mut out.accel, p, &moment.force)),
+};

@@ -1,0 +1,38 @@
+//! The physical effects that an inertial measurement unit on a rate table shows, each as one item.
+//!
+//! **What it does.** A [`Term`] is one effect: its equation, parameters, units, usual magnitudes, what it
+//! needs, what it can be confused with. The [`catalogue`] holds them all by id. A [`Model`] is a
+//! list of terms: [`Making`] simulates it, and [`Chosen::signals`] gives what a term adds to the sensors, to the
+//! encoder and to the direction of the axis, with its derivative by any parameter, which an estimator
+//! takes from there. The formula stands in one place, and is differentiated automatically.
+//!
+//! **What it does not do.** It estimates nothing and reads no files. Terms add; the product of two small
+//! errors is left out.
+//!
+//! Numbers are in SI units and radians; [`Unit`] says in which unit a parameter is shown.
+//!
+//! ```
+//! use rins_terms::{Chosen, Model, catalogue};
+//! let model = Model::full().with(Chosen::new(catalogue::term("mounting").unwrap()));
+//! assert_eq!(model.terms.last().unwrap().term.name, "mounting of the IMU on the table");
+//! ```
+pub mod catalogue;
+mod grade;
+mod making;
+mod model;
+mod moment;
+mod signals;
+mod term;
+mod track;
+mod unit;
+
+pub use grade::Grade;
+pub use making::{Making, Reading};
+pub use model::{Chosen, Free, Model, Role};
+pub use moment::{Instant, Moment, Surroundings};
+/// A number with its derivative, of which [`Signals`] are made.
+pub use num_dual::Dual64;
+pub use signals::{DualVector, Signals, derivatives, values};
+pub use term::{Action, Need, Noises, Owner, Parameter, Prior, Setting, Term};
+pub use track::{Moments, Track};
+pub use unit::Unit;

@@ -1,0 +1,91 @@
+//! What an IMU and an encoder read where a model's terms act.
+
+use nalgebra::Vector3;
+use rins_frames::{Dcm, InFrame, Increments, Table};
+
+use crate::model::Model;
+use crate::moment::Moment;
+use crate::signals::values;
+use crate::track::Track;
+
+/// What is read over one sample, without noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// By the sensors.
+    pub increments: Increments,
+    /// By how much the table angle that is read differs from the true one \[rad\].
+    pub angle_error: f64,
+}
+
+/// A model at work: it makes readings from true motion.
+#[derive(Clone, Debug)]
+pub struct Making<'a> {
+    model: &'a Model,
+    tilt: Vector3<f64>,
+}
+
+impl<'a> Making<'a> {
+    /// A model at work from the start of `track` on.
+    pub fn new(model: &'a Model, track: &Track) -> Self {
+        let tilt = track.opening().map(|moment| values(&model.signals(&moment).tilt));
+        Self { model, tilt: tilt.unwrap_or_default() }
+    }
+
+    /// What is read over the sample of `moment`, during which an IMU on an axis that stands still measures
+    /// `truth`.
+    pub fn read(&mut self, moment: &Moment, truth: &Increments) -> Reading {
+        let signals = self.model.signals(moment);
+        let (before, after) = (self.tilt, values(&signals.tilt));
+        self.tilt = after;
+        let mut felt = *truth;
+        let mut signals = signals;
+        if before != Vector3::zeros() || after != Vector3::zeros() {
+            felt = tilted(moment, truth, &before, &after);
+            let rates = felt.rates();
+            let moment = Moment {
+                rate: *rates.angular_rate.components(),
+                force: *rates.specific_force.components(),
+                ..*moment
+            };
+            signals = self.model.signals(&moment);
+        }
+        let interval = felt.interval;
+        Reading {
+            increments: Increments {
+                angle: felt.angle + InFrame::from_components(values(&signals.gyro) * interval),
+                velocity: felt.velocity
+                    + InFrame::from_components(values(&signals.accel) * interval),
+                interval,
+            },
+            angle_error: signals.angle.re,
+        }
+    }
+}
+
+/// What an IMU feels on a table that is tilted, the tilt going from `before` to `after` \[rad\].
+///
+/// The body's attitude is `Rot(tilt) Rz(ζ)`: all vectors of the axis frame are seen from the tilted
+/// frame, half-way, and the tilt's own rate is felt.
+fn tilted(
+    moment: &Moment,
+    truth: &Increments,
+    before: &Vector3<f64>,
+    after: &Vector3<f64>,
+) -> Increments {
+    let middle = (before + after) * 0.5;
+    let from_tilted = Dcm::<Table, Table>::from_rotation_vector(&middle).inverse();
+    let seen = |vector: &Vector3<f64>| {
+        let turned = *(from_tilted * InFrame::<Table>::from_components(*vector)).components();
+        moment.in_body(&(turned - vector))
+    };
+    let around = &moment.surroundings;
+    // The rate of a rotation vector seen from the frame that it turns: its rate, less half its turning.
+    let own = (after - before) - middle.cross(&(after - before)) * 0.5;
+    let angle = seen(&around.earth_rate) * truth.interval + moment.in_body(&own);
+    let velocity = seen(&around.specific_force) * truth.interval;
+    Increments {
+        angle: truth.angle + InFrame::from_components(angle),
+        velocity: truth.velocity + InFrame::from_components(velocity),
+        interval: truth.interval,
+    }
+}

@@ -1,0 +1,255 @@
+//! A list of terms: what a simulator makes, an estimator estimates, a calibration holds.
+
+use num_dual::Dual64;
+use rins_imu::ImuSpec;
+
+use crate::catalogue;
+use crate::moment::Moment;
+use crate::signals::Signals;
+use crate::term::{Noises, Owner, Term};
+use crate::unit::Unit;
+
+/// A term in a model: its shape, its parameters, and which of them are estimated.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    /// The term.
+    pub term: &'static Term,
+    /// Its settings, in SI units.
+    pub settings: Vec<f64>,
+    /// Its parameters, in SI units: true ones, or the present estimate.
+    pub values: Vec<f64>,
+    /// Of each parameter, whether it is estimated.
+    pub roles: Vec<Role>,
+}
+
+/// Whether a parameter is estimated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Role {
+    /// It stays as it is.
+    Held,
+    /// It is estimated, its prior the usual one for the IMU's grade.
+    Free,
+    /// It is estimated, and known beforehand to this 1σ, in SI units.
+    Within(f64),
+}
+
+impl PartialEq for Chosen {
+    fn eq(&self, other: &Self) -> bool {
+        self.term.id == other.term.id
+            && self.settings == other.settings
+            && self.values == other.values
+            && self.roles == other.roles
+    }
+}
+
+impl Chosen {
+    /// A term with its default settings and parameters of zero, all held.
+    pub fn new(term: &'static Term) -> Self {
+        let n = term.parameters.len();
+        Self {
+            term,
+            settings: term.default_settings(),
+            values: vec![0.0; n],
+            roles: vec![Role::Held; n],
+        }
+    }
+
+    /// The same with another setting, in SI units; a name that the term does not have changes nothing.
+    #[must_use]
+    pub fn with_setting(mut self, name: &str, value: f64) -> Self {
+        for (setting, slot) in self.term.settings.iter().zip(&mut self.settings) {
+            if setting.name == name {
+                *slot = value;
+            }
+        }
+        self
+    }
+
+    /// The same with these parameters, in SI units.
+    ///
+    /// # Panics
+    /// If there are not as many as the term has.
+    #[must_use]
+    pub fn with_values(mut self, values: &[f64]) -> Self {
+        assert_eq!(values.len(), self.values.len(), "as many values as {} has", self.term.id);
+        self.values.copy_from_slice(values);
+        self
+    }
+
+    /// The same with all its parameters to be estimated.
+    #[must_use]
+    pub fn estimated(mut self) -> Self {
+        self.roles.fill(Role::Free);
+        self
+    }
+
+    /// The same with those parameters to be estimated that are named.
+    #[must_use]
+    pub fn estimating(mut self, names: &[&str]) -> Self {
+        for (parameter, role) in self.term.parameters.iter().zip(&mut self.roles) {
+            if names.contains(&parameter.name) {
+                *role = Role::Free;
+            }
+        }
+        self
+    }
+
+    /// What it adds at `moment`, with the derivative by parameter `by`, if one is asked for.
+    pub fn signals(&self, moment: &Moment, by: Option<usize>) -> Signals {
+        // Catalogue terms have at most nine parameters; a matrix of nine is the largest.
+        let mut duals = [Dual64::from_re(0.0); 16];
+        for (dual, &value) in duals.iter_mut().zip(&self.values) {
+            *dual = Dual64::from_re(value);
+        }
+        if let Some(by) = by {
+            duals[by].eps = 1.0;
+        }
+        let mut signals = Signals::default();
+        self.term.act(&duals[..self.values.len()], &self.settings, moment, &mut signals);
+        signals
+    }
+}
+
+/// A parameter that a model estimates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Free {
+    /// Its full id, such as `gyro.misalignment.xz`; a second item of the same term has `#2` before the dot.
+    pub id: String,
+    /// The unit in which it is shown.
+    pub unit: Unit,
+    /// Whom it belongs to.
+    pub owner: Owner,
+    /// Which of the model's terms it is of.
+    pub term: usize,
+    /// Which of that term's parameters it is.
+    pub parameter: usize,
+    /// The 1σ to which it is known beforehand, in SI units.
+    pub sigma: f64,
+}
+
+/// The terms of a run: a list, in which extending is adding.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// The terms.
+    pub terms: Vec<Chosen>,
+}
+
+impl Model {
+    /// The paper's: the gyro errors tied to the spin axis, `M_xz`, `M_yz` and `S_z`.
+    pub fn paper12() -> Self {
+        Self {
+            terms: vec![
+                Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]),
+                Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]),
+            ],
+        }
+    }
+
+    /// All of eq. (1) for both triads, and the attitude of the axis: 27 numbers.
+    pub fn full() -> Self {
+        let terms = [
+            &catalogue::GYRO_BIAS,
+            &catalogue::GYRO_SCALE,
+            &catalogue::GYRO_MISALIGNMENT,
+            &catalogue::ACCEL_BIAS,
+            &catalogue::ACCEL_SCALE,
+            &catalogue::ACCEL_MISALIGNMENT,
+            &catalogue::AXIS_ATTITUDE,
+        ];
+        Self { terms: terms.map(|term| Chosen::new(term).estimated()).to_vec() }
+    }
+
+    /// The same with one term more.
+    #[must_use]
+    pub fn with(mut self, chosen: Chosen) -> Self {
+        self.terms.push(chosen);
+        self
+    }
+
+    /// The parameters that are estimated, in order.
+    pub fn free(&self, imu: &ImuSpec) -> Vec<Free> {
+        let mut free = Vec::new();
+        for (index, chosen) in self.terms.iter().enumerate() {
+            for (place, role) in chosen.roles.iter().enumerate() {
+                let parameter = &chosen.term.parameters[place];
+                let sigma = match role {
+                    Role::Held => continue,
+                    Role::Free => parameter.sigma(imu),
+                    Role::Within(sigma) => *sigma,
+                };
+                free.push(Free {
+                    id: self.id(index, place),
+                    unit: parameter.unit,
+                    owner: chosen.term.owner,
+                    term: index,
+                    parameter: place,
+                    sigma,
+                });
+            }
+        }
+        free
+    }
+
+    /// The full id of a parameter.
+    ///
+    /// # Panics
+    /// If there is no such term or parameter.
+    pub fn id(&self, term: usize, parameter: usize) -> String {
+        let chosen = &self.terms[term];
+        let id = chosen.term.id;
+        let before = self.terms[..term].iter().filter(|other| other.term.id == id).count();
+        let again = if before == 0 { String::new() } else { format!("#{}", before + 1) };
+        format!("{id}{again}.{}", chosen.term.parameters[parameter].name)
+    }
+
+    /// The parameter of this id: its term's place, and its own.
+    pub fn find(&self, id: &str) -> Option<(usize, usize)> {
+        (0..self.terms.len()).find_map(|term| {
+            let places = 0..self.terms[term].values.len();
+            places.map(|place| (term, place)).find(|&(term, place)| self.id(term, place) == id)
+        })
+    }
+
+    /// The parameter of this id, in SI units, if the model has it.
+    pub fn value(&self, id: &str) -> Option<f64> {
+        self.find(id).map(|(term, parameter)| self.terms[term].values[parameter])
+    }
+
+    /// The same with another value of the parameter of this id, in SI units, if it has it.
+    #[must_use]
+    pub fn with_value(mut self, id: &str, value: f64) -> Self {
+        if let Some((term, parameter)) = self.find(id) {
+            self.terms[term].values[parameter] = value;
+        }
+        self
+    }
+
+    /// The same with the parameter of this id in another role, if it has it.
+    #[must_use]
+    pub fn with_role(mut self, id: &str, role: Role) -> Self {
+        if let Some((term, parameter)) = self.find(id) {
+            self.terms[term].roles[parameter] = role;
+        }
+        self
+    }
+
+    /// What all its terms add at `moment`.
+    pub fn signals(&self, moment: &Moment) -> Signals {
+        let mut sum = Signals::default();
+        for chosen in self.terms.iter().filter(|chosen| chosen.term.is_signal()) {
+            sum.add(&chosen.signals(moment, None));
+        }
+        sum
+    }
+
+    /// The noise that its terms make of `noises`.
+    #[must_use]
+    pub fn stirred(&self, mut noises: Noises) -> Noises {
+        for chosen in &self.terms {
+            if let crate::term::Action::Noise(stir) = chosen.term.action {
+                stir(&chosen.values, &chosen.settings, &mut noises);
+            }
+        }
+        noises
+    }
+}

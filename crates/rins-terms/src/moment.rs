@@ -1,0 +1,118 @@
+//! What is going on over one sample: the table, the true motion, the surroundings.
+
+use nalgebra::Vector3;
+use rins_frames::{Dcm, InFrame, Nav, Table};
+use rins_motion::Station;
+
+/// What surrounds a table: the directions in which the Earth turns, pulls and is magnetic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Where the table stands.
+    pub station: Station,
+    /// The attitude of the axis frame.
+    pub nav_from_table: Dcm<Nav, Table>,
+    /// The Earth's rate in the axis frame \[rad/s\].
+    pub earth_rate: Vector3<f64>,
+    /// The specific force at rest in the axis frame, `-g` \[m/s²\].
+    pub specific_force: Vector3<f64>,
+    /// The magnetic flux density in the axis frame \[T\].
+    pub magnetic_field: Vector3<f64>,
+}
+
+impl Surroundings {
+    /// The surroundings of a table whose axis frame has this attitude, in the Earth's dipole field.
+    pub fn new(station: Station, nav_from_table: Dcm<Nav, Table>) -> Self {
+        let table_from_nav = nav_from_table.inverse();
+        let in_table = |vector: InFrame<Nav>| *(table_from_nav * vector).components();
+        Self {
+            station,
+            nav_from_table,
+            earth_rate: in_table(station.site.earth_rate()),
+            specific_force: in_table(-station.gravity_vector()),
+            magnetic_field: in_table(dipole_field(station.site.latitude)),
+        }
+    }
+
+    /// The same with another magnetic field, given in n \[T\].
+    #[must_use]
+    pub fn with_magnetic_field(mut self, field: &InFrame<Nav>) -> Self {
+        self.magnetic_field = *(self.nav_from_table.inverse() * *field).components();
+        self
+    }
+}
+
+/// The field of a dipole along the Earth's axis, strong as the Earth's at the equator \[T\]: within
+/// some 20 deg of direction and 30 % of size of what a compass would show.
+fn dipole_field(latitude: f64) -> InFrame<Nav> {
+    const EQUATORIAL_FIELD: f64 = 3.0e-5;
+    let (sin, cos) = latitude.sin_cos();
+    InFrame::new(0.0, EQUATORIAL_FIELD * cos, -2.0 * EQUATORIAL_FIELD * sin)
+}
+
+/// The table at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Instant {
+    /// Since the run's first sample began \[s\].
+    pub time: f64,
+    /// The table angle, unwrapped \[rad\].
+    pub angle: f64,
+    /// Its rate \[rad/s\].
+    pub rate: f64,
+    /// Its acceleration \[rad/s²\].
+    pub acceleration: f64,
+    /// The way the table turned last: 1, -1, or 0 before it ever turned.
+    pub sense: f64,
+    /// The way its rate changed last: 1, -1, or 0 before it ever changed.
+    pub rate_change: f64,
+    /// Its temperature above that at the start \[K\]; zero where none is known.
+    pub warming: f64,
+    /// How fast that changes \[K/s\].
+    pub warming_rate: f64,
+}
+
+/// What is going on over one sample.
+///
+/// Gyros and accelerometers are described by means over the sample, `mean`; what is read at an instant, an
+/// encoder and the direction of the axis, is read at its `end`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// The length of the sample's interval \[s\].
+    pub interval: f64,
+    /// How long the run is \[s\].
+    pub duration: f64,
+    /// The table in the middle of the interval; its rate is the mean over it.
+    pub mean: Instant,
+    /// The table at the end of the interval.
+    pub end: Instant,
+    /// The mean of the true angular rate `ω_ib^b` \[rad/s\].
+    pub rate: Vector3<f64>,
+    /// The mean of the true specific force `f^b` \[m/s²\].
+    pub force: Vector3<f64>,
+    /// What surrounds the table.
+    pub surroundings: Surroundings,
+}
+
+impl Moment {
+    /// A vector of the axis frame in body axes, in the middle of the interval.
+    pub fn in_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        let (sin, cos) = self.mean.angle.sin_cos();
+        Vector3::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin, vector.z)
+    }
+
+    /// How fast the true angular rate changes in body axes \[rad/s²\].
+    pub fn rate_derivative(&self) -> Vector3<f64> {
+        let w = self.mean.rate;
+        Vector3::new(self.rate.y * w, -self.rate.x * w, self.mean.acceleration)
+    }
+
+    /// How fast the true specific force changes in body axes \[m/s³\].
+    pub fn force_derivative(&self) -> Vector3<f64> {
+        let w = self.mean.rate;
+        Vector3::new(self.force.y * w, -self.force.x * w, 0.0)
+    }
+
+    /// The magnetic flux density in body axes \[T\].
+    pub fn magnetic_field(&self) -> Vector3<f64> {
+        self.in_body(&self.surroundings.magnetic_field)
+    }
+}

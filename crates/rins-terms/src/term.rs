@@ -1,0 +1,215 @@
+//! A term: one physical effect, with all that anyone needs to know of it.
+
+use num_dual::Dual64;
+use rins_imu::{ImuNoise, ImuSpec, Seed};
+use rins_motion::Recording;
+
+use crate::grade::Grade;
+use crate::moment::Moment;
+use crate::signals::Signals;
+use crate::unit::Unit;
+
+/// One physical effect: what it is, how large it is, and what it does.
+///
+/// The simulator makes it, the estimator estimates it, the diagnosis tests it and the report
+/// explains it, all from this one item. A new effect is a new constant of this type in one file of
+/// the catalogue, and its name in the list there.
+#[derive(Clone, Copy, Debug)]
+pub struct Term {
+    /// The name in files and results, such as `accel_lever_arm`.
+    pub id: &'static str,
+    /// The name in words, such as "lever arm of the accelerometers".
+    pub name: &'static str,
+    /// What makes it, in a sentence.
+    pub cause: &'static str,
+    /// What it adds, as a formula in the notation of the book.
+    pub equation: &'static str,
+    /// Where the equation comes from: a key of the book's references, or the catalogue's section.
+    pub source: &'static str,
+    /// Its parameters; each is one number.
+    pub parameters: &'static [Parameter],
+    /// Numbers that choose the effect's shape (an order, a time); they are given, not estimated.
+    pub settings: &'static [Setting],
+    /// What must be known of a run for the effect to have a meaning there.
+    pub needs: &'static [Need],
+    /// Ids of terms with which it can be confused.
+    pub partners: &'static [&'static str],
+    /// The test that would tell it from them.
+    pub told_apart_by: &'static str,
+    /// Whom its parameters belong to.
+    pub owner: Owner,
+    /// What it does.
+    pub action: Action,
+}
+
+/// One number of a term.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its name within the term, such as `r_x`.
+    pub name: &'static str,
+    /// The unit in which it is shown and written.
+    pub unit: Unit,
+    /// How large it usually is.
+    pub prior: Prior,
+}
+
+/// How large a parameter usually is.
+#[derive(Clone, Copy)]
+pub enum Prior {
+    /// The 1σ that a data sheet gives, in SI units.
+    Sheet(fn(&ImuSpec) -> f64),
+    /// The smallest and largest usual magnitude, in the parameter's unit, for navigation-grade fibre
+    /// gyros, laser gyros, and MEMS, in this order; of accelerometers: pendulous, vibrating beam, MEMS.
+    Usual([(f64, f64); 3]),
+    /// The same range for a table or a place, whatever the IMU, in the parameter's unit.
+    Anywhere(f64, f64),
+}
+
+impl std::fmt::Debug for Prior {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Sheet(_) => f.write_str("Sheet"),
+            Self::Usual(ranges) => f.debug_tuple("Usual").field(ranges).finish(),
+            Self::Anywhere(low, high) => f.debug_tuple("Anywhere").field(low).field(high).finish(),
+        }
+    }
+}
+
+impl Parameter {
+    /// The 1σ that is expected of an IMU with this data sheet, in SI units.
+    ///
+    /// Of a usual range it is the largest magnitude: the range is that of good specimens.
+    pub fn sigma(&self, imu: &ImuSpec) -> f64 {
+        match self.prior {
+            Prior::Sheet(sigma) => sigma(imu),
+            Prior::Usual(_) | Prior::Anywhere(..) => self.range(imu).1,
+        }
+    }
+
+    /// The smallest and largest magnitude that is usual of an IMU with this data sheet, in SI units.
+    pub fn range(&self, imu: &ImuSpec) -> (f64, f64) {
+        let (low, high) = match self.prior {
+            Prior::Sheet(sigma) => {
+                let sigma = sigma(imu);
+                return (0.01 * sigma, 3.0 * sigma);
+            }
+            Prior::Usual(ranges) => ranges[Grade::of(imu) as usize],
+            Prior::Anywhere(low, high) => (low, high),
+        };
+        (low * self.unit.factor, high * self.unit.factor)
+    }
+}
+
+/// A number that chooses a term's shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    /// Its name, such as `order`.
+    pub name: &'static str,
+    /// What it means, in words.
+    pub meaning: &'static str,
+    /// Its unit.
+    pub unit: Unit,
+    /// What it is where nothing is said, in SI units.
+    pub default: f64,
+    /// The least and the largest it may be, in SI units.
+    pub within: (f64, f64),
+}
+
+/// What a run must offer for a term to have a meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// A temperature channel.
+    Temperature,
+    /// An encoder.
+    TableAngle,
+    /// A table that turns at rates of more than one magnitude.
+    SeveralRates,
+    /// A table that turns both ways.
+    Reversal,
+    /// An axis that is not vertical.
+    Tilt,
+    /// More than one direction of the axis.
+    SeveralTilts,
+    /// A known magnetic field.
+    MagneticField,
+}
+
+/// Whom a parameter belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// The IMU: the same in all its runs.
+    Sensor,
+    /// One run: turn-on biases, the attitude of the axis, what the table and the base did.
+    Run,
+}
+
+/// What a term does, and to what.
+#[derive(Clone, Copy)]
+pub enum Action {
+    /// It adds to what the sensors or the encoder read, or tilts the axis: parameters, settings, the
+    /// moment, and what is added to.
+    Signal(fn(&[Dual64], &[f64], &Moment, &mut Signals)),
+    /// It changes the random errors: parameters, settings, and the noise.
+    Noise(fn(&[f64], &[f64], &mut Noises)),
+    /// It changes the log: parameters, settings, random numbers, and the recording.
+    Log(fn(&[f64], &[f64], Seed, &mut Recording)),
+}
+
+impl std::fmt::Debug for Action {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Signal(_) => "Signal",
+            Self::Noise(_) => "Noise",
+            Self::Log(_) => "Log",
+        })
+    }
+}
+
+/// The random errors of an IMU and of its table's encoder.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Noises {
+    /// Of the IMU.
+    pub imu: ImuNoise,
+    /// The 1σ of one reading of the encoder \[rad\].
+    pub encoder: f64,
+}
+
+impl Term {
+    /// Whether it adds to signals, and so can be estimated.
+    pub const fn is_signal(&self) -> bool {
+        matches!(self.action, Action::Signal(_))
+    }
+
+    /// The full ids of its parameters, such as `accel_lever_arm.r_x`.
+    pub fn parameter_ids(&self) -> impl Iterator<Item = String> {
+        self.parameters.iter().map(|parameter| format!("{}.{}", self.id, parameter.name))
+    }
+
+    /// The settings where nothing is said of them.
+    pub fn default_settings(&self) -> Vec<f64> {
+        self.settings.iter().map(|setting| setting.default).collect()
+    }
+
+    /// What it adds at `moment` with these parameters, in SI units.
+    ///
+    /// A term that is no signal adds nothing.
+    pub fn signals(&self, parameters: &[f64], settings: &[f64], moment: &Moment) -> Signals {
+        let duals: Vec<Dual64> = parameters.iter().map(|&value| Dual64::from_re(value)).collect();
+        let mut signals = Signals::default();
+        self.act(&duals, settings, moment, &mut signals);
+        signals
+    }
+
+    /// Adds what it does at `moment`, with the derivative that the parameters carry.
+    pub fn act(
+        &self,
+        parameters: &[Dual64],
+        settings: &[f64],
+        moment: &Moment,
+        signals: &mut Signals,
+    ) {
+        if let Action::Signal(act) = self.action {
+            act(parameters, settings, moment, signals);
+        }
+    }
+}

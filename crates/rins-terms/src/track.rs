@@ -1,0 +1,188 @@
+//! The way a table went, sample by sample.
+
+use nalgebra::Vector3;
+
+use crate::moment::{Instant, Moment, Surroundings};
+
+/// A rate below which a table does not turn, and a change of rate that is none \[rad/s\].
+const LEAST_RATE: f64 = 5e-3;
+
+/// The table's motion over a run, from which every sample's [`Moment`] follows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// What surrounds the table.
+    pub surroundings: Surroundings,
+    /// The end of each sample's interval \[s\].
+    times: Vec<f64>,
+    /// The length of each sample's interval \[s\].
+    intervals: Vec<f64>,
+    /// The table angle before the first sample, and at the end of each \[rad\].
+    angles: Vec<f64>,
+    /// The temperature at the end of each sample \[°C\].
+    temperature: Option<Vec<f64>>,
+}
+
+impl Track {
+    /// A track through `angles`: that before the first sample, and that at the end of each.
+    ///
+    /// # Panics
+    /// If there is not one angle more than times, and as many intervals and temperatures as times.
+    pub fn new(
+        surroundings: Surroundings,
+        times: Vec<f64>,
+        intervals: Vec<f64>,
+        angles: Vec<f64>,
+        temperature: Option<Vec<f64>>,
+    ) -> Self {
+        assert_eq!(angles.len(), times.len() + 1, "an angle at the start and one a sample");
+        assert_eq!(intervals.len(), times.len(), "an interval a sample");
+        let matches = temperature.as_ref().is_none_or(|list| list.len() == times.len());
+        assert!(matches, "a temperature a sample");
+        Self { surroundings, times, intervals, angles, temperature }
+    }
+
+    /// The number of samples.
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// The table angle before the first sample, and at the end of each \[rad\].
+    pub fn angles(&self) -> &[f64] {
+        &self.angles
+    }
+
+    /// When the first sample began \[s\].
+    pub fn start(&self) -> f64 {
+        self.times
+            .first()
+            .zip(self.intervals.first())
+            .map_or(0.0, |(time, interval)| time - interval)
+    }
+
+    /// How long the run is \[s\].
+    pub fn duration(&self) -> f64 {
+        self.times.last().map_or(0.0, |time| time - self.start())
+    }
+
+    /// What is going on over each sample, in order.
+    pub fn moments(&self) -> Moments<'_> {
+        Moments { track: self, sample: 0, sense: 0.0, rate_change: 0.0, settled_rate: 0.0 }
+    }
+
+    /// The moment that ends where the first sample begins: what the run starts from.
+    pub fn opening(&self) -> Option<Moment> {
+        let first = self.moments().next()?;
+        let start =
+            Instant { time: 0.0, angle: self.angles[0], rate: first.mean.rate, ..first.end };
+        Some(Moment { mean: start, end: start, ..first })
+    }
+
+    /// When the sample before began to end \[s\]: times may have gaps.
+    fn time_before(&self, sample: usize) -> f64 {
+        if sample == 0 { self.start() } else { self.times[sample - 1] }
+    }
+
+    /// The mean rate over the time up to the end of a sample \[rad/s\], or that of the nearest one.
+    fn rate(&self, sample: usize) -> f64 {
+        let sample = sample.min(self.len() - 1);
+        let elapsed = self.times[sample] - self.time_before(sample);
+        (self.angles[sample + 1] - self.angles[sample]) / elapsed
+    }
+
+    fn warming(&self, sample: usize) -> f64 {
+        self.temperature.as_ref().map_or(0.0, |list| list[sample.min(list.len() - 1)] - list[0])
+    }
+}
+
+/// The moments of a [`Track`], in order.
+#[derive(Clone, Debug)]
+pub struct Moments<'a> {
+    track: &'a Track,
+    sample: usize,
+    sense: f64,
+    rate_change: f64,
+    settled_rate: f64,
+}
+
+impl Iterator for Moments<'_> {
+    type Item = Moment;
+
+    fn next(&mut self) -> Option<Moment> {
+        let (track, sample) = (self.track, self.sample);
+        let time = *track.times.get(sample)?;
+        self.sample += 1;
+        let interval = track.intervals[sample];
+        let start = track.start();
+        let rate = track.rate(sample);
+        let before = track.rate(sample.saturating_sub(1));
+        let after = track.rate(sample + 1);
+        if rate.abs() > LEAST_RATE {
+            self.sense = rate.signum();
+        }
+        if (rate - self.settled_rate).abs() > LEAST_RATE {
+            self.rate_change = (rate - self.settled_rate).signum();
+            self.settled_rate = rate;
+        }
+        let elapsed = time - track.time_before(sample);
+        let warming_before = track.warming(sample.saturating_sub(1));
+        let warming = track.warming(sample);
+        let warming_rate = (track.warming(sample + 1) - warming_before) / (2.0 * elapsed);
+        let end_rate = 0.5 * (rate + after);
+        let mean = Instant {
+            time: time - 0.5 * interval - start,
+            angle: track.angles[sample + 1] - 0.5 * rate * interval,
+            rate,
+            acceleration: 0.5 * (after - before) / elapsed,
+            sense: self.sense,
+            rate_change: self.rate_change,
+            warming: 0.5 * (warming + warming_before),
+            warming_rate,
+        };
+        let end = Instant {
+            time: time - start,
+            angle: track.angles[sample + 1],
+            rate: end_rate,
+            acceleration: (after - rate) / elapsed,
+            warming,
+            ..mean
+        };
+        let surroundings = track.surroundings;
+        let mut moment = Moment {
+            interval,
+            duration: track.duration(),
+            mean,
+            end,
+            rate: Vector3::zeros(),
+            force: Vector3::zeros(),
+            surroundings,
+        };
+        // The mean of a vector that turns at a constant rate is shorter than the vector.
+        let half_turn = 0.5 * rate * interval;
+        let shortening = if half_turn.abs() < 1e-4 {
+            1.0 - half_turn * half_turn / 6.0
+        } else {
+            half_turn.sin() / half_turn
+        };
+        let mean_in_body = |vector: &Vector3<f64>| {
+            let v = moment.in_body(vector);
+            Vector3::new(v.x * shortening, v.y * shortening, v.z)
+        };
+        let force = mean_in_body(&surroundings.specific_force);
+        let earth = mean_in_body(&surroundings.earth_rate);
+        moment.force = force;
+        moment.rate = earth + Vector3::z() * rate;
+        Some(moment)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = self.track.len() - self.sample;
+        (left, Some(left))
+    }
+}
+
+impl ExactSizeIterator for Moments<'_> {}
