@@ -2,7 +2,7 @@
 //!
 //! **What it does.** A [`Term`] is one effect: its equation, parameters, units, usual magnitudes, what it
 //! needs, what it can be confused with. The [`catalogue`] holds them all by id. A [`Model`] is a
-//! list of terms: [`Making`] simulates it, and [`Chosen::signals`] gives what a term adds to the sensors, to the
+//! list of terms: [`Making`] simulates it, [`compensated`] undoes it, and [`Chosen::signals`] gives what a term adds to the sensors, to the
 //! encoder and to the direction of the axis, with its derivative by any parameter, which an estimator
 //! takes from there. The formula stands in one place, and is differentiated automatically.
 //!
@@ -17,6 +17,7 @@
 //! assert_eq!(model.terms.last().unwrap().term.name, "mounting of the IMU on the table");
 //! ```
 pub mod catalogue;
+mod compensation;
 mod grade;
 mod making;
 mod model;
@@ -24,8 +25,10 @@ mod moment;
 mod signals;
 mod term;
 mod track;
+mod triads;
 mod unit;
 
+pub use compensation::{NotUndone, compensated};
 pub use grade::Grade;
 pub use making::{Making, Reading};
 pub use model::{Chosen, Free, Model, Role};
@@ -36,3 +39,7 @@ pub use signals::{DualVector, Signals, derivatives, values};
 pub use term::{Action, Need, Noises, Owner, Parameter, Prior, Setting, Term};
 pub use track::{Moments, Track};
 pub use unit::Unit;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

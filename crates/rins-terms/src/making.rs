@@ -15,6 +15,8 @@ pub struct Reading {
     pub increments: Increments,
     /// By how much the table angle that is read differs from the true one \[rad\].
     pub angle_error: f64,
+    /// The rotation vector, in the axis frame, by which the table is tilted at the sample's end \[rad\].
+    pub tilt: Vector3<f64>,
 }
 
 /// A model at work: it makes readings from true motion.
@@ -31,23 +33,23 @@ impl<'a> Making<'a> {
         Self { model, tilt: tilt.unwrap_or_default() }
     }
 
+    /// The tilt before the next sample: a rotation vector in the axis frame \[rad\].
+    pub const fn tilt(&self) -> Vector3<f64> {
+        self.tilt
+    }
+
     /// What is read over the sample of `moment`, during which an IMU on an axis that stands still measures
     /// `truth`.
+    ///
+    /// Terms act on the rate and force that are felt, which `truth` holds more exactly than `moment`.
     pub fn read(&mut self, moment: &Moment, truth: &Increments) -> Reading {
-        let signals = self.model.signals(moment);
+        let mut signals = self.model.signals(&moment.feeling(truth));
         let (before, after) = (self.tilt, values(&signals.tilt));
         self.tilt = after;
         let mut felt = *truth;
-        let mut signals = signals;
         if before != Vector3::zeros() || after != Vector3::zeros() {
             felt = tilted(moment, truth, &before, &after);
-            let rates = felt.rates();
-            let moment = Moment {
-                rate: *rates.angular_rate.components(),
-                force: *rates.specific_force.components(),
-                ..*moment
-            };
-            signals = self.model.signals(&moment);
+            signals = self.model.signals(&moment.feeling(&felt));
         }
         let interval = felt.interval;
         Reading {
@@ -58,6 +60,7 @@ impl<'a> Making<'a> {
                 interval,
             },
             angle_error: signals.angle.re,
+            tilt: after,
         }
     }
 }

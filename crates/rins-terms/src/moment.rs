@@ -1,7 +1,7 @@
 //! What is going on over one sample: the table, the true motion, the surroundings.
 
 use nalgebra::Vector3;
-use rins_frames::{Dcm, InFrame, Nav, Table};
+use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::Station;
 
 /// What surrounds a table: the directions in which the Earth turns, pulls and is magnetic.
@@ -93,6 +93,17 @@ pub struct Moment {
 }
 
 impl Moment {
+    /// The same with the rate and force that a perfect IMU measures as `felt`.
+    #[must_use]
+    pub fn feeling(&self, felt: &Increments) -> Self {
+        let rates = felt.rates();
+        Self {
+            rate: *rates.angular_rate.components(),
+            force: *rates.specific_force.components(),
+            ..*self
+        }
+    }
+
     /// A vector of the axis frame in body axes, in the middle of the interval.
     pub fn in_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         let (sin, cos) = self.mean.angle.sin_cos();

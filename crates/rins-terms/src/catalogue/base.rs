@@ -24,8 +24,8 @@ pub static AXIS_ATTITUDE: Term = Term {
     told_apart_by: "z and the encoder's zero are one number; x and y: tilt the axis otherwise",
     owner: Owner::Run,
     action: Action::Signal(|p, _, _, out| {
-        for axis in 0..3 {
-            out.tilt[axis] += p[axis];
+        for (tilt, &angle) in out.tilt.iter_mut().zip(p) {
+            *tilt += angle;
         }
     }),
 };
