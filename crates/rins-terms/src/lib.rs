@@ -22,6 +22,7 @@ mod grade;
 mod making;
 mod model;
 mod moment;
+mod page;
 mod signals;
 mod term;
 mod track;
@@ -35,6 +36,7 @@ pub use model::{Chosen, Free, Model, Role};
 pub use moment::{Instant, Moment, Surroundings};
 /// A number with its derivative, of which [`Signals`] are made.
 pub use num_dual::Dual64;
+pub use page::page;
 pub use signals::{DualVector, Signals, derivatives, values};
 pub use term::{Action, Need, Noises, Owner, Parameter, Prior, Setting, Term};
 pub use track::{Moments, Track};

@@ -1,12 +1,13 @@
 //! A list of terms: what a simulator makes, an estimator estimates, a calibration holds.
 
 use num_dual::Dual64;
-use rins_imu::ImuSpec;
+use rins_imu::{ImuSpec, Seed};
+use rins_motion::Recording;
 
 use crate::catalogue;
 use crate::moment::Moment;
 use crate::signals::Signals;
-use crate::term::{Noises, Owner, Term};
+use crate::term::{Action, Noises, Owner, Term};
 use crate::unit::Unit;
 
 /// A term in a model: its shape, its parameters, and which of them are estimated.
@@ -96,8 +97,7 @@ impl Chosen {
 
     /// What it adds at `moment`, with the derivative by parameter `by`, if one is asked for.
     pub fn signals(&self, moment: &Moment, by: Option<usize>) -> Signals {
-        // Catalogue terms have at most nine parameters; a matrix of nine is the largest.
-        let mut duals = [Dual64::from_re(0.0); 16];
+        let mut duals = [Dual64::from_re(0.0); catalogue::MOST_PARAMETERS];
         for (dual, &value) in duals.iter_mut().zip(&self.values) {
             *dual = Dual64::from_re(value);
         }
@@ -246,10 +246,24 @@ impl Model {
     #[must_use]
     pub fn stirred(&self, mut noises: Noises) -> Noises {
         for chosen in &self.terms {
-            if let crate::term::Action::Noise(stir) = chosen.term.action {
+            if let Action::Noise(stir) = chosen.term.action {
                 stir(&chosen.values, &chosen.settings, &mut noises);
             }
         }
         noises
+    }
+
+    /// Does to a finished recording what its terms do to a log, in their order.
+    ///
+    /// Their random numbers follow from `seed`, and are none of the noise's.
+    pub fn distort(&self, seed: Seed, recording: &mut Recording) {
+        for (place, chosen) in self.terms.iter().enumerate() {
+            if let Action::Log(distort) = chosen.term.action {
+                // The golden ratio in 64 bits: neighbouring places share no digits.
+                let own = (place as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                let seed = Seed { seed: seed.seed ^ own, ..seed };
+                distort(&chosen.values, &chosen.settings, seed, recording);
+            }
+        }
     }
 }

@@ -110,6 +110,11 @@ impl Moment {
         Vector3::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin, vector.z)
     }
 
+    /// The share of the interval that lies after `time` \[s\], between 0 and 1.
+    pub fn share_after(&self, time: f64) -> f64 {
+        ((self.mean.time - time) / self.interval + 0.5).clamp(0.0, 1.0)
+    }
+
     /// How fast the true angular rate changes in body axes \[rad/s²\].
     pub fn rate_derivative(&self) -> Vector3<f64> {
         let w = self.mean.rate;

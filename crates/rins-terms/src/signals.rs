@@ -61,6 +61,29 @@ fn add(to: &mut DualVector, factor: Dual64, vector: &Vector3<f64>) {
     }
 }
 
+/// Adds `factor · parameters`, one parameter a component.
+pub(crate) fn add_constant(to: &mut DualVector, parameters: &[Dual64], factor: f64) {
+    for (to, &parameter) in to.iter_mut().zip(parameters) {
+        *to += parameter * factor;
+    }
+}
+
+/// Adds to each component a parameter of its own times the component of a vector.
+pub(crate) fn add_scaled(to: &mut DualVector, parameters: &[Dual64], of: &Vector3<f64>) {
+    for axis in 0..3 {
+        to[axis] += parameters[axis] * of[axis];
+    }
+}
+
+/// Adds `[parameters] · of`, the parameters being a matrix row by row.
+pub(crate) fn add_matrix(to: &mut DualVector, parameters: &[Dual64], of: &Vector3<f64>) {
+    for (to, row) in to.iter_mut().zip(parameters.chunks_exact(3)) {
+        for (&parameter, &component) in row.iter().zip(of) {
+            *to += parameter * component;
+        }
+    }
+}
+
 /// The values of a vector, without its derivatives.
 pub fn values(vector: &DualVector) -> Vector3<f64> {
     Vector3::from(vector.map(|dual| dual.re))

@@ -18,6 +18,9 @@ use crate::unit::Unit;
 pub struct Term {
     /// The name in files and results, such as `accel_lever_arm`.
     pub id: &'static str,
+    /// Other ids under which it is found: effects that no schedule could tell from it, so that they share
+    /// its entry.
+    pub also: &'static [&'static str],
     /// The name in words, such as "lever arm of the accelerometers".
     pub name: &'static str,
     /// What makes it, in a sentence.

@@ -1,6 +1,6 @@
 //! The units in which parameters are shown and written in files.
 
-use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM, STANDARD_GRAVITY};
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM, STANDARD_GRAVITY};
 
 /// A unit of a parameter: how it is written, and one of it in SI units and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,30 @@ impl Unit {
         Self::new("arcsec/turn", ARCSEC / (2.0 * std::f64::consts::PI));
     /// Minutes of arc \[rad\].
     pub const ARCMIN: Self = Self::new("arcmin", 60.0 * ARCSEC);
+
+    /// Seconds.
+    pub const SECOND: Self = Self::new("s", 1.0);
+    /// Hertz.
+    pub const HERTZ: Self = Self::new("Hz", 1.0);
+    /// Degrees a second \[rad/s\].
+    pub const DEG_PER_SECOND: Self = Self::new("deg/s", DEG);
+    /// Standard gravity \[m/s²\].
+    pub const G: Self = Self::new("g", STANDARD_GRAVITY);
+    /// Degrees an hour per root hour, as a random walk of a rate \[rad/s/√s\].
+    pub const DEG_PER_HOUR_PER_ROOT_HOUR: Self = Self::new("deg/h/sqrt(h)", DEG_PER_HOUR / 60.0);
+    /// Millionths of standard gravity per root hour, as a random walk \[m/s²/√s\].
+    pub const MICRO_G_PER_ROOT_HOUR: Self = Self::new("ug/sqrt(h)", MICRO_G / 60.0);
+    /// Degrees an hour per degree a second: a ratio of rates.
+    pub const DEG_PER_HOUR_PER_DEG_PER_SECOND: Self = Self::new("deg/h/(deg/s)", 1.0 / 3600.0);
+    /// Degrees an hour per (degree a second)² \[s/rad\].
+    pub const DEG_PER_HOUR_PER_DEG_PER_SECOND_2: Self =
+        Self::new("deg/h/(deg/s)^2", 1.0 / (3600.0 * DEG));
+    /// Parts in a million per degree a second \[s/rad\].
+    pub const PPM_PER_DEG_PER_SECOND: Self = Self::new("ppm/(deg/s)", PPM / DEG);
+    /// Parts in a million per (degree a second)² \[s²/rad²\].
+    pub const PPM_PER_DEG_PER_SECOND_2: Self = Self::new("ppm/(deg/s)^2", PPM / (DEG * DEG));
+    /// Micrometres a second \[m/s\].
+    pub const MICROMETRE_PER_SECOND: Self = Self::new("um/s", 1e-6);
 
     /// A unit of this name and size.
     pub const fn new(symbol: &'static str, factor: f64) -> Self {

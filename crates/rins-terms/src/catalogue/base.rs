@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::signals::add_constant;
 use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
 use crate::unit::Unit;
 
@@ -13,6 +14,7 @@ const fn angle(name: &'static str, high: f64) -> Parameter {
 /// The error of the surveyed attitude of the axis.
 pub static AXIS_ATTITUDE: Term = Term {
     id: "axis.attitude",
+    also: &[],
     name: "attitude of the axis",
     cause: "the axis frame does not stand as it was surveyed",
     equation: "C_s^n Rot(θ) instead of C_s^n, θ constant in the axis frame",
@@ -23,16 +25,13 @@ pub static AXIS_ATTITUDE: Term = Term {
     partners: &["encoder.zero", "accel.scale", "wrong_latitude"],
     told_apart_by: "z and the encoder's zero are one number; x and y: tilt the axis otherwise",
     owner: Owner::Run,
-    action: Action::Signal(|p, _, _, out| {
-        for (tilt, &angle) in out.tilt.iter_mut().zip(p) {
-            *tilt += angle;
-        }
-    }),
+    action: Action::Signal(|p, _, _, out| add_constant(&mut out.tilt, p, 1.0)),
 };
 
 /// How the body axes stand against the axis of rotation.
 pub static MOUNTING: Term = Term {
     id: "mounting",
+    also: &[],
     name: "mounting of the IMU on the table",
     cause: "the body's z axis is not the axis of rotation",
     equation: "C_b^s = Rz(ζ) Rot(m), m constant in the body",
@@ -53,6 +52,7 @@ pub static MOUNTING: Term = Term {
 /// What the encoder reads where the axis frame has its zero.
 pub static ENCODER_ZERO: Term = Term {
     id: "encoder.zero",
+    also: &[],
     name: "zero of the encoder",
     cause: "the encoder's zero is not that of the axis frame",
     equation: "angle += z0",

@@ -1,14 +1,60 @@
 //! The catalogue: every effect that is known here, by id.
 
+mod accel_bias;
+mod accel_force;
+mod accel_place;
 mod base;
+mod convention;
+mod encoder;
+mod ground;
+mod gyro_bias;
+mod gyro_force;
+mod gyro_scale;
+mod line;
+mod log;
+mod noise;
+mod parameters;
+mod place;
+mod timing;
 mod triads;
+mod wobble;
 
+pub use accel_bias::{
+    ACCEL_BIAS_RAMP, ACCEL_BIAS_STEP, ACCEL_THERMAL_BIAS, ACCEL_VIBRATION_RECTIFICATION,
+    ACCEL_WARMUP,
+};
+pub use accel_force::{ACCEL_ASYMMETRY, ACCEL_CROSS_COUPLING, ACCEL_CUBIC, ACCEL_QUADRATIC};
+pub use accel_place::{ACCEL_LEVER_ARM, ACCEL_SIZE_EFFECT};
 pub use base::{AXIS_ATTITUDE, ENCODER_ZERO, MOUNTING};
+pub use convention::{AXIS_CONVENTION, TABLE_SENSE, UNIT_ERROR};
+pub use encoder::{ENCODER_BACKLASH, ENCODER_ECCENTRICITY, ENCODER_HARMONIC, ENCODER_SLIP};
+pub use ground::{BASE_ROTATION, BASE_SWAY, BASE_TILT_RAMP, BASE_TILT_STEP};
+pub use gyro_bias::{
+    GYRO_BIAS_RAMP, GYRO_BIAS_STEP, GYRO_RATE_DEPENDENT_BIAS, GYRO_SHUPE, GYRO_THERMAL_BIAS,
+    GYRO_WARMUP, THERMAL_ONE_PER_TURN,
+};
+pub use gyro_force::{GYRO_G_SENSITIVITY, GYRO_G2_SENSITIVITY, GYRO_MAGNETIC};
+pub use gyro_scale::{
+    GYRO_DEAD_ZONE, GYRO_HYSTERESIS, GYRO_SCALE_ASYMMETRY, GYRO_SCALE_NONLINEARITY,
+    GYRO_SCALE_RAMP, GYRO_THERMAL_SCALE,
+};
+pub use line::INTERFERENCE_LINE;
+pub use log::{ACCEL_SATURATION, GYRO_SATURATION, OUTLIERS, STUCK_SAMPLES, TIMESTAMP_JITTER};
+pub use noise::{
+    ACCEL_BIAS_INSTABILITY, ACCEL_NOISE_LEVEL, ACCEL_QUANTISATION, ACCEL_RATE_RANDOM_WALK,
+    GYRO_BIAS_INSTABILITY, GYRO_NOISE_LEVEL, GYRO_QUANTISATION, GYRO_RATE_RANDOM_WALK,
+};
+pub use place::{WRONG_GRAVITY, WRONG_LATITUDE};
+pub use timing::{ACCEL_LATENCY, CLOCK_DRIFT, DROPPED_SAMPLES, ENCODER_LATENCY, GYRO_LAG};
 pub use triads::{
     ACCEL_BIAS, ACCEL_MISALIGNMENT, ACCEL_SCALE, GYRO_BIAS, GYRO_MISALIGNMENT, GYRO_SCALE,
 };
+pub use wobble::{CABLE_TORQUE_TILT, TABLE_RATE_RIPPLE, TABLE_WOBBLE};
 
 use crate::term::Term;
+
+/// As many parameters as a term may have.
+pub const MOST_PARAMETERS: usize = 18;
 
 /// All terms: those of the baseline first, then gyros, accelerometers, table and timing, base and place.
 pub static CATALOGUE: &[&Term] = &[
@@ -21,9 +67,71 @@ pub static CATALOGUE: &[&Term] = &[
     &AXIS_ATTITUDE,
     &MOUNTING,
     &ENCODER_ZERO,
+    &GYRO_BIAS_STEP,
+    &GYRO_BIAS_RAMP,
+    &GYRO_WARMUP,
+    &GYRO_THERMAL_BIAS,
+    &GYRO_SHUPE,
+    &GYRO_RATE_DEPENDENT_BIAS,
+    &GYRO_SCALE_ASYMMETRY,
+    &GYRO_SCALE_NONLINEARITY,
+    &GYRO_THERMAL_SCALE,
+    &GYRO_SCALE_RAMP,
+    &GYRO_HYSTERESIS,
+    &GYRO_DEAD_ZONE,
+    &GYRO_G_SENSITIVITY,
+    &GYRO_G2_SENSITIVITY,
+    &GYRO_MAGNETIC,
+    &GYRO_LAG,
+    &GYRO_NOISE_LEVEL,
+    &GYRO_BIAS_INSTABILITY,
+    &GYRO_RATE_RANDOM_WALK,
+    &GYRO_QUANTISATION,
+    &GYRO_SATURATION,
+    &ACCEL_BIAS_STEP,
+    &ACCEL_BIAS_RAMP,
+    &ACCEL_WARMUP,
+    &ACCEL_THERMAL_BIAS,
+    &ACCEL_VIBRATION_RECTIFICATION,
+    &ACCEL_QUADRATIC,
+    &ACCEL_CUBIC,
+    &ACCEL_ASYMMETRY,
+    &ACCEL_CROSS_COUPLING,
+    &ACCEL_LEVER_ARM,
+    &ACCEL_SIZE_EFFECT,
+    &ACCEL_LATENCY,
+    &ACCEL_NOISE_LEVEL,
+    &ACCEL_BIAS_INSTABILITY,
+    &ACCEL_RATE_RANDOM_WALK,
+    &ACCEL_QUANTISATION,
+    &ACCEL_SATURATION,
+    &ENCODER_ECCENTRICITY,
+    &ENCODER_HARMONIC,
+    &ENCODER_BACKLASH,
+    &ENCODER_SLIP,
+    &ENCODER_LATENCY,
+    &CLOCK_DRIFT,
+    &DROPPED_SAMPLES,
+    &TIMESTAMP_JITTER,
+    &TABLE_WOBBLE,
+    &TABLE_RATE_RIPPLE,
+    &TABLE_SENSE,
+    &CABLE_TORQUE_TILT,
+    &THERMAL_ONE_PER_TURN,
+    &BASE_TILT_RAMP,
+    &BASE_TILT_STEP,
+    &BASE_SWAY,
+    &BASE_ROTATION,
+    &WRONG_LATITUDE,
+    &WRONG_GRAVITY,
+    &INTERFERENCE_LINE,
+    &OUTLIERS,
+    &STUCK_SAMPLES,
+    &UNIT_ERROR,
+    &AXIS_CONVENTION,
 ];
 
-/// The term of this id.
+/// The term of this id, or of an id that shares its entry.
 pub fn term(id: &str) -> Option<&'static Term> {
-    CATALOGUE.iter().copied().find(|term| term.id == id)
+    CATALOGUE.iter().copied().find(|term| term.id == id || term.also.contains(&id))
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use num_dual::Dual64;
 
-use crate::signals::DualVector;
+use crate::signals::{DualVector, add_constant, add_scaled};
 use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
 use crate::unit::Unit;
 
@@ -40,18 +40,6 @@ macro_rules! off_diagonal {
     };
 }
 
-fn add_constant(to: &mut DualVector, p: &[Dual64]) {
-    for axis in 0..3 {
-        to[axis] += p[axis];
-    }
-}
-
-fn add_scaled(to: &mut DualVector, p: &[Dual64], of: &Vector3<f64>) {
-    for axis in 0..3 {
-        to[axis] += p[axis] * of[axis];
-    }
-}
-
 fn add_crossed(to: &mut DualVector, p: &[Dual64], of: &Vector3<f64>) {
     for (&p, (row, column)) in p.iter().zip(OFF_DIAGONAL) {
         to[row] += p * of[column];
@@ -61,6 +49,7 @@ fn add_crossed(to: &mut DualVector, p: &[Dual64], of: &Vector3<f64>) {
 /// Gyro biases.
 pub static GYRO_BIAS: Term = Term {
     id: "gyro.bias",
+    also: &[],
     name: "gyro bias",
     cause: "what a gyro reads at rest with respect to inertial space, from one turn-on to the next",
     equation: "gyro += b",
@@ -71,12 +60,13 @@ pub static GYRO_BIAS: Term = Term {
     partners: &["gyro.misalignment", "gyro.scale"],
     told_apart_by: "turn the table both ways, or at two rates",
     owner: Owner::Run,
-    action: Action::Signal(|p, _, _, out| add_constant(&mut out.gyro, p)),
+    action: Action::Signal(|p, _, _, out| add_constant(&mut out.gyro, p, 1.0)),
 };
 
 /// Gyro scale errors.
 pub static GYRO_SCALE: Term = Term {
     id: "gyro.scale",
+    also: &[],
     name: "gyro scale error",
     cause: "a gyro's scale factor is off its nominal one",
     equation: "gyro += S ω",
@@ -93,6 +83,7 @@ pub static GYRO_SCALE: Term = Term {
 /// Gyro misalignments.
 pub static GYRO_MISALIGNMENT: Term = Term {
     id: "gyro.misalignment",
+    also: &[],
     name: "gyro misalignment",
     cause: "a gyro's axis is off its body axis; xz: what gyro x sees of a rate about z",
     equation: "gyro += M ω, M zero on its diagonal",
@@ -109,6 +100,7 @@ pub static GYRO_MISALIGNMENT: Term = Term {
 /// Accelerometer biases.
 pub static ACCEL_BIAS: Term = Term {
     id: "accel.bias",
+    also: &[],
     name: "accelerometer bias",
     cause: "what an accelerometer reads in free fall, from one turn-on to the next",
     equation: "accel += b",
@@ -119,12 +111,13 @@ pub static ACCEL_BIAS: Term = Term {
     partners: &["accel.scale", "accel_lever_arm"],
     told_apart_by: "tilt the axis otherwise; turn the table at two rates",
     owner: Owner::Run,
-    action: Action::Signal(|p, _, _, out| add_constant(&mut out.accel, p)),
+    action: Action::Signal(|p, _, _, out| add_constant(&mut out.accel, p, 1.0)),
 };
 
 /// Accelerometer scale errors.
 pub static ACCEL_SCALE: Term = Term {
     id: "accel.scale",
+    also: &["accel_scale"],
     name: "accelerometer scale error",
     cause: "an accelerometer's scale factor is off its nominal one",
     equation: "accel += S f",
@@ -141,6 +134,7 @@ pub static ACCEL_SCALE: Term = Term {
 /// Accelerometer misalignments.
 pub static ACCEL_MISALIGNMENT: Term = Term {
     id: "accel.misalignment",
+    also: &["accel_misalignment"],
     name: "accelerometer misalignment",
     cause: "an accelerometer's axis is off its body axis; xz: what accelerometer x sees of a force along z",
     equation: "accel += M f, M zero on its diagonal",

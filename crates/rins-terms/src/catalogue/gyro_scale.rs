@@ -1,0 +1,154 @@
+//! What gyro z shows of the table's rate beyond a constant scale error, and what gyros show of a slow rate.
+//!
+//! Only gyro z has scale effects of second order: x and y see no more than the Earth's rate.
+
+use num_dual::{Dual64, DualNum};
+
+use crate::catalogue::parameters::{parameter, per_axis, usual};
+use crate::term::{Action, Need, Owner, Term};
+use crate::unit::Unit;
+
+/// A scale error that changes sign with the rate.
+pub static GYRO_SCALE_ASYMMETRY: Term = Term {
+    id: "gyro_scale_asymmetry",
+    also: &[],
+    name: "asymmetry of the gyro scale",
+    cause: "a gyro's scale factor differs between the two senses of rotation",
+    equation: "gyro_z += A |ω_z|",
+    source: "the even part of a scale factor; ieee952",
+    parameters: &[parameter("z", Unit::PPM, usual((1.0, 50.0), (0.1, 1.0), (10.0, 500.0)))],
+    settings: &[],
+    needs: &[Need::Reversal, Need::SeveralRates],
+    partners: &["gyro.bias", "encoder_latency", "gyro_rate_dependent_bias", "gyro_hysteresis"],
+    told_apart_by: "turn both ways at three rates, with rests",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.rate.z.abs()),
+};
+
+/// A scale error that grows with the rate.
+pub static GYRO_SCALE_NONLINEARITY: Term = Term {
+    id: "gyro_scale_nonlinearity",
+    also: &[],
+    name: "nonlinearity of the gyro scale",
+    cause: "a gyro's scale factor depends on the rate",
+    equation: "gyro_z += k2 ω_z |ω_z| + k3 ω_z³",
+    source: "the odd terms of a scale factor's series in the rate; ieee952",
+    parameters: &[
+        parameter(
+            "k2_z",
+            Unit::PPM_PER_DEG_PER_SECOND,
+            usual((0.5, 10.0), (0.1, 0.5), (5.0, 100.0)),
+        ),
+        parameter(
+            "k3_z",
+            Unit::PPM_PER_DEG_PER_SECOND_2,
+            usual((0.05, 1.0), (0.01, 0.05), (0.5, 10.0)),
+        ),
+    ],
+    settings: &[],
+    needs: &[Need::SeveralRates],
+    partners: &["gyro.scale"],
+    told_apart_by: "turn at four rates, the largest ten times the smallest",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| {
+        let w = moment.rate.z;
+        out.gyro[2] += p[0] * (w * w.abs()) + p[1] * (w * w * w);
+    }),
+};
+
+/// A scale error that follows the temperature.
+pub static GYRO_THERMAL_SCALE: Term = Term {
+    id: "gyro_thermal_scale",
+    also: &[],
+    name: "temperature coefficient of the gyro scale",
+    cause: "a gyro's scale factor depends on its temperature",
+    equation: "gyro_z += k (T - T0) ω_z, T0 at the run's start",
+    source: "the first term of a scale factor's series in temperature",
+    parameters: &[parameter(
+        "z",
+        Unit::PPM_PER_KELVIN,
+        usual((1.0, 100.0), (0.01, 0.1), (20.0, 200.0)),
+    )],
+    settings: &[],
+    needs: &[Need::Temperature, Need::Reversal],
+    partners: &["gyro_thermal_bias", "gyro_scale_ramp"],
+    told_apart_by: "turn both ways while the temperature changes",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| {
+        out.gyro[2] += p[0] * (moment.mean.warming * moment.rate.z);
+    }),
+};
+
+/// A scale error that drifts.
+pub static GYRO_SCALE_RAMP: Term = Term {
+    id: "gyro_scale_ramp",
+    also: &[],
+    name: "gyro scale ramp",
+    cause: "a gyro's scale factor drifts at a constant rate",
+    equation: "gyro_z += S' t ω_z",
+    source: "the first term of a slow drift's series",
+    parameters: &[parameter(
+        "z",
+        Unit::PPM_PER_HOUR,
+        usual((0.1, 10.0), (0.01, 0.1), (10.0, 1000.0)),
+    )],
+    settings: &[],
+    needs: &[Need::Reversal],
+    partners: &["gyro_bias_ramp", "gyro_thermal_scale", "clock_drift"],
+    told_apart_by: "turn the table both ways",
+    owner: Owner::Run,
+    action: Action::Signal(|p, _, moment, out| {
+        out.gyro[2] += p[0] * (moment.mean.time * moment.rate.z);
+    }),
+};
+
+/// A gyro that remembers how its rate last changed.
+pub static GYRO_HYSTERESIS: Term = Term {
+    id: "gyro_hysteresis",
+    also: &[],
+    name: "gyro hysteresis",
+    cause: "a gyro shows one rate after a rise and another after a fall",
+    equation: "gyro_z += h sgn(last dω), 0 before the first change",
+    source: "ieee952",
+    parameters: &[parameter(
+        "z",
+        Unit::DEG_PER_HOUR,
+        usual((0.01, 0.2), (0.001, 0.02), (0.4, 8.0)),
+    )],
+    settings: &[],
+    needs: &[Need::SeveralRates],
+    partners: &["gyro_scale_asymmetry", "gyro_bias_step"],
+    told_apart_by: "go up and down a ladder of rates",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.mean.rate_change),
+};
+
+/// Gyros that do not see a slow rate.
+///
+/// The derivative by a width of zero is zero: linearise at a width that is usual.
+pub static GYRO_DEAD_ZONE: Term = Term {
+    id: "gyro_dead_zone",
+    also: &[],
+    name: "gyro dead zone",
+    cause: "backscatter locks a laser gyro in, or a closed loop has a dead band",
+    equation: "|ω| ≤ d: gyro -= ω; else gyro += sgn(ω) (√(ω² - d²) - |ω|)",
+    source: "the lock-in equation, titterton2004",
+    parameters: &per_axis(Unit::DEG_PER_HOUR, usual((0.01, 0.5), (0.001, 0.05), (0.1, 20.0))),
+    settings: &[],
+    needs: &[],
+    partners: &["gyro_quantisation", "gyro_g2_sensitivity"],
+    told_apart_by: "turn slowly enough for the Earth's rate to cross zero in x and y",
+    owner: Owner::Sensor,
+    action: Action::Signal(|p, _, moment, out| {
+        for (axis, &width) in p.iter().enumerate() {
+            let rate = moment.rate[axis];
+            out.gyro[axis] += if rate.abs() <= width.re.abs() {
+                Dual64::from_re(-rate)
+            } else {
+                // √(ω² - d²) - |ω| without the difference of two nearly equal numbers.
+                let left = (-width * width + rate * rate).sqrt() + rate.abs();
+                -width * width / left * rate.signum()
+            };
+        }
+    }),
+};

@@ -1,0 +1,126 @@
+//! Every derivative that a term carries is that of what it adds.
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use rins_frames::units::DEG;
+use rins_frames::{EulerAngles, Site};
+use rins_motion::Station;
+use rins_terms::catalogue::CATALOGUE;
+use rins_terms::{Chosen, Dual64, Instant, Moment, Signals, Surroundings};
+use rins_testing::{any_euler_angles, any_latitude};
+
+use crate::support::sheet;
+
+/// Any moment of a table anywhere, at any rate and acceleration that tables have.
+fn any_moment() -> impl Strategy<Value = Moment> {
+    let table = (0.0..3600.0_f64, -20.0..20.0_f64, -1.0..1.0_f64, -0.5..0.5_f64);
+    let heat = (-20.0..20.0_f64, -0.1..0.1_f64);
+    (any_latitude(), any_euler_angles(), table, heat).prop_map(
+        |(latitude, [roll, pitch, yaw], (time, angle, rate, acceleration), heat)| {
+            let site = Site { latitude, longitude: 0.0, height: 0.0 };
+            let attitude = EulerAngles { roll, pitch, yaw };
+            let surroundings =
+                Surroundings::new(Station::with_normal_gravity(site), attitude.dcm());
+            let interval = 0.01;
+            let (warming, warming_rate) = heat;
+            let sense = rate.signum();
+            let mean = Instant {
+                time,
+                angle,
+                rate,
+                acceleration,
+                sense,
+                rate_change: sense,
+                warming,
+                warming_rate,
+            };
+            let end = Instant {
+                time: time + interval / 2.0,
+                angle: angle + rate * interval / 2.0,
+                rate: rate + acceleration * interval / 2.0,
+                ..mean
+            };
+            let mut moment = Moment {
+                interval,
+                duration: 4000.0,
+                mean,
+                end,
+                rate: Vector3::zeros(),
+                force: Vector3::zeros(),
+                surroundings,
+            };
+            moment.rate = moment.in_body(&surroundings.earth_rate) + Vector3::z() * rate;
+            moment.force = moment.in_body(&surroundings.specific_force);
+            moment
+        },
+    )
+}
+
+fn numbers(signals: &Signals) -> Vec<Dual64> {
+    let mut numbers = Vec::new();
+    numbers.extend(signals.gyro);
+    numbers.extend(signals.accel);
+    numbers.extend(signals.tilt);
+    numbers.push(signals.angle);
+    numbers
+}
+
+proptest! {
+    #[test]
+    fn derivatives_are_those_of_differences(
+        moment in any_moment(),
+        sizes in proptest::collection::vec((0.2..1.0_f64, any::<bool>()), 18),
+    ) {
+        for term in CATALOGUE.iter().filter(|term| term.is_signal()) {
+            let values: Vec<f64> = term
+                .parameters
+                .iter()
+                .zip(&sizes)
+                .map(|(p, (size, minus))| p.sigma(&sheet()) * if *minus { -size } else { *size })
+                .collect();
+            // The slope of a lock-in is infinite at its edge.
+            let edge = values.iter().zip(&moment.rate).any(|(width, rate)| {
+                (rate.abs() - width.abs()).abs() < 0.5 * width.abs()
+            });
+            if term.id == "gyro_dead_zone" && edge {
+                continue;
+            }
+            let at = |place: usize, change: f64| {
+                let mut chosen = Chosen::new(term).with_values(&values);
+                chosen.values[place] += change;
+                numbers(&chosen.signals(&moment, None))
+            };
+            let chosen = Chosen::new(term).with_values(&values);
+            for (place, parameter) in term.parameters.iter().enumerate() {
+                let step = 1e-3 * values[place].abs();
+                let exact = numbers(&chosen.signals(&moment, Some(place)));
+                let (above, below) = (at(place, step), at(place, -step));
+                // Second differences of what is not linear, and the rounding of the first.
+                let size = exact.iter().map(|x| x.eps.abs()).fold(0.0, f64::max);
+                let value = exact.iter().map(|x| x.re.abs()).fold(0.0, f64::max);
+                let within = 1e-5 * size + 1e-12 * value / step + f64::MIN_POSITIVE;
+                for ((above, below), exact) in above.iter().zip(&below).zip(&exact) {
+                    let difference = (above.re - below.re) / (2.0 * step);
+                    prop_assert!(
+                        (difference - exact.eps).abs() <= within,
+                        "{}.{}: {} is not {}, {}",
+                        term.id, parameter.name, exact.eps, difference, within
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A dead zone is as flat at the width zero as it looks: a linear test must start elsewhere.
+#[test]
+fn a_dead_zone_of_no_width_has_no_slope() {
+    let track =
+        crate::support::turning(&[rins_motion::Segment { rate: 5.0 * DEG, duration: 1.0 }]).track;
+    let moment = track.moments().next().unwrap();
+    let term = rins_terms::catalogue::term("gyro_dead_zone").unwrap();
+    let signals = Chosen::new(term).signals(&moment, Some(2));
+    assert_eq!(signals.gyro[2].eps, 0.0);
+    let wide = Chosen::new(term).with_values(&[0.0, 0.0, 1e-6]).signals(&moment, Some(2));
+    assert!(wide.gyro[2].eps < 0.0);
+}
