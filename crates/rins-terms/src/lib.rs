@@ -2,7 +2,8 @@
 //!
 //! **What it does.** A [`Term`] is one effect: its equation, parameters, units, usual magnitudes, what it
 //! needs, what it can be confused with. The [`catalogue`] holds them all by id. A [`Model`] is a
-//! list of terms: [`Making`] simulates it, [`compensated`] undoes it, and [`Chosen::signals`] gives what a term adds to the sensors, to the
+//! list of terms: [`Making`] simulates it, [`compensated`] undoes it, and [`Chosen::signals`] gives what a term
+//! adds to the sensors, to the
 //! encoder and to the direction of the axis, with its derivative by any parameter, which an estimator
 //! takes from there. The formula stands in one place, and is differentiated automatically.
 //!
