@@ -119,7 +119,7 @@ pub fn write_files(
     }
     let failed = |path: &Path| IoError::file("write", path);
     let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed(first))?;
-    fill(staging.path())?;
+    fill(staging.path()).map_err(|error| placed(error, staging.path(), parent))?;
     synchronise_all(staging.path()).map_err(failed(first))?;
     for path in paths {
         // Whatever has come in between is not replaced either.
@@ -161,7 +161,7 @@ pub fn write_folder(
     let old = replaceable(path, overwrite)?;
     let failed = || IoError::file("write", path);
     let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
-    fill(staging.path())?;
+    fill(staging.path()).map_err(|error| placed(error, staging.path(), path))?;
     synchronise_all(staging.path()).map_err(failed())?;
     if old {
         let aside = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
@@ -211,6 +211,18 @@ fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
     match names.into_iter().find(|(name, is_file)| !is_file || !NAMES.contains(&name.as_str())) {
         Some((entry, _)) => Err(refuse(path, OutputProblem::HoldsMore { entry })),
         None => Ok(true),
+    }
+}
+
+/// An error on a file in the temporary folder as one on the file that it was to become.
+fn placed(error: IoError, staging: &Path, destination: &Path) -> IoError {
+    match error {
+        IoError::File { action, path, source } => {
+            let path =
+                path.strip_prefix(staging).map_or(path.clone(), |name| destination.join(name));
+            IoError::File { action, path, source }
+        }
+        other => other,
     }
 }
 

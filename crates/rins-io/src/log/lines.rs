@@ -85,6 +85,14 @@ impl<R: BufRead> Lines<R> {
         self.unfinished
     }
 
+    /// Why a log has no line that is read.
+    pub(super) fn emptiness(&self) -> LogProblem {
+        match self.unfinished {
+            Some(_) => LogProblem::NoLineEnd,
+            None => LogProblem::Empty,
+        }
+    }
+
     /// How many lines there have been.
     pub(super) fn number(&self) -> u64 {
         self.number

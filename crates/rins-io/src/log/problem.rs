@@ -9,6 +9,9 @@ pub enum LogProblem {
     /// There is nothing in it.
     #[error("the file is empty")]
     Empty,
+    /// No line of it has an end.
+    #[error("no line ends in a line feed; is the file cut short, or written on an old Mac?")]
+    NoLineEnd,
     /// There is a header and nothing else.
     #[error("only a header, no samples")]
     OnlyHeader,
@@ -236,7 +239,7 @@ pub enum LogProblem {
         bytes: usize,
     },
     /// A file says of few bytes that they are very many rows.
-    #[error("more than {most} rows, which a file of this size cannot hold of a sensor's readings")]
+    #[error("more than {most} rows, the most that are read of a log of this size")]
     ManyRows {
         /// The most that are read.
         most: u64,

@@ -124,10 +124,10 @@ pub(crate) fn header<R: BufRead>(lines: &mut Lines<R>) -> Result<PsinsHeader, Io
     let mut rows = [[0.0; 6]; 3];
     for (index, names) in HEADER.iter().enumerate() {
         rows[index] = row(lines, names)?.ok_or_else(|| {
-            let problem = if lines.number() == 0 {
-                LogProblem::Empty
-            } else {
-                LogProblem::ShortHeader { rows: index }
+            let problem = match lines.emptiness() {
+                LogProblem::Empty if lines.number() > 0 => LogProblem::ShortHeader { rows: index },
+                problem if index == 0 => problem,
+                _ => LogProblem::ShortHeader { rows: index },
             };
             LogError::of(lines.path(), problem)
         })?;

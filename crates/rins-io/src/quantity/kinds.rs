@@ -27,6 +27,10 @@ enum Range {
     Within { low: f64, high: f64, words: &'static str },
 }
 
+/// The largest number in SI units and the least positive one: their squares are still numbers.
+const LARGEST: f64 = 1e12;
+const LEAST: f64 = 1e-30;
+
 impl Kind {
     const fn new(
         name: &'static str,
@@ -61,13 +65,15 @@ impl Kind {
             });
         }
         let out_of_range = match self.range {
+            Range::Positive if value > 0.0 && value < LEAST => Some("1e-30 or more in SI units"),
             Range::Any => None,
             Range::NotNegative => (value < 0.0).then_some("zero or more"),
             Range::Positive => (value <= 0.0).then_some("more than zero"),
             Range::PositiveUpTo { high, words } => (value <= 0.0 || value > high).then_some(words),
             Range::Within { low, high, words } => (!(low..=high).contains(&value)).then_some(words),
         };
-        match out_of_range {
+        let beyond = || (value.abs() > LARGEST).then_some("no more than 1e12 in SI units");
+        match out_of_range.or_else(beyond) {
             Some(expected) => Err(QuantityError::OutOfRange { text: text.into(), expected }),
             None => Ok(value),
         }

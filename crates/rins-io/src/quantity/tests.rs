@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{Dimension, Quantity, Unit};
+use super::{Dimension, Quantity, Unit, kinds};
 use rins_testing::assert_close;
 
 const NAMES: [&str; 12] =
@@ -147,4 +147,18 @@ fn dimensions_without_a_name_are_shown_in_si_units() {
     let shown = |text| Quantity::parse(text).unwrap().dimension.to_string();
     assert_eq!(shown("1 deg/h/g"), "a quantity in rad s m^-1");
     assert_eq!(shown("1 sqrt(Hz)"), "a quantity in s^(-1/2)");
+}
+
+#[test]
+fn figures_whose_squares_are_no_numbers_are_refused() {
+    let said = |kind: &kinds::Kind, text: &str| kind.parse(text).unwrap_err().to_string();
+    assert_eq!(
+        said(&kinds::GYRO_BIAS, "-1e20 deg/h"),
+        "\"-1e20 deg/h\" is out of range, expected no more than 1e12 in SI units"
+    );
+    assert_eq!(
+        said(&kinds::GYRO_BIAS_SIGMA, "1e-40 rad/s"),
+        "\"1e-40 rad/s\" is out of range, expected 1e-30 or more in SI units"
+    );
+    assert_eq!(kinds::GYRO_BIAS.parse("1e-40 rad/s"), Ok(1e-40));
 }

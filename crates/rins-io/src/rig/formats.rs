@@ -34,7 +34,8 @@ impl Fixed {
 
     fn table(self) -> Table {
         match self {
-            Self::KfGins | Self::Euroc => Table::Text,
+            Self::KfGins => Table::Numbers,
+            Self::Euroc => Table::Text,
             Self::PsinsBinary => Table::Doubles(7),
             Self::NovAtel => Table::NovAtel,
         }

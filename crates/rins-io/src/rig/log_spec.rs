@@ -36,6 +36,8 @@ pub enum LogFormat {
 pub enum Table {
     /// Text, with any delimiter.
     Text,
+    /// The same without names of columns.
+    Numbers,
     /// A Parquet file.
     Parquet,
     /// Matrices in a MATLAB level 5 file.

@@ -11,6 +11,7 @@
 mod calibration;
 mod convert;
 mod draft;
+mod faults;
 mod formats;
 mod log_refusals;
 mod logs;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use super::{Columns, Wanted, typed};
+use super::{Columns, MOST_ROWS, Wanted, typed};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 
@@ -36,6 +36,9 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
         }
         stamps.extend(time_place.map(number));
         rows += 1;
+        if rows > MOST_ROWS {
+            return Err(LogError::of(path, LogProblem::ManyRows { most: MOST_ROWS }));
+        }
     }
     if rows == 0 {
         return Err(LogError::of(path, LogProblem::Empty));

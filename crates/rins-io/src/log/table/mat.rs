@@ -128,6 +128,9 @@ impl Found {
                     }
                     // What is left, a checksum or two, is passed over.
                     std::io::copy(&mut limited, &mut std::io::sink())?;
+                    if limited.limit() > 0 {
+                        return Err(std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into());
+                    }
                 }
                 _ => elements.skip(tag.length)?,
             }

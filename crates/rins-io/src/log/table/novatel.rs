@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::{Columns, Wanted, place};
+use super::{Columns, MOST_ROWS, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
@@ -57,13 +57,16 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         for (list, &place) in columns.numbers.iter_mut().zip(&places) {
             list.push(counts[place]);
         }
+        if columns.lines.len() as u64 >= MOST_ROWS {
+            return Err(refuse(LogProblem::ManyRows { most: MOST_ROWS }));
+        }
         columns.lines.push(line);
     }
     columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     match (any, columns.lines.is_empty()) {
         (_, false) => Ok(columns),
         (true, true) => Err(LogError::of(path, LogProblem::NoMessages)),
-        (false, true) => Err(LogError::of(path, LogProblem::Empty)),
+        (false, true) => Err(LogError::of(path, lines.emptiness())),
     }
 }
 

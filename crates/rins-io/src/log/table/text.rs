@@ -3,21 +3,36 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::{Columns, MOST_COLUMNS, Wanted, listed, place};
+use super::{Columns, MOST_COLUMNS, MOST_ROWS, Wanted, listed, place};
 use crate::error::{IoError, LogError};
 use crate::log::fields::{Delimiter, Fields};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
 
-/// Reads columns of the text log at `path`.
-pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
-    read_from(&mut Lines::open(path)?, wanted)
+/// Whether the columns may have names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Header {
+    Allowed,
+    Refused,
 }
 
-fn read_from<R: BufRead>(lines: &mut Lines<R>, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+/// Reads columns of the text log at `path`.
+pub(super) fn read(path: &Path, header: Header, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    read_from(&mut Lines::open(path)?, header, wanted)
+}
+
+fn read_from<R: BufRead>(
+    lines: &mut Lines<R>,
+    header: Header,
+    wanted: Wanted<'_>,
+) -> Result<Columns, IoError> {
     let Wanted { names, mut time } = wanted;
     let head = Head::read(lines)?;
+    if let (Header::Refused, Some(first)) = (header, head.header()) {
+        let problem = LogProblem::NotANumber { column: "1".into(), text: short(first) };
+        return Err(LogError::at(lines.path(), head.line, problem));
+    }
     let mut places = Vec::with_capacity(names.len() + 1);
     for (index, name) in names.iter().enumerate() {
         places.push((head.place(name, lines.path())?, Some(index)));
@@ -68,6 +83,9 @@ fn read_from<R: BufRead>(lines: &mut Lines<R>, wanted: Wanted<'_>) -> Result<Col
         if count != head.count && !trailing {
             return Err(refuse(LogProblem::FieldCount { got: count, expected: head.count }));
         }
+        if columns.lines.len() as u64 >= MOST_ROWS {
+            return Err(refuse(LogProblem::ManyRows { most: MOST_ROWS }));
+        }
         columns.lines.push(number);
         Ok(())
     };
@@ -84,9 +102,14 @@ fn read_from<R: BufRead>(lines: &mut Lines<R>, wanted: Wanted<'_>) -> Result<Col
     Ok(columns)
 }
 
+/// As much of a field as an error shows.
+fn short(field: &str) -> String {
+    field.chars().take(40).collect()
+}
+
 fn number_of(name: &str, field: &str, value: Option<f64>) -> Result<f64, LogProblem> {
     let column = name.to_string();
-    let text = || field.chars().take(40).collect();
+    let text = || short(field);
     match value {
         Some(value) if value.is_finite() => Ok(value),
         Some(_) => Err(LogProblem::NotFinite { column, text: text() }),
@@ -132,7 +155,7 @@ pub(crate) struct Head {
 impl Head {
     pub(crate) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
         let owned = |(line, text): (u64, &str)| (line, text.to_string());
-        let empty = |lines: &Lines<R>| LogError::of(lines.path(), LogProblem::Empty);
+        let empty = |lines: &Lines<R>| LogError::of(lines.path(), lines.emptiness());
         let mut opening = lines.next()?.map(owned).ok_or_else(|| empty(lines))?;
         let stated = Delimiter::stated(&opening.1);
         if stated.is_some() {
@@ -175,6 +198,12 @@ impl Head {
         let names = names.filter(|names| names.len() == count && names.iter().all(is_word));
         let rows = std::iter::once((line, first)).chain(second).collect();
         Ok(Self { delimiter, names, count, line, rows })
+    }
+
+    /// The first name of a line of names that is no comment.
+    fn header(&self) -> Option<&str> {
+        let above = self.rows.first().is_none_or(|(line, _)| *line > self.line);
+        self.names.as_ref().filter(|_| above)?.first().map(String::as_str)
     }
 
     /// The place from zero of the column called `name`.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Columns;
+use super::{Columns, MOST_ROWS};
 use crate::error::{IoError, LogError};
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
@@ -16,7 +16,7 @@ const ALWAYS_ROWS: u64 = 1 << 20;
 /// Compressed formats can say of a few bytes that they are billions of rows; no sensor that is
 /// alive takes less than a byte to say its seven numbers.
 pub(super) fn most_rows(length: u64) -> u64 {
-    length.max(ALWAYS_ROWS)
+    length.clamp(ALWAYS_ROWS, MOST_ROWS)
 }
 
 /// Time stamps as a file has them.
