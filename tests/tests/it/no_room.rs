@@ -1,0 +1,124 @@
+//! Where results cannot be written, nothing of them is left.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use rins_tests::rins;
+use tempfile::TempDir;
+
+use crate::support::{Finished, rins_in};
+
+/// Each command that writes, and what it leaves where there is room.
+const COMMANDS: [(&str, &str); 9] = [
+    ("demo -o disk/out", "disk/out"),
+    ("simulate scenario.toml -o disk/out", "disk/out"),
+    ("check rig.toml -o disk/out", "disk/out"),
+    ("align rig.toml -o disk/out", "disk/out"),
+    ("navigate rig.toml -o disk/out", "disk/out"),
+    ("calibrate rig.toml -o disk/out", "disk/out"),
+    ("convert rig.toml -o disk/out.csv", "disk/out.csv"),
+    ("convert rig.toml -o disk/out.parquet", "disk/out.parquet"),
+    ("convert rig.toml -o disk/out.mat", "disk/out.mat"),
+];
+
+fn run() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
+    for name in ["rig.toml", "run.csv", "scenario.toml"] {
+        fs::copy(demo.join(name), folder.path().join(name)).unwrap();
+    }
+    fs::create_dir(folder.path().join("disk")).unwrap();
+    folder
+}
+
+/// Runs a script in `folder`, in which `"$0"` is `rins`.
+fn shell(program: &[&str], script: &str, folder: &Path) -> Finished {
+    let binary = rins().get_program().to_owned();
+    let mut command = Command::new(program[0]);
+    command.args(&program[1..]).args(["sh", "-c", script]).arg(binary).current_dir(folder);
+    command.output().unwrap().into()
+}
+
+fn is_refused(finished: &Finished, command: &str, says: &str) {
+    assert_eq!(finished.code, Some(1), "{command}: {}{}", finished.err, finished.out);
+    let told =
+        finished.err.starts_with("rins: cannot write disk/out") && finished.err.contains(says);
+    assert!(told, "{command}: {}", finished.err);
+}
+
+/// No file may grow beyond a few blocks: writing fails half way.
+#[test]
+fn a_file_that_cannot_grow_is_not_left_half_written() {
+    // The demo's own files, which stand elsewhere, would be the first not to grow.
+    for (command, _) in COMMANDS.into_iter().skip(1) {
+        let folder = run();
+        let script = format!("trap '' XFSZ; ulimit -f 16; exec \"$0\" {command}");
+        is_refused(&shell(&["env"], &script, folder.path()), command, "File too large");
+        let left: Vec<_> = fs::read_dir(folder.path().join("disk")).unwrap().collect();
+        assert!(left.is_empty(), "{command} leaves {left:?}");
+    }
+}
+
+/// Whether this process may mount something that only it sees.
+#[expect(clippy::print_stderr, reason = "a skipped test says so")]
+fn may_mount() -> bool {
+    let tried =
+        Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "tmpfs", "/mnt"]).output();
+    let may = tried.is_ok_and(|output| output.status.success());
+    if !may {
+        eprintln!("skipped: this user may mount nothing");
+    }
+    may
+}
+
+#[test]
+fn a_disk_that_is_full_keeps_nothing() {
+    if !may_mount() {
+        return;
+    }
+    for (command, place) in COMMANDS {
+        let folder = run();
+        let script = format!(
+            "mount -t tmpfs -o size=4k tmpfs disk && \"$0\" {command}; code=$?; \
+             test -z \"$(ls -A disk)\" || echo left: $(ls -A disk); \
+             test -e {place} && echo there; exit $code"
+        );
+        let finished = shell(&["unshare", "-rm"], &script, folder.path());
+        is_refused(&finished, command, "No space left on device");
+        assert_eq!(finished.out, "", "{command}");
+    }
+}
+
+#[test]
+fn a_disk_that_cannot_be_written_is_named() {
+    if !may_mount() {
+        return;
+    }
+    for (command, _) in COMMANDS {
+        let folder = run();
+        let script = format!("mount -t tmpfs -o ro tmpfs disk && exec \"$0\" {command}");
+        let finished = shell(&["unshare", "-rm"], &script, folder.path());
+        is_refused(&finished, command, "Read-only file system");
+    }
+}
+
+/// An old result on a disk without room for the new one stays.
+#[test]
+fn an_old_result_outlives_a_full_disk() {
+    if !may_mount() {
+        return;
+    }
+    let folder = run();
+    let made = rins_in(folder.path(), "check rig.toml -o old");
+    assert_eq!(made.code, Some(0), "{}", made.err);
+    let script = "size=$(du -sk old | cut -f1); mount -t tmpfs -o size=$((size + 40))k tmpfs disk && \
+                  cp -r old disk/out && before=$(cat disk/out/* | cksum); \
+                  \"$0\" calibrate rig.toml -o disk/out --force; code=$?; \
+                  test \"$before\" = \"$(cat disk/out/* | cksum)\" || echo changed; \
+                  test \"$(ls -A disk)\" = out || echo left: $(ls -A disk); exit $code";
+    let finished = shell(&["unshare", "-rm"], script, folder.path());
+    is_refused(&finished, "calibrate", "No space left on device");
+    assert_eq!(finished.out, "");
+}
