@@ -41,7 +41,7 @@ pub(crate) enum Node {
     Text(String),
     Number(f64),
     Integer(i64),
-    Flag,
+    Flag(bool),
     Date,
     List(Vec<Value>),
     Table(Vec<Entry>),
@@ -53,24 +53,10 @@ impl Node {
         match self {
             Self::Text(text) => format!("{text:?} is a text"),
             Self::Number(_) | Self::Integer(_) => format!("{source} is a bare number"),
-            Self::Flag => format!("{source} is a flag"),
+            Self::Flag(_) => format!("{source} is a flag"),
             Self::Date => format!("{source} is a date"),
             Self::List(_) => "a list".into(),
             Self::Table(_) => "a table".into(),
-        }
-    }
-}
-
-impl Value {
-    /// The text behind `key` in this table or, if this is a list, in its first.
-    pub(crate) fn first_text(&self, key: &str) -> Option<&str> {
-        match &self.node {
-            Node::List(items) => items.first()?.first_text(key),
-            Node::Table(entries) => {
-                let entry = entries.iter().find(|entry| entry.key == key)?;
-                if let Node::Text(text) = &entry.value.node { Some(text) } else { None }
-            }
-            _ => None,
         }
     }
 }
@@ -155,7 +141,7 @@ impl<'t> Lines<'t> {
             DeValue::Float(number) => {
                 Node::Number(digits(number.as_str()).parse().unwrap_or(f64::NAN))
             }
-            DeValue::Boolean(_) => Node::Flag,
+            DeValue::Boolean(flag) => Node::Flag(*flag),
             DeValue::Datetime(_) => Node::Date,
             DeValue::Array(items) => Node::List(items.iter().map(|v| self.value(v)).collect()),
             DeValue::Table(table) => Node::Table(self.entries(table)),

@@ -1,8 +1,8 @@
 //! Files in and out: rigs, scenarios, logs, calibrations and results, with every unit checked.
 //!
 //! **What it does.** [`read`] takes a rig file, and the log that it names, to a
-//! [`Recording`](rins_motion::Recording) in SI units and radians. [`ScenarioFile`] and
-//! [`Calibration`] are the other files of keys; [`write_file`] and [`write_folder`] put results in
+//! [`Recording`](rins_motion::Recording) in SI units and radians. [`ScenarioFile`],
+//! [`ModelFile`] and [`Calibration`] are the other files of keys; [`write_file`] and [`write_folder`] put results in
 //! their place whole or not at all. An [`IoError`] names the file, line, key or column, the value,
 //! and what was expected.
 //!
@@ -23,6 +23,7 @@ mod document;
 mod draft;
 mod error;
 mod log;
+mod model;
 mod output;
 mod parameter;
 pub mod quantity;
@@ -31,6 +32,7 @@ mod run;
 mod scenario;
 mod section;
 mod suggestion;
+mod term;
 mod write;
 
 pub use calibration::Calibration;
@@ -40,6 +42,7 @@ pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
     PsinsHeader, Redivided, peek, read, read_log,
 };
+pub use model::ModelFile;
 pub use output::{OutputProblem, Overwrite, write_file, write_files, write_folder};
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};

@@ -8,12 +8,14 @@ use std::path::Path;
 use rins_frames::units::DEG;
 use rins_motion::Recording;
 use rins_simulation::Scenario;
+use rins_terms::Model;
 use serde_json::{Value, json};
 
 use crate::document::{Entry, Node};
 use crate::error::IoError;
 use crate::parameter::{Parameter, parameters};
 use crate::scenario::{ScenarioFile, true_angles};
+use crate::term;
 use crate::write::rig_text::{column_keys, figures, inline, push_table};
 use crate::write::write_recording;
 
@@ -61,13 +63,14 @@ impl ScenarioFile {
     }
 }
 
-/// What a simulated run was made from, as JSON: the axis frame's true attitude, and the IMU's
-/// true errors by the ids and in the units that results have them.
+/// What a simulated run was made from, as JSON: the axis frame's true attitude, the IMU's true errors and
+/// the effects by the ids and in the units that results have them.
 pub fn truth_json(scenario: &Scenario) -> String {
     let angles = true_angles(scenario);
-    let parameters: Vec<Value> = parameters(&scenario.imu_error)
-        .into_iter()
-        .map(|Parameter { id, value, unit }| json!({ "id": id, "value": value, "unit": unit }))
+    let parameters: Vec<Value> =
+        parameters(&scenario.imu_error).into_iter().map(parameter_json).collect();
+    let effects: Vec<Value> = (0..scenario.effects.terms.len())
+        .map(|place| effect_json(&scenario.effects, place))
         .collect();
     let truth = json!({
         "schema": 1,
@@ -78,7 +81,28 @@ pub fn truth_json(scenario: &Scenario) -> String {
             "yaw": angles.yaw / DEG,
         },
         "parameters": parameters,
-        "effects": [],
+        "effects": effects,
     });
     format!("{truth:#}\n")
+}
+
+fn parameter_json(Parameter { id, value, unit }: Parameter) -> Value {
+    json!({ "id": id, "value": value, "unit": unit })
+}
+
+fn effect_json(effects: &Model, place: usize) -> Value {
+    let chosen = &effects.terms[place];
+    let settings: Vec<Value> = chosen
+        .term
+        .settings
+        .iter()
+        .zip(&chosen.settings)
+        .map(|(setting, value)| {
+            let (value, unit) = (value / setting.unit.factor, setting.unit.symbol);
+            json!({ "name": setting.name, "value": value, "unit": unit })
+        })
+        .collect();
+    let parameters: Vec<Value> =
+        term::parameters(effects, place).into_iter().map(parameter_json).collect();
+    json!({ "id": chosen.term.id, "settings": settings, "parameters": parameters })
 }

@@ -1,17 +1,21 @@
 //! Scenario files: a rig, and the truth that a simulated run is made from.
 
+mod temperature;
+
 use std::path::{Path, PathBuf};
 
 use rins_frames::{Dcm, EulerAngles};
 use rins_imu::{ImuError, ImuNoise, NoiseModel, Quantisation, Seed, TriadError, TriadSpec};
 use rins_simulation::{Encoder, Scenario, TableRecord};
+use rins_terms::Model;
 
 use crate::document::Document;
-use crate::error::{IoError, KeyProblem};
+use crate::error::IoError;
 use crate::parameter::{self, LeftOut};
-use crate::quantity::{Dimension, Quantity, kinds};
+use crate::quantity::{Quantity, kinds};
 use crate::rig::{self, Axes, Rig, angle_figures, angles};
 use crate::section::{Section, such_as};
+use crate::term::{self, Use};
 
 /// What a scenario file says: a rig file's sections and `[truth]`.
 ///
@@ -99,7 +103,7 @@ impl ScenarioFile {
         let Some(truth) = root.section("truth", &TRUTH)? else {
             return Err(root.missing("[truth]", "at least a seed"));
         };
-        refuse_effects(&truth)?;
+        let effects = effects(&truth)?;
         let noise = Noise::read(&truth)?;
         let Some(profile) = rig.table.as_ref().and_then(|table| table.profile.clone()) else {
             let expected = r#"a list such as [{ rate = "10 deg/s", duration = "60 s" }]"#;
@@ -119,7 +123,8 @@ impl ScenarioFile {
             imu_error: ImuError { gyro: gyro.error, accel: accel.error },
             noise: noise.of_imu(&rig, &gyro, &accel)?,
             table: table_record(&log, &noise)?,
-            temperature: temperature(&truth)?,
+            effects,
+            temperature: temperature::read(&truth)?,
             seed: Seed::new(seed(&truth)?),
         };
         Ok(Self { path: document.path.clone(), scenario, log_name, document })
@@ -152,17 +157,6 @@ fn seed(truth: &Section<'_>) -> Result<u64, IoError> {
     truth.count("seed", expected)?.ok_or_else(|| truth.missing("seed", expected))
 }
 
-fn temperature(truth: &Section<'_>) -> Result<Option<f64>, IoError> {
-    let expected = r#"a temperature such as "20 degC""#;
-    let Some(text) = truth.text("temperature", expected)? else { return Ok(None) };
-    // Kelvin would be read as a difference.
-    match (Quantity::parse(text), text.trim_end().ends_with("degC")) {
-        (Ok(Quantity { value, dimension: Dimension::TEMPERATURE }), true) => Ok(Some(value)),
-        (Err(error), _) => Err(truth.error("temperature", error.into())),
-        _ => Err(truth.not_allowed("temperature", expected)),
-    }
-}
-
 fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError> {
     let angle = angle_figures(log)?;
     let rate = log.inline("table_rate", &["column", "unit"])?;
@@ -182,15 +176,15 @@ fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError
     }
 }
 
-/// No effect beyond eq. (1) and the noise can be simulated, so any that is named is refused.
-fn refuse_effects(truth: &Section<'_>) -> Result<(), IoError> {
-    let Some(value) = truth.get("effects") else { return Ok(()) };
-    let id = value.value.first_text("id");
-    let reason = match id {
-        Some(id) => format!("{id:?} is not an effect that can be simulated"),
-        None => "no effects can be simulated".into(),
-    };
-    Err(truth.error("effects", KeyProblem::Conflict { reason }))
+/// The effects beyond bias, scale, misalignment and noise.
+fn effects(truth: &Section<'_>) -> Result<Model, IoError> {
+    let mut effects = Model::default();
+    for table in term::tables(truth, "effects")? {
+        let effect = term::read(&table, Use::Effect)?;
+        term::refuse_triads(&table, &effect, |sensor| format!("[truth.{sensor}]"))?;
+        effects.terms.push(effect);
+    }
+    Ok(effects)
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -61,28 +61,42 @@ impl<'d> Section<'d> {
 
     /// The tables in the list behind `key`; keys of theirs other than `known` are refused.
     pub(crate) fn tables(&self, key: &str, known: &[&str]) -> Result<Option<Vec<Self>>, IoError> {
+        let expected = format!("a list of tables with the keys {}", known.join(", "));
+        let tables = self.any_tables(key, &expected)?;
+        tables.iter().flatten().try_for_each(|table| table.refuse_unknown(known))?;
+        Ok(tables)
+    }
+
+    /// The tables in the list behind `key`, whatever their keys.
+    pub(crate) fn any_tables(
+        &self,
+        key: &str,
+        expected: &str,
+    ) -> Result<Option<Vec<Self>>, IoError> {
         let Some(value) = self.get(key).map(|entry| &entry.value) else { return Ok(None) };
-        let expected = || format!("a list of tables with the keys {}", known.join(", "));
         let Node::List(items) = &value.node else {
-            return Err(self.wrong_type(key, value, expected()));
+            return Err(self.wrong_type(key, value, expected.into()));
         };
         let mut tables = Vec::with_capacity(items.len());
         for (index, item) in items.iter().enumerate() {
             let key = format!("{key}[{}]", index + 1);
             let Node::Table(entries) = &item.node else {
-                return Err(self.wrong_type(&key, item, expected()));
+                return Err(self.wrong_type(&key, item, expected.into()));
             };
-            let table = Self {
+            tables.push(Self {
                 document: self.document,
                 header: self.header.clone(),
                 prefix: format!("{}{key}.", self.prefix),
                 line: Some(item.line),
                 entries,
-            };
-            table.refuse_unknown(known)?;
-            tables.push(table);
+            });
         }
         Ok(Some(tables))
+    }
+
+    /// The keys of this table.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = &'d str> {
+        self.entries.iter().map(|entry| entry.key.as_str())
     }
 
     pub(crate) fn get(&self, key: &str) -> Option<&'d Entry> {
@@ -223,7 +237,8 @@ impl<'d> Section<'d> {
         Box::new(KeyError { path: self.document.path.clone(), line, key, problem }).into()
     }
 
-    fn wrong_type(&self, key: &str, value: &Value, expected: String) -> IoError {
+    /// The error that the value behind `key` is of another type.
+    pub(crate) fn wrong_type(&self, key: &str, value: &Value, expected: String) -> IoError {
         let got = value.node.described(&value.source);
         self.error_at(key, Some(value.line), KeyProblem::WrongType { got, expected })
     }

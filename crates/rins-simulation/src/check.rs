@@ -3,8 +3,10 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use rins_imu::{ImuNoiseError, TriadError};
+use rins_terms::{Chosen, Need};
 
 use crate::scenario::{Encoder, Scenario, TableRecord};
+use crate::temperature::Temperature;
 
 /// The most samples of a run: 8 gigabytes of them, or 11 days at 100 Hz.
 const MOST_SAMPLES: f64 = 1e8;
@@ -22,6 +24,38 @@ pub enum ScenarioError {
         value: f64,
         /// What it may be.
         expected: &'static str,
+    },
+    /// An effect's parameter is infinite or not a number.
+    #[error("the effect {effect} has {value} as its {name}; it must be a finite number")]
+    EffectParameter {
+        /// The effect's id.
+        effect: &'static str,
+        /// The parameter.
+        name: &'static str,
+        /// Its value, in SI units.
+        value: f64,
+    },
+    /// An effect's setting is outside of what it may be.
+    #[error("the effect {effect} has {value} as its {name}; it must be from {low} to {high}")]
+    EffectSetting {
+        /// The effect's id.
+        effect: &'static str,
+        /// The setting.
+        name: &'static str,
+        /// Its value, in SI units.
+        value: f64,
+        /// The least that it may be.
+        low: f64,
+        /// The most that it may be.
+        high: f64,
+    },
+    /// An effect has no meaning in this run.
+    #[error("the effect {effect} needs {what}, which this run does not have")]
+    EffectNeeds {
+        /// The effect's id.
+        effect: &'static str,
+        /// What the run lacks.
+        what: &'static str,
     },
     /// The run holds no sample.
     #[error("a profile of {duration} s holds no whole interval of {interval} s")]
@@ -65,6 +99,7 @@ impl Scenario {
     pub(crate) fn check(&self) -> Result<usize, ScenarioError> {
         self.check_place()?;
         self.check_sensors()?;
+        self.effects.terms.iter().try_for_each(|chosen| self.check_effect(chosen))?;
         self.check_sampling()
     }
 
@@ -85,15 +120,37 @@ impl Scenario {
         };
         all_finite("a gyro error", &self.imu_error.gyro)?;
         all_finite("an accelerometer error", &self.imu_error.accel)?;
-        if let Some(temperature) = self.temperature {
-            finite("temperature", temperature)?;
-        }
+        self.temperature.iter().try_for_each(check_temperature)?;
         let TableRecord::Angle(Encoder { noise, resolution, zero }) = self.table else {
             return Ok(());
         };
         demand("encoder noise", noise, "at least zero", |x| x >= 0.0)?;
         demand("encoder resolution", resolution.unwrap_or(1.0), "positive", |x| x > 0.0)?;
         finite("encoder zero", zero)
+    }
+
+    fn check_effect(&self, chosen: &Chosen) -> Result<(), ScenarioError> {
+        let effect = chosen.term.id;
+        for (parameter, &value) in chosen.term.parameters.iter().zip(&chosen.values) {
+            if !value.is_finite() {
+                return Err(ScenarioError::EffectParameter { effect, name: parameter.name, value });
+            }
+        }
+        for (setting, &value) in chosen.term.settings.iter().zip(&chosen.settings) {
+            let (low, high) = setting.within;
+            if !(low..=high).contains(&value) {
+                let name = setting.name;
+                return Err(ScenarioError::EffectSetting { effect, name, value, low, high });
+            }
+        }
+        let needs = |need| chosen.term.needs.contains(&need);
+        if needs(Need::Temperature) && self.temperature.is_none() {
+            return Err(ScenarioError::EffectNeeds { effect, what: "a temperature" });
+        }
+        if needs(Need::TableAngle) && !matches!(self.table, TableRecord::Angle(_)) {
+            return Err(ScenarioError::EffectNeeds { effect, what: "a table angle that is read" });
+        }
+        Ok(())
     }
 
     fn check_sampling(&self) -> Result<usize, ScenarioError> {
@@ -118,6 +175,26 @@ impl Scenario {
             }
         }
         Ok(n_samples)
+    }
+}
+
+fn check_temperature(temperature: &Temperature) -> Result<(), ScenarioError> {
+    match *temperature {
+        Temperature::Constant(value) => finite("temperature", value),
+        Temperature::Ramp { start, rate } => {
+            finite("temperature", start)?;
+            finite("rate of temperature", rate)
+        }
+        Temperature::WarmUp { start, rise, time_constant } => {
+            finite("temperature", start)?;
+            finite("rise of temperature", rise)?;
+            demand("time constant of temperature", time_constant, "positive", |x| x > 0.0)
+        }
+        Temperature::Sinus { start, amplitude, period } => {
+            finite("temperature", start)?;
+            finite("amplitude of temperature", amplitude)?;
+            demand("period of temperature", period, "positive", |x| x > 0.0)
+        }
     }
 }
 

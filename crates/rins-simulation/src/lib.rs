@@ -1,12 +1,12 @@
 //! A measured-looking run of an IMU on a single-axis rate table, from a seeded scenario.
 //!
 //! **What it does.** [`simulate`] takes a [`Scenario`] - where the table stands, how it turns, what
-//! the IMU gets wrong, how the encoder reads - through the chain true motion, eq. (1), noise,
-//! resolution, and returns a recording as a log would hold it, beside the [`Truth`] that a log never holds.
+//! the IMU gets wrong, how the encoder reads, which effects there are besides - through the chain true
+//! motion, eq. (1) and effects, noise, resolution, and returns a recording as a log would hold it, beside the [`Truth`] that a log never holds.
 //! The same scenario makes the same run on every machine.
 //!
-//! **What it does not do.** It reads and writes no files, and it makes no effect outside eq. (1) and
-//! the noise: no latency, no lever arm, no wobble of the axis.
+//! **What it does not do.** It reads and writes no files. Effects are those of the catalogue of
+//! [`rins_terms`], on a table that does not travel.
 //!
 //! ```
 //! use rins_frames::units::{DEG, DEG_PER_SECOND, PPM};
@@ -39,11 +39,14 @@
 mod scenario;
 
 mod check;
+mod readings;
 mod run;
+mod temperature;
 
 pub use check::ScenarioError;
 pub use run::{Simulated, Truth, simulate};
 pub use scenario::{Encoder, Scenario, TableRecord};
+pub use temperature::Temperature;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

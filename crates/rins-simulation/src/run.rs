@@ -1,11 +1,13 @@
 //! A scenario becomes a recording.
 
 use rins_frames::{Body, Dcm, InFrame, Nav, Table};
-use rins_imu::{ImuError, Sensor, Span};
+use rins_imu::{ImuError, ImuNoise, Sensor, Span};
 use rins_motion::{Recording, Station, TrueMotion};
+use rins_terms::Model;
 
 use crate::check::ScenarioError;
-use crate::scenario::{Scenario, TableRecord};
+use crate::readings::TrueRun;
+use crate::scenario::{Encoder, Scenario, TableRecord};
 
 /// A simulated run.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,92 +27,119 @@ pub struct Truth {
     pub nav_from_table: Dcm<Nav, Table>,
     /// The IMU's bias, scale and misalignment; wandering biases are not in it.
     pub imu_error: ImuError,
+    /// The effects beyond these.
+    pub effects: Model,
     /// The velocity at time zero, and, since the table does not travel, ever after \[m/s\].
     pub initial_velocity: InFrame<Nav>,
     /// The table angle at the end of each interval \[rad\]; at time zero it is zero.
     pub table_angle: Vec<f64>,
+    /// The rotation vector by which the table is tilted out of the axis frame, at time zero and at the
+    /// end of each interval \[rad\]; empty if it is not.
+    pub tilt: Vec<InFrame<Table>>,
 }
 
 impl Truth {
     /// The attitude of the body at time zero.
     pub fn initial_attitude(&self) -> Dcm<Nav, Body> {
-        self.attitude_at(0.0)
+        self.attitude_at(0.0, self.tilt.first())
     }
 
     /// The attitude of the body at the end of an interval, if the run has it.
     pub fn attitude(&self, sample: usize) -> Option<Dcm<Nav, Body>> {
-        self.table_angle.get(sample).map(|&angle| self.attitude_at(angle))
+        let angle = self.table_angle.get(sample)?;
+        Some(self.attitude_at(*angle, self.tilt.get(sample + 1)))
     }
 
-    fn attitude_at(&self, angle: f64) -> Dcm<Nav, Body> {
-        self.nav_from_table * Dcm::<Table, Body>::about_z(angle)
+    fn attitude_at(&self, angle: f64, tilt: Option<&InFrame<Table>>) -> Dcm<Nav, Body> {
+        let turned = Dcm::<Table, Body>::about_z(angle);
+        match tilt {
+            Some(tilt) => {
+                let tilted = Dcm::<Table, Table>::from_rotation_vector(tilt.components());
+                self.nav_from_table * (tilted * turned)
+            }
+            None => self.nav_from_table * turned,
+        }
     }
 }
 
 /// The run that `scenario` describes.
 ///
-/// Each sample is true motion, then eq. (1), then noise, then the resolution; the table's angle is
-/// read by its encoder. The gyros, accelerometers and the encoder have random numbers of their own, so
-/// that none of them changes with what the others are.
+/// Each sample is true motion, then eq. (1) and the effects, then noise, then the resolution; the table's
+/// angle is read by its encoder. Effects on the log come last. The gyros, accelerometers and the encoder
+/// have random numbers of their own, so that none of them changes with what the others are.
 ///
 /// # Errors
-/// [`ScenarioError`] if a figure is impossible, or the run is empty or too long.
+/// [`ScenarioError`] if a figure is impossible, an effect needs what the run does not have, or the run is
+/// empty or too long.
 pub fn simulate(scenario: &Scenario) -> Result<Simulated, ScenarioError> {
     let n_samples = scenario.check()?;
     let Scenario { interval, station, nav_from_table, imu_error, table, seed, .. } = *scenario;
     let profile = scenario.profile.clone();
     let duration = profile.duration();
-    let span = Span { interval, duration: duration.max(interval) };
-    let mut noise = scenario.noise.as_ref().map(|noise| noise.source(&span, seed)).transpose()?;
-    let mut encoder_noise = seed.stream(Sensor::Encoder);
 
-    let mut times = reserved(n_samples)?;
-    let mut increments = reserved(n_samples)?;
-    let mut table_angle = reserved(n_samples)?;
-    let mut of_table = reserved(if table == TableRecord::Nothing { 0 } else { n_samples })?;
-    let motion = TrueMotion { station, nav_from_table, profile };
-    for sample in motion.samples(interval) {
-        let measured = imu_error.measure(&sample.increments);
-        times.push(sample.time);
-        increments.push(noise.as_mut().map_or(measured, |noise| noise.corrupt(&measured)));
-        table_angle.push(sample.angle);
-        match table {
-            TableRecord::Angle(encoder) => {
-                of_table.push(encoder.reading(sample.angle, &mut encoder_noise));
-            }
-            TableRecord::CommandedRate => of_table.push(sample.mean_rate),
-            TableRecord::Nothing => {}
+    let mut truth = TrueRun {
+        times: reserved(n_samples)?,
+        increments: reserved(n_samples)?,
+        angles: reserved(n_samples)?,
+        temperature: scenario.temperature.map(|_| reserved(n_samples)).transpose()?,
+    };
+    let mut mean_rates = reserved(if table == TableRecord::CommandedRate { n_samples } else { 0 })?;
+    for sample in (TrueMotion { station, nav_from_table, profile }).samples(interval) {
+        truth.times.push(sample.time);
+        truth.increments.push(sample.increments);
+        truth.angles.push(sample.angle);
+        if let (Some(list), Some(profile)) = (&mut truth.temperature, scenario.temperature) {
+            list.push(profile.at(sample.time));
+        }
+        if table == TableRecord::CommandedRate {
+            mean_rates.push(sample.mean_rate);
         }
     }
-    if times.is_empty() {
+    if truth.times.is_empty() {
         return Err(ScenarioError::TooShort { duration, interval });
     }
-    let temperature = scenario.temperature.map(|value| vec![value; times.len()]);
-    let (angle_read, rate_commanded) = match table {
-        TableRecord::Angle(_) => (Some(of_table), None),
-        TableRecord::CommandedRate => (None, Some(of_table)),
+
+    let mut readings = scenario.readings(&truth)?;
+    let noises = scenario.noises();
+    if noises.imu != ImuNoise::default() {
+        let span = Span { interval, duration: duration.max(interval) };
+        let mut noise = noises.imu.source(&span, seed)?;
+        for increments in &mut readings.increments {
+            *increments = noise.corrupt(increments);
+        }
+    }
+    let TrueRun { times, angles, temperature, .. } = truth;
+    let (table_angle, table_rate) = match table {
+        TableRecord::Angle(encoder) => {
+            let encoder = Encoder { noise: noises.encoder, ..encoder };
+            let mut stream = seed.stream(Sensor::Encoder);
+            let mut read = reserved(n_samples)?;
+            for (index, angle) in angles.iter().enumerate() {
+                let error = readings.angle_errors.get(index).copied().unwrap_or(0.0);
+                read.push(encoder.reading(angle + error, &mut stream));
+            }
+            (Some(read), None)
+        }
+        TableRecord::CommandedRate => (None, Some(mean_rates)),
         TableRecord::Nothing => (None, None),
     };
-    Ok(Simulated {
-        recording: Recording {
-            times,
-            increments,
-            table_angle: angle_read,
-            table_rate: rate_commanded,
-            temperature,
-        },
-        truth: Truth {
-            station,
-            nav_from_table,
-            imu_error,
-            initial_velocity: InFrame::zeros(),
-            table_angle,
-        },
-    })
+    let increments = readings.increments;
+    let mut recording = Recording { times, increments, table_angle, table_rate, temperature };
+    scenario.effects.distort(seed, &mut recording);
+    let truth = Truth {
+        station,
+        nav_from_table,
+        imu_error,
+        effects: scenario.effects.clone(),
+        initial_velocity: InFrame::zeros(),
+        table_angle: angles,
+        tilt: readings.tilts,
+    };
+    Ok(Simulated { recording, truth })
 }
 
 /// An empty list with room for `n_samples`.
-fn reserved<T>(n_samples: usize) -> Result<Vec<T>, ScenarioError> {
+pub(crate) fn reserved<T>(n_samples: usize) -> Result<Vec<T>, ScenarioError> {
     let mut list = Vec::new();
     match list.try_reserve_exact(n_samples) {
         Ok(()) => Ok(list),

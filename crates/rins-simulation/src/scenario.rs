@@ -3,6 +3,9 @@
 use rins_frames::{Dcm, Nav, Table};
 use rins_imu::{ImuError, ImuNoise, NormalStream, Seed};
 use rins_motion::{Profile, Station};
+use rins_terms::{Model, Noises};
+
+use crate::temperature::Temperature;
 
 /// A run to be simulated.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +24,10 @@ pub struct Scenario {
     pub noise: Option<ImuNoise>,
     /// What is recorded of the table.
     pub table: TableRecord,
-    /// A temperature to record with every sample \[°C\]; nothing depends on it.
-    pub temperature: Option<f64>,
+    /// What else is not as it should be; values are true, roles mean nothing.
+    pub effects: Model,
+    /// The temperature that is recorded with every sample, and on which effects depend.
+    pub temperature: Option<Temperature>,
     /// What all random numbers follow from.
     pub seed: Seed,
 }
@@ -43,9 +48,19 @@ impl Scenario {
             imu_error: ImuError::default(),
             noise: None,
             table: TableRecord::Angle(Encoder::default()),
+            effects: Model::default(),
             temperature: None,
             seed: Seed::new(0),
         }
+    }
+
+    /// The noise of IMU and encoder, with what the effects make of it.
+    pub(crate) fn noises(&self) -> Noises {
+        let encoder = match self.table {
+            TableRecord::Angle(encoder) => encoder.noise,
+            TableRecord::CommandedRate | TableRecord::Nothing => 0.0,
+        };
+        self.effects.stirred(Noises { imu: self.noise.clone().unwrap_or_default(), encoder })
     }
 }
 

@@ -5,13 +5,13 @@ use core::fmt;
 /// The largest exponent of a base, in halves; beyond it a unit is a slip of the pen.
 const LARGEST_EXPONENT: i32 = 40;
 
-/// A product of powers of the base quantities angle, time, length and temperature.
+/// A product of powers of the base quantities angle, time, length, temperature and magnetic flux density.
 ///
 /// Exponents are counted in halves, because noise densities carry square roots. Angle is a base of
 /// its own, so that an angle is not taken for a ratio nor `rad/s` for a frequency.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dimension {
-    halves: [i32; 4],
+    halves: [i32; 5],
 }
 
 /// Names of the dimensions that occur in rig files; the first that fits is used.
@@ -21,6 +21,8 @@ const NAMES: &[(Dimension, &str)] = &[
     (Dimension::TIME, "a time"),
     (Dimension::LENGTH, "a length"),
     (Dimension::TEMPERATURE, "a temperature"),
+    (Dimension::TEMPERATURE_RATE, "a rate of temperature"),
+    (Dimension::MAGNETIC_FIELD, "a magnetic flux density"),
     (Dimension::FREQUENCY, "a frequency"),
     (Dimension::ANGULAR_RATE, "an angular rate"),
     (Dimension::ANGULAR_ACCELERATION, "an angular acceleration"),
@@ -43,6 +45,10 @@ impl Dimension {
     pub const LENGTH: Self = Self::halves(0, 0, 2, 0);
     /// Of a temperature.
     pub const TEMPERATURE: Self = Self::halves(0, 0, 0, 2);
+    /// Of a temperature that changes.
+    pub const TEMPERATURE_RATE: Self = Self::halves(0, -2, 0, 2);
+    /// Of a magnetic flux density.
+    pub const MAGNETIC_FIELD: Self = Self { halves: [0, 0, 0, 0, 2] };
     /// Of a frequency, which is not a rate: it has no angle.
     pub const FREQUENCY: Self = Self::halves(0, -2, 0, 0);
     /// Of an angular rate.
@@ -63,7 +69,7 @@ impl Dimension {
     pub const ACCELERATION_RANDOM_WALK: Self = Self::halves(0, -5, 2, 0);
 
     const fn halves(angle: i32, time: i32, length: i32, temperature: i32) -> Self {
-        Self { halves: [angle, time, length, temperature] }
+        Self { halves: [angle, time, length, temperature, 0] }
     }
 
     /// The dimension of a product; `None` if an exponent gets absurd.
@@ -89,7 +95,7 @@ impl Dimension {
         Self::checked(powered)
     }
 
-    fn checked(halves: [i32; 4]) -> Option<Self> {
+    fn checked(halves: [i32; 5]) -> Option<Self> {
         halves.iter().all(|exponent| exponent.abs() <= LARGEST_EXPONENT).then_some(Self { halves })
     }
 }
@@ -101,7 +107,7 @@ impl fmt::Display for Dimension {
             return f.write_str(name);
         }
         f.write_str("a quantity in")?;
-        for (base, &halves) in ["rad", "s", "m", "K"].iter().zip(&self.halves) {
+        for (base, &halves) in ["rad", "s", "m", "K", "T"].iter().zip(&self.halves) {
             match halves {
                 0 => {}
                 2 => write!(f, " {base}")?,

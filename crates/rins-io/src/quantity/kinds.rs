@@ -236,3 +236,9 @@ pub const ACCEL_RANDOM_WALK: Kind = Kind::new(
     "10 ug/sqrt(h)",
     Range::NotNegative,
 );
+/// How far a temperature rises or leaves its mean.
+pub const TEMPERATURE_DIFFERENCE: Kind =
+    Kind::new("a temperature difference", Dimension::TEMPERATURE, "5 K", Range::Any);
+/// How fast a temperature rises.
+pub const TEMPERATURE_RATE: Kind =
+    Kind::new("a rate of temperature", Dimension::TEMPERATURE_RATE, "2 K/h", Range::Any);

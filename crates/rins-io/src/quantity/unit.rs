@@ -45,6 +45,7 @@ const KNOWN: &[(&str, f64, Dimension)] = &[
     ("1", 1.0, Dimension::RATIO),
     ("K", 1.0, Dimension::TEMPERATURE),
     ("degC", 1.0, Dimension::TEMPERATURE),
+    ("G", 1e-4, Dimension::MAGNETIC_FIELD),
 ];
 
 /// Spellings that are refused, because a file should read one way, and what they stand for.
@@ -65,7 +66,6 @@ const MEANT: &[(&str, &str)] = &[
     ("dph", "deg/h"),
     ("C", "degC"),
     ("percent", "%"),
-    ("G", "g"),
     ("mps", "m/s"),
     ("s2", "s^2"),
 ];

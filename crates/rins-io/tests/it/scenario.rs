@@ -5,7 +5,7 @@ use std::path::Path;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::Quantisation;
 use rins_io::{IoError, ScenarioFile, read};
-use rins_simulation::{TableRecord, simulate};
+use rins_simulation::{TableRecord, Temperature, simulate};
 use rins_testing::assert_close;
 
 use crate::support::replaced;
@@ -81,7 +81,7 @@ fn the_truth_arrives_in_si_units() {
     assert_close!(scenario.nav_from_table.euler_angles().roll, 30.01 * DEG, 1e-15);
     assert_eq!(
         (scenario.interval, scenario.seed.seed, scenario.temperature),
-        (0.02, 7, Some(20.0))
+        (0.02, 7, Some(Temperature::Constant(20.0)))
     );
     let noise = scenario.noise.unwrap();
     assert_close!(noise.gyro.white_density, 0.02 * DEG_PER_HOUR, 1e-22);
@@ -91,6 +91,104 @@ fn the_truth_arrives_in_si_units() {
     assert_close!(encoder.noise, 0.3 * ARCSEC, 1e-20);
     assert_close!(encoder.resolution.unwrap(), 0.1 * ARCSEC, 1e-20);
     assert_close!(scenario.profile.duration(), 10.0, 1e-12);
+}
+
+#[test]
+fn the_temperature_may_go_its_way() {
+    let read = |table: &str| {
+        let text = replaced(
+            SCENARIO,
+            "temperature = \"20 degC\"",
+            &format!("temperature = {{ {table} }}"),
+        );
+        parse(&text)
+            .map(|file| file.scenario.temperature.unwrap())
+            .map_err(|error| error.to_string())
+    };
+    let Ok(Temperature::Ramp { start, rate }) = read(r#"start = "20 degC", ramp = "36 K/h""#)
+    else {
+        panic!("a ramp")
+    };
+    assert_eq!(start, 20.0);
+    assert_close!(rate, 0.01, 1e-17);
+    assert_eq!(
+        read(r#"start = "20 degC", rise = "8 K", time_constant = "10 min""#),
+        Ok(Temperature::WarmUp { start: 20.0, rise: 8.0, time_constant: 600.0 })
+    );
+    assert_eq!(
+        read(r#"start = "-5 degC", amplitude = "2 K", period = "1 h""#),
+        Ok(Temperature::Sinus { start: -5.0, amplitude: 2.0, period: 3600.0 })
+    );
+    let refused = [
+        (r#"ramp = "2 K/h""#, "start: missing, expected a temperature such as \"20 degC\""),
+        (
+            r#"start = "20 degC""#,
+            "ramp: missing, expected one of ramp, rise with time_constant, amplitude with period",
+        ),
+        (r#"start = "20 degC", ramp = "2 K/h", period = "1 h""#, "period: does not go with ramp"),
+        (
+            r#"start = "20 degC", ramp = "2 K""#,
+            "ramp: \"2 K\" is a temperature, expected a rate of temperature such as \"2 K/h\"",
+        ),
+        (
+            r#"start = "20 degC", rise = "2 K""#,
+            "time_constant: missing, expected a time such as \"60 s\"",
+        ),
+        (
+            r#"start = "20 degC", amplitude = "2 K", period = "0 s""#,
+            "period: \"0 s\" is out of range, expected more than zero",
+        ),
+        (
+            r#"start = "293 K", ramp = "2 K/h""#,
+            "start: \"293 K\" is not allowed, expected a temperature such as \"20 degC\"",
+        ),
+        (
+            r#"start = "20 degC", slope = "2 K/h""#,
+            "slope: unknown key, expected one of start, ramp, rise, time_constant, amplitude, period",
+        ),
+    ];
+    for (table, says) in refused {
+        assert_eq!(
+            read(table).unwrap_err(),
+            format!("scenario.toml:38: [truth] temperature.{says}")
+        );
+    }
+}
+
+const EFFECTS: &str = r#"effects = [
+    { id = "encoder.zero", angle = "2 arcmin" },
+    { id = "axis.attitude", x = "5 arcsec", z = "-1 mrad" },
+]
+"#;
+
+#[test]
+fn effects_arrive_in_si_units() {
+    let effects =
+        parse(&replaced(SCENARIO, "seed = 7\n", &format!("seed = 7\n{EFFECTS}"))).unwrap();
+    let effects = effects.scenario.effects;
+    let ids: Vec<&str> = effects.terms.iter().map(|chosen| chosen.term.id).collect();
+    assert_eq!(ids, ["encoder.zero", "axis.attitude"]);
+    assert_close!(effects.value("encoder.zero.angle").unwrap(), 120.0 * ARCSEC, 1e-18);
+    assert_close!(effects.value("axis.attitude.x").unwrap(), 5.0 * ARCSEC, 1e-19);
+    assert_eq!(effects.value("axis.attitude.y"), Some(0.0));
+    assert_close!(effects.value("axis.attitude.z").unwrap(), -1e-3, 1e-18);
+}
+
+#[test]
+fn the_truth_of_a_run_tells_its_effects() {
+    let file = parse(&replaced(SCENARIO, "seed = 7\n", &format!("seed = 7\n{EFFECTS}"))).unwrap();
+    let truth: serde_json::Value =
+        serde_json::from_str(&rins_io::truth_json(&file.scenario)).unwrap();
+    let effects = truth["effects"].as_array().unwrap();
+    assert_eq!(effects.len(), 2);
+    assert_eq!(effects[0]["id"], "encoder.zero");
+    let parameters = effects[1]["parameters"].as_array().unwrap();
+    let ids: Vec<&str> = parameters.iter().map(|p| p["id"].as_str().unwrap()).collect();
+    assert_eq!(ids, ["axis.attitude.x", "axis.attitude.y", "axis.attitude.z"]);
+    assert_eq!(parameters[0]["unit"], "arcsec");
+    assert_close!(parameters[0]["value"].as_f64().unwrap(), 5.0, 1e-12);
+    let rig = file.rig_toml(&simulate(&file.scenario).unwrap().recording);
+    assert!(!rig.contains("effects") && !rig.contains("encoder.zero"), "{rig}");
 }
 
 #[test]
@@ -222,7 +320,16 @@ const CASES: &[(&str, &str, &str)] = &[
     ("resolution = \"0.01 arcsec\"", "resolution = \"0.01 m\"", "scenario.toml:49: [truth.gyro] resolution: \"0.01 m\" is a length, expected an angle increment such as \"0.1 arcsec\""),
     ("resolution = \"0.01 arcsec\"", "resolution = \"0 deg/s\"", "scenario.toml:49: [truth.gyro] resolution: \"0 deg/s\" is out of range, expected more than zero"),
     ("[truth.accel]", "[truth.noise]\ngyro = \"no\"\n[truth.accel]", "scenario.toml:52: [truth.noise] gyro: \"no\" is not known; did you mean \"on\"?"),
-    ("[truth.accel]", "[[truth.effects]]\nid = \"accel_lever_arm\"\n[truth.accel]", "scenario.toml:51: [truth] effects: \"accel_lever_arm\" is not an effect that can be simulated"),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"encoder.zeros\"\n[truth.accel]", "scenario.toml:52: [truth] effects[1].id: \"encoder.zeros\" is not known; did you mean \"encoder.zero\"?"),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"flux_capacitor\"\n[truth.accel]", "scenario.toml:52: [truth] effects[1].id: \"flux_capacitor\" is not known, expected one of the ids of the catalogue, such as \"encoder.zero\""),
+    ("[truth.accel]", "[[truth.effects]]\nangle = \"1 deg\"\n[truth.accel]", "scenario.toml:51: [truth] effects[1].id: missing, expected the id of a term such as \"encoder.zero\""),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"mounting\"\n[truth.accel]", "scenario.toml:51: [truth] effects[1].x: missing, expected at least one of x, y"),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"mounting\"\nz = \"1 deg\"\n[truth.accel]", "scenario.toml:53: [truth] effects[1].z: unknown key, expected one of x, y, id"),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"mounting\"\nx = \"1 deg\"\nestimate = true\n[truth.accel]", "scenario.toml:54: [truth] effects[1].estimate: unknown key, expected one of x, y, id"),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"mounting\"\nx = \"1 mm\"\n[truth.accel]", "scenario.toml:53: [truth] effects[1].x: \"1 mm\" is a length, expected an angle such as \"1 arcsec\""),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"mounting\"\nx = 1\n[truth.accel]", "scenario.toml:53: [truth] effects[1].x: 1 is a bare number, expected an angle such as \"1 arcsec\""),
+    ("[truth.accel]", "[[truth.effects]]\nid = \"gyro.scale\"\nx = \"1 ppm\"\n[truth.accel]", "scenario.toml:52: [truth] effects[1].id: gyro.scale stands in [truth.gyro]"),
+    ("seed = 7", "seed = 7\neffects = \"none\"", "scenario.toml:38: [truth] effects: \"none\" is a text, expected a list of tables such as { id = \"encoder.zero\", angle = \"5 arcsec\" }"),
     ("rate = \"50 Hz\"\n", "", "scenario.toml:7: [log] rate: missing, expected a sampling rate such as \"50 Hz\""),
     ("rate = \"50 Hz\"", "rate = \"50 Hz\"\npath = \"../run.csv\"", "scenario.toml:9: [log] path: \"../run.csv\" is not allowed, expected the name of a csv file, such as \"run.csv\""),
     ("rate = \"50 Hz\"", "rate = \"50 Hz\"\nformat = \"psins\"", "scenario.toml:9: [log] format: \"psins\" is not allowed, expected \"csv\""),

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use rins_imu::{Axis, ImuNoise, NoiseModel, Quantisation, TriadError};
 use rins_motion::{Profile, Segment};
-use rins_simulation::{Encoder, Scenario, ScenarioError, TableRecord, simulate};
+use rins_simulation::{Encoder, Scenario, ScenarioError, TableRecord, Temperature, simulate};
+use rins_terms::{Chosen, Model, catalogue};
 
 use crate::{perfect, realistic};
 
@@ -25,7 +26,11 @@ fn impossible_figures_are_named() {
     case(&|s| s.station.gravity = -9.8, "gravity");
     case(&|s| s.interval = 0.0, "interval");
     case(&|s| s.interval = f64::NAN, "interval");
-    case(&|s| s.temperature = Some(f64::INFINITY), "temperature");
+    case(&|s| s.temperature = Some(Temperature::Constant(f64::INFINITY)), "temperature");
+    let warm_up = |time_constant| Temperature::WarmUp { start: 20.0, rise: 5.0, time_constant };
+    case(&|s| s.temperature = Some(warm_up(0.0)), "time constant of temperature");
+    let sinus = |period| Temperature::Sinus { start: 20.0, amplitude: 5.0, period };
+    case(&|s| s.temperature = Some(sinus(-60.0)), "period of temperature");
     case(
         &|s| s.imu_error.gyro = TriadError::default().with_bias(Axis::X, f64::NAN),
         "a gyro error",
@@ -50,6 +55,24 @@ fn impossible_figures_are_named() {
 fn refusal_tells_figure_and_range() {
     let scenario = Scenario { interval: -0.5, ..perfect() };
     assert_eq!(refusal(&scenario).to_string(), "interval is -0.5; it must be positive");
+}
+
+#[test]
+fn impossible_effects_are_named() {
+    let zero =
+        |value| Model { terms: vec![Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[value])] };
+    let scenario = Scenario { effects: zero(f64::INFINITY), ..perfect() };
+    assert_eq!(
+        refusal(&scenario).to_string(),
+        "the effect encoder.zero has inf as its angle; it must be a finite number"
+    );
+    for table in [TableRecord::CommandedRate, TableRecord::Nothing] {
+        let scenario = Scenario { effects: zero(1e-3), table, ..perfect() };
+        assert_eq!(
+            refusal(&scenario).to_string(),
+            "the effect encoder.zero needs a table angle that is read, which this run does not have"
+        );
+    }
 }
 
 #[test]
@@ -120,7 +143,15 @@ fn changed(which: usize, value: f64) -> Option<Scenario> {
         12 => encoder.noise = value,
         13 => encoder.resolution = Some(value),
         14 => encoder.zero = value,
-        15 => scenario.temperature = Some(value),
+        15 => scenario.temperature = Some(Temperature::Constant(value)),
+        16 => {
+            let rotated = Chosen::new(&catalogue::AXIS_ATTITUDE).with_values(&[value, 0.0, 1e-4]);
+            scenario.effects = Model { terms: vec![rotated] };
+        }
+        17 => {
+            scenario.temperature =
+                Some(Temperature::WarmUp { start: 20.0, rise: 5.0, time_constant: value });
+        }
         // Shorter intervals are allowed, but their many samples would make the test slow.
         _ if value.abs() < 1e-5 && value.is_normal() => return None,
         _ => scenario.interval = value,
@@ -135,7 +166,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn any_figure_ends_in_a_run_or_a_refusal(which in 0..17_usize, value in any_figure()) {
+    fn any_figure_ends_in_a_run_or_a_refusal(which in 0..19_usize, value in any_figure()) {
         let Some(scenario) = changed(which, value) else { return Ok(()) };
         if let Ok(run) = simulate(&scenario) {
             prop_assert_eq!(run.recording.len(), run.truth.table_angle.len());

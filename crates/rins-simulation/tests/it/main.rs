@@ -1,5 +1,6 @@
 //! Simulated runs against what was asked for.
 mod bounds;
+mod effects;
 mod statistics;
 mod truth;
 
@@ -8,7 +9,7 @@ use rins_frames::units::{DEG, DEG_PER_HOUR, DEG_PER_HOUR_PER_ROOT_HZ, DEG_PER_SE
 use rins_frames::{EulerAngles, Site};
 use rins_imu::{Axis, ImuError, ImuNoise, NoiseModel, Seed, TriadError};
 use rins_motion::{Profile, Segment, Station};
-use rins_simulation::{Encoder, Scenario, TableRecord};
+use rins_simulation::{Encoder, Scenario, TableRecord, Temperature};
 
 const INTERVAL: f64 = 0.02;
 
@@ -43,7 +44,7 @@ fn realistic() -> Scenario {
             resolution: Some(0.36 * ARCSEC),
             zero: 3.0 * DEG,
         }),
-        temperature: Some(25.0),
+        temperature: Some(Temperature::Constant(25.0)),
         seed: Seed { seed: 2019, run: 0 },
         ..perfect()
     }

@@ -4,7 +4,7 @@ use rins_frames::InFrame;
 use rins_frames::units::{DEG, PPM};
 use rins_imu::{Axis, ImuError, ImuNoise, TriadError};
 use rins_motion::TrueMotion;
-use rins_simulation::{Scenario, TableRecord, simulate};
+use rins_simulation::{Scenario, TableRecord, Temperature, simulate};
 use rins_testing::assert_close;
 
 use crate::{INTERVAL, perfect, realistic};
@@ -87,6 +87,8 @@ fn only_what_was_asked_for_is_recorded() {
     assert_close!(rates[5000], 10.0 * DEG, 1e-12);
     assert_close!(rates[8000], -10.0 * DEG, 1e-12);
 
-    let warm = simulate(&Scenario { temperature: Some(25.0), ..perfect() }).unwrap().recording;
+    let warm = simulate(&Scenario { temperature: Some(Temperature::Constant(25.0)), ..perfect() })
+        .unwrap()
+        .recording;
     assert_eq!(warm.temperature, Some(vec![25.0; 9000]));
 }

@@ -38,7 +38,35 @@ const SCENARIOS: &[Row] = &[
         "an unknown effect",
         SIMULATE,
         Replace(FILE, "seed = 1", "seed = 1\neffects = [{ id = \"flux_capacitor\" }]"),
-        &["[truth] effects: \"flux_capacitor\" is not an effect that can be simulated"],
+        &["[truth] effects[1].id: \"flux_capacitor\" is not known, expected one of the ids"],
+    ),
+    (
+        "an effect misspelt",
+        SIMULATE,
+        Replace(FILE, "seed = 1", "seed = 1\neffects = [{ id = \"encoder.zer\" }]"),
+        &["effects[1].id: \"encoder.zer\" is not known; did you mean \"encoder.zero\"?"],
+    ),
+    (
+        "a parameter that an effect does not have",
+        SIMULATE,
+        Replace(FILE, "seed = 1", "seed = 1\neffects = [{ id = \"mounting\", z = \"1 deg\" }]"),
+        &["effects[1].z: unknown key, expected one of x, y, id"],
+    ),
+    (
+        "an effect in the wrong unit",
+        SIMULATE,
+        Replace(FILE, "seed = 1", "seed = 1\neffects = [{ id = \"mounting\", x = \"1 ppm\" }]"),
+        &["effects[1].x: \"1 ppm\" is a ratio, expected an angle such as \"1 arcsec\""],
+    ),
+    (
+        "a temperature that goes two ways",
+        SIMULATE,
+        Replace(
+            FILE,
+            "seed = 1",
+            "seed = 1\ntemperature = { start = \"20 degC\", ramp = \"1 K/h\", rise = \"2 K\" }",
+        ),
+        &["[truth] temperature.rise: does not go with ramp"],
     ),
     (
         "an unknown key",

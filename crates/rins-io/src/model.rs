@@ -1,0 +1,141 @@
+//! Model files: which terms are estimated, from where they start, and what is known of them beforehand.
+
+use std::path::{Path, PathBuf};
+
+use rins_terms::{Chosen, Model};
+
+use crate::document::Document;
+use crate::error::IoError;
+use crate::output::{Overwrite, write_file};
+use crate::section::Section;
+use crate::term::{self, Use};
+
+/// The version of the format.
+const SCHEMA: u64 = 1;
+
+/// What every model file begins with.
+const MEANING: &str = "\
+# What is estimated: the terms of the base, and those below. A term of the base that is listed again is as
+# it is listed. estimate = true, false or a list of parameters; values are where estimation starts, or what is
+# held; sigma is what is known beforehand, where the data sheet is not all.
+";
+
+/// A model to be estimated, as a file holds it.
+///
+/// ```
+/// # use std::path::Path;
+/// let text = r#"
+/// schema = 1
+/// base = "paper12"
+///
+/// [[term]]
+/// id = "gyro.bias"
+/// estimate = ["z"]
+/// sigma = { z = "0.1 deg/h" }
+/// "#;
+/// let model = rins_io::ModelFile::parse(text, Path::new("model.toml"))?.model;
+/// assert_eq!(model.terms.len(), 3);
+/// assert_eq!(model.find("gyro.bias.z"), Some((2, 2)));
+/// # Ok::<(), rins_io::IoError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelFile {
+    /// The file it comes from; empty if none.
+    pub path: PathBuf,
+    /// Its terms: those of the base first.
+    pub model: Model,
+}
+
+type Preset = fn() -> Model;
+
+/// The models on which a file may build, the largest first.
+const BASES: [(&str, Preset); 3] =
+    [("full", Model::full), ("paper12", Model::paper12), ("none", Model::default)];
+
+impl ModelFile {
+    /// A model that is in no file yet.
+    pub fn of(model: Model) -> Self {
+        Self { path: PathBuf::new(), model }
+    }
+
+    /// Reads the model file at `path`.
+    ///
+    /// # Errors
+    /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if a term, setting or parameter is not
+    /// known, has another dimension or is out of range, or if a term is listed twice.
+    pub fn read(path: &Path) -> Result<Self, IoError> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    /// The model that `text` holds, as if it stood in the file at `path`.
+    ///
+    /// # Errors
+    /// [`IoError::Key`], as [`ModelFile::read`].
+    pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
+        Self::from_document(&Document::parse(text, path)?)
+    }
+
+    fn from_document(document: &Document) -> Result<Self, IoError> {
+        let root = Section::root(document, &["schema", "base", "term"])?;
+        match root.count("schema", "1")? {
+            Some(SCHEMA) => {}
+            Some(_) => return Err(root.not_allowed("schema", "1")),
+            None => return Err(root.missing("schema", "1")),
+        }
+        let Some(base) = root.choice("base", &BASES)? else {
+            return Err(root.missing("base", r#"one of "full", "paper12", "none""#));
+        };
+        let mut model = base();
+        // The terms of the base that the file has not said anything of.
+        let mut unsaid: Vec<bool> = vec![true; model.terms.len()];
+        for table in term::tables(&root, "term")? {
+            let chosen = term::read(&table, Use::Model)?;
+            match model.terms.iter().position(|listed| same(listed, &chosen)) {
+                None => model.terms.push(chosen),
+                Some(place) if unsaid.get(place) == Some(&true) => {
+                    unsaid[place] = false;
+                    model.terms[place] = chosen;
+                }
+                Some(_) => {
+                    let reason = format!("{} is listed twice", chosen.term.id);
+                    return Err(table.conflict("id", reason));
+                }
+            }
+        }
+        Ok(Self { path: document.path.clone(), model })
+    }
+
+    /// The text of the model's file.
+    pub fn to_toml(&self) -> String {
+        let terms = &self.model.terms;
+        let opens = |base: &Model| {
+            base.terms.len() <= terms.len()
+                && base.terms.iter().zip(terms).all(|(base, term)| same(base, term))
+        };
+        let mut bases = BASES.iter().map(|(name, base)| (*name, base()));
+        let (name, base) =
+            bases.find(|(_, base)| opens(base)).unwrap_or(("none", Model::default()));
+        let mut text = format!("{MEANING}schema = {SCHEMA}\nbase = {name:?}\n");
+        for (place, chosen) in terms.iter().enumerate() {
+            if base.terms.get(place) != Some(chosen) {
+                text.push_str(&term::written(chosen, Use::Model));
+            }
+        }
+        text
+    }
+
+    /// Writes the model's file, whole or not at all.
+    ///
+    /// # Errors
+    /// As [`write_file`].
+    pub fn write(&self, path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
+        write_file(path, overwrite, |file| {
+            file.write_all(self.to_toml().as_bytes()).map_err(IoError::file("write", path))
+        })
+    }
+}
+
+/// Whether both are one effect: the same term with the same settings.
+fn same(a: &Chosen, b: &Chosen) -> bool {
+    a.term.id == b.term.id && a.settings == b.settings
+}

@@ -1,0 +1,188 @@
+//! Terms read from files.
+
+use rins_terms::{Chosen, Parameter, Role, Term, Unit, catalogue};
+
+use crate::document::{Entry, Node};
+use crate::error::{IoError, KeyProblem};
+use crate::quantity::{self, Quantity};
+use crate::section::{Section, quoted};
+use crate::suggestion::nearest;
+
+/// What a term in a file is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Use {
+    /// To be simulated: its values are true, and one at least is given.
+    Effect,
+    /// To be estimated: all of it, unless it says otherwise.
+    Model,
+    /// To be undone: what has a sigma was estimated.
+    Calibration,
+}
+
+/// The tables of the terms in the list behind `key`.
+pub(crate) fn tables<'d>(section: &Section<'d>, key: &str) -> Result<Vec<Section<'d>>, IoError> {
+    let expected = r#"a list of tables such as { id = "encoder.zero", angle = "5 arcsec" }"#;
+    Ok(section.any_tables(key, expected)?.unwrap_or_default())
+}
+
+/// Refuses a bias, scale error or misalignment, which has a key of its own in the section that `place` tells.
+pub(crate) fn refuse_triads(
+    section: &Section<'_>,
+    chosen: &Chosen,
+    place: impl Fn(&str) -> String,
+) -> Result<(), IoError> {
+    match chosen.term.id.split_once('.') {
+        Some((sensor, what @ ("bias" | "scale" | "misalignment"))) => {
+            let reason = format!("{sensor}.{what} stands in {}", place(sensor));
+            Err(section.conflict("id", reason))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The term that a table describes.
+pub(crate) fn read(section: &Section<'_>, use_: Use) -> Result<Chosen, IoError> {
+    let term = named(section)?;
+    let more: &[&str] = if use_ == Use::Effect { &["id"] } else { &["id", "estimate", "sigma"] };
+    let settings = term.settings.iter().map(|setting| setting.name);
+    let names: Vec<&str> = term.parameters.iter().map(|parameter| parameter.name).collect();
+    let known: Vec<&str> =
+        names.iter().copied().chain(settings).chain(more.iter().copied()).collect();
+    if let Some(stray) = section.keys().find(|key| !known.contains(key)) {
+        // All that there is in a term is little enough to be told.
+        let problem = KeyProblem::Unknown { suggestion: None, known: known.join(", ") };
+        return Err(section.error(stray, problem));
+    }
+    let mut chosen = Chosen::new(term);
+    for (setting, slot) in term.settings.iter().zip(&mut chosen.settings) {
+        if let Some(value) = number(section, setting.name, setting.unit)? {
+            let (low, high) = setting.within;
+            if !(low..=high).contains(&value) {
+                let Unit { symbol, factor } = setting.unit;
+                let expected = format!("from {} to {} {symbol}", low / factor, high / factor);
+                return Err(section.not_allowed(setting.name, &expected));
+            }
+            *slot = value;
+        }
+    }
+    let mut given = 0;
+    for (parameter, slot) in term.parameters.iter().zip(&mut chosen.values) {
+        if let Some(value) = number(section, parameter.name, parameter.unit)? {
+            *slot = value;
+            given += 1;
+        }
+    }
+    if use_ == Use::Effect {
+        if let (0, Some(first)) = (given, term.parameters.first()) {
+            let expected = format!("at least one of {}", names.join(", "));
+            return Err(section.missing(first.name, expected));
+        }
+        return Ok(chosen);
+    }
+    chosen.roles = roles(section, term, use_)?;
+    Ok(chosen)
+}
+
+/// The term whose id a section gives.
+fn named(section: &Section<'_>) -> Result<&'static Term, IoError> {
+    let expected = r#"the id of a term such as "encoder.zero""#;
+    let id = section.text("id", expected)?.ok_or_else(|| section.missing("id", expected))?;
+    catalogue::term(id).ok_or_else(|| {
+        let ids = catalogue::CATALOGUE.iter().map(|term| term.id);
+        let suggestion = nearest(id, ids).map(Into::into);
+        let known = "the ids of the catalogue, such as \"encoder.zero\"".into();
+        section.error("id", KeyProblem::NotOneOf { value: id.into(), suggestion, known })
+    })
+}
+
+/// Which parameters are estimated, and how well they are known before or after.
+fn roles(section: &Section<'_>, term: &Term, use_: Use) -> Result<Vec<Role>, IoError> {
+    let names: Vec<&str> = term.parameters.iter().map(|parameter| parameter.name).collect();
+    let sigma_table = section.inline("sigma", &names)?;
+    let sigma_of = |parameter: &Parameter| match &sigma_table {
+        Some(table) => sigma_of(table, parameter),
+        None => Ok(None),
+    };
+    let estimated = estimated(section, &names)?;
+    let mut roles = Vec::with_capacity(names.len());
+    for parameter in term.parameters {
+        let sigma = sigma_of(parameter)?;
+        let free = match (&estimated, use_) {
+            (Some(estimated), _) => estimated.contains(&parameter.name),
+            (None, Use::Calibration) => sigma.is_some(),
+            (None, _) => term.is_signal(),
+        };
+        roles.push(match (free, sigma) {
+            (true, Some(sigma)) => Role::Within(sigma),
+            (true, None) => Role::Free,
+            (false, None) => Role::Held,
+            (false, Some(_)) => {
+                let table = sigma_table.as_ref().unwrap_or(section);
+                return Err(table.conflict(parameter.name, "is not estimated and has no sigma"));
+            }
+        });
+    }
+    if !term.is_signal() && roles.iter().any(|role| *role != Role::Held) {
+        let key = if section.has("estimate") { "estimate" } else { "sigma" };
+        return Err(section.conflict(key, format!("{} cannot be estimated", term.id)));
+    }
+    Ok(roles)
+}
+
+/// The parameters that `estimate` names, if it is there.
+fn estimated<'n>(
+    section: &Section<'_>,
+    names: &[&'n str],
+) -> Result<Option<Vec<&'n str>>, IoError> {
+    let expected = || format!("true, false or a list of {}", quoted(names.iter().copied()));
+    let Some(Entry { value, .. }) = section.get("estimate") else { return Ok(None) };
+    let texts = match &value.node {
+        Node::Flag(true) => return Ok(Some(names.to_vec())),
+        Node::Flag(false) => return Ok(Some(Vec::new())),
+        Node::List(_) => section.list_of_texts("estimate", &expected())?,
+        _ => return Err(section.wrong_type("estimate", value, expected())),
+    };
+    let known = |text: &String| {
+        names.iter().copied().find(|name| name == text).ok_or_else(|| {
+            let known = quoted(names.iter().copied());
+            let problem = KeyProblem::NotOneOf { value: text.clone(), suggestion: None, known };
+            section.error("estimate", problem)
+        })
+    };
+    texts.iter().map(known).collect::<Result<_, _>>().map(Some)
+}
+
+fn sigma_of(table: &Section<'_>, parameter: &Parameter) -> Result<Option<f64>, IoError> {
+    match number(table, parameter.name, parameter.unit)? {
+        Some(sigma) if sigma <= 0.0 => Err(table.not_allowed(parameter.name, "more than zero")),
+        sigma => Ok(sigma),
+    }
+}
+
+/// The number behind `key` in SI units: a quantity of the dimension of `unit`, or a bare number where
+/// that is none.
+fn number(section: &Section<'_>, key: &str, unit: Unit) -> Result<Option<f64>, IoError> {
+    let Some(Entry { value, .. }) = section.get(key) else { return Ok(None) };
+    let plain = unit == Unit::ONE;
+    let dimension = quantity::Unit::parse(unit.symbol)
+        .map_err(|error| section.error(key, error.into()))?
+        .dimension;
+    let expected = || match (plain, dimension) {
+        (true, _) => "a number such as 1".into(),
+        (_, dimension) => format!("{dimension} such as \"1 {}\"", unit.symbol),
+    };
+    let number = match &value.node {
+        Node::Integer(number) if plain => *number as f64,
+        Node::Number(number) if plain => *number,
+        Node::Text(text) => {
+            let parsed = Quantity::parse(text).map_err(|error| section.error(key, error.into()))?;
+            if parsed.dimension != dimension {
+                let got = format!("{text:?} is {}", parsed.dimension);
+                return Err(section.error(key, KeyProblem::WrongType { got, expected: expected() }));
+            }
+            parsed.value
+        }
+        _ => return Err(section.wrong_type(key, value, expected())),
+    };
+    if number.is_finite() { Ok(Some(number)) } else { Err(section.not_allowed(key, &expected())) }
+}

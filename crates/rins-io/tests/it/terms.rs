@@ -1,0 +1,32 @@
+//! Every term of the catalogue can be written in a file: its units are known, its keys do not clash.
+
+use std::collections::BTreeSet;
+
+use rins_io::Unit;
+use rins_terms::catalogue::CATALOGUE;
+
+#[test]
+fn the_units_of_all_terms_are_those_of_files() {
+    for term in CATALOGUE {
+        let parameters = term.parameters.iter().map(|parameter| (parameter.name, parameter.unit));
+        let settings = term.settings.iter().map(|setting| (setting.name, setting.unit));
+        for (name, unit) in parameters.chain(settings) {
+            let parsed = Unit::parse(unit.symbol)
+                .unwrap_or_else(|error| panic!("{}.{name} is in {error}", term.id));
+            let off = (parsed.factor / unit.factor - 1.0).abs();
+            assert!(off < 1e-14, "{}.{name}: a {} is {}", term.id, unit.symbol, parsed.factor);
+        }
+    }
+}
+
+#[test]
+fn no_two_keys_of_a_term_are_the_same() {
+    for term in CATALOGUE {
+        let parameters = term.parameters.iter().map(|parameter| parameter.name);
+        let settings = term.settings.iter().map(|setting| setting.name);
+        let keys: Vec<&str> =
+            parameters.chain(settings).chain(["id", "estimate", "sigma"]).collect();
+        let different: BTreeSet<&str> = keys.iter().copied().collect();
+        assert_eq!(different.len(), keys.len(), "{}: {keys:?}", term.id);
+    }
+}

@@ -1,0 +1,110 @@
+//! What effects make of a run, against the same run described another way.
+
+use rins_frames::units::{ARCSEC, DEG};
+use rins_frames::{Dcm, Increments, Table};
+use rins_imu::ImuError;
+use rins_simulation::{Encoder, Scenario, TableRecord, Temperature, simulate};
+use rins_terms::{Chosen, Model, catalogue};
+use rins_testing::assert_close;
+
+use crate::{perfect, realistic};
+
+/// 1e-15 of a turn of 10 deg/s, and of gravity, over an interval of 0.02 s.
+const ROUNDING: (f64, f64) = (4e-18, 4e-16);
+
+fn assert_same(found: &[Increments], expected: &[Increments], (angle, velocity): (f64, f64)) {
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found.angle - expected.angle).norm() <= angle, "{found:?} {expected:?}");
+        assert!((found.velocity - expected.velocity).norm() <= velocity, "{found:?} {expected:?}");
+    }
+}
+
+/// With all errors large, rest, ramps, a turn forth and one back.
+#[test]
+fn the_terms_of_eq_1_are_eq_1() {
+    let imu_error = realistic().imu_error;
+    let as_terms = Scenario { effects: Model::from(&imu_error), ..perfect() };
+    let as_errors = Scenario { imu_error, ..perfect() };
+    let (terms, errors) = (simulate(&as_terms).unwrap(), simulate(&as_errors).unwrap());
+    assert_same(&terms.recording.increments, &errors.recording.increments, ROUNDING);
+    let clean = simulate(&perfect()).unwrap();
+    assert_ne!(terms.recording.increments[5000], clean.recording.increments[5000]);
+    assert_eq!(terms.truth.imu_error, ImuError::default());
+    assert_eq!(terms.truth.effects.value("gyro.scale.z"), Some(300e-6));
+}
+
+/// Noise, resolution and the encoder's own errors come on top, from the same random numbers.
+#[test]
+fn an_effect_on_the_encoder_leaves_the_rest_alone() {
+    let zero = Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[20.0 * ARCSEC]);
+    let effects = Model { terms: vec![zero] };
+    let with = simulate(&Scenario { effects, ..realistic() }).unwrap().recording;
+    let TableRecord::Angle(encoder) = realistic().table else { panic!("an encoder") };
+    let moved = Encoder { zero: encoder.zero + 20.0 * ARCSEC, ..encoder };
+    let other = simulate(&Scenario { table: TableRecord::Angle(moved), ..realistic() }).unwrap();
+    let angles = with.table_angle.unwrap().into_iter().zip(other.recording.table_angle.unwrap());
+    // A sum in another order may be rounded to the neighbouring bit, of 0.36 arcsec, once in a great while.
+    let off = angles.filter(|(a, b)| (a - b).abs() > 1e-12).count();
+    assert!(off <= 1, "{off} readings");
+    assert_same(&with.increments, &other.recording.increments, ROUNDING);
+}
+
+/// An axis that stands otherwise than in the axis frame is a table with another axis frame.
+#[test]
+fn a_tilted_axis_is_another_axis() {
+    let tilt = [300.0 * ARCSEC, -200.0 * ARCSEC, 500.0 * ARCSEC];
+    let tilted = Chosen::new(&catalogue::AXIS_ATTITUDE).with_values(&tilt);
+    let effects = Model { terms: vec![tilted] };
+    let imu_error = realistic().imu_error;
+    let with = simulate(&Scenario { effects, imu_error, ..perfect() }).unwrap();
+    let turned = Dcm::<Table, Table>::from_rotation_vector(&tilt.into());
+    let nav_from_table = perfect().nav_from_table * turned;
+    let other = simulate(&Scenario { nav_from_table, imu_error, ..perfect() }).unwrap();
+    // The tilt is seen as in the middle of a sample: within 4e-6 of its effect, which is 5e-4 m/s and
+    // 4e-9 rad a sample.
+    assert_same(&with.recording.increments, &other.recording.increments, (2e-14, 2e-9));
+    for sample in [0, 4000, 8999] {
+        let (found, expected) = (with.truth.attitude(sample), other.truth.attitude(sample));
+        let off = found.unwrap().inverse() * expected.unwrap();
+        assert_close!(off.rotation_vector().norm(), 0.0, 1e-14);
+    }
+    let off = with.truth.initial_attitude().inverse() * other.truth.initial_attitude();
+    assert_close!(off.rotation_vector().norm(), 0.0, 1e-14);
+}
+
+#[test]
+fn a_body_that_is_mounted_askew_stands_askew() {
+    let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&[0.01 * DEG, 0.0]);
+    let run =
+        simulate(&Scenario { effects: Model { terms: vec![mounting] }, ..perfect() }).unwrap();
+    let straight = simulate(&perfect()).unwrap();
+    for sample in [0, 4000, 8999] {
+        // Its own x axis is what it is turned about, wherever the table stands.
+        let found = run.truth.attitude(sample).unwrap();
+        let off = straight.truth.attitude(sample).unwrap().inverse() * found;
+        assert_close!(off.rotation_vector().x, 0.01 * DEG, 1e-12);
+        assert_close!(off.rotation_vector().yz().norm(), 0.0, 1e-12);
+    }
+}
+
+#[test]
+fn temperature_is_recorded_as_it_goes() {
+    let recorded = |temperature| {
+        let scenario = Scenario { temperature: Some(temperature), ..perfect() };
+        simulate(&scenario).unwrap().recording.temperature.unwrap()
+    };
+    let ramp = recorded(Temperature::Ramp { start: 20.0, rate: 0.01 });
+    assert_close!(ramp[0], 20.0002, 1e-12);
+    assert_close!(ramp[8999], 21.8, 1e-12);
+    let sinus = recorded(Temperature::Sinus { start: 20.0, amplitude: 5.0, period: 120.0 });
+    // A quarter, a half and three quarters of its period after the start.
+    for (time, expected) in [(30, 25.0), (60, 20.0), (90, 15.0)] {
+        assert_close!(sinus[50 * time - 1], expected, 1e-12);
+    }
+    let warm_up = recorded(Temperature::WarmUp { start: 20.0, rise: 10.0, time_constant: 50.0 });
+    // After each time constant 1/e is left of what was left before.
+    let left = |time: usize| 30.0 - warm_up[50 * time - 1];
+    assert_close!(left(50) / left(100), std::f64::consts::E, 1e-12);
+    assert_close!(left(50), 10.0 / std::f64::consts::E, 1e-12);
+}
