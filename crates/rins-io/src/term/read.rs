@@ -43,7 +43,9 @@ pub(crate) fn refuse_triads(
 /// The term that a table describes.
 pub(crate) fn read(section: &Section<'_>, use_: Use) -> Result<Chosen, IoError> {
     let term = named(section)?;
-    let more: &[&str] = if use_ == Use::Effect { &["id"] } else { &["id", "estimate", "sigma"] };
+    // Noise and what happens to a log are no signals, and cannot be estimated.
+    let estimated = use_ != Use::Effect && term.is_signal();
+    let more: &[&str] = if estimated { &["id", "estimate", "sigma"] } else { &["id"] };
     let settings = term.settings.iter().map(|setting| setting.name);
     let names: Vec<&str> = term.parameters.iter().map(|parameter| parameter.name).collect();
     let known: Vec<&str> =
@@ -72,14 +74,13 @@ pub(crate) fn read(section: &Section<'_>, use_: Use) -> Result<Chosen, IoError> 
             given += 1;
         }
     }
-    if use_ == Use::Effect {
-        if let (0, Some(first)) = (given, term.parameters.first()) {
-            let expected = format!("at least one of {}", names.join(", "));
-            return Err(section.missing(first.name, expected));
-        }
-        return Ok(chosen);
+    if let (Use::Effect, 0, Some(first)) = (use_, given, term.parameters.first()) {
+        let expected = format!("at least one of {}", names.join(", "));
+        return Err(section.missing(first.name, expected));
     }
-    chosen.roles = roles(section, term, use_)?;
+    if estimated {
+        chosen.roles = roles(section, term, use_)?;
+    }
     Ok(chosen)
 }
 
@@ -88,7 +89,8 @@ fn named(section: &Section<'_>) -> Result<&'static Term, IoError> {
     let expected = r#"the id of a term such as "encoder.zero""#;
     let id = section.text("id", expected)?.ok_or_else(|| section.missing("id", expected))?;
     catalogue::term(id).ok_or_else(|| {
-        let ids = catalogue::CATALOGUE.iter().map(|term| term.id);
+        let ids =
+            catalogue::CATALOGUE.iter().flat_map(|term| term.also.iter().copied().chain([term.id]));
         let suggestion = nearest(id, ids).map(Into::into);
         let known = "the ids of the catalogue, such as \"encoder.zero\"".into();
         section.error("id", KeyProblem::NotOneOf { value: id.into(), suggestion, known })
@@ -110,7 +112,7 @@ fn roles(section: &Section<'_>, term: &Term, use_: Use) -> Result<Vec<Role>, IoE
         let free = match (&estimated, use_) {
             (Some(estimated), _) => estimated.contains(&parameter.name),
             (None, Use::Calibration) => sigma.is_some(),
-            (None, _) => term.is_signal(),
+            (None, _) => true,
         };
         roles.push(match (free, sigma) {
             (true, Some(sigma)) => Role::Within(sigma),
@@ -121,10 +123,6 @@ fn roles(section: &Section<'_>, term: &Term, use_: Use) -> Result<Vec<Role>, IoE
                 return Err(table.conflict(parameter.name, "is not estimated and has no sigma"));
             }
         });
-    }
-    if !term.is_signal() && roles.iter().any(|role| *role != Role::Held) {
-        let key = if section.has("estimate") { "estimate" } else { "sigma" };
-        return Err(section.conflict(key, format!("{} cannot be estimated", term.id)));
     }
     Ok(roles)
 }

@@ -27,7 +27,7 @@ pub(crate) fn written(chosen: &Chosen, use_: Use) -> String {
     } else {
         format!("{:?}", names(&|role| *role != Role::Held))
     };
-    if !term.parameters.is_empty() {
+    if term.is_signal() {
         let _ = writeln!(text, "estimate = {estimate}");
     }
     for (parameter, &value) in term.parameters.iter().zip(&chosen.values) {

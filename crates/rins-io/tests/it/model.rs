@@ -5,7 +5,7 @@ use std::path::Path;
 use proptest::prelude::*;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_io::{IoError, ModelFile};
-use rins_terms::catalogue::CATALOGUE;
+use rins_terms::catalogue::{CATALOGUE, MOST_PARAMETERS};
 use rins_terms::{Chosen, Model, Role};
 
 use crate::support::replaced;
@@ -66,8 +66,13 @@ fn presets_are_bases_alone() {
 
 /// A term of the catalogue with any settings, values and roles that it may have.
 fn any_chosen() -> impl Strategy<Value = Chosen> {
-    let numbers = || prop::collection::vec(0.0..1.0_f64, CATALOGUE.len());
-    (prop::sample::select(CATALOGUE), numbers(), numbers(), prop::collection::vec(0..3_u8, 16))
+    let numbers = || prop::collection::vec(0.0..1.0_f64, MOST_PARAMETERS);
+    (
+        prop::sample::select(CATALOGUE),
+        numbers(),
+        numbers(),
+        prop::collection::vec(0..3_u8, MOST_PARAMETERS),
+    )
         .prop_map(|(term, settings, values, roles)| {
             let mut chosen = Chosen::new(term);
             for ((slot, setting), part) in
@@ -76,12 +81,12 @@ fn any_chosen() -> impl Strategy<Value = Chosen> {
                 *slot = setting.within.0 + part * (setting.within.1 - setting.within.0);
             }
             for (place, parameter) in term.parameters.iter().enumerate() {
-                chosen.values[place] = (values[place % values.len()] - 0.5) * parameter.unit.factor;
+                chosen.values[place] = (values[place] - 0.5) * parameter.unit.factor;
                 chosen.roles[place] = match roles[place] {
                     _ if !term.is_signal() => Role::Held,
                     0 => Role::Held,
                     1 => Role::Free,
-                    _ => Role::Within(values[place % values.len()] * parameter.unit.factor + 1e-9),
+                    _ => Role::Within(values[place] * parameter.unit.factor + 1e-9),
                 };
             }
             chosen
