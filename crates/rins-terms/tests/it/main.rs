@@ -4,12 +4,14 @@
 
 mod catalogue;
 mod derivatives;
+mod identities;
 mod lever_arm;
 mod line;
 mod log;
 mod model;
 mod noise;
 mod page;
+mod sensors;
 mod support;
 mod tilt;
 mod timing;

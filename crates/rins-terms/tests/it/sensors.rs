@@ -1,0 +1,225 @@
+//! What sensors read in cases that can be reckoned by hand.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Vector3;
+use rins_frames::units::{DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, STANDARD_GRAVITY};
+use rins_frames::{EulerAngles, Site};
+use rins_motion::{Segment, Station};
+use rins_terms::{Chosen, Moment, Surroundings, catalogue, values};
+use rins_testing::assert_close;
+
+use crate::support::{INTERVAL, run, turning};
+
+/// A moment of a run, at 10 deg/s, with a force of (0.5, -0.2, 0.8) g and a warming of 3 K.
+fn moment() -> Moment {
+    let mut moment = run().track.moments().nth(1200).unwrap();
+    moment.mean.rate = 10.0 * DEG_PER_SECOND;
+    moment.rate = Vector3::new(0.0, 0.0, 10.0 * DEG_PER_SECOND);
+    moment.force = Vector3::new(0.5, -0.2, 0.8) * STANDARD_GRAVITY;
+    moment.mean.warming = 3.0;
+    moment.mean.warming_rate = 0.5 / 60.0;
+    moment
+}
+
+/// What one parameter, given in its own unit, adds to the gyros \[deg/h\] and accelerometers \[µg\].
+fn adds(id: &str, value: f64) -> (Vector3<f64>, Vector3<f64>) {
+    let (term, name) = id.rsplit_once('.').unwrap();
+    let term = catalogue::term(term).unwrap();
+    let mut chosen = Chosen::new(term);
+    let place = term.parameters.iter().position(|p| p.name == name).unwrap();
+    chosen.values[place] = value * term.parameters[place].unit.factor;
+    let signals = chosen.signals(&moment(), None);
+    (values(&signals.gyro) / DEG_PER_HOUR, values(&signals.accel) / MICRO_G)
+}
+
+#[test]
+fn gyros_read_by_name_and_unit() {
+    // 10 deg/s is 36000 deg/h.
+    let cases = [
+        ("gyro.bias.y", 0.3, [0.0, 0.3, 0.0]),
+        ("gyro.scale.z", 100.0, [0.0, 0.0, 3.6]),
+        ("gyro_thermal_bias.x", 0.02, [0.06, 0.0, 0.0]),
+        ("gyro_shupe.z", 2.0, [0.0, 0.0, 1.0]),
+        ("gyro_rate_dependent_bias.square_y", 1e-4, [0.0, 0.01, 0.0]),
+        ("gyro_rate_dependent_bias.linear_x", 1e-3, [0.01, 0.0, 0.0]),
+        ("gyro_scale_asymmetry.z", 10.0, [0.0, 0.0, 0.36]),
+        ("gyro_scale_nonlinearity.k2_z", 1.0, [0.0, 0.0, 0.36]),
+        ("gyro_scale_nonlinearity.k3_z", 0.1, [0.0, 0.0, 0.36]),
+        ("gyro_thermal_scale.z", 10.0, [0.0, 0.0, 1.08]),
+        ("gyro_g_sensitivity.zx", 0.1, [0.0, 0.0, 0.05]),
+        ("gyro_g_sensitivity.xy", 0.1, [-0.02, 0.0, 0.0]),
+        ("gyro_g2_sensitivity.x_yz", 1.0, [-0.16, 0.0, 0.0]),
+        ("gyro_g2_sensitivity.y_xx", 1.0, [0.0, 0.25, 0.0]),
+        ("gyro_g2_sensitivity.z_zz", 1.0, [0.0, 0.0, 0.64]),
+        ("gyro_g2_sensitivity.z_xz", 1.0, [0.0, 0.0, 0.4]),
+    ];
+    for (id, value, want) in cases {
+        let (gyro, accel) = adds(id, value);
+        for axis in 0..3 {
+            assert_close!(gyro[axis], want[axis], 1e-12);
+        }
+        assert_eq!(accel, Vector3::zeros(), "{id}");
+    }
+}
+
+#[test]
+fn accelerometers_read_by_name_and_unit() {
+    let cases = [
+        ("accel.bias.z", 7.0, [0.0, 0.0, 7.0]),
+        ("accel_scale.x", 100.0, [50.0, 0.0, 0.0]),
+        ("accel_quadratic.y", 100.0, [0.0, 4.0, 0.0]),
+        ("accel_cubic.y", 1000.0, [0.0, -8.0, 0.0]),
+        ("accel_asymmetry.y", 10.0, [0.0, 2.0, 0.0]),
+        ("accel_cross_coupling.xy", 100.0, [-10.0, 0.0, 0.0]),
+        ("accel_cross_coupling.yz", 100.0, [0.0, -16.0, 0.0]),
+        ("accel_cross_coupling.zx", 100.0, [0.0, 0.0, 40.0]),
+        ("accel_thermal_bias.x", 5.0, [15.0, 0.0, 0.0]),
+        ("accel_vibration_rectification.z", 9.0, [0.0, 0.0, 9.0]),
+        ("wrong_gravity.gravity", 100.0, [50.0, -20.0, 80.0]),
+    ];
+    for (id, value, want) in cases {
+        let (gyro, accel) = adds(id, value);
+        for axis in 0..3 {
+            assert_close!(accel[axis], want[axis], 1e-9);
+        }
+        assert_eq!(gyro, Vector3::zeros(), "{id}");
+    }
+}
+
+#[test]
+fn dead_zone_follows_the_lock_in_equation() {
+    let mut moment = moment();
+    moment.rate = Vector3::new(0.3, -0.5, 10.0) * DEG_PER_HOUR;
+    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
+    let read = (values(&zone.signals(&moment, None).gyro) + moment.rate) / DEG_PER_HOUR;
+    assert_close!(read.x, 0.0, 1e-15);
+    assert_close!(read.y, -0.3, 1e-12); // √(0.5² - 0.4²)
+    assert_close!(read.z, 10.0 - 0.008, 1e-5); // -0.4² / 20
+}
+
+#[test]
+fn step_falls_within_a_sample_by_its_share() {
+    let run = run();
+    let step = Chosen::new(&catalogue::GYRO_BIAS_STEP)
+        .with_setting("time", 50.0 + 0.25 * INTERVAL)
+        .with_values(&[1.0, 0.0, 0.0]);
+    let read: Vec<f64> =
+        run.track.moments().map(|moment| values(&step.signals(&moment, None).gyro).x).collect();
+    assert_close!(read[2499], 0.0, 1e-12);
+    assert_close!(read[2500], 0.75, 1e-9);
+    assert_close!(read[2501], 1.0, 1e-12);
+    let lost = read.iter().sum::<f64>() * INTERVAL;
+    let after = run.track.duration() - 50.0 - 0.25 * INTERVAL;
+    assert_close!(lost, after, 1e-9);
+}
+
+#[test]
+fn ramp_and_warm_up_go_with_time() {
+    let run = run();
+    let at = |chosen: &Chosen, sample: usize| {
+        let moment = run.track.moments().nth(sample).unwrap();
+        values(&chosen.signals(&moment, None).gyro).z
+    };
+    let ramp = Chosen::new(&catalogue::GYRO_BIAS_RAMP).with_values(&[0.0, 0.0, 2.0]);
+    assert_close!(at(&ramp, 2000) - at(&ramp, 1000), 2.0 * 1000.0 * INTERVAL, 1e-9);
+    let warm_up = Chosen::new(&catalogue::GYRO_WARMUP)
+        .with_setting("time_constant", 20.0)
+        .with_values(&[0.0, 0.0, 1.0]);
+    assert_close!(at(&warm_up, 3000) / at(&warm_up, 2000), (-1.0_f64).exp(), 1e-9);
+    assert_close!(at(&warm_up, 0), 1.0, 1e-3);
+}
+
+#[test]
+fn hysteresis_and_backlash_remember_the_last_change() {
+    let run = run();
+    let hysteresis = Chosen::new(&catalogue::GYRO_HYSTERESIS).with_values(&[1.0]);
+    let backlash = Chosen::new(&catalogue::ENCODER_BACKLASH).with_values(&[1.0]);
+    // Rates of 0, 10, -10, 20, -5 and 0 deg/s, of 20 s each.
+    for (time, changed, sense) in [
+        (10.0, 0.0, 0.0),
+        (30.0, 1.0, 1.0),
+        (50.0, -1.0, -1.0),
+        (70.0, 1.0, 1.0),
+        (115.0, 1.0, -1.0),
+    ] {
+        let moment = run.track.moments().find(|moment| moment.end.time > time).unwrap();
+        assert_eq!(values(&hysteresis.signals(&moment, None).gyro).z, changed, "at {time} s");
+        assert_eq!(backlash.signals(&moment, None).angle.re, sense, "at {time} s");
+    }
+}
+
+/// A low-pass of first order, integrated, after it has settled.
+#[test]
+fn heat_from_one_side_lags_and_fades() {
+    const LAG: f64 = 4.0;
+    let run = turning(&[Segment { rate: 20.0 * DEG_PER_SECOND, duration: 60.0 }]);
+    let heat = Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
+        .with_setting("time_constant", LAG)
+        .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]);
+    let mut settled = Vector3::zeros();
+    for moment in run.track.moments() {
+        // From the middle of the sample before to the middle of this one.
+        let parts = 100;
+        for part in 0..parts {
+            let back = INTERVAL * (1.0 - f64::from(part) / f64::from(parts));
+            let (sin, cos) = (moment.mean.angle - 20.0 * DEG_PER_SECOND * back).sin_cos();
+            let sources = Vector3::new(cos, sin, 0.3 * cos - 0.4 * sin);
+            settled += (sources - settled) * (INTERVAL / f64::from(parts) / LAG);
+        }
+        if moment.end.time > 12.0 * LAG {
+            let got = values(&heat.signals(&moment, None).gyro);
+            // Euler's method, over 0.2 ms, and e⁻¹² of the start.
+            assert!((got - settled).norm() < 1e-3, "{got} {settled}");
+            assert!(got.norm() > 0.3, "it fades to 1/√(1 + 1.4²)");
+        }
+    }
+}
+
+#[test]
+fn wrong_latitude_is_the_earths_rate_there_less_that_here() {
+    let site = |latitude| Site { latitude, longitude: 0.0, height: 0.0 };
+    let attitude = EulerAngles { roll: 0.4, pitch: -0.3, yaw: 2.0 };
+    let around = |latitude: f64| {
+        Surroundings::new(Station::with_normal_gravity(site(latitude)), attitude.dcm())
+    };
+    let (here, there) = (around(34.0 * DEG), around(34.7 * DEG));
+    let mut moment = moment();
+    moment.surroundings = here;
+    let wrong = Chosen::new(&catalogue::WRONG_LATITUDE).with_values(&[0.7 * DEG]);
+    let got = values(&wrong.signals(&moment, None).gyro);
+    let want = moment.in_body(&(there.earth_rate - here.earth_rate));
+    assert!((got - want).norm() < 1e-12 * want.norm());
+    assert!(want.norm() > 0.1 * DEG_PER_HOUR);
+}
+
+#[test]
+fn magnetic_field_stays_with_the_table() {
+    let gauss = 1e-4;
+    let mut moment = moment();
+    moment.surroundings.magnetic_field = Vector3::new(0.2, 0.0, 0.5) * gauss;
+    let mut values_of_k = [0.0; 9];
+    // What gyro x shows of a field along y, 1 deg/h/G.
+    values_of_k[1] = DEG_PER_HOUR / gauss;
+    let magnetic = Chosen::new(&catalogue::GYRO_MAGNETIC).with_values(&values_of_k);
+    for (angle, want) in [(0.0, 0.0), (FRAC_PI_2, -0.2), (PI, 0.0), (-FRAC_PI_2, 0.2)] {
+        moment.mean.angle = angle;
+        let read = values(&magnetic.signals(&moment, None).gyro) / DEG_PER_HOUR;
+        assert_close!(read.x, want, 1e-12);
+        assert_eq!((read.y, read.z), (0.0, 0.0));
+    }
+}
+
+#[test]
+fn encoder_reads_its_harmonics_by_cosine_and_sine() {
+    let mut moment = moment();
+    let eccentric = Chosen::new(&catalogue::ENCODER_ECCENTRICITY).with_values(&[3.0, 4.0]);
+    let oval = Chosen::new(&catalogue::ENCODER_HARMONIC)
+        .with_setting("order", 3.0)
+        .with_values(&[1.0, 2.0]);
+    for (angle, one, three) in [(0.0, 3.0, 1.0), (FRAC_PI_2, 4.0, -2.0), (PI, -3.0, -1.0)] {
+        moment.end.angle = angle;
+        assert_close!(eccentric.signals(&moment, None).angle.re, one, 1e-12);
+        assert_close!(oval.signals(&moment, None).angle.re, three, 1e-12);
+    }
+}
