@@ -1,18 +1,27 @@
 //! Calibration files: what an IMU gets wrong, to be undone in other runs.
 
+mod covariance;
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+pub use covariance::Covariance;
 use rins_imu::{Compensation, ImuError, TriadError};
+use rins_terms::Model;
 
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::output::{Overwrite, write_file};
-use crate::parameter::{self, LeftOut, Parameter};
+use crate::parameter::{self, LeftOut, Parameter, parameters};
 use crate::section::Section;
+use crate::term::{self, Use};
 
-/// The version of the format that this crate writes, and the only one that it reads.
-const SCHEMA: u64 = 1;
+/// The versions of the format: the second one may hold terms and a covariance. A file that holds neither is
+/// written in the first.
+const SCHEMAS: [u64; 2] = [1, 2];
+
+/// The keys of the second version alone.
+const NEWER: [&str; 2] = ["term", "covariance"];
 
 /// What every calibration file begins with.
 const MEANING: &str = "\
@@ -23,6 +32,12 @@ const MEANING: &str = "\
 #
 # S: scale errors, on the diagonal. M: misalignments, off it, named by row and column:
 # gyro.misalignment.xz is what gyro x sees of a rate about z.
+";
+
+/// What stands above the terms.
+const TERMS: &str = "
+# What else is off. Each term adds to a reading what its equation makes of the true rate and force, and all are
+# undone together: true = measured - (bias + [S, M] true + terms(true)), repeated until nothing changes.
 ";
 
 /// What stands above the standard deviations.
@@ -65,12 +80,23 @@ pub struct Calibration {
     /// What else a reader must know of the numbers: which of them are combinations, and where
     /// these hold.
     pub notes: Vec<String>,
+    /// The terms beyond bias, scale and misalignment, with the standard deviations of what was estimated.
+    pub terms: Model,
+    /// The covariance of what was estimated.
+    pub covariance: Option<Covariance>,
 }
 
 impl Calibration {
     /// A calibration without standard deviations and notes.
     pub fn of(error: ImuError) -> Self {
-        Self { path: PathBuf::new(), error, sigmas: Vec::new(), notes: Vec::new() }
+        Self {
+            path: PathBuf::new(),
+            error,
+            sigmas: Vec::new(),
+            notes: Vec::new(),
+            terms: Model::default(),
+            covariance: None,
+        }
     }
 
     /// Reads the calibration file at `path`.
@@ -92,11 +118,19 @@ impl Calibration {
     }
 
     fn from_document(document: &Document) -> Result<Self, IoError> {
-        let root = Section::root(document, &["schema", "notes", "gyro", "accel", "sigma"])?;
-        match root.count("schema", "1")? {
-            Some(SCHEMA) => {}
-            Some(_) => return Err(root.not_allowed("schema", "1")),
-            None => return Err(root.missing("schema", "1")),
+        let known = ["schema", "notes", "gyro", "accel", "sigma", NEWER[0], NEWER[1]];
+        let root = Section::root(document, &known)?;
+        match root.count("schema", "1 or 2")? {
+            Some(schema) if !SCHEMAS.contains(&schema) => {
+                return Err(root.not_allowed("schema", "1 or 2"));
+            }
+            Some(1) => {
+                if let Some(key) = NEWER.into_iter().find(|key| root.has(key)) {
+                    return Err(root.conflict(key, "needs schema = 2"));
+                }
+            }
+            Some(_) => {}
+            None => return Err(root.missing("schema", "1 or 2")),
         }
         let error = both(&root)?;
         let notes = root.list_of_texts("notes", "a list of texts")?;
@@ -104,12 +138,25 @@ impl Calibration {
             Some(section) => parameter::read_sigmas(&section)?,
             None => Vec::new(),
         };
-        let calibration = Self { path: document.path.clone(), error, sigmas, notes };
+        let terms = terms(&root)?;
+        let ids = parameters(&error).into_iter().map(|parameter| parameter.id);
+        let known: Vec<String> = ids.chain(terms.ids()).collect();
+        let covariance = covariance::read(&root, &known)?;
+        let path = document.path.clone();
+        let calibration = Self { path, error, sigmas, notes, terms, covariance };
         calibration.compensation()?;
         Ok(calibration)
     }
 
-    /// The inverse of the errors.
+    /// All that the file holds as one model: bias, scale and misalignment, then the terms.
+    pub fn model(&self) -> Model {
+        let mut model = Model::from(&self.error);
+        model.terms.extend(self.terms.terms.iter().cloned());
+        model
+    }
+
+    /// The inverse of bias, scale and misalignment; the terms are not in it
+    /// ([`rins_terms::compensated`] undoes all).
     ///
     /// # Errors
     /// [`IoError::Key`] if they cannot be undone.
@@ -127,7 +174,8 @@ impl Calibration {
 
     /// The text of the calibration's file.
     pub fn to_toml(&self) -> String {
-        let mut text = format!("{MEANING}schema = {SCHEMA}\n");
+        let newer = !self.terms.terms.is_empty() || self.covariance.is_some();
+        let mut text = format!("{MEANING}schema = {}\n", SCHEMAS[usize::from(newer)]);
         if !self.notes.is_empty() {
             text.push_str("notes = [\n");
             for note in &self.notes {
@@ -150,6 +198,15 @@ impl Calibration {
         for Parameter { id, value, unit } in &self.sigmas {
             let _ = writeln!(text, "{id} = \"{value} {unit}\"");
         }
+        if let Some(covariance) = &self.covariance {
+            text.push_str(&covariance::written(covariance));
+        }
+        if !self.terms.terms.is_empty() {
+            text.push_str(TERMS);
+        }
+        for chosen in &self.terms.terms {
+            text.push_str(&term::written(chosen, Use::Calibration));
+        }
         text
     }
 
@@ -171,6 +228,20 @@ fn both(section: &Section<'_>) -> Result<ImuError, IoError> {
     };
     let gyro = triad("gyro", &parameter::GYRO)?;
     Ok(ImuError { gyro, accel: triad("accel", &parameter::ACCEL)? })
+}
+
+/// The terms beyond bias, scale and misalignment.
+fn terms(root: &Section<'_>) -> Result<Model, IoError> {
+    let mut model = Model::default();
+    for table in term::tables(root, "term")? {
+        let chosen = term::read(&table, Use::Calibration)?;
+        term::refuse_triads(&table, &chosen, |sensor| format!("[{sensor}]"))?;
+        if !chosen.term.is_signal() {
+            return Err(table.conflict("id", format!("{} cannot be undone", chosen.term.id)));
+        }
+        model.terms.push(chosen);
+    }
+    Ok(model)
 }
 
 /// `text` as a basic string of TOML.

@@ -35,7 +35,7 @@ mod suggestion;
 mod term;
 mod write;
 
-pub use calibration::Calibration;
+pub use calibration::{Calibration, Covariance};
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{

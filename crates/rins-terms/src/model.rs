@@ -202,6 +202,13 @@ impl Model {
         format!("{id}{again}.{}", chosen.term.parameters[parameter].name)
     }
 
+    /// The full ids of all its parameters, in order.
+    pub fn ids(&self) -> impl Iterator<Item = String> {
+        let places = |term: usize| 0..self.terms[term].values.len();
+        (0..self.terms.len())
+            .flat_map(move |term| places(term).map(move |place| self.id(term, place)))
+    }
+
     /// The parameter of this id: its term's place, and its own.
     pub fn find(&self, id: &str) -> Option<(usize, usize)> {
         (0..self.terms.len()).find_map(|term| {

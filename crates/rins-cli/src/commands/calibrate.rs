@@ -1,6 +1,6 @@
 //! `rins calibrate`: from a run to sensor errors, and what compensating them gains.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Context;
 use rins_calibration::{
@@ -90,10 +90,9 @@ pub(crate) fn outcome(calibration: &Calibration, loaded: &Loaded, rig: &Path) ->
         loaded.rig.log.path.file_name().map_or_else(String::new, |name| name.display().to_string()),
     );
     let file = rins_io::Calibration {
-        path: PathBuf::new(),
-        error: calibration.imu_error,
         sigmas: calibration.parameters.iter().map(sigma).collect(),
         notes: calibration.parameters.iter().filter_map(combination_note).collect(),
+        ..rins_io::Calibration::of(calibration.imu_error)
     };
     Outcome {
         json: json(calibration, rig),

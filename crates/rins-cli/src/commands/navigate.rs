@@ -3,12 +3,14 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use anyhow::Context;
 use rins_calibration::{FreeNavigation, navigate_freely, table_angles};
 use rins_frames::units::DEG;
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_io::Loaded;
 use rins_motion::Recording;
+use rins_terms::{Surroundings, compensated};
 use serde_json::{Value, json};
 
 use crate::args::Navigate;
@@ -30,8 +32,8 @@ pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
         runs.push(("gyro bias removed", navigated(&loaded, &start, Some(&compensation))));
     }
     if let Some(file) = &arguments.calibration {
-        let compensation = rins_io::Calibration::read(file)?.compensation()?;
-        runs.push(("compensated", navigated(&loaded, &start, Some(&compensation))));
+        let calibration = rins_io::Calibration::read(file)?;
+        runs.push(("compensated", undone(&loaded, &start, &calibration)?));
     }
     Ok(outcome(&runs, &start, &loaded, rig).of_log(&loaded))
 }
@@ -51,9 +53,8 @@ struct Start {
 
 fn start(loaded: &Loaded) -> anyhow::Result<Start> {
     let recording = &loaded.recording;
-    let latency = loaded.rig.log.table_angle().and_then(|angle| angle.latency);
-    let angles = table_angles(recording, latency.unwrap_or_default())
-        .unwrap_or_else(|| vec![0.0; recording.len() + 1]);
+    let angles =
+        table_angles(recording, latency(loaded)).unwrap_or_else(|| vec![0.0; recording.len() + 1]);
     if let Some(attitude) = loaded.rig.attitude {
         return Ok(Start {
             nav_from_table: attitude.angles.dcm(),
@@ -100,6 +101,32 @@ fn navigated(
         &loaded.station,
         compensation,
     )
+}
+
+/// Navigates what a calibration leaves of the readings.
+fn undone(
+    loaded: &Loaded,
+    start: &Start,
+    calibration: &rins_io::Calibration,
+) -> anyhow::Result<FreeNavigation> {
+    if calibration.terms.terms.is_empty() {
+        return Ok(navigated(loaded, start, Some(&calibration.compensation()?)));
+    }
+    // Terms may depend on how long the run has lasted, so that all of it is compensated.
+    let around = Surroundings::new(loaded.station, start.nav_from_table);
+    let whole = compensated(&calibration.model(), around, &loaded.recording)
+        .with_context(|| shown(&calibration.path))?;
+    let first = whole.len() - start.recording.len();
+    let angles = table_angles(&whole, latency(loaded))
+        .map_or_else(|| start.angles.clone(), |angles| angles[first..].to_vec());
+    let recording = whole.slice(first, whole.len());
+    let nav_from_table = start.nav_from_table;
+    Ok(navigate_freely(&recording, &angles, nav_from_table, &loaded.station, None))
+}
+
+/// How late the table angle was read \[s\].
+fn latency(loaded: &Loaded) -> f64 {
+    loaded.rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default()
 }
 
 fn outcome(

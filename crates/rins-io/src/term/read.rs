@@ -61,8 +61,10 @@ pub(crate) fn read(section: &Section<'_>, use_: Use) -> Result<Chosen, IoError> 
             let (low, high) = setting.within;
             if !(low..=high).contains(&value) {
                 let Unit { symbol, factor } = setting.unit;
-                let expected = format!("from {} to {} {symbol}", low / factor, high / factor);
-                return Err(section.not_allowed(setting.name, &expected));
+                let symbol = if setting.unit == Unit::ONE { "" } else { symbol };
+                let range = format!("from {} to {} {symbol}", low / factor, high / factor);
+                let expected = range.trim_end();
+                return Err(section.not_allowed(setting.name, expected));
             }
             *slot = value;
         }

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use rins_imu::{ImuError, TriadError};
 use rins_io::{Calibration, Overwrite, Parameter, parameters};
+use rins_terms::Role;
 
 use crate::support::replaced;
 
@@ -83,8 +84,10 @@ fn rows_and_columns_are_those_of_the_equation() {
 
 #[rustfmt::skip]
 const CASES: &[(&str, &str, &str)] = &[
-    ("schema = 1", "", "c.toml: schema: missing, expected 1"),
-    ("schema = 1", "schema = 2", "c.toml:2: schema: 2 is not allowed, expected 1"),
+    ("schema = 1", "", "c.toml: schema: missing, expected 1 or 2"),
+    ("schema = 1", "schema = 3", "c.toml:2: schema: 3 is not allowed, expected 1 or 2"),
+    ("[accel]", "[[term]]\nid = \"encoder.zero\"\n[accel]", "c.toml:9: term: needs schema = 2"),
+    ("[accel]", "[covariance]\n[accel]", "c.toml:9: covariance: needs schema = 2"),
     ("schema = 1", "scheme = 1", "c.toml:2: scheme: unknown key; did you mean \"schema\"?"),
     ("[gyro]", "[gyros]", "c.toml:4: gyros: unknown key; did you mean \"gyro\"?"),
     ("scale = [\"100 ppm\", \"0 %\", \"0 1\"]\n", "", "c.toml:4: [gyro] scale: missing, expected three quantities such as [\"300 ppm\", \"300 ppm\", \"300 ppm\"]"),
@@ -142,4 +145,100 @@ fn a_file_says_what_its_numbers_mean() {
     assert!(text.contains("measured    = true + bias + [S, M] true"));
     assert!(text.contains("compensated = (I + [S, M])^-1 (measured - bias)"));
     assert_eq!(Calibration::read(&path).unwrap().error, ImuError::default());
+}
+
+/// Two terms, one of them not wholly estimated, and a covariance.
+const BEYOND: &str = r#"
+[covariance]
+ids = ["gyro.scale.z", "accel_lever_arm.r_x", "encoder_harmonic#2.sin"]
+rows = [[0.04], [-1e-3, 0.25], [0, 0.0, 0.01]]
+
+[[term]]
+id = "accel_lever_arm"
+r_x = "4 mm"
+r_y = "-2.5 mm"
+sigma = { r_x = "0.5 mm", r_y = "0.5 mm" }
+
+[[term]]
+id = "encoder_harmonic"
+order = 2
+cos = "0.5 arcsec"
+
+[[term]]
+id = "encoder_harmonic"
+order = 3
+sin = "1 arcsec"
+sigma = { sin = "0.1 arcsec" }
+"#;
+
+fn beyond() -> String {
+    format!("{}{BEYOND}", replaced(TEXT, "schema = 1", "schema = 2"))
+}
+
+#[test]
+fn what_is_off_beyond_the_triads_is_written_and_read() {
+    let calibration = Calibration::parse(&beyond(), Path::new("c.toml")).unwrap();
+    let model = &calibration.terms;
+    assert_eq!(model.value("accel_lever_arm.r_y"), Some(-2.5e-3));
+    let sigmas: Vec<Role> = model.terms.iter().flat_map(|chosen| chosen.roles.clone()).collect();
+    let known: Vec<bool> = sigmas.iter().map(|role| matches!(role, Role::Within(_))).collect();
+    let arm = model.terms[0].roles.len();
+    assert_eq!(known[..2], [true; 2]);
+    assert_eq!(known[arm..], [false, false, false, true]);
+    let covariance = calibration.covariance.as_ref().unwrap();
+    assert_eq!(covariance.matrix[(0, 1)], -1e-3);
+    assert_eq!(covariance.matrix[(1, 0)], -1e-3);
+    assert_eq!(covariance.matrix[(2, 2)], 0.01);
+
+    let text = calibration.to_toml();
+    assert!(text.contains("schema = 2\n") && text.contains("terms(true)"), "{text}");
+    let again = Calibration::parse(&text, Path::new("c.toml")).unwrap();
+    assert_eq!(again.covariance, calibration.covariance);
+    for (got, want) in again.terms.terms.iter().zip(&model.terms) {
+        assert_eq!((got.term.id, &got.settings), (want.term.id, &want.settings));
+        for (got, want) in got.values.iter().zip(&want.values) {
+            assert!((got - want).abs() <= ROUNDING * want.abs(), "{got} {want}");
+        }
+        for (got, want) in got.roles.iter().zip(&want.roles) {
+            let (Role::Within(got), Role::Within(want)) = (got, want) else {
+                assert_eq!(got, want);
+                continue;
+            };
+            assert!((got - want).abs() <= ROUNDING * want, "{got} {want}");
+        }
+    }
+    let whole = calibration.model();
+    assert_eq!(whole.terms.len(), 6 + model.terms.len());
+    assert_eq!(whole.value("gyro.misalignment.yz"), Some(1e-3));
+}
+
+#[test]
+fn a_file_is_of_the_oldest_version_that_can_hold_it() {
+    let text = Calibration::parse(TEXT, Path::new("c.toml")).unwrap().to_toml();
+    assert!(text.contains("schema = 1\n") && !text.contains("term"), "{text}");
+}
+
+#[rustfmt::skip]
+const BEYOND_CASES: &[(&str, &str, &str)] = &[
+    ("\"accel_lever_arm\"\n", "\"gyro.scale\"\n", "term[1].r_x: unknown key, expected one of x, y, z, id, estimate, sigma"),
+    ("\"accel_lever_arm\"\nr_x = \"4 mm\"\nr_y = \"-2.5 mm\"\nsigma = { r_x = \"0.5 mm\", r_y = \"0.5 mm\" }", "\"gyro.scale\"", "term[1].id: gyro.scale stands in [gyro]"),
+    ("\"accel_lever_arm\"\nr_x = \"4 mm\"\nr_y = \"-2.5 mm\"\nsigma = { r_x = \"0.5 mm\", r_y = \"0.5 mm\" }", "\"stuck_samples\"", "term[1].id: stuck_samples cannot be undone"),
+    ("\"4 mm\"", "\"4 deg\"", "term[1].r_x: \"4 deg\" is an angle, expected a length such as \"1 mm\""),
+    ("order = 3", "order = 1", "term[3].order: 1 is not allowed, expected from 2 to 1000000"),
+    ("\"gyro.scale.z\", ", "\"gyro.scale.w\", ", "[covariance] ids: \"gyro.scale.w\" is no parameter of this calibration"),
+    ("\"gyro.scale.z\", ", "\"accel_lever_arm.r_x\", ", "[covariance] ids: an id is listed twice"),
+    ("[[0.04], ", "[", "[covariance] rows: has 2 rows for 3 ids"),
+    ("[-1e-3, 0.25]", "[0.25]", "[covariance] rows: has 1 numbers in row 2"),
+    ("[-1e-3, 0.25]", "[\"a\", 0.25]", "[covariance] rows: \"a\" is a text, expected a list of rows of numbers"),
+    ("-1e-3", "-1.0", "[covariance] rows: holds -1 for \"accel_lever_arm.r_x\", \"gyro.scale.z\", which cannot be"),
+    ("0.25", "0.0", "which cannot be"),
+];
+
+#[test]
+fn wrong_terms_and_covariances_are_refused() {
+    for (from, to, message) in BEYOND_CASES {
+        let text = replaced(&beyond(), from, to);
+        let error = Calibration::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
+        assert!(error.contains(message), "{error}, not {message}");
+    }
 }

@@ -26,8 +26,8 @@ const CALIBRATIONS: &[Row] = &[
     (
         "of another format",
         NAVIGATE,
-        Replace(FILE, "schema = 1", "schema = 2"),
-        &["calibration.toml:{line}: schema: 2 is not allowed, expected 1"],
+        Replace(FILE, "schema = 1", "schema = 3"),
+        &["calibration.toml:{line}: schema: 3 is not allowed, expected 1 or 2"],
     ),
     (
         "without gyros",

@@ -1,0 +1,100 @@
+//! The covariance of what a calibration estimated: `[covariance]`.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use nalgebra::DMatrix;
+
+use crate::document::{Entry, Node, Value};
+use crate::error::IoError;
+use crate::section::{Section, quoted};
+
+/// How much two numbers that are perfectly correlated may seem to be more than that: rounding.
+const MOST_CORRELATION: f64 = 1.0 + 1e-6;
+
+/// The covariance of the numbers that a calibration estimated, in their units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Covariance {
+    /// The ids of its rows and columns.
+    pub ids: Vec<String>,
+    /// Of row and column, in the product of their units.
+    pub matrix: DMatrix<f64>,
+}
+
+/// Reads `[covariance]`, whose ids are among `known`.
+pub(super) fn read(root: &Section<'_>, known: &[String]) -> Result<Option<Covariance>, IoError> {
+    let Some(section) = root.section("covariance", &["ids", "rows"])? else { return Ok(None) };
+    let ids = section.list_of_texts("ids", "a list of ids of parameters")?;
+    if ids.is_empty() {
+        return Err(section.missing("ids", "a list of ids of parameters"));
+    }
+    if let Some(stray) = ids.iter().find(|id| !known.contains(id)) {
+        let reason = format!("{stray:?} is no parameter of this calibration");
+        return Err(section.conflict("ids", reason));
+    }
+    if ids.iter().collect::<BTreeSet<_>>().len() < ids.len() {
+        return Err(section.conflict("ids", "an id is listed twice"));
+    }
+    let expected = "a list of rows of numbers, each one longer than that before";
+    let Some(Entry { value, .. }) = section.get("rows") else {
+        return Err(section.missing("rows", expected));
+    };
+    let wrong = |value: &Value| section.wrong_type("rows", value, expected.into());
+    let Node::List(rows) = &value.node else { return Err(wrong(value)) };
+    if rows.len() != ids.len() {
+        let reason = format!("has {} rows for {} ids", rows.len(), ids.len());
+        return Err(section.conflict("rows", reason));
+    }
+    let mut matrix = DMatrix::zeros(ids.len(), ids.len());
+    for (row, value) in rows.iter().enumerate() {
+        let Node::List(numbers) = &value.node else { return Err(wrong(value)) };
+        if numbers.len() != row + 1 {
+            let reason = format!("has {} numbers in row {}", numbers.len(), row + 1);
+            return Err(section.conflict("rows", reason));
+        }
+        for (column, value) in numbers.iter().enumerate() {
+            let number = match value.node {
+                Node::Number(number) => number,
+                Node::Integer(number) => number as f64,
+                _ => return Err(wrong(value)),
+            };
+            matrix[(row, column)] = number;
+            matrix[(column, row)] = number;
+        }
+    }
+    match first_impossible(&matrix) {
+        None => Ok(Some(Covariance { ids, matrix })),
+        Some((row, column)) => {
+            let pair = quoted([ids[row].as_str(), ids[column].as_str()]);
+            let reason = format!("holds {} for {pair}, which cannot be", matrix[(row, column)]);
+            Err(section.conflict("rows", reason))
+        }
+    }
+}
+
+/// The first place at which a variance is not positive, or a covariance larger than the variances allow.
+fn first_impossible(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
+    let places = (0..matrix.nrows()).flat_map(|row| (0..=row).map(move |column| (row, column)));
+    places.into_iter().find(|&(row, column)| {
+        let (a, b) = (matrix[(row, row)], matrix[(column, column)]);
+        let most = MOST_CORRELATION * (a * b).sqrt();
+        let possible =
+            a > 0.0 && a.is_finite() && (row == column || matrix[(row, column)].abs() <= most);
+        !possible
+    })
+}
+
+/// The section as TOML.
+pub(super) fn written(covariance: &Covariance) -> String {
+    let ids = quoted(covariance.ids.iter().map(String::as_str));
+    let mut text = format!(
+        "\n# Of these parameters, in the products of their units; the lower triangle, row by row.\n\
+         [covariance]\nids = [{ids}]\nrows = [\n"
+    );
+    for (row, _) in covariance.ids.iter().enumerate() {
+        let numbers = (0..=row).map(|column| format!("{:e}", covariance.matrix[(row, column)]));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "    [{}],", numbers.collect::<Vec<_>>().join(", "));
+    }
+    text + "]\n"
+}
