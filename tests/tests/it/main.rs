@@ -4,6 +4,7 @@
 mod bad_input;
 mod convert;
 mod demo;
+mod effects;
 mod help;
 mod hostile;
 mod interrupted;
