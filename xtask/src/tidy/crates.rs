@@ -9,7 +9,7 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 
 /// The crates in layers, bottom first: a crate uses those of the layers below its own.
 const LAYERS: &[&[&str]] = &[
-    &["rins-frames", "rins-ekf"],
+    &["rins-frames", "rins-ekf", "rins-lanes"],
     &["rins-imu", "rins-motion"],
     &["rins-terms"],
     &["rins-simulation", "rins-calibration"],
