@@ -128,6 +128,14 @@ impl<To: Frame, From: Frame> Dcm<To, From> {
         }
     }
 
+    /// Claims, unchecked, that a kernel's bare matrix rotates `From` into `To`.
+    ///
+    /// Only for what a kernel has multiplied together from rotations; any other matrix goes through
+    /// [`Dcm::from_matrix`].
+    pub const fn from_kernel(matrix: Matrix3<f64>) -> Self {
+        Self::from_orthonormal(matrix)
+    }
+
     /// The inverse rotation, which is the transpose.
     #[must_use]
     pub fn inverse(self) -> Dcm<From, To> {

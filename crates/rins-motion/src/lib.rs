@@ -31,6 +31,11 @@
 //! assert!(navigator.state().velocity.norm() < 1e-6);
 //! # Ok::<(), rins_motion::ProfileError>(())
 //! ```
+#![expect(
+    clippy::inline_always,
+    reason = "what is not inlined is compiled without the vector instructions"
+)]
+
 mod alignment;
 mod fine_alignment;
 mod inspection;
@@ -53,6 +58,6 @@ pub use inspection::{
 pub use recording::Recording;
 pub use rest::{RestMean, rest_spans};
 pub use station::Station;
-pub use strapdown::{NavState, Navigator, VerticalChannel};
+pub use strapdown::{Figures, Mechanisation, NavState, Navigator, VerticalChannel};
 pub use truth::{TrueMotion, TrueSample};
 pub use turntable::{Profile, ProfileError, Segment};

@@ -1,6 +1,6 @@
 //! What a perfect IMU on a tilted table measures on the rotating Earth.
 
-use nalgebra::Vector3;
+use nalgebra::{ComplexField, Vector3};
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
 
 use crate::station::Station;
@@ -111,7 +111,7 @@ fn integrals(piece: &Piece, begin: f64, end: f64) -> (f64, f64) {
     while part < parts {
         let middle = begin + half * (2.0 * part + 1.0);
         for (node, weight) in GAUSS {
-            let (s, c) = piece.angle_at(middle + half * node).sin_cos();
+            let (s, c) = ComplexField::sin_cos(piece.angle_at(middle + half * node));
             cos += weight * half * c;
             sin += weight * half * s;
         }

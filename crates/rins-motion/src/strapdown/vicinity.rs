@@ -1,6 +1,8 @@
 //! The Earth around a navigator that hardly moves: computed once, carried along to first order.
 
+use nalgebra::ComplexField;
 use rins_frames::{EARTH_RATE, Site};
+use rins_lanes::{Real, Vector};
 
 /// How far in latitude \[rad\] the figures are carried: six metres.
 const REACH_IN_LATITUDE: f64 = 1e-6;
@@ -12,86 +14,143 @@ const REACH_IN_HEIGHT: f64 = 6.0;
 
 /// The Earth's figures at one place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Figures {
-    /// The Earth's rate towards north and up, `ω_ie^n` \[rad/s\].
-    pub(super) earth_rate: (f64, f64),
+pub struct Figures<T> {
+    /// The sine and cosine of the latitude.
+    pub latitude: [T; 2],
+    /// Their ratio.
+    pub tan_latitude: T,
     /// `1 / (R_M + h)` \[1/m\].
-    pub(super) meridian_curvature: f64,
+    pub meridian_curvature: T,
     /// `1 / (R_N + h)` \[1/m\].
-    pub(super) transverse_curvature: f64,
-    pub(super) cos_latitude: f64,
-    pub(super) tan_latitude: f64,
+    pub transverse_curvature: T,
     /// Normal gravity \[m/s²\].
-    pub(super) gravity: f64,
+    pub gravity: T,
+}
+
+impl<T: Real> Figures<T> {
+    /// The Earth's rate, `ω_ie^n` \[rad/s\].
+    #[inline(always)]
+    pub fn earth_rate(&self) -> Vector<T> {
+        let [sin, cos] = self.latitude;
+        Vector([sin.constant(0.0), cos * EARTH_RATE, sin * EARTH_RATE])
+    }
 }
 
 /// The figures at a centre, and their slopes there.
-#[derive(Clone, Debug)]
-pub(super) struct Vicinity {
-    centre: Site,
-    sin: f64,
-    cos: f64,
-    meridian_curvature: Slopes,
-    transverse_curvature: Slopes,
-    gravity: Slopes,
-}
-
 #[derive(Clone, Copy, Debug)]
-struct Slopes {
-    value: f64,
-    by_latitude: f64,
-    by_height: f64,
+pub(super) struct Vicinity<T> {
+    latitude: T,
+    height: T,
+    sin: T,
+    cos: T,
+    meridian_curvature: Slopes<T>,
+    transverse_curvature: Slopes<T>,
+    gravity: Slopes<T>,
 }
 
-impl Vicinity {
-    pub(super) fn around(centre: &Site) -> Self {
-        let (sin, cos) = centre.latitude.sin_cos();
+/// A figure's value, and its slopes by latitude \[1/rad\] and height \[1/m\].
+type Slopes<T> = [T; 3];
+
+impl Vicinity<f64> {
+    fn around(latitude: f64, height: f64) -> Self {
+        let (sin, cos) = ComplexField::sin_cos(latitude);
+        let slopes = |figure: fn(&Site) -> f64| {
+            let at = |latitude, height| figure(&Site { latitude, longitude: 0.0, height });
+            let (dl, dh) = (REACH_IN_LATITUDE, REACH_IN_HEIGHT);
+            [
+                at(latitude, height),
+                (at(latitude + dl, height) - at(latitude - dl, height)) / (2.0 * dl),
+                (at(latitude, height + dh) - at(latitude, height - dh)) / (2.0 * dh),
+            ]
+        };
         Self {
-            centre: *centre,
+            latitude,
+            height,
             sin,
             cos,
-            meridian_curvature: Slopes::of(centre, |s| 1.0 / (s.meridian_radius() + s.height)),
-            transverse_curvature: Slopes::of(centre, |s| 1.0 / (s.transverse_radius() + s.height)),
-            gravity: Slopes::of(centre, Site::normal_gravity),
-        }
-    }
-
-    /// The figures at `place`, about which a new vicinity is laid if it is out of reach.
-    pub(super) fn at(&mut self, place: &Site) -> Figures {
-        let mut north = place.latitude - self.centre.latitude;
-        let mut up = place.height - self.centre.height;
-        if north.abs() > REACH_IN_LATITUDE || up.abs() > REACH_IN_HEIGHT {
-            *self = Self::around(place);
-            (north, up) = (0.0, 0.0);
-        }
-        // Terms of third order are below 10⁻¹⁸ here.
-        let bend = 1.0 - 0.5 * north * north;
-        let (sin, cos) = (self.sin * bend + self.cos * north, self.cos * bend - self.sin * north);
-        Figures {
-            earth_rate: (EARTH_RATE * cos, EARTH_RATE * sin),
-            meridian_curvature: self.meridian_curvature.at(north, up),
-            transverse_curvature: self.transverse_curvature.at(north, up),
-            cos_latitude: cos,
-            tan_latitude: sin / cos,
-            gravity: self.gravity.at(north, up),
+            meridian_curvature: slopes(|s| 1.0 / (s.meridian_radius() + s.height)),
+            transverse_curvature: slopes(|s| 1.0 / (s.transverse_radius() + s.height)),
+            gravity: slopes(Site::normal_gravity),
         }
     }
 }
 
-impl Slopes {
-    fn of(centre: &Site, figure: impl Fn(&Site) -> f64) -> Self {
-        let Site { latitude, height, .. } = *centre;
-        let at = |latitude, height| figure(&Site { latitude, height, ..*centre });
-        let (dl, dh) = (REACH_IN_LATITUDE, REACH_IN_HEIGHT);
+impl<T: Real> Vicinity<T> {
+    /// The vicinities of these places.
+    pub(super) fn of(latitude: T, height: T) -> Self {
+        Self::each(latitude, |run| Vicinity::around(latitude.lane(run), height.lane(run)))
+    }
+
+    fn each(like: T, vicinity: impl Fn(usize) -> Vicinity<f64>) -> Self {
+        let all: Vec<_> = (0..like.lanes()).map(vicinity).collect();
+        let number = |of: fn(&Vicinity<f64>) -> f64| like.each(|run| of(&all[run]));
+        let slopes = |of: fn(&Vicinity<f64>) -> Slopes<f64>| {
+            [0, 1, 2].map(|index| like.each(|run| of(&all[run])[index]))
+        };
         Self {
-            value: figure(centre),
-            by_latitude: (at(latitude + dl, height) - at(latitude - dl, height)) / (2.0 * dl),
-            by_height: (at(latitude, height + dh) - at(latitude, height - dh)) / (2.0 * dh),
+            latitude: number(|v| v.latitude),
+            height: number(|v| v.height),
+            sin: number(|v| v.sin),
+            cos: number(|v| v.cos),
+            meridian_curvature: slopes(|v| v.meridian_curvature),
+            transverse_curvature: slopes(|v| v.transverse_curvature),
+            gravity: slopes(|v| v.gravity),
         }
     }
 
-    fn at(&self, north: f64, up: f64) -> f64 {
-        self.value + self.by_latitude * north + self.by_height * up
+    fn lane(&self, run: usize) -> Vicinity<f64> {
+        let slopes = |slopes: &Slopes<T>| slopes.map(|x| x.lane(run));
+        Vicinity {
+            latitude: self.latitude.lane(run),
+            height: self.height.lane(run),
+            sin: self.sin.lane(run),
+            cos: self.cos.lane(run),
+            meridian_curvature: slopes(&self.meridian_curvature),
+            transverse_curvature: slopes(&self.transverse_curvature),
+            gravity: slopes(&self.gravity),
+        }
+    }
+
+    /// The figures at a place, about which a new vicinity is laid if it is out of reach.
+    #[inline(always)]
+    pub(super) fn at(&mut self, latitude: T, height: T) -> Figures<T> {
+        let (north, up) = (latitude - self.latitude, height - self.height);
+        let within = |x: T, reach: f64| (x * x).all_below(reach * reach);
+        if !(within(north, REACH_IN_LATITUDE) && within(up, REACH_IN_HEIGHT)) {
+            self.follow(latitude, height);
+        }
+        let (north, up) = (latitude - self.latitude, height - self.height);
+        // Terms of third order are below 10⁻¹⁸ here.
+        let bend = -(north * north * 0.5) + 1.0;
+        let sin = self.sin * bend + self.cos * north;
+        let cos = self.cos * bend - self.sin * north;
+        let figure = |[value, by_latitude, by_height]: Slopes<T>| {
+            value + by_latitude * north + by_height * up
+        };
+        Figures {
+            latitude: [sin, cos],
+            tan_latitude: sin / cos,
+            meridian_curvature: figure(self.meridian_curvature),
+            transverse_curvature: figure(self.transverse_curvature),
+            gravity: figure(self.gravity),
+        }
+    }
+
+    /// Lays new vicinities for those runs that are out of reach of theirs.
+    #[cold]
+    fn follow(&mut self, latitude: T, height: T) {
+        let old = *self;
+        *self = Self::each(latitude, |run| {
+            let (here, up) = (latitude.lane(run), height.lane(run));
+            let vicinity = old.lane(run);
+            let (dl, dh) = (here - vicinity.latitude, up - vicinity.height);
+            let near = |x: f64, reach: f64| x * x < reach * reach;
+            if near(dl, REACH_IN_LATITUDE) && near(dh, REACH_IN_HEIGHT) {
+                vicinity
+            } else {
+                Vicinity::around(here, up)
+            }
+        });
     }
 }
 
@@ -118,17 +177,16 @@ mod tests {
             north in -3e-6..3e-6_f64,
             up in -15.0..15.0_f64,
         ) {
-            let centre = Site { latitude, longitude: 0.0, height };
-            let place = Site { latitude: latitude + north, height: height + up, ..centre };
-            let figures = Vicinity::around(&centre).at(&place);
+            let place = Site { latitude: latitude + north, longitude: 0.0, height: height + up };
+            let figures = Vicinity::around(latitude, height).at(place.latitude, place.height);
             closely(figures.meridian_curvature, 1.0 / (place.meridian_radius() + place.height))?;
             closely(figures.transverse_curvature, 1.0 / (place.transverse_radius() + place.height))?;
             closely(figures.gravity, place.normal_gravity())?;
-            closely(figures.cos_latitude, place.latitude.cos())?;
+            closely(figures.latitude[1], place.latitude.cos())?;
             let w_ie = place.earth_rate();
             let w_en = place.transport_rate(&InFrame::new(30.0, -20.0, 1.0));
-            closely(figures.earth_rate.0, w_ie.components().y)?;
-            closely(figures.earth_rate.1, w_ie.components().z)?;
+            closely(figures.earth_rate()[1], w_ie.components().y)?;
+            closely(figures.earth_rate()[2], w_ie.components().z)?;
             let east = 30.0 * figures.transverse_curvature;
             closely(east * figures.tan_latitude, w_en.components().z)?;
         }
