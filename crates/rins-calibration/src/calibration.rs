@@ -155,7 +155,7 @@ pub fn calibrate(
         if thinning.keeps(done) {
             history.push(EstimatePoint {
                 time: recording.times[run.span.start + done],
-                estimate: *filter.estimate(),
+                estimate: filter.estimate(),
                 sigma: sigma(filter, SPIN_AXIS_ERRORS.start()),
             });
             progress(done);
@@ -375,7 +375,7 @@ fn sigma(filter: &SpinAxisFilter, first: usize) -> Vector3<f64> {
 
 fn correlation(filter: &SpinAxisFilter) -> Matrix3<f64> {
     let start = SPIN_AXIS_ERRORS.start();
-    let covariance = filter.covariance().fixed_view::<3, 3>(start, start);
+    let covariance = filter.covariance().fixed_view::<3, 3>(start, start).into_owned();
     Matrix3::from_fn(|row, column| {
         let product = covariance[(row, row)] * covariance[(column, column)];
         if row == column {

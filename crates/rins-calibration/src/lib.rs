@@ -13,16 +13,24 @@
 //!
 //! Numbers are in SI units and radians; errors are computed minus true ([`layout`]).
 
+#![expect(
+    clippy::inline_always,
+    reason = "what is not inlined is compiled without the vector instructions"
+)]
+
 mod calibration;
 mod consistency;
-mod dynamics;
+mod dense;
 mod filter;
 mod history;
+mod kernel;
+mod lanes;
 pub mod layout;
 mod navigation;
 mod parameter;
 mod separability;
 mod setup;
+pub mod structured;
 
 pub use calibration::{
     AttitudeSource, Calibration, CalibrationError, EstimatePoint, calibrate, likely_wobble,
@@ -30,6 +38,7 @@ pub use calibration::{
 };
 pub use consistency::{Consistency, Verdict};
 pub use filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
+pub use lanes::SpinAxisLanes;
 pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};
 pub use parameter::{Parameter, ParameterKind, Partner};
 pub use setup::{AxisAttitude, Setup, TableSpec};

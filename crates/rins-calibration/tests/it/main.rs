@@ -1,2 +1,3 @@
 //! Integration tests of the calibration.
 mod consistency;
+mod lanes;

@@ -1,0 +1,255 @@
+//! One sample through the filter: compensated, navigated, predicted, compared, corrected.
+
+use rins_frames::{Dcm, Nav};
+use rins_lanes::{Matrix, Real, Vector, rotation};
+use rins_motion::{Figures, Mechanisation, VerticalChannel};
+
+use crate::layout::{AXIS, PAPER_STATES, SPIN_AXIS_ERRORS, STATES};
+use crate::setup::Setup;
+use crate::structured::{Comparison, Covariance, Found, Input, Means, States, Transition, With};
+
+/// `M_xz`, `M_yz` and `S_z`, each in its gyro in proportion to the spin rate, and no more: the paper's
+/// twelve states.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum SpinAxisErrors {}
+
+/// The same, and the attitude error of the axis frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum WithAxis {}
+
+/// Each of the spin-axis errors enters its gyro, and nothing else any.
+const fn inputs<const N: usize>() -> [Input; N] {
+    let mut inputs = [Input::None; N];
+    let mut axis = 0;
+    while axis < 3 {
+        inputs[SPIN_AXIS_ERRORS.start() + axis] = Input::Gyro(axis);
+        axis += 1;
+    }
+    inputs
+}
+
+impl States<PAPER_STATES> for SpinAxisErrors {
+    const INPUTS: [Input; PAPER_STATES] = inputs();
+    const AXIS: Option<usize> = None;
+}
+
+impl States<STATES> for WithAxis {
+    const INPUTS: [Input; STATES] = inputs();
+    const AXIS: Option<usize> = Some(AXIS.start());
+}
+
+/// One sample of one run, or of several that share its interval \[s\].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample<T> {
+    /// \[rad\], in b.
+    pub(crate) angle: Vector<T>,
+    /// \[m/s\], in b.
+    pub(crate) velocity: Vector<T>,
+    pub(crate) interval: f64,
+}
+
+/// What the table said at the end of the sample.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Reading<T> {
+    /// The sine and cosine of the angle that was read.
+    Angle([T; 2]),
+    /// The mean commanded rate \[rad/s\].
+    Rate(T),
+}
+
+/// The filter's state: what it navigates, what it has learnt, and how well.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Kernel<T, M, const N: usize> {
+    pub(crate) setup: Setup,
+    pub(crate) mechanisation: Mechanisation<T>,
+    pub(crate) nav_from_table: Matrix<T>,
+    /// `M_xz`, `M_yz` \[rad\] and `S_z`.
+    pub(crate) estimate: Vector<T>,
+    pub(crate) covariance: Covariance<T, N>,
+    constants: core::marker::PhantomData<M>,
+}
+
+/// What an interval left behind for the comparison at its end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval<T> {
+    /// The compensated mean rate \[rad/s\], in b.
+    pub(crate) rate: Vector<T>,
+    /// The mean of `C_b^n`.
+    mean: Matrix<T>,
+    figures: Figures<T>,
+    /// \[s\]
+    length: f64,
+}
+
+impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
+    /// A kernel at rest at the station, with this attitude of body and axis and a covariance of which
+    /// `element` gives the lower triangle.
+    pub(crate) fn at_rest(
+        like: T,
+        setup: &Setup,
+        [nav_from_body, nav_from_table]: [&nalgebra::Matrix3<f64>; 2],
+        element: impl Fn(usize, usize) -> f64,
+    ) -> Self {
+        let site = setup.station.site;
+        let mechanisation = Mechanisation::new(
+            [site.latitude, site.longitude, site.height].map(|x| like.constant(x)),
+            Vector::zeros(like),
+            Matrix::constant(like, nav_from_body),
+            &setup.station,
+            VerticalChannel::Free,
+        );
+        Self {
+            setup: *setup,
+            mechanisation,
+            nav_from_table: Matrix::constant(like, nav_from_table),
+            estimate: Vector::zeros(like),
+            covariance: Covariance::from_fn(like, |row, column| {
+                like.constant(element(row, column))
+            }),
+            constants: core::marker::PhantomData,
+        }
+    }
+
+    /// One sample, whatever its covariance; a run that breaks off is not a number from then on.
+    #[inline(always)]
+    pub(crate) fn step(
+        &mut self,
+        sample: &Sample<T>,
+        velocity: &Vector<T>,
+        reading: &Reading<T>,
+    ) -> Found<T, N> {
+        let interval = self.predict(sample);
+        let comparison = self.compare(&interval, reading);
+        let off = self.mechanisation.velocity - *velocity;
+        let found = self.covariance.update::<M>(&comparison, &off, self.setup.velocity_noise);
+        self.correct(&found.state, &interval);
+        found
+    }
+
+    /// Navigates one compensated sample, and predicts.
+    #[inline(always)]
+    pub(crate) fn predict(&mut self, sample: &Sample<T>) -> Interval<T> {
+        let (interval, means) = self.navigate(sample);
+        self.carry(&interval, &means);
+        interval
+    }
+
+    /// Navigates one compensated sample; says what the error dynamics depend on meanwhile.
+    #[inline(always)]
+    pub(crate) fn navigate(&mut self, sample: &Sample<T>) -> (Interval<T>, Means<T>) {
+        let interval = sample.interval;
+        let angle = self.compensate(&sample.angle);
+        let before = (self.mechanisation.nav_from_body, self.mechanisation.velocity);
+        let figures = self.mechanisation.step(&angle, &sample.velocity, interval);
+        let mean = (before.0 + self.mechanisation.nav_from_body).scaled(0.5);
+        let means = Means {
+            interval,
+            curvatures: [figures.meridian_curvature, figures.transverse_curvature],
+            latitude: figures.latitude,
+            velocity: before.1,
+            gravity: self.setup.station.gravity,
+            specific_force: self.mechanisation.force_gain.scaled(1.0 / interval),
+            nav_from_body: mean,
+        };
+        (Interval { rate: angle.scaled(1.0 / interval), mean, figures, length: interval }, means)
+    }
+
+    /// What a unit of each constant puts into its gyro.
+    #[inline(always)]
+    fn regressors(spin_rate: T) -> [T; N] {
+        let mut regressors = [spin_rate.constant(0.0); N];
+        regressors[SPIN_AXIS_ERRORS.start()..SPIN_AXIS_ERRORS.end()].fill(spin_rate);
+        regressors
+    }
+
+    /// Carries the covariance over an interval.
+    #[inline(always)]
+    pub(crate) fn carry(&mut self, interval: &Interval<T>, means: &Means<T>) {
+        let regressors = Self::regressors(interval.rate[2]);
+        let imu = &self.setup.imu;
+        let densities = [imu.accel.noise_density, imu.gyro.noise_density];
+        Transition::<T, M, N>::new(means, regressors, densities).carry(&mut self.covariance);
+    }
+
+    /// Eq. (1) undone with the present estimate: exact, since only the third column is not zero.
+    #[inline(always)]
+    fn compensate(&self, measured: &Vector<T>) -> Vector<T> {
+        let z = measured[2] / (self.estimate[2] + 1.0);
+        Vector([measured[0] - self.estimate[0] * z, measured[1] - self.estimate[1] * z, z])
+    }
+
+    /// The three rows below zero velocity.
+    #[inline(always)]
+    pub(crate) fn compare(&self, interval: &Interval<T>, reading: &Reading<T>) -> Comparison<T, N> {
+        match reading {
+            Reading::Angle(sine_and_cosine) => self.compare_angle(sine_and_cosine),
+            Reading::Rate(rate) => self.compare_rate(interval, *rate),
+        }
+    }
+
+    /// The attitude against the axis frame turned by the angle read: `φ - α` plus the encoder's error
+    /// about the spin axis, resolved in s.
+    #[inline(always)]
+    fn compare_angle(&self, [sin, cos]: &[T; 2]) -> Comparison<T, N> {
+        let (zero, one) = (sin.constant(0.0), sin.constant(1.0));
+        let turn = Matrix([[*cos, -*sin, zero], [*sin, *cos, zero], [zero, zero, one]]);
+        let read = self.nav_from_table * turn;
+        let computed_from_read = self.mechanisation.nav_from_body * read.transpose();
+        let c_sn = self.nav_from_table.transpose();
+        let vector = rotation::small_rotation_vector(&computed_from_read)
+            .unwrap_or_else(|| rotation_vector(&computed_from_read));
+        let table = &self.setup.table;
+        let noise = [table.wobble, table.wobble, table.angle_noise].map(|sigma| sigma * sigma);
+        let difference = -(c_sn * vector);
+        Comparison { difference, by_attitude: c_sn, with: With::Axis, noise, cross: None }
+    }
+
+    /// Z2: the gyro's rate less the Earth's and the table's, eqs. (20) and (21).
+    ///
+    /// Eq. (19) must read `C~_n^b = C_n^b (I + φ×)` for the signs of (21) to hold.
+    #[inline(always)]
+    fn compare_rate(&self, interval: &Interval<T>, table: T) -> Comparison<T, N> {
+        let earth_rate = interval.figures.earth_rate();
+        let c_bn = interval.mean.transpose();
+        let mut difference = interval.rate - c_bn * earth_rate;
+        difference[2] = difference[2] - table;
+
+        let density = self.setup.imu.gyro.noise_density;
+        let gyro = density * density / interval.length;
+        let rate_noise = self.setup.table.rate_noise;
+        Comparison {
+            difference,
+            by_attitude: c_bn * Matrix::cross(&earth_rate),
+            with: With::Rates(Self::regressors(interval.rate[2])),
+            noise: [gyro, gyro, rate_noise * rate_noise + gyro],
+            cross: Some(interval.mean.scaled(-(density * density))),
+        }
+    }
+
+    /// Feeds the errors found back into navigator, axis and estimate.
+    #[inline(always)]
+    pub(crate) fn correct(&mut self, x: &[T; N], interval: &Interval<T>) {
+        let cos = interval.figures.latitude[1];
+        let mechanisation = &mut self.mechanisation;
+        let [latitude, longitude, height] = mechanisation.place;
+        mechanisation.place = [latitude + x[0], longitude - x[1] / cos, height - x[2]];
+        mechanisation.velocity = mechanisation.velocity - Vector([x[3], x[4], x[5]]);
+        let phi = Vector([x[6] + x[0], x[7] + x[1], x[8]]);
+        mechanisation.nav_from_body = rotation::exp(&phi) * mechanisation.nav_from_body;
+        self.estimate = self.estimate + Vector([x[9], x[10], x[11]]);
+        if let Some(first) = M::AXIS {
+            let alpha = Vector([x[first], x[first + 1], x[first + 2]]);
+            let turned = rotation::exp(&alpha) * self.nav_from_table;
+            self.nav_from_table = rotation::orthonormalised(&turned);
+        }
+    }
+}
+
+/// The rotation vectors of matrices that may turn far, run by run.
+#[cold]
+fn rotation_vector<T: Real>(c: &Matrix<T>) -> Vector<T> {
+    let all: Vec<_> = (0..c[0][0].lanes())
+        .map(|run| Dcm::<Nav, Nav>::from_kernel(c.lane(run)).rotation_vector())
+        .collect();
+    Vector([0, 1, 2].map(|axis| c[0][0].each(|run| all[run][axis])))
+}

@@ -1,0 +1,89 @@
+//! The correction by three rows at a time.
+
+use rins_lanes::{Real, Vector};
+
+use super::covariance::Covariance;
+
+/// Three rows over all states.
+pub(super) type Rows<T, const N: usize> = [[T; N]; 3];
+
+/// What three rows say of the state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Correction<T, const N: usize> {
+    /// `P Hᵀ + C` over the Cholesky factor of `S`, transposed: the part of the state's error that each
+    /// whitened innovation shows.
+    shown: Rows<T, N>,
+    /// The Cholesky factor's subdiagonal elements: (1,0), (2,0) and (2,1).
+    below: [T; 3],
+    /// The inverse of its diagonal; not a number where `S` is not positive definite.
+    pub(super) inverse_scales: [T; 3],
+}
+
+impl<T: Real, const N: usize> Correction<T, N> {
+    /// The correction where `with_state` is the covariance of the innovation with the state's error,
+    /// `(P Hᵀ + C)ᵀ`, and `innovation` the innovation's own: (0,0), (1,0), (1,1), (2,0), (2,1), (2,2).
+    #[inline(always)]
+    pub(super) fn new(with_state: &Rows<T, N>, innovation: [T; 6]) -> Self {
+        let [s00, s10, s11, s20, s21, s22] = innovation;
+        let one = s00.constant(1.0);
+        let i0 = one / s00.sqrt();
+        let (l10, l20) = (s10 * i0, s20 * i0);
+        let i1 = one / (s11 - l10 * l10).sqrt();
+        let l21 = (s21 - l20 * l10) * i1;
+        let i2 = one / (s22 - l20 * l20 - l21 * l21).sqrt();
+        let mut shown = *with_state;
+        for j in 0..N {
+            let x0 = with_state[0][j] * i0;
+            let x1 = (with_state[1][j] - x0 * l10) * i1;
+            shown[0][j] = x0;
+            shown[1][j] = x1;
+            shown[2][j] = (with_state[2][j] - x0 * l20 - x1 * l21) * i2;
+        }
+        Self { shown, below: [l10, l20, l21], inverse_scales: [i0, i1, i2] }
+    }
+
+    /// The innovation over its Cholesky factor.
+    #[inline(always)]
+    pub(super) fn whiten(&self, x: &Vector<T>) -> Vector<T> {
+        let ([l10, l20, l21], [i0, i1, i2]) = (self.below, self.inverse_scales);
+        let x0 = x[0] * i0;
+        let x1 = (x[1] - x0 * l10) * i1;
+        Vector([x0, x1, (x[2] - x0 * l20 - x1 * l21) * i2])
+    }
+
+    /// Adds what the whitened innovation says of each state.
+    #[inline(always)]
+    pub(super) fn add_to(&self, state: &mut [T; N], whitened: &Vector<T>) {
+        for j in 0..N {
+            state[j] = state[j]
+                + (self.shown[0][j] * whitened[0]
+                    + self.shown[1][j] * whitened[1]
+                    + self.shown[2][j] * whitened[2]);
+        }
+    }
+
+    /// Takes what is now known from the covariance.
+    #[inline(always)]
+    pub(super) fn reduce(&self, p: &mut Covariance<T, N>) {
+        let [a, b, c] = &self.shown;
+        if self.below[0].lanes() > 1 {
+            for row in 0..N {
+                for column in 0..=row {
+                    let known = a[row] * a[column] + b[row] * b[column] + c[row] * c[column];
+                    let left = p.rows[row][column] - known;
+                    p.rows[row][column] = left;
+                    p.rows[column][row] = left;
+                }
+            }
+        } else {
+            // A whole row at once is as fast as half of it, and both of a pair come out the same.
+            for (row, numbers) in p.rows.iter_mut().enumerate() {
+                let (x, y, z) = (a[row], b[row], c[row]);
+                for column in 0..N {
+                    let known = x * a[column] + y * b[column] + z * c[column];
+                    numbers[column] = numbers[column] - known;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! The prediction: eqs. (11)-(15) over one interval, factor by sparse factor.
+
+use core::marker::PhantomData;
+
+use rins_frames::EARTH_RATE;
+use rins_lanes::{Matrix, Real, Vector};
+
+use super::covariance::Covariance;
+use super::{ATTITUDE, NAVIGATION, POSITION, VELOCITY};
+
+/// How a constant enters: through the sensor along a body axis, or not at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// Into a gyro.
+    Gyro(usize),
+    /// Into an accelerometer.
+    Accel(usize),
+    /// Into no sensor: it is only measured.
+    None,
+}
+
+/// The states of a filter, known when it is compiled: nine navigation errors, then constants.
+pub trait States<const N: usize> {
+    /// How each constant enters; what stands at the navigation errors' places is not read.
+    const INPUTS: [Input; N];
+    /// Where the three of the axis frame's attitude error start, if they are among the constants.
+    const AXIS: Option<usize>;
+}
+
+/// What carries the errors over one interval: `Φ = Θ Ψ V Θ`.
+///
+/// Half of the position's motion, then the velocity's with the attitude half-way, then the
+/// attitude's, then the other half of the position's. The product is `exp(F T)` to second order in
+/// all that moves fast; of the products of the Earth's rate and the curvature with themselves, which
+/// it leaves out, none is above 10⁻¹¹.
+#[derive(Clone, Copy, Debug)]
+pub struct Transition<T, M, const N: usize> {
+    /// What half an interval's velocity makes of an angle \[s/m\].
+    half_angle: T,
+    /// What it makes of a height \[s\].
+    half_rise: f64,
+    /// By how much climbing shrinks the angles in half an interval.
+    shrink: T,
+    /// Velocity by position, the three elements that are not zero: by `δθ_y`, `δθ_x` and `δh`.
+    weight: [T; 3],
+    /// Velocity by velocity.
+    coriolis: Vector<T>,
+    /// Velocity by attitude.
+    force: Matrix<T>,
+    /// Velocity by the gyros' errors.
+    force_by_gyro: Matrix<T>,
+    /// Attitude by attitude.
+    nav_turn: Vector<T>,
+    /// Attitude by the gyros' errors.
+    turn_by_gyro: Matrix<T>,
+    /// Velocity by the accelerometers' errors.
+    push_by_accel: Matrix<T>,
+    /// What one unit of each constant puts into its sensor, as a mean rate or force.
+    regressors: [T; N],
+    /// The variance that an interval adds to each velocity \[m²/s²\] and each attitude \[rad²\].
+    noise: [f64; 2],
+    constants: PhantomData<M>,
+}
+
+/// What the error dynamics depend on, as means over an interval.
+#[derive(Clone, Copy, Debug)]
+pub struct Means<T> {
+    /// The interval \[s\].
+    pub interval: f64,
+    /// `1 / (R_M + h)` and `1 / (R_N + h)` \[1/m\].
+    pub curvatures: [T; 2],
+    /// The sine and cosine of the latitude.
+    pub latitude: [T; 2],
+    /// \[m/s\], in n.
+    pub velocity: Vector<T>,
+    /// Gravity's magnitude \[m/s²\].
+    pub gravity: f64,
+    /// `f^n` \[m/s²\].
+    pub specific_force: Vector<T>,
+    /// `C_b^n`.
+    pub nav_from_body: Matrix<T>,
+}
+
+impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
+    /// The transition under these means; a unit of each constant puts that much of `regressors` into
+    /// its sensor, and accelerometers and gyros have white noise of these densities.
+    #[inline(always)]
+    pub fn new(
+        means: &Means<T>,
+        regressors: [T; N],
+        [accel_density, gyro_density]: [f64; 2],
+    ) -> Self {
+        let Means { interval, curvatures: [meridian, transverse], velocity, gravity, .. } = *means;
+        let [sin, cos] = means.latitude;
+        let zero = sin.constant(0.0);
+        let earth = Vector([zero, cos * EARTH_RATE, sin * EARTH_RATE]);
+        let east = velocity[0] * transverse;
+        let transport = Vector([-(velocity[1] * meridian), east, east * sin / cos]);
+        let nav_rate = earth + transport;
+        let weight = sin.constant(gravity * interval);
+        let force = Matrix::cross(&means.specific_force.scaled(interval));
+        let turn_by_gyro = means.nav_from_body.scaled(-interval);
+        let nav_turn = nav_rate.scaled(-interval);
+        Self {
+            half_angle: meridian * (0.5 * interval),
+            half_rise: 0.5 * interval,
+            shrink: velocity[2] * meridian * (-0.5 * interval),
+            weight: [-weight, weight, weight * meridian * 2.0],
+            coriolis: (earth + nav_rate).scaled(-interval),
+            force: force + force * Matrix::cross(&nav_turn.scaled(0.5)),
+            force_by_gyro: force * turn_by_gyro.scaled(0.5),
+            nav_turn,
+            turn_by_gyro,
+            push_by_accel: means.nav_from_body.scaled(interval),
+            regressors,
+            noise: [
+                accel_density * accel_density * interval,
+                gyro_density * gyro_density * interval,
+            ],
+            constants: PhantomData,
+        }
+    }
+
+    /// Whether any constant enters an accelerometer.
+    const PUSHES: bool = {
+        let mut any = false;
+        let mut index = NAVIGATION;
+        while index < N {
+            any |= matches!(M::INPUTS[index], Input::Accel(_));
+            index += 1;
+        }
+        any
+    };
+
+    /// Carries the covariance over the interval: `Φ P Φᵀ + Q`.
+    #[inline(always)]
+    pub fn carry(&self, p: &mut Covariance<T, N>) {
+        self.half_position(p);
+        self.velocity(p);
+        self.attitude(p);
+        self.half_position(p);
+        let [of_velocity, of_attitude] = self.noise;
+        for axis in 0..3 {
+            let (v, a) = (VELOCITY + axis, ATTITUDE + axis);
+            p.rows[v][v] = p.rows[v][v] + of_velocity;
+            p.rows[a][a] = p.rows[a][a] + of_attitude;
+        }
+    }
+
+    /// What half an interval makes of three position errors that have three velocity errors.
+    #[inline(always)]
+    fn moved(&self, [x, y, up]: [T; 3], [east, north, rise]: [T; 3]) -> [T; 3] {
+        [
+            x + x * self.shrink - north * self.half_angle,
+            y + y * self.shrink + east * self.half_angle,
+            up + rise * self.half_rise,
+        ]
+    }
+
+    #[inline(always)]
+    fn half_position(&self, p: &mut Covariance<T, N>) {
+        for j in 0..N {
+            let column = [p.rows[0][j], p.rows[1][j], p.rows[2][j]];
+            let [x, y, up] = self.moved(column, [p.rows[3][j], p.rows[4][j], p.rows[5][j]]);
+            p.rows[0][j] = x;
+            p.rows[1][j] = y;
+            p.rows[2][j] = up;
+        }
+        // Where the rows cross their own columns, these move as well.
+        let mut crossing = [[p.rows[0][0]; 3]; 3];
+        for k in 0..3 {
+            let row = &p.rows[k];
+            crossing[k] = self.moved([row[0], row[1], row[2]], [row[3], row[4], row[5]]);
+        }
+        p.set_crossing(POSITION, &crossing);
+        p.mirror(POSITION);
+    }
+
+    /// The errors that the constants put into gyros and accelerometers, with every state.
+    #[inline(always)]
+    fn sensed(&self, p: &Covariance<T, N>) -> ([[T; N]; 3], [[T; N]; 3]) {
+        let zero = self.half_angle.constant(0.0);
+        let (mut gyros, mut accels) = ([[zero; N]; 3], [[zero; N]; 3]);
+        for index in NAVIGATION..N {
+            let (sum, amount) = match M::INPUTS[index] {
+                Input::Gyro(axis) => (&mut gyros[axis], self.regressors[index]),
+                Input::Accel(axis) => (&mut accels[axis], self.regressors[index]),
+                Input::None => continue,
+            };
+            for j in 0..N {
+                sum[j] = sum[j] + p.rows[index][j] * amount;
+            }
+        }
+        (gyros, accels)
+    }
+
+    /// The same with one state, of which `row` holds the covariances.
+    #[inline(always)]
+    fn sensed_by(&self, row: &[T; N]) -> (Vector<T>, Vector<T>) {
+        let (mut gyros, mut accels) = (Vector::zeros(row[0]), Vector::zeros(row[0]));
+        for index in NAVIGATION..N {
+            let (sum, amount) = match M::INPUTS[index] {
+                Input::Gyro(axis) => (&mut gyros[axis], self.regressors[index]),
+                Input::Accel(axis) => (&mut accels[axis], self.regressors[index]),
+                Input::None => continue,
+            };
+            *sum = *sum + row[index] * amount;
+        }
+        (gyros, accels)
+    }
+
+    /// The velocity error after the interval, of one column of any matrix: nine navigation errors
+    /// above what the gyros and accelerometers get wrong.
+    #[inline(always)]
+    fn pushed(&self, column: [T; NAVIGATION], gyros: &Vector<T>, accels: &Vector<T>) -> Vector<T> {
+        let [x, y, up, east, north, rise, ..] = column;
+        let attitude = Vector([column[6], column[7], column[8]]);
+        let [by_y, by_x, by_height] = self.weight;
+        let velocity = Vector([east, north, rise]);
+        let pushed = Vector([y * by_y, x * by_x, up * by_height])
+            + self.coriolis.cross(&velocity)
+            + self.force * attitude
+            + self.force_by_gyro * *gyros;
+        velocity + if Self::PUSHES { pushed + self.push_by_accel * *accels } else { pushed }
+    }
+
+    #[inline(always)]
+    fn velocity(&self, p: &mut Covariance<T, N>) {
+        let (gyros, accels) = self.sensed(p);
+        for j in 0..N {
+            let r = &p.rows;
+            let column =
+                [r[0][j], r[1][j], r[2][j], r[3][j], r[4][j], r[5][j], r[6][j], r[7][j], r[8][j]];
+            let gyros = Vector([gyros[0][j], gyros[1][j], gyros[2][j]]);
+            let accels = Vector([accels[0][j], accels[1][j], accels[2][j]]);
+            let after = self.pushed(column, &gyros, &accels);
+            p.rows[VELOCITY][j] = after[0];
+            p.rows[VELOCITY + 1][j] = after[1];
+            p.rows[VELOCITY + 2][j] = after[2];
+        }
+        let mut crossing = [[self.half_angle; 3]; 3];
+        for k in 0..3 {
+            let row = &p.rows[VELOCITY + k];
+            let (gyros, accels) = self.sensed_by(row);
+            let column = [row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8]];
+            crossing[k] = self.pushed(column, &gyros, &accels).0;
+        }
+        p.set_crossing(VELOCITY, &crossing);
+        p.mirror(VELOCITY);
+    }
+
+    /// The attitude error after the interval.
+    #[inline(always)]
+    fn turned(&self, attitude: &Vector<T>, gyros: &Vector<T>) -> Vector<T> {
+        *attitude + self.nav_turn.cross(attitude) + self.turn_by_gyro * *gyros
+    }
+
+    #[inline(always)]
+    fn attitude(&self, p: &mut Covariance<T, N>) {
+        let (gyros, _) = self.sensed(p);
+        for j in 0..N {
+            let column = Vector([p.rows[6][j], p.rows[7][j], p.rows[8][j]]);
+            let after = self.turned(&column, &Vector([gyros[0][j], gyros[1][j], gyros[2][j]]));
+            p.rows[6][j] = after[0];
+            p.rows[7][j] = after[1];
+            p.rows[8][j] = after[2];
+        }
+        let mut crossing = [[self.half_angle; 3]; 3];
+        for k in 0..3 {
+            let row = &p.rows[ATTITUDE + k];
+            let (gyros, _) = self.sensed_by(row);
+            crossing[k] = self.turned(&Vector([row[6], row[7], row[8]]), &gyros).0;
+        }
+        p.set_crossing(ATTITUDE, &crossing);
+        p.mirror(ATTITUDE);
+    }
+}
