@@ -53,7 +53,7 @@ pub(super) fn findings(root: &Path) -> Result<Vec<Finding>> {
     Ok(findings)
 }
 
-fn layer_of(name: &str) -> Option<usize> {
+pub(super) fn layer_of(name: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&name))
 }
 
