@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+mod bench;
 mod ci;
 mod doc;
 mod manifest;
@@ -26,6 +27,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Time the hot loops beside their rivals, or count their instructions
+    Bench(bench::Options),
     /// Everything that CI runs after `cargo test --workspace`
     Ci(ci::Options),
     /// Build the book into target/book and check its equations and links
@@ -41,6 +44,7 @@ enum Command {
 fn main() -> ExitCode {
     let root = root();
     let done = match Arguments::parse().command {
+        Command::Bench(options) => bench::run(&root, &options),
         Command::Ci(options) => ci::run(&root, &options),
         Command::Doc => doc::run(&root),
         Command::Reproduce(options) => reproduce::run(&root, &options),

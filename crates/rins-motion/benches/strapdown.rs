@@ -1,4 +1,4 @@
-//! One strapdown step, beside the same mathematics on bare matrices.
+//! One strapdown step, beside the same mathematics on bare matrices and in lanes.
 
 use std::hint::black_box;
 
@@ -6,7 +6,10 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Matrix3, Vector3};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND, PPM};
 use rins_frames::{EulerAngles, InFrame, Increments, Site};
-use rins_motion::{Navigator, Profile, Segment, Station, TrueMotion, VerticalChannel};
+use rins_lanes::{Arch, Lane, Matrix, Real, Simd, Vector, WithSimd};
+use rins_motion::{
+    Mechanisation, Navigator, Profile, Segment, Station, TrueMotion, VerticalChannel,
+};
 
 /// How many steps one timing covers.
 const STEPS: usize = 1000;
@@ -125,19 +128,77 @@ fn bare(motion: &TrueMotion, measured: &[Increments]) -> Vector3<f64> {
     bare.v_n
 }
 
+/// The same in lanes: every run navigates the same increments.
+struct SideBySide<'a>(&'a TrueMotion, &'a [Increments]);
+
+impl WithSimd for SideBySide<'_> {
+    type Output = (usize, Vector3<f64>);
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self(motion, measured) = self;
+        let like = Lane::splat(simd, 0.0);
+        let site = motion.station.site;
+        let mut mechanisation = Mechanisation::new(
+            [
+                like.constant(site.latitude),
+                like.constant(site.longitude),
+                like.constant(site.height),
+            ],
+            Vector::zeros(like),
+            Matrix::constant(like, motion.nav_from_table.matrix()),
+            &motion.station,
+            VerticalChannel::Held,
+        );
+        for increments in measured {
+            let angle = Vector::constant(like, (*increments.angle.components()).into());
+            let velocity = Vector::constant(like, (*increments.velocity.components()).into());
+            mechanisation.step(&angle, &velocity, increments.interval);
+        }
+        let last = like.lanes() - 1;
+        (like.lanes(), mechanisation.velocity.lane(last).into())
+    }
+}
+
+/// The functions whose instructions `cargo xtask bench` counts, by their names.
+mod counted {
+    use super::{Arch, Increments, SideBySide, TrueMotion, Vector3, navigator, typed};
+
+    #[inline(never)]
+    pub(super) fn strapdown_step(motion: &TrueMotion, measured: &[Increments]) -> Vector3<f64> {
+        typed(navigator(motion), measured)
+    }
+
+    #[inline(never)]
+    pub(super) fn strapdown_lanes(
+        motion: &TrueMotion,
+        measured: &[Increments],
+    ) -> (usize, Vector3<f64>) {
+        Arch::new().dispatch(SideBySide(motion, measured))
+    }
+}
+
 fn step(criterion: &mut Criterion) {
     let (motion, measured) = run();
     assert_eq!(measured.len(), STEPS);
-    let (by_types, by_hand) = (typed(navigator(&motion), &measured), bare(&motion, &measured));
+    let by_types = counted::strapdown_step(&motion, &measured);
+    let by_hand = bare(&motion, &measured);
     assert!(by_hand.norm() > 1e-3, "a run whose velocity stays zero compares nothing");
     assert!((by_types - by_hand).norm() < AGREEMENT, "{by_types} against {by_hand}");
+    let (width, side_by_side) = counted::strapdown_lanes(&motion, &measured);
+    assert!((by_types - side_by_side).norm() < AGREEMENT, "{by_types} against {side_by_side}");
 
-    let mut group = criterion.benchmark_group("strapdown/step/thousand");
+    let mut group = criterion.benchmark_group("strapdown_step");
     group.throughput(criterion::Throughput::Elements(STEPS as u64));
-    group.bench_function("navigator", |b| {
-        b.iter(|| typed(navigator(&motion), black_box(&measured)));
+    group.bench_function("one", |b| {
+        b.iter(|| counted::strapdown_step(&motion, black_box(&measured)));
     });
     group.bench_function("bare", |b| b.iter(|| bare(&motion, black_box(&measured))));
+    group.throughput(criterion::Throughput::Elements((STEPS * width) as u64));
+    group.bench_function("lanes", |b| {
+        b.iter(|| counted::strapdown_lanes(&motion, black_box(&measured)));
+    });
     group.finish();
 }
 

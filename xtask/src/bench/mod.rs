@@ -1,0 +1,97 @@
+//! How fast the hot loops are beside their rivals, and how many instructions they take.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use crate::Result;
+
+mod instructions;
+mod timing;
+
+use timing::{Timings, per};
+
+/// What to measure.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Count instructions by valgrind and compare them with those kept, and time nothing
+    #[arg(long)]
+    instructions: bool,
+    /// Keep the counts of instructions as the new ones to compare with
+    #[arg(long, requires = "instructions")]
+    keep: bool,
+}
+
+/// A package, and its bench.
+type Bench = (&'static str, &'static str);
+
+/// The benches that are timed, each beside its rival.
+const BENCHES: &[Bench] = &[("rins-calibration", "step"), ("rins-motion", "strapdown")];
+
+/// A row of the table: its name, what is timed, and its rival.
+type Row = (&'static str, &'static str, Option<&'static str>);
+
+/// The rows, by the names of the benches in criterion's folder.
+const ROWS: &[Row] = &[
+    ("filter_step_12", "filter_step_12/one", Some("filter_step_12/dense")),
+    ("filter_step_12_lanes", "filter_step_12/lanes", Some("filter_step_12/dense")),
+    ("filter_step_24", "filter_step_24/one", Some("filter_step_24/dense")),
+    ("filter_step_24_lanes", "filter_step_24/lanes", Some("filter_step_24/dense")),
+    ("filter_step_40", "filter_step_40/one", Some("filter_step_40/dense")),
+    ("strapdown_step", "strapdown_step/one", Some("strapdown_step/bare")),
+    ("strapdown_step_lanes", "strapdown_step/lanes", Some("strapdown_step/bare")),
+];
+
+/// Times the benches and writes `target/bench.json`, or counts instructions.
+pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
+    if options.instructions {
+        return instructions::run(root, options.keep);
+    }
+    let target = target(root)?;
+    for &(package, bench) in BENCHES {
+        let status = Command::new("cargo")
+            .args(["bench", "--quiet", "--package", package, "--bench", bench])
+            .args(["--", "--warm-up-time", "1", "--measurement-time", "3"])
+            .current_dir(root)
+            .status()?;
+        if !status.success() {
+            return Err(format!("the bench {bench} of {package} failed ({status})").into());
+        }
+    }
+    let timings = Timings::read(&target.join("criterion"))?;
+    let mut all = BTreeMap::new();
+    println!("{:24} {:>12} {:>12} {:>8}", "medians, one core", "ns", "rival ns", "ratio");
+    for (name, one, rival) in ROWS {
+        let own = timings.of(one)?;
+        let rival = rival.map(|rival| timings.of(rival)).transpose()?;
+        let ratio = rival.map(|rival| rival / own);
+        println!("{name:24} {own:>12.1} {:>12} {:>8}", per(rival, 1), per(ratio, 2));
+        all.insert(*name, entry(own, rival));
+    }
+    let path = target.join("bench.json");
+    fs::write(&path, serde_json::to_string_pretty(&json!(all))?)?;
+    println!("Written: {}", path.display());
+    Ok(())
+}
+
+fn entry(ns: f64, dense: Option<f64>) -> Value {
+    match dense {
+        Some(dense) => json!({ "ns": ns, "dense_ns": dense, "ratio": dense / ns }),
+        None => json!({ "ns": ns }),
+    }
+}
+
+/// Where cargo puts what it builds.
+fn target(root: &Path) -> Result<std::path::PathBuf> {
+    let output = Command::new("cargo")
+        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .current_dir(root)
+        .output()?;
+    let metadata: Value = serde_json::from_slice(&output.stdout)?;
+    let folder = metadata["target_directory"].as_str().ok_or("cargo metadata names no target")?;
+    Ok(folder.into())
+}
