@@ -6,7 +6,7 @@ use rins_motion::Recording;
 
 use crate::model::Model;
 use crate::moment::{Moment, Surroundings};
-use crate::signals::values;
+use crate::signals::{Signals, values};
 use crate::track::Track;
 
 /// The most often that readings are compensated; each time leaves of an error what the terms make of it.
@@ -35,7 +35,7 @@ pub enum NotUndone {
 /// The recording that sensors and an encoder without the errors of `model` would have made.
 ///
 /// It is `true = measured - signals(true)`, iterated: terms act on the rates and forces that are found, so that
-/// it holds for any motion, a tilting table's included, which stays in the recording. How the table turns is
+/// it holds for any motion. What moves the table itself, tilts or ripples, is true and stays. How the table turns is
 /// taken from the z gyro less the Earth's rate; the encoder, if there is one, says where it
 /// stands, but is not differenced. Terms of noise and of logging cannot be undone, and are passed over.
 ///
@@ -83,7 +83,7 @@ pub fn compensated(
         for (sample, moment) in track.moments().enumerate() {
             let moment =
                 standing(&moment, &track, &found, sample).feeling(&found.increments[sample]);
-            let signals = model.signals(&moment);
+            let signals = errors(model, &moment);
             let (read, interval) = (&recording.increments[sample], moment.interval);
             let next = Increments {
                 angle: read.angle - InFrame::from_components(values(&signals.gyro) * interval),
@@ -107,6 +107,18 @@ pub fn compensated(
         }
     }
     Err(NotUndone::Endless { change })
+}
+
+/// What the terms add to readings. A term that moves the table is a true motion, and is left in them.
+fn errors(model: &Model, moment: &Moment) -> Signals {
+    let mut sum = Signals::default();
+    for chosen in model.terms.iter().filter(|chosen| chosen.term.is_signal()) {
+        let signals = chosen.signals(moment, None);
+        if signals.tilt == Signals::default().tilt {
+            sum.add(&signals);
+        }
+    }
+    sum
 }
 
 /// The larger number; what is not a number is larger than any.
@@ -145,131 +157,4 @@ fn standing(moment: &Moment, track: &Track, recording: &Recording, sample: usize
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::catalogue;
-    use crate::making::Making;
-    use crate::model::Chosen;
-    use proptest::prelude::*;
-    use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND, PPM};
-    use rins_frames::{EulerAngles, Site};
-    use rins_imu::{ImuError, TriadError};
-    use rins_motion::{Profile, Segment, Station, TrueMotion};
-
-    /// A tilted table that rests, turns forth with a ramp, and back.
-    fn motion() -> TrueMotion {
-        let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
-        let attitude = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
-        let segments =
-            [0.0, 10.0, -20.0].map(|rate| Segment { rate: rate * DEG_PER_SECOND, duration: 12.0 });
-        TrueMotion {
-            station: Station::with_normal_gravity(site),
-            nav_from_table: attitude.dcm(),
-            profile: Profile::new(&segments, Some(5.0 * DEG_PER_SECOND)).unwrap(),
-        }
-    }
-
-    /// What happens on the table, and what is read there: with an encoder, or without.
-    fn run(model: &Model, encoder: bool) -> (Surroundings, Recording, Recording) {
-        let motion = motion();
-        let around = Surroundings::new(motion.station, motion.nav_from_table);
-        let samples: Vec<_> = motion.samples(0.02).collect();
-        let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
-        let angles = std::iter::once(0.0).chain(samples.iter().map(|sample| sample.angle));
-        let temperature: Vec<f64> = times.iter().map(|time| 20.0 + 0.01 * time).collect();
-        let track = Track::new(
-            around,
-            times.clone(),
-            vec![0.02; times.len()],
-            angles.collect(),
-            Some(temperature.clone()),
-        );
-        let truth = Recording {
-            times,
-            increments: samples.iter().map(|sample| sample.increments).collect(),
-            table_angle: encoder.then(|| samples.iter().map(|sample| sample.angle).collect()),
-            temperature: Some(temperature),
-            ..Recording::default()
-        };
-        let mut making = Making::new(model, &track);
-        let mut read = truth.clone();
-        for (sample, moment) in track.moments().enumerate() {
-            let reading = making.read(&moment, &truth.increments[sample]);
-            read.increments[sample] = reading.increments;
-            if let Some(angle) = &mut read.table_angle {
-                angle[sample] += reading.angle_error;
-            }
-        }
-        (around, truth, read)
-    }
-
-    /// Checks `found` against `truth`: 1e-12 of the largest signal.
-    fn assert_same(found: &Recording, truth: &Recording) {
-        for (found, truth) in found.increments.iter().zip(&truth.increments) {
-            let turn = 20.0 * DEG * 0.02;
-            assert!((found.angle - truth.angle).norm() < 1e-12 * turn, "{found:?} {truth:?}");
-            let push = 9.8 * 0.02;
-            assert!((found.velocity - truth.velocity).norm() < 1e-12 * push, "{found:?} {truth:?}");
-        }
-        let angles = |recording: &Recording| recording.table_angle.clone().unwrap_or_default();
-        for (found, truth) in angles(found).iter().zip(angles(truth)) {
-            assert!((found - truth).abs() < 1e-12, "{found} {truth}");
-        }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(16))]
-
-        #[test]
-        fn what_was_made_is_undone(
-            errors in prop::array::uniform24(-1e-2..1e-2_f64),
-            zero in -1.0..1.0_f64,
-            encoder in any::<bool>(),
-        ) {
-            let triad = |p: &[f64]| TriadError {
-                bias: nalgebra::Vector3::from_column_slice(&p[..3]),
-                matrix: nalgebra::Matrix3::from_column_slice(&p[3..]),
-            };
-            let error = ImuError { gyro: triad(&errors[..12]), accel: triad(&errors[12..]) };
-            let model = Model::from(&error)
-                .with(Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[zero]));
-            let (around, truth, read) = run(&model, encoder);
-            prop_assert!((read.increments[0].angle - truth.increments[0].angle).norm() > 1e-6);
-            assert_same(&compensated(&model, around, &read).unwrap(), &truth);
-        }
-    }
-
-    /// An IMU on a tilting table feels the tilt, and goes on feeling it.
-    #[test]
-    fn true_motion_stays() {
-        let scale = Chosen::new(&catalogue::GYRO_SCALE).with_values(&[100.0 * PPM; 3]);
-        let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&[100.0 * ARCSEC, 0.0]);
-        let tilting = Model { terms: vec![mounting.clone()] };
-        let (around, _, felt) = run(&tilting, true);
-        let both = tilting.with(scale);
-        let (_, _, read) = run(&both, true);
-        let found = compensated(&both, around, &read).unwrap();
-        assert_same(&found, &felt);
-    }
-
-    #[test]
-    fn what_cannot_be_undone_is_refused() {
-        let refusal = |scale: [f64; 3]| {
-            let chosen = Chosen::new(&catalogue::GYRO_SCALE).with_values(&scale);
-            let model = Model { terms: vec![chosen] };
-            let (around, _, read) = run(&model, true);
-            compensated(&model, around, &read).err()
-        };
-        assert_eq!(refusal([0.1, 0.0, 0.0]), None);
-        assert!(matches!(refusal([0.0, -1.0, 0.0]), Some(NotUndone::Triads(_))));
-        assert!(matches!(refusal([0.0, 1.5, 0.0]), Some(NotUndone::Endless { .. })));
-    }
-
-    #[test]
-    fn nothing_is_made_of_no_samples() {
-        let motion = motion();
-        let around = Surroundings::new(motion.station, motion.nav_from_table);
-        let none = Recording::default();
-        assert_eq!(compensated(&Model::full(), around, &none), Ok(none));
-    }
-}
+mod tests;
