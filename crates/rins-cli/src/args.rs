@@ -66,7 +66,7 @@ pub(crate) struct Init {
 
 #[derive(Debug, Args)]
 pub(crate) struct Simulate {
-    /// The scenario file: a rig file with a truth section
+    /// A rig file with a truth section: errors, effects, temperature, noise, seed
     pub(crate) scenario: PathBuf,
     /// Folder for the run
     #[arg(short, long, value_name = "DIR")]

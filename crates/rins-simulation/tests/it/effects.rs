@@ -1,8 +1,8 @@
 //! What effects make of a run, against the same run described another way.
 
-use rins_frames::units::{ARCSEC, DEG};
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use rins_frames::{Dcm, Increments, Table};
-use rins_imu::ImuError;
+use rins_imu::{ImuError, ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins_simulation::{Encoder, Scenario, TableRecord, Temperature, simulate};
 use rins_terms::{Chosen, Model, catalogue};
 use rins_testing::assert_close;
@@ -107,4 +107,69 @@ fn temperature_is_recorded_as_it_goes() {
     let left = |time: usize| 30.0 - warm_up[50 * time - 1];
     assert_close!(left(50) / left(100), std::f64::consts::E, 1e-12);
     assert_close!(left(50), 10.0 / std::f64::consts::E, 1e-12);
+}
+
+/// A data sheet of fibre gyros, from which usual magnitudes follow.
+fn sheet() -> ImuSpec {
+    let triad = |noise_density, bias_sigma| TriadSpec {
+        noise_density,
+        bias_sigma,
+        scale_sigma: 500e-6,
+        misalignment_sigma: 120.0 * ARCSEC,
+        bias_instability: None,
+        random_walk: None,
+        range: None,
+        resolution: None,
+    };
+    ImuSpec {
+        gyro: triad(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR),
+        accel: triad(30.0 * MICRO_G, 200.0 * MICRO_G),
+    }
+}
+
+#[test]
+fn every_effect_of_the_catalogue_shows_in_a_run() {
+    let warming = Temperature::WarmUp { start: 20.0, rise: 5.0, time_constant: 60.0 };
+    let scenario = Scenario { temperature: Some(warming), ..realistic() };
+    let without = simulate(&scenario).unwrap().recording;
+    for term in catalogue::CATALOGUE {
+        // No sensor of any use saturates at 10 deg/s and at rest: here it does.
+        let saturates = term.id.ends_with("_saturation");
+        let value = |parameter: &rins_terms::Parameter| {
+            if saturates { 0.05 } else { parameter.range(&sheet()).1 }
+        };
+        let values: Vec<f64> = term.parameters.iter().map(value).collect();
+        let chosen = Chosen::new(term).with_values(&values);
+        let effects = Model { terms: vec![chosen] };
+        let with = simulate(&Scenario { effects, ..scenario.clone() }).unwrap();
+        assert!(with.recording != without, "{} does nothing", term.id);
+        let is_finite =
+            |k: &Increments| k.angle.norm().is_finite() && k.velocity.norm().is_finite();
+        assert!(with.recording.increments.iter().all(is_finite), "{}", term.id);
+        assert_eq!(with.truth.effects.terms[0].term.id, term.id);
+    }
+}
+
+#[test]
+fn an_effect_on_the_noise_is_other_noise() {
+    let louder = Chosen::new(catalogue::term("gyro_noise_level").unwrap()).with_values(&[1.0]);
+    let effects = Model { terms: vec![louder] };
+    let quiet = Scenario {
+        noise: Some(ImuNoise { gyro: NoiseModel::white(1e-6), ..ImuNoise::default() }),
+        ..perfect()
+    };
+    let noise = Some(ImuNoise { gyro: NoiseModel::white(2e-6), ..ImuNoise::default() });
+    let with = simulate(&Scenario { effects, ..quiet.clone() }).unwrap();
+    let other = simulate(&Scenario { noise, ..quiet }).unwrap();
+    assert_eq!(with.recording, other.recording);
+}
+
+#[test]
+fn a_thermal_effect_needs_a_temperature() {
+    let thermal = Chosen::new(catalogue::term("gyro_thermal_bias").unwrap());
+    let scenario = Scenario { effects: Model { terms: vec![thermal] }, ..perfect() };
+    assert_eq!(
+        simulate(&scenario).unwrap_err().to_string(),
+        "the effect gyro_thermal_bias needs a temperature, which this run does not have"
+    );
 }
