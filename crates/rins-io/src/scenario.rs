@@ -163,7 +163,10 @@ fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError
     match (angle, rate) {
         (Some((section, angle)), _) => {
             if section.has("latency") {
-                return Err(section.conflict("latency", "is not simulated; leave it out"));
+                return Err(section.conflict(
+                    "latency",
+                    "is not simulated; list the effect encoder_latency instead",
+                ));
             }
             let on = noise.table_angle == Switch::On;
             let sigma = if on { angle.noise.unwrap_or(0.0) } else { 0.0 };

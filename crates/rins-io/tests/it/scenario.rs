@@ -333,7 +333,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("rate = \"50 Hz\"\n", "", "scenario.toml:7: [log] rate: missing, expected a sampling rate such as \"50 Hz\""),
     ("rate = \"50 Hz\"", "rate = \"50 Hz\"\npath = \"../run.csv\"", "scenario.toml:9: [log] path: \"../run.csv\" is not allowed, expected the name of a csv file, such as \"run.csv\""),
     ("rate = \"50 Hz\"", "rate = \"50 Hz\"\nformat = \"psins\"", "scenario.toml:9: [log] format: \"psins\" is not allowed, expected \"csv\""),
-    ("noise = \"0.3 arcsec\",", "latency = \"1 ms\",", "scenario.toml:9: [log] table_angle.latency: is not simulated; leave it out"),
+    ("noise = \"0.3 arcsec\",", "latency = \"1 ms\",", "scenario.toml:9: [log] table_angle.latency: is not simulated; list the effect encoder_latency instead"),
     ("[table]", "[axis]\nspin = \"x\"\n[table]", "scenario.toml:18: [axis] spin: a scenario spins about z; leave this out"),
     ("[truth.attitude]", "[truth.atitude]", "scenario.toml:40: [truth] atitude: unknown key; did you mean \"attitude\"?"),
     ("yaw = \"40.03 deg\"\n", "", "scenario.toml:40: [truth.attitude] yaw: missing, expected an angle such as \"30 deg\""),

@@ -139,7 +139,9 @@ const SCENARIOS: &[Row] = &[
         "latency",
         SIMULATE,
         Replace(FILE, "resolution = \"0.01 arcsec\"", "latency = \"1 ms\""),
-        &["{line}: [log] table_angle.latency: is not simulated; leave it out"],
+        &[
+            "{line}: [log] table_angle.latency: is not simulated; list the effect encoder_latency instead",
+        ],
     ),
     (
         "a log outside of the folder",
