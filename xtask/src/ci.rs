@@ -43,6 +43,7 @@ const STEPS: &[Row] = &[
     ("book", None, "cargo xtask doc"),
     ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
     ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),
+    ("fuzz", None, "cargo xtask fuzz --seconds 3"),
     ("benches", None, "cargo bench --quiet --workspace --no-run"),
     ("instructions", None, "cargo xtask bench --instructions"),
     ("demo", None, "cargo run --quiet --release -- demo -o target/ci/demo"),

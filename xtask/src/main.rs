@@ -10,6 +10,7 @@ use clap::{Parser, Subcommand};
 mod bench;
 mod ci;
 mod doc;
+mod fuzz;
 mod manifest;
 mod reproduce;
 mod tidy;
@@ -33,6 +34,8 @@ enum Command {
     Ci(ci::Options),
     /// Build the book into target/book and check its equations and links
     Doc,
+    /// Fuzz everything that reads a file, each target for some seconds
+    Fuzz(fuzz::Options),
     /// Run the paper's experiments and write the book's page about them
     Reproduce(reproduce::Options),
     /// Check the rules of CONTRIBUTING.md that rustc and clippy cannot
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
         Command::Bench(options) => bench::run(&root, &options),
         Command::Ci(options) => ci::run(&root, &options),
         Command::Doc => doc::run(&root),
+        Command::Fuzz(options) => fuzz::run(&root, &options),
         Command::Reproduce(options) => reproduce::run(&root, &options),
         Command::Tidy => tidy::run(&root),
         Command::Verify => verify::run(&root),

@@ -31,6 +31,7 @@ mod rig;
 mod run;
 mod scenario;
 mod section;
+mod source;
 mod suggestion;
 mod term;
 mod write;
@@ -56,6 +57,12 @@ pub use scenario::ScenarioFile;
 pub use write::{
     Converted, Difference, LogFile, WriteProblem, convert, write_log, write_recording,
 };
+
+/// What only a build for fuzzing has.
+#[cfg(fuzzing)]
+pub mod fuzzing {
+    pub use crate::source::memory::put;
+}
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -9,8 +9,8 @@ use crate::Result;
 /// Around here a file usually holds two ideas.
 const MAX_LINES: usize = 400;
 
-/// Other people's files, kept as they came.
-const VENDORED: &[&str] = &["crates/rins-cli/assets", "docs/katex"];
+/// Other people's files, and those that a fuzzer begins with, kept as they came.
+const VENDORED: &[&str] = &["crates/rins-cli/assets", "docs/katex", "fuzz/corpus"];
 
 /// Names that say nothing of what is inside.
 const EMPTY_NAMES: &[&str] = &["utils", "util", "common", "helpers", "misc"];

@@ -1,6 +1,5 @@
 //! PSINS text logs, known by their header, which says almost all that a rig needs.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -10,6 +9,7 @@ use super::page::{Page, short};
 use super::{place, sections};
 use crate::error::IoError;
 use crate::log::{Lines, PsinsHeader, psins_header};
+use crate::source;
 
 /// Where comments that name the format are looked for \[bytes\].
 const BEGINNING: u64 = 4096;
@@ -33,7 +33,7 @@ pub(super) fn header(path: &Path) -> Result<Option<PsinsHeader>, IoError> {
 fn says_so(path: &Path) -> Result<bool, IoError> {
     let failed = || IoError::file("read", path);
     let mut beginning = Vec::new();
-    let file = File::open(path).map_err(failed())?;
+    let file = source::open(path).map_err(failed())?;
     file.take(BEGINNING).read_to_end(&mut beginning).map_err(failed())?;
     let text = String::from_utf8_lossy(&beginning);
     Ok(text.lines().any(|line| line.starts_with('%') && line.contains("PSINS")))

@@ -1,11 +1,11 @@
 //! A few rows of a log: its first, and some from places all through it.
 
-use std::fs::File;
 use std::io::{BufReader, Seek, SeekFrom};
 use std::path::Path;
 
 use crate::error::{IoError, LogError};
 use crate::log::{Delimiter, Fields, Head, Lines, LogProblem};
+use crate::source;
 
 /// The rows of a run.
 const RUN: usize = 128;
@@ -90,14 +90,13 @@ impl Sample {
 
 /// Runs from places all through the log; fewer where it cannot be read there.
 fn others(path: &Path, head: &Head) -> Vec<Run> {
-    let length = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file);
-    let length = length.map_or(0, |data| data.len());
+    let length = source::length(path).unwrap_or_default();
     let places = (1..=OTHER_RUNS).map(|index| length / (OTHER_RUNS + 1) * index);
     places.filter_map(|place| run_at(path, head, place)).collect()
 }
 
 fn run_at(path: &Path, head: &Head, place: u64) -> Option<Run> {
-    let mut file = File::open(path).ok()?;
+    let mut file = source::open(path).ok()?;
     file.seek(SeekFrom::Start(place)).ok()?;
     let mut lines = Lines::new(BufReader::new(file), path);
     // The first line is most likely the end of one.

@@ -1,11 +1,11 @@
 //! A log's lines, one at a time, in bounded memory.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
+use crate::source::{self, Source};
 
 /// The longest line that is read \[bytes\].
 const LONGEST: u64 = 1 << 20;
@@ -23,9 +23,9 @@ pub(crate) struct Lines<R> {
     commented: bool,
 }
 
-impl Lines<BufReader<File>> {
+impl Lines<BufReader<Source>> {
     pub(crate) fn open(path: &Path) -> Result<Self, IoError> {
-        let file = File::open(path).map_err(IoError::file("read", path))?;
+        let file = source::open(path).map_err(IoError::file("read", path))?;
         Ok(Self::new(BufReader::with_capacity(1 << 16, file), path))
     }
 

@@ -10,6 +10,7 @@
 
 mod calibration;
 mod convert;
+mod damaged;
 mod draft;
 mod faults;
 mod formats;

@@ -1,18 +1,18 @@
 //! Rows of little-endian doubles, one after another without a header.
 
-use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
 use super::{Columns, MOST_ROWS, Wanted, typed};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
+use crate::source;
 
 /// Reads columns, named by their places from "1", of the file at `path` whose rows have `count`
 /// doubles.
 pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let failed = || IoError::file("read", path);
-    let mut reader = BufReader::with_capacity(1 << 16, File::open(path).map_err(failed())?);
+    let mut reader = BufReader::with_capacity(1 << 16, source::open(path).map_err(failed())?);
     let Wanted { names, time } = wanted;
     let present: Vec<String> = (1..=count).map(|place| place.to_string()).collect();
     let place =

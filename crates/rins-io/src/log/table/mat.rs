@@ -5,7 +5,6 @@
 
 mod element;
 
-use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
@@ -13,9 +12,10 @@ use flate2::read::ZlibDecoder;
 
 use self::element::{Elements, Matrix};
 use super::typed::{Numbers, most_rows, together};
-use super::{Columns, Wanted, place};
+use super::{Columns, MOST_COLUMNS, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
+use crate::source;
 
 const FORMAT: &str = "MATLAB level 5";
 
@@ -31,8 +31,8 @@ const COMPRESSED: u32 = 15;
 /// Reads columns of the matrices in the file at `path`.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let failed = || IoError::file("read", path);
-    let file = File::open(path).map_err(failed())?;
-    let length = file.metadata().map_err(failed())?.len();
+    let file = source::open(path).map_err(failed())?;
+    let length = source::length(path).map_err(failed())?;
     if length == 0 {
         return Err(LogError::of(path, LogProblem::Empty));
     }
@@ -210,6 +210,9 @@ impl Found {
         }
         if rows > self.most {
             return Err(Problem::Log(LogProblem::ManyRows { most: self.most }));
+        }
+        if columns > MOST_COLUMNS as u64 {
+            return Err(Problem::Log(LogProblem::ManyColumns { most: MOST_COLUMNS }));
         }
         if matrix.is_complex {
             return Err(Problem::Log(damaged("a column of complex numbers is asked for")));

@@ -33,6 +33,9 @@ const LATEST: f64 = 1e12;
 /// The most columns that an error lists.
 const MOST_LISTED: usize = 30;
 
+/// How much of a column's name an error shows.
+const LONGEST_LISTED: usize = 60;
+
 /// The numbers of some columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Columns {
@@ -91,7 +94,12 @@ fn place(wanted: &str, names: &[String]) -> Result<usize, LogProblem> {
 
 /// The columns that there are, in words.
 fn listed(names: &[String]) -> String {
-    let words = quoted(names.iter().take(MOST_LISTED).map(String::as_str));
+    let short: Vec<String> = names
+        .iter()
+        .take(MOST_LISTED)
+        .map(|name| name.chars().take(LONGEST_LISTED).collect())
+        .collect();
+    let words = quoted(short.iter().map(String::as_str));
     match names.len().checked_sub(MOST_LISTED) {
         None | Some(0) => words,
         Some(more) => format!("{words} and {more} more"),

@@ -1,20 +1,23 @@
 //! Columns of Parquet files.
 
-use std::fs::File;
+mod pages;
+
 use std::path::Path;
 
 use parquet::basic::{ConvertedType, Type};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::ColumnChunkMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
+use self::pages::SoundPages;
 use super::typed::{Numbers, most_rows, together};
 use super::{Columns, MOST_COLUMNS, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
+use crate::source;
 
 /// The rows that are read at a time.
 const BATCH: usize = 1 << 16;
@@ -25,8 +28,8 @@ const MOST_GROWTH: i64 = 256;
 /// Reads columns of the Parquet file at `path`, row group by row group.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let failed = || IoError::file("read", path);
-    let file = File::open(path).map_err(failed())?;
-    let length = file.metadata().map_err(failed())?.len();
+    let file = source::chunks(path).map_err(failed())?;
+    let length = source::length(path).map_err(failed())?;
     if length == 0 {
         return Err(LogError::of(path, LogProblem::Empty));
     }
@@ -59,11 +62,13 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
             let chunk = group.columns().get(place).ok_or_else(|| {
                 damaged(ParquetError::General("a row group lacks a column".into()))
             })?;
-            refuse_bomb(chunk, length).map_err(refuse)?;
+            refuse_unsound(chunk, length).map_err(refuse)?;
             let pages = reader
                 .get_row_group(index)
-                .and_then(|group| group.get_column_reader(place))
+                .and_then(|group| group.get_column_page_reader(place))
                 .map_err(damaged)?;
+            let pages = Box::new(SoundPages::new(pages, most));
+            let pages = get_column_reader(schema.column(place), pages);
             let before = list.len();
             match read_chunk(pages, kind, most, &mut list) {
                 Ok(Some(null)) => {
@@ -96,8 +101,14 @@ fn damage(error: &ParquetError) -> LogProblem {
     LogProblem::Damaged { format: "Parquet", message: text.lines().collect::<Vec<_>>().join(", ") }
 }
 
-/// Refuses a column that says that a few bytes hold very many.
-fn refuse_bomb(chunk: &ColumnChunkMetaData, length: u64) -> Result<(), LogProblem> {
+/// Refuses a column that lies nowhere, or that says that a few bytes hold very many.
+fn refuse_unsound(chunk: &ColumnChunkMetaData, length: u64) -> Result<(), LogProblem> {
+    let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
+    // The parser takes these for granted.
+    if start < 0 || chunk.compressed_size() < 0 {
+        let message = "a column's place in the file is negative".into();
+        return Err(LogProblem::Damaged { format: "Parquet", message });
+    }
     let most = i64::try_from(length).unwrap_or(i64::MAX).saturating_mul(MOST_GROWTH);
     if chunk.uncompressed_size() > most.max(1 << 24) {
         return Err(LogProblem::ManyRows { most: most_rows(length) });
