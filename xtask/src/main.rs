@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand};
 
 mod bench;
 mod ci;
+mod coverage;
 mod doc;
 mod fuzz;
 mod manifest;
@@ -32,6 +33,8 @@ enum Command {
     Bench(bench::Options),
     /// Everything that CI runs after `cargo test --workspace`
     Ci(ci::Options),
+    /// Simulate runs with random truth and check how often the estimator's intervals hold it
+    Coverage(coverage::Options),
     /// Build the book into target/book and check its equations and links
     Doc,
     /// Fuzz everything that reads a file, each target for some seconds
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Bench(options) => bench::run(&root, &options),
         Command::Ci(options) => ci::run(&root, &options),
+        Command::Coverage(options) => coverage::run(&root, &options),
         Command::Doc => doc::run(&root),
         Command::Fuzz(options) => fuzz::run(&root, &options),
         Command::Reproduce(options) => reproduce::run(&root, &options),

@@ -2,6 +2,7 @@
 
 use rins_calibration::CalibrationError;
 use rins_ekf::UpdateError;
+use rins_estimation::{FitError, RunError};
 use rins_imu::ImuCompensationError;
 use rins_io::IoError;
 use rins_motion::{AlignmentError, ProfileError};
@@ -52,6 +53,12 @@ pub enum ReproductionError {
         /// The run's index in the campaign.
         run: u64,
     },
+    /// A simulated run does not suit the estimator.
+    #[error("a simulated run does not suit the estimator")]
+    Run(#[from] RunError),
+    /// Nothing could be estimated from a run.
+    #[error("nothing could be estimated")]
+    Fit(#[from] FitError),
     /// Errors cannot be compensated.
     #[error("the errors cannot be compensated")]
     Compensation(#[from] ImuCompensationError),

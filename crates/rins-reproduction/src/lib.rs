@@ -22,6 +22,7 @@ pub mod causes;
 pub mod coverage;
 pub mod equations;
 pub mod grid;
+pub mod model_coverage;
 pub mod plain_model;
 pub mod printed;
 pub mod readout;

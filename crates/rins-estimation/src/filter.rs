@@ -1,0 +1,178 @@
+//! The sequential solution: a filter whose states are navigation and the parameters.
+//!
+//! The covariance is kept in blocks. The parameters do not move, so that prediction touches the rows of
+//! navigation alone.
+
+use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
+
+use crate::evidence::{Indefinite, Inputs};
+use crate::linear::Linear;
+use crate::space::{NAVIGATION, SHOWN, Space, Step};
+use crate::strengths::Noise;
+
+/// An error-state filter over the epochs of a linear run.
+///
+/// What it ends with is the batch solution of the same model: each checks the other.
+pub struct Filter<'a> {
+    space: Space<'a>,
+    linear: &'a Linear,
+    epoch: usize,
+    state: DVector<f64>,
+    parameters: DVector<f64>,
+    /// Of the states, of states with parameters, of parameters.
+    states: DMatrix<f64>,
+    across: DMatrix<f64>,
+    covariance: DMatrix<f64>,
+}
+
+impl std::fmt::Debug for Filter<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Filter").field("epoch", &self.epoch).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Filter<'a> {
+    /// A filter before the first epoch: the parameters are `expected` from where the run is linear,
+    /// within `sigmas`.
+    ///
+    /// # Panics
+    /// If there are not as many of both as parameters.
+    pub fn new(linear: &'a Linear, noise: &Noise, sigmas: &[f64], expected: &[f64]) -> Self {
+        assert_eq!(sigmas.len(), linear.parameters, "a sigma for each parameter");
+        assert_eq!(expected.len(), linear.parameters, "an expected value for each parameter");
+        let space = Space::new(linear, noise);
+        let n = space.states();
+        Self {
+            states: space.start(),
+            space,
+            linear,
+            epoch: 0,
+            state: DVector::zeros(n),
+            parameters: DVector::from_column_slice(expected),
+            across: DMatrix::zeros(n, sigmas.len()),
+            covariance: DMatrix::from_fn(sigmas.len(), sigmas.len(), |row, column| {
+                if row == column { sigmas[row] * sigmas[row] } else { 0.0 }
+            }),
+        }
+    }
+
+    /// The parameters, from where the run is linear.
+    pub const fn parameters(&self) -> &DVector<f64> {
+        &self.parameters
+    }
+
+    /// Their covariance.
+    pub const fn covariance(&self) -> &DMatrix<f64> {
+        &self.covariance
+    }
+
+    /// Takes the next epoch; its whitened innovation, or nothing after the last.
+    ///
+    /// # Errors
+    /// [`Indefinite`] if the innovation has no covariance; the filter must not be used further.
+    pub fn step(&mut self) -> Result<Option<SVector<f64, SHOWN>>, Indefinite> {
+        let Some(epoch) = self.linear.epochs.get(self.epoch) else { return Ok(None) };
+        let inputs = Inputs::of(epoch, &[]);
+        if epoch.fresh {
+            self.start(&inputs);
+        }
+        let step = self.space.step(epoch);
+        let innovation = self.go(&step, &inputs).ok_or(Indefinite { epoch: self.epoch })?;
+        self.epoch += 1;
+        Ok(Some(innovation))
+    }
+
+    /// Attitude and velocity where the epoch's readings put them, with what the parameters do to these.
+    fn start(&mut self, inputs: &Inputs) {
+        let start = inputs.start(self.space.shows_angle());
+        let by_parameters = start.columns(1, self.parameters.len());
+        self.space.forget_navigation(&mut self.states);
+        let state = start.column(0) + by_parameters * &self.parameters;
+        self.state.rows_mut(0, NAVIGATION).copy_from(&state);
+        // Coloured noise and parameters go together where a gap has been.
+        let with_colours = by_parameters * self.across.transpose();
+        for column in NAVIGATION..self.states.ncols() {
+            for row in 0..NAVIGATION {
+                self.states[(row, column)] = with_colours[(row, column)];
+                self.states[(column, row)] = with_colours[(row, column)];
+            }
+        }
+        let across = by_parameters * &self.covariance;
+        let mut corner = self.states.view_mut((0, 0), (NAVIGATION, NAVIGATION));
+        corner += &across * by_parameters.transpose();
+        self.across.rows_mut(0, NAVIGATION).copy_from(&across);
+    }
+
+    fn go(&mut self, step: &Step, inputs: &Inputs) -> Option<SVector<f64, SHOWN>> {
+        let (n, p) = (self.state.len(), self.parameters.len());
+        // Navigation as carried, and the parameters' part in it.
+        let carry = &step.navigation;
+        let input = inputs.navigation.columns(1, p);
+        let mut shown = DMatrix::zeros(SHOWN, n);
+        shown.rows_mut(0, 3).copy_from(&step.attitude);
+        shown.rows_mut(3, 3).copy_from(&carry.rows(3, 3));
+        let mut shown_input = DMatrix::zeros(SHOWN, p);
+        shown_input.rows_mut(0, 3).copy_from(&inputs.shown_attitude.columns(1, p));
+        shown_input.rows_mut(3, 3).copy_from(&input.rows(3, 3));
+        let mut offset = DVector::zeros(SHOWN);
+        offset.rows_mut(0, 3).copy_from(&inputs.shown_attitude.column(0));
+        offset.rows_mut(3, 3).copy_from(&inputs.navigation.column(0).rows(3, 3));
+        if !self.space.shows_angle() {
+            shown_input.row_mut(2).fill(0.0);
+            offset[2] = 0.0;
+        }
+        // Covariances of what is shown with states and parameters, and of navigation as carried.
+        let shown_states = &shown * &self.states + &shown_input * self.across.transpose();
+        let shown_parameters = &shown * &self.across + &shown_input * &self.covariance;
+        let carried_states = carry * &self.states + input * self.across.transpose();
+        let carried_parameters = carry * &self.across + input * &self.covariance;
+
+        let s = &shown_states * shown.transpose() + &shown_parameters * shown_input.transpose();
+        let s = SMatrix::<f64, SHOWN, SHOWN>::from_iterator(s.iter().copied()) + step.shown;
+        let l = Cholesky::new((s + s.transpose()) * 0.5)?.l();
+        let mut innovation = -(&shown * &self.state + &shown_input * &self.parameters + offset);
+        l.solve_lower_triangular_mut(&mut innovation);
+
+        let mut gain = DMatrix::zeros(SHOWN, n);
+        let of_carried =
+            &shown * carried_states.transpose() + &shown_input * carried_parameters.transpose();
+        gain.columns_mut(0, NAVIGATION).copy_from(&of_carried);
+        for (index, decay) in step.decay.iter().enumerate() {
+            let place = NAVIGATION + index;
+            gain.set_column(place, &(shown_states.column(place) * *decay));
+        }
+        gain += step.cross.transpose();
+        l.solve_lower_triangular_mut(&mut gain);
+        let mut gain_parameters = shown_parameters;
+        l.solve_lower_triangular_mut(&mut gain_parameters);
+
+        let carried = carry * &self.state + input * &self.parameters + inputs.navigation.column(0);
+        self.state.rows_mut(0, NAVIGATION).copy_from(&carried);
+        let corner = &carried_states * carry.transpose() + &carried_parameters * input.transpose();
+        for (index, &decay) in step.decay.iter().enumerate() {
+            let place = NAVIGATION + index;
+            self.state[place] *= decay;
+            self.across.row_mut(place).scale_mut(decay);
+            for (other, &other_decay) in step.decay.iter().enumerate() {
+                self.states[(NAVIGATION + other, place)] *= decay * other_decay;
+            }
+            self.states[(place, place)] += step.colour_noise[index];
+            for row in 0..NAVIGATION {
+                let value = carried_states[(row, place)] * decay + step.noise[(place, row)];
+                self.states[(row, place)] = value;
+                self.states[(place, row)] = value;
+            }
+        }
+        let noise = step.noise.rows(0, NAVIGATION);
+        let corner = (&corner + corner.transpose()) * 0.5 + noise;
+        self.states.view_mut((0, 0), (NAVIGATION, NAVIGATION)).copy_from(&corner);
+        self.across.rows_mut(0, NAVIGATION).copy_from(&carried_parameters);
+
+        self.state += gain.transpose() * &innovation;
+        self.parameters += gain_parameters.transpose() * &innovation;
+        self.states -= gain.transpose() * &gain;
+        self.across -= gain.transpose() * &gain_parameters;
+        self.covariance -= gain_parameters.transpose() * &gain_parameters;
+        Some(SVector::from_iterator(innovation.iter().copied()))
+    }
+}

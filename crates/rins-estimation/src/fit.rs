@@ -1,0 +1,315 @@
+//! The batch solution: iterated least squares over one run or several.
+
+use nalgebra::{DMatrix, SVector};
+use rins_imu::ImuSpec;
+use rins_terms::{Free, Model, Owner};
+
+use crate::evidence::{Indefinite, innovations};
+use crate::likely::likely_noise;
+use crate::linear::{Linear, linearise};
+use crate::posterior::{Evidence, Posterior};
+use crate::run::Run;
+use crate::strengths::{Noise, Strengths};
+
+/// The most times that a run is made linear.
+const MOST_ITERATIONS: usize = 20;
+
+/// A step below this part of every sigma ends the iteration.
+const CONVERGED: f64 = 1e-3;
+
+/// What is known of the sensors' random errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoiseKnowledge {
+    /// They are this strong.
+    Given(Strengths),
+    /// These strengths are a first guess, and the most likely ones are found from the data, those of
+    /// the encoder and of the axis' wobble with them.
+    Likely(Strengths),
+}
+
+/// Why no estimate was found.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// There is no run.
+    #[error("there is no run to estimate anything from")]
+    NoRun,
+    /// The model estimates nothing.
+    #[error("the model leaves no parameter to be estimated")]
+    NothingFree,
+    /// The filter broke off.
+    #[error(transparent)]
+    Indefinite(#[from] Indefinite),
+    /// The information is not finite.
+    #[error("the data do not make a finite information matrix at iteration {iteration}")]
+    NoInformation {
+        /// Which iteration.
+        iteration: usize,
+    },
+    /// The steps did not become small.
+    #[error(
+        "after {iterations} iterations the last step is still {step} sigma: the model is too far from these data"
+    )]
+    Diverged {
+        /// How many iterations were made.
+        iterations: usize,
+        /// The largest of the last steps, in sigmas.
+        step: f64,
+    },
+}
+
+/// An estimated parameter, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Estimate {
+    /// What it is.
+    pub parameter: Free,
+    /// The run that it belongs to, counted from zero; none if to the IMU and so to all.
+    pub run: Option<usize>,
+    /// What it was expected to be.
+    pub expected: f64,
+    /// The estimate.
+    pub value: f64,
+    /// Its 1σ.
+    pub sigma: f64,
+}
+
+/// One step of the iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// The largest of the steps, in sigmas.
+    pub step: f64,
+    /// The logarithm of the probability of the data, but for a constant.
+    pub log_likelihood: f64,
+}
+
+/// A finished estimate.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The parameters, in the order of the model, those of the IMU first, then those of each run.
+    pub parameters: Vec<Estimate>,
+    /// Their covariance, in SI units.
+    pub covariance: DMatrix<f64>,
+    /// What the data alone say, made linear about the estimate.
+    pub evidence: Evidence,
+    /// The logarithm of the probability of the data, the parameters integrated out, but for a constant.
+    pub log_likelihood: f64,
+    /// Each run's model with the estimates in it.
+    pub models: Vec<Model>,
+    /// Each run's noise.
+    pub noise: Vec<Noise>,
+    /// Each run, made linear about the estimate.
+    pub linear: Vec<Linear>,
+    /// How the iteration went.
+    pub iterations: Vec<Iteration>,
+}
+
+/// Estimates what `model` leaves free from `runs` of one IMU.
+///
+/// What belongs to the sensors is shared; what belongs to a run is estimated for each. The
+/// values that the model has are what is expected, within the priors' sigmas. `progress` is told of every
+/// iteration.
+///
+/// # Errors
+/// [`FitError`] if there is nothing to do, or it does not converge.
+pub fn fit(
+    runs: &[Run],
+    model: &Model,
+    imu: &ImuSpec,
+    knowledge: NoiseKnowledge,
+    mut progress: impl FnMut(&Iteration),
+) -> Result<Fit, FitError> {
+    if runs.is_empty() {
+        return Err(FitError::NoRun);
+    }
+    let free = model.free(imu);
+    if free.is_empty() {
+        return Err(FitError::NothingFree);
+    }
+    let (NoiseKnowledge::Given(strengths) | NoiseKnowledge::Likely(strengths)) = knowledge;
+    let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
+    let mut problem = Problem::new(runs, model, free);
+    let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
+    let mut iterations = Vec::new();
+    loop {
+        let linear = problem.linear();
+        let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
+        let step = problem.advance(&posterior);
+        let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
+        progress(&iteration);
+        iterations.push(iteration);
+        // Noise is judged where the parameters no longer move by much.
+        if find_noise && step < 1.0 && iterations.len() > 1 {
+            break;
+        }
+        if step < CONVERGED {
+            break;
+        }
+        if iterations.len() == MOST_ITERATIONS || !step.is_finite() {
+            return Err(FitError::Diverged { iterations: iterations.len(), step });
+        }
+    }
+    if find_noise {
+        let linear = problem.linear();
+        noise = likely_noise(&linear, &noise, |linear, noise| {
+            let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
+            Some(posterior.log_likelihood)
+        });
+        loop {
+            let linear = problem.linear();
+            let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
+            let step = problem.advance(&posterior);
+            let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
+            progress(&iteration);
+            iterations.push(iteration);
+            if step < CONVERGED {
+                break;
+            }
+            if iterations.len() >= 2 * MOST_ITERATIONS || !step.is_finite() {
+                return Err(FitError::Diverged { iterations: iterations.len(), step });
+            }
+        }
+    }
+    problem.finish(noise, iterations)
+}
+
+/// Runs, a model for each, and where each one's parameters stand among all.
+struct Problem<'a> {
+    runs: &'a [Run],
+    models: Vec<Model>,
+    free: Vec<Free>,
+    /// All parameters: which of `free`, and of which run.
+    all: Vec<(usize, Option<usize>)>,
+    /// For each run the place among all of each of `free`.
+    places: Vec<Vec<usize>>,
+    expected: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl<'a> Problem<'a> {
+    fn new(runs: &'a [Run], model: &Model, free: Vec<Free>) -> Self {
+        let shared = |parameter: &Free| parameter.owner == Owner::Sensor;
+        let several = runs.len() > 1;
+        let mut all = Vec::new();
+        let mut places = vec![vec![0; free.len()]; runs.len()];
+        // One run has its parameters in the model's order.
+        for (index, parameter) in free.iter().enumerate() {
+            if shared(parameter) || !several {
+                for of_run in &mut places {
+                    of_run[index] = all.len();
+                }
+                all.push((index, if shared(parameter) { None } else { Some(0) }));
+            }
+        }
+        if several {
+            for (run, of_run) in places.iter_mut().enumerate() {
+                for (index, _) in free.iter().enumerate().filter(|(_, p)| !shared(p)) {
+                    of_run[index] = all.len();
+                    all.push((index, Some(run)));
+                }
+            }
+        }
+        let value = |&(index, _): &(usize, Option<usize>)| {
+            let Free { term, parameter, .. } = free[index];
+            model.terms[term].values[parameter]
+        };
+        let expected: Vec<f64> = all.iter().map(value).collect();
+        let models = vec![model.clone(); runs.len()];
+        Self { runs, models, values: expected.clone(), expected, free, all, places }
+    }
+
+    fn linear(&self) -> Vec<Linear> {
+        let free: Vec<(usize, usize)> =
+            self.free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
+        self.runs
+            .iter()
+            .zip(&self.models)
+            .map(|(run, model)| linearise(run, model, &free))
+            .collect()
+    }
+
+    fn evidence(&self, linear: &[Linear], noise: &[Noise]) -> Result<Evidence, Indefinite> {
+        let mut sum = Evidence::none(self.all.len());
+        for ((linear, noise), places) in linear.iter().zip(noise).zip(&self.places) {
+            sum.add(&Evidence::of(linear, noise)?, places);
+        }
+        Ok(sum)
+    }
+
+    fn posterior(
+        &self,
+        linear: &[Linear],
+        noise: &[Noise],
+        iteration: usize,
+    ) -> Result<(Evidence, Posterior), FitError> {
+        let evidence = self.evidence(linear, noise)?;
+        let sigmas: Vec<f64> = self.all.iter().map(|&(index, _)| self.free[index].sigma).collect();
+        let offsets: Vec<f64> = self
+            .expected
+            .iter()
+            .zip(&self.values)
+            .map(|(expected, value)| expected - value)
+            .collect();
+        let posterior = evidence.posterior(&sigmas, &offsets);
+        let finite = posterior.filter(|posterior| posterior.log_likelihood.is_finite());
+        Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
+    }
+
+    /// Goes to the estimate; the largest step in sigmas.
+    fn advance(&mut self, posterior: &Posterior) -> f64 {
+        let mut largest = 0.0_f64;
+        for (place, value) in self.values.iter_mut().enumerate() {
+            *value += posterior.step[place];
+            largest = largest.max((posterior.step[place] / posterior.sigma(place)).abs());
+        }
+        for (model, places) in self.models.iter_mut().zip(&self.places) {
+            for (parameter, &place) in self.free.iter().zip(places) {
+                model.terms[parameter.term].values[parameter.parameter] = self.values[place];
+            }
+        }
+        largest
+    }
+
+    fn finish(self, noise: Vec<Noise>, iterations: Vec<Iteration>) -> Result<Fit, FitError> {
+        let linear = self.linear();
+        let (evidence, posterior) = self.posterior(&linear, &noise, iterations.len())?;
+        let estimate = |(place, &(index, run)): (usize, &(usize, Option<usize>))| Estimate {
+            parameter: self.free[index].clone(),
+            run,
+            expected: self.expected[place],
+            value: self.values[place],
+            sigma: posterior.sigma(place),
+        };
+        Ok(Fit {
+            parameters: self.all.iter().enumerate().map(estimate).collect(),
+            covariance: posterior.covariance,
+            evidence,
+            log_likelihood: posterior.log_likelihood,
+            models: self.models,
+            noise,
+            linear,
+            iterations,
+        })
+    }
+}
+
+impl Fit {
+    /// The parameter of this id, of the IMU or of the first run.
+    pub fn parameter(&self, id: &str) -> Option<&Estimate> {
+        self.parameters.iter().find(|estimate| estimate.parameter.id == id)
+    }
+
+    /// The whitened innovations of a run: each N(0, I) if the model is right.
+    ///
+    /// # Panics
+    /// If there is no such run.
+    pub fn innovations(&self, run: usize) -> Vec<SVector<f64, 6>> {
+        let none = vec![0.0; self.linear[run].parameters];
+        innovations(&self.linear[run], &self.noise[run], &none)
+            .expect("the same filter has been run to find the estimate")
+    }
+
+    /// The model of the IMU: what belongs to the sensors, and for the rest the first run's.
+    pub fn model(&self) -> &Model {
+        &self.models[0]
+    }
+}

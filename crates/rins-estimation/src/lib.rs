@@ -1,0 +1,48 @@
+//! Estimates any list of physical effects from runs of an inertial measurement unit on a rate table.
+//!
+//! **What it does.** [`fit`] takes one [`Run`] or several of one IMU, a [`Model`](rins_terms::Model) and the strengths of the
+//! noise, and finds the parameters that the model leaves free, with their covariance: iterated least
+//! squares over an error-state filter of attitude, velocity and coloured noise, whose readings are
+//! zero velocity, the direction of the axis, and the table angle, which is never differenced. Where the noise is
+//! not known its strengths are found by restricted maximum likelihood. [`Filter`] is the same model
+//! taken sample by sample with the parameters as states: it ends where the batch does. [`Evidence`] is all that a
+//! run says of any number of parameters, [`innovations`] what a model leaves of it.
+//!
+//! The reference is an encoder, a commanded rate, or, on a tilted axis, gravity turning in the plane of
+//! rotation ([`Reference`]).
+//!
+//! **What it does not do.** The base does not travel: position is no state, since a fixed site shows nothing of
+//! it. Which terms to choose is the caller's business, and files are read elsewhere.
+//!
+//! Numbers are in SI units and radians.
+mod run;
+mod strengths;
+
+mod gravity;
+mod path;
+
+mod linear;
+
+mod colour;
+mod space;
+
+mod evidence;
+mod gram;
+mod posterior;
+
+mod filter;
+mod fit;
+mod likely;
+
+pub use evidence::{Indefinite, innovations};
+pub use filter::Filter;
+pub use fit::{Estimate, Fit, FitError, Iteration, NoiseKnowledge, fit};
+pub use gravity::{axis_from_gravity, turning_span};
+pub use linear::{Linear, linearise};
+pub use posterior::{Evidence, Posterior, correlation};
+pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};
+pub use strengths::{Noise, Strengths, TriadStrengths};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

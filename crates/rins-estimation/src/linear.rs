@@ -1,0 +1,256 @@
+//! A run made linear: how each epoch's readings follow from attitude, velocity and the parameters.
+
+use nalgebra::{Matrix3, Matrix3xX, Vector3};
+use rins_frames::{Dcm, InFrame, Table};
+use rins_terms::{Model, Signals, Surroundings, Track, derivatives, values};
+
+use crate::path;
+use crate::run::{Reference, Run};
+
+/// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
+const EPOCH: (f64, f64) = (0.1, 0.5);
+
+/// A stretch of samples, taken as one.
+///
+/// Over it `φ`, the small rotation from the reference attitude to the true one, and `v`, the velocity, both
+/// in the axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`; what is observed are
+/// the mean of `φ` over the readings within and the velocity at the end. Every gain has one
+/// column of what was read beyond the model, and one a parameter: the derivative by it.
+#[derive(Clone, Debug)]
+pub(crate) struct Epoch {
+    /// The first sample, and the first of the next epoch.
+    pub(crate) samples: (usize, usize),
+    /// How long \[s\].
+    pub(crate) duration: f64,
+    /// Whether samples are missing before it, so that nothing is known of φ and v.
+    pub(crate) fresh: bool,
+    /// What φ gains over the epoch, and to the mean of its readings; what v gains.
+    pub(crate) attitude: Matrix3xX<f64>,
+    pub(crate) mean_attitude: Matrix3xX<f64>,
+    pub(crate) velocity: Matrix3xX<f64>,
+    /// What the mean reading is predicted to be beyond that of φ, less what it was.
+    pub(crate) reading: Matrix3xX<f64>,
+    /// The integral of `C_b^s`, its mean over the readings, and its integral's integral \[s\], \[s\], \[s²\].
+    pub(crate) turned: Matrix3<f64>,
+    pub(crate) mean_turned: Matrix3<f64>,
+    pub(crate) twice_turned: Matrix3<f64>,
+}
+
+/// A run, linear in the parameters that a model estimates.
+#[derive(Clone, Debug)]
+pub struct Linear {
+    pub(crate) epochs: Vec<Epoch>,
+    /// The specific force in the axis frame \[m/s²\].
+    pub(crate) force: Vector3<f64>,
+    /// The Earth's rate in the axis frame \[rad/s\].
+    pub(crate) earth_rate: Vector3<f64>,
+    /// How many parameters are estimated.
+    pub(crate) parameters: usize,
+    pub(crate) reference: Reference,
+    pub(crate) velocity_noise: f64,
+    /// The way of the table about which it is linear.
+    pub(crate) track: Track,
+}
+
+/// The attitude of the axis frame with what `model` has for its error, and the model without that.
+///
+/// The one parameter that is not small enough for its square to be left out is taken along exactly.
+pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
+    let mut rest = model.clone();
+    let mut nav_from_table = run.rig.nav_from_table;
+    for chosen in &mut rest.terms {
+        if chosen.term.id == "axis.attitude" {
+            let tilt = InFrame::<Table>::new(chosen.values[0], chosen.values[1], chosen.values[2]);
+            nav_from_table =
+                nav_from_table * Dcm::<Table, Table>::from_rotation_vector(tilt.components());
+            chosen.values.fill(0.0);
+        }
+    }
+    (Surroundings::new(run.rig.station, nav_from_table), rest)
+}
+
+/// Makes a run linear about the values that `model` has.
+///
+/// `free` lists the parameters that are estimated, each as term and place within it.
+pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
+    let (surroundings, model) = with_attitude(run, model);
+    let recording = &run.recording;
+    let duration = recording.times[recording.len() - 1] - recording.times[0];
+    let length = (duration / 1000.0).clamp(EPOCH.0, EPOCH.1);
+    let interval = duration / (recording.len() - 1) as f64;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a ratio of positive durations, at most the number of samples"
+    )]
+    let block = ((length / interval).round() as usize).max(1);
+    let track = path::track(run, surroundings, block);
+    let readings = path::readings(run);
+    let mut build = Build::new(run, &model, free, readings.as_deref(), block);
+    for (sample, moment) in track.moments().enumerate() {
+        build.sample(sample, &moment);
+    }
+    Linear {
+        epochs: build.epochs,
+        force: surroundings.specific_force,
+        earth_rate: surroundings.earth_rate,
+        parameters: free.len(),
+        reference: run.rig.reference,
+        velocity_noise: run.rig.velocity,
+        track,
+    }
+}
+
+/// Epochs in the making.
+struct Build<'a> {
+    run: &'a Run,
+    model: &'a Model,
+    free: &'a [(usize, usize)],
+    readings: Option<&'a [f64]>,
+    block: usize,
+    /// What turns a difference in readings into one in what was true, `(I + [S, M])⁻¹`, of gyros and accelerometers.
+    inverse_gains: [Matrix3<f64>; 2],
+    epochs: Vec<Epoch>,
+    now: Option<Epoch>,
+}
+
+impl<'a> Build<'a> {
+    fn new(
+        run: &'a Run,
+        model: &'a Model,
+        free: &'a [(usize, usize)],
+        readings: Option<&'a [f64]>,
+        block: usize,
+    ) -> Self {
+        let triads = model.split().0;
+        let inverse_gains = [triads.gyro.matrix, triads.accel.matrix]
+            .map(|matrix| (Matrix3::identity() + matrix).try_inverse().unwrap_or_default());
+        Self { run, model, free, readings, block, inverse_gains, epochs: Vec::new(), now: None }
+    }
+
+    fn sample(&mut self, sample: usize, moment: &rins_terms::Moment) {
+        let recording = &self.run.recording;
+        let measured = &recording.increments[sample];
+        let interval = measured.interval;
+        // More than half a sample missing: the table's motion in between is not known.
+        let gap =
+            sample > 0 && recording.times[sample] - recording.times[sample - 1] > 1.5 * interval;
+        if gap {
+            self.close(sample);
+        }
+        let columns = self.free.len() + 1;
+        let epoch =
+            self.now.get_or_insert_with(|| Epoch::empty(sample, gap || sample == 0, columns));
+
+        let (sin, cos) = moment.mean.angle.sin_cos();
+        let table_from_body = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+        let predicted = self.model.signals(moment);
+        let rates = measured.rates();
+        let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| table_from_body * inverse);
+        let gyro = rates.angular_rate.components() - moment.rate - values(&predicted.gyro);
+        let accel = rates.specific_force.components() - moment.force - values(&predicted.accel);
+        let reading = self.readings.map_or(0.0, |readings| readings[sample] - moment.end.angle);
+        let of_axis = Vector3::z() * (predicted.angle.re - reading) - values(&predicted.tilt);
+        let force = &moment.surroundings.specific_force;
+        let rates =
+            Rates { attitude: of_gyros * gyro, velocity: of_accels * accel, reading: of_axis };
+        epoch.add(0, &rates, force, interval);
+        for (column, &(term, parameter)) in self.free.iter().enumerate() {
+            let by: Signals = self.model.terms[term].signals(moment, Some(parameter));
+            let rates = Rates {
+                attitude: -(of_gyros * derivatives(&by.gyro)),
+                velocity: -(of_accels * derivatives(&by.accel)),
+                reading: Vector3::z() * by.angle.eps - derivatives(&by.tilt),
+            };
+            epoch.add(column + 1, &rates, force, interval);
+        }
+        epoch.twice_turned += (epoch.turned + table_from_body * (0.5 * interval)) * interval;
+        epoch.turned += table_from_body * interval;
+        epoch.mean_turned += epoch.turned;
+        epoch.mean_attitude += &epoch.attitude;
+        epoch.duration += interval;
+        if sample + 1 - epoch.samples.0 >= self.block || sample + 1 == recording.len() {
+            self.close(sample + 1);
+        }
+    }
+
+    /// Ends the epoch before sample `end`.
+    fn close(&mut self, end: usize) {
+        let Some(mut epoch) = self.now.take() else { return };
+        epoch.samples.1 = end;
+        let count = (end - epoch.samples.0) as f64;
+        epoch.mean_attitude /= count;
+        epoch.mean_turned /= count;
+        epoch.reading /= count;
+        self.epochs.push(epoch);
+    }
+}
+
+/// What one sample adds to one column: rates of φ and v, and what a reading differs by.
+struct Rates {
+    attitude: Vector3<f64>,
+    velocity: Vector3<f64>,
+    reading: Vector3<f64>,
+}
+
+impl Epoch {
+    fn empty(first: usize, fresh: bool, columns: usize) -> Self {
+        let none = Matrix3xX::zeros(columns);
+        Self {
+            samples: (first, first),
+            duration: 0.0,
+            fresh,
+            attitude: none.clone(),
+            mean_attitude: none.clone(),
+            velocity: none.clone(),
+            reading: none,
+            turned: Matrix3::zeros(),
+            mean_turned: Matrix3::zeros(),
+            twice_turned: Matrix3::zeros(),
+        }
+    }
+
+    /// One more sample of one column.
+    fn add(&mut self, column: usize, rates: &Rates, force: &Vector3<f64>, interval: f64) {
+        let mut attitude = self.attitude.column_mut(column);
+        let middle = attitude.clone_owned() + rates.attitude * (0.5 * interval);
+        attitude += rates.attitude * interval;
+        let mut velocity = self.velocity.column_mut(column);
+        velocity += (rates.velocity + middle.cross(force)) * interval;
+        let mut reading = self.reading.column_mut(column);
+        reading += rates.reading;
+    }
+
+    /// How many readings the mean is of.
+    pub(crate) fn count(&self) -> f64 {
+        (self.samples.1 - self.samples.0) as f64
+    }
+}
+
+impl Linear {
+    /// How many epochs the run has.
+    pub fn epochs(&self) -> usize {
+        self.epochs.len()
+    }
+
+    /// The way of the table about which it is linear.
+    pub fn track(&self) -> &Track {
+        &self.track
+    }
+
+    /// When each epoch ends \[s\], for a recording with these times.
+    pub fn ends(&self, times: &[f64]) -> Vec<f64> {
+        self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
+    }
+
+    /// The mean length of an epoch \[s\].
+    pub(crate) fn mean_epoch(&self) -> f64 {
+        let total: f64 = self.epochs.iter().map(|epoch| epoch.duration).sum();
+        total / self.epochs.len() as f64
+    }
+
+    /// How long the samples cover \[s\].
+    pub(crate) fn duration(&self) -> f64 {
+        self.epochs.iter().map(|epoch| epoch.duration).sum()
+    }
+}

@@ -1,0 +1,131 @@
+//! The way the table went, as far as it is known before anything is estimated.
+
+use nalgebra::Vector2;
+use rins_terms::{Surroundings, Track};
+
+use crate::run::{Reference, Run};
+
+/// The track about which a run is made linear, and what of the reference differs from it.
+///
+/// The z gyro gives its details, the reference its slow part: neither the gyro's drift nor the
+/// encoder's noise is in it.
+pub(crate) fn track(run: &Run, surroundings: Surroundings, block: usize) -> Track {
+    let recording = &run.recording;
+    let gyro = integrated_gyro(run, &surroundings);
+    let correction = match run.rig.reference {
+        Reference::Rest => gyro.iter().map(|angle| -angle).collect(),
+        Reference::Gravity => correction_by_gravity(run, &surroundings, &gyro),
+        Reference::Encoder { .. } | Reference::Command { .. } => {
+            let read = readings(run).unwrap_or_default();
+            let differences: Vec<f64> = read.iter().zip(&gyro[1..]).map(|(r, g)| r - g).collect();
+            smoothed(&differences, block)
+        }
+    };
+    let angles = gyro.iter().zip(&correction).map(|(gyro, correction)| gyro + correction).collect();
+    Track::new(
+        surroundings,
+        recording.times.clone(),
+        recording.increments.iter().map(|sample| sample.interval).collect(),
+        angles,
+        recording.temperature.clone(),
+    )
+}
+
+/// The table angle at the end of each sample as the reference gives it \[rad\], if it does.
+pub(crate) fn readings(run: &Run) -> Option<Vec<f64>> {
+    let recording = &run.recording;
+    match run.rig.reference {
+        Reference::Encoder { .. } => recording.table_angle.clone(),
+        Reference::Command { .. } => {
+            let mut angle = 0.0;
+            let mut before = recording.times[0] - recording.increments[0].interval;
+            let rates = recording.table_rate.as_ref()?;
+            let step = |(&rate, &time): (&f64, &f64)| {
+                angle += rate * (time - before);
+                before = time;
+                angle
+            };
+            Some(rates.iter().zip(&recording.times).map(step).collect())
+        }
+        Reference::Rest => Some(vec![0.0; recording.len()]),
+        Reference::Gravity => None,
+    }
+}
+
+/// The table angle that the z gyro shows, from zero before the first sample \[rad\].
+fn integrated_gyro(run: &Run, surroundings: &Surroundings) -> Vec<f64> {
+    let mut angle = 0.0;
+    let steps = run.recording.increments.iter().map(|sample| {
+        angle += sample.angle.components().z - surroundings.earth_rate.z * sample.interval;
+        angle
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
+/// The means of blocks of `differences`, joined by straight lines; one value more, for the start.
+fn smoothed(differences: &[f64], block: usize) -> Vec<f64> {
+    let n_blocks = (differences.len() / block).max(1);
+    let bound = |index: usize| index * differences.len() / n_blocks;
+    let knots: Vec<(f64, f64)> = (0..n_blocks)
+        .map(|index| {
+            let (first, end) = (bound(index), bound(index + 1));
+            let values = &differences[first..end];
+            let middle = 0.5 * (first + 1 + end) as f64;
+            (middle, values.iter().sum::<f64>() / values.len() as f64)
+        })
+        .collect();
+    interpolated(&knots, differences.len() + 1)
+}
+
+/// Straight lines through `knots` at 0, 1, ..., and on beyond the outer ones.
+fn interpolated(knots: &[(f64, f64)], length: usize) -> Vec<f64> {
+    let mut segment = 0;
+    (0..length)
+        .map(|place| {
+            let place = place as f64;
+            if knots.len() < 2 {
+                return knots.first().map_or(0.0, |knot| knot.1);
+            }
+            while segment + 2 < knots.len() && place > knots[segment + 1].0 {
+                segment += 1;
+            }
+            let ((x0, y0), (x1, y1)) = (knots[segment], knots[segment + 1]);
+            y0 + (y1 - y0) * (place - x0) / (x1 - x0)
+        })
+        .collect()
+}
+
+/// What gravity, turning in the plane of rotation, says against the gyro: one figure a revolution.
+///
+/// What is constant in the body, a bias or the pull of a lever arm, drops out over a whole one.
+fn correction_by_gravity(run: &Run, around: &Surroundings, gyro: &[f64]) -> Vec<f64> {
+    let expected = around.specific_force.y.atan2(around.specific_force.x);
+    let increments = &run.recording.increments;
+    let mut knots = Vec::new();
+    let mut first = 0;
+    let mut sum = Vector2::<f64>::zeros();
+    let mut before: Option<f64> = None;
+    for (index, sample) in increments.iter().enumerate() {
+        let velocity = sample.velocity.components();
+        let (sin, cos) = (0.5 * (gyro[index] + gyro[index + 1])).sin_cos();
+        sum.x += velocity.x * cos - velocity.y * sin;
+        sum.y += velocity.x * sin + velocity.y * cos;
+        let turned = (gyro[index + 1] - gyro[first]).abs();
+        if turned >= std::f64::consts::TAU || index + 1 == increments.len() {
+            let whole = turned >= std::f64::consts::PI;
+            if whole || knots.is_empty() {
+                // The angle is that by which the gyro's axes must be turned on to agree with gravity.
+                let mut phase = expected - sum.y.atan2(sum.x);
+                if let Some(before) = before {
+                    let turns = ((phase - before) / std::f64::consts::TAU).round();
+                    phase -= turns * std::f64::consts::TAU;
+                }
+                before = Some(phase);
+                knots.push((0.5 * (first + index + 1) as f64, phase));
+            }
+            first = index + 1;
+            sum = Vector2::zeros();
+        }
+    }
+    interpolated(&knots, gyro.len())
+}

@@ -1,0 +1,127 @@
+//! A run to be explained: a recording, and what its readings are compared with.
+
+use rins_frames::{Dcm, Nav, Table};
+use rins_motion::{Recording, Station};
+
+/// What tells where the table is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reference {
+    /// An encoder: its readings, white noise in each of this 1σ \[rad\].
+    Encoder {
+        /// 1σ of a reading \[rad\].
+        noise: f64,
+    },
+    /// The commanded rate, which the table follows but for a random walk of its angle.
+    Command {
+        /// The root density of the servo's rate error \[rad/√s\].
+        noise: f64,
+    },
+    /// Nothing but gravity, on an axis that is tilted: it turns in the plane of rotation.
+    Gravity,
+    /// The table does not turn.
+    Rest,
+}
+
+/// How the readings of a fixed base scatter, apart from the sensors' own noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rig {
+    /// Where the table stands.
+    pub station: Station,
+    /// The surveyed attitude of the axis frame.
+    pub nav_from_table: Dcm<Nav, Table>,
+    /// What tells where the table is.
+    pub reference: Reference,
+    /// 1σ of the axis' direction at a reading, each of two components \[rad\].
+    pub wobble: f64,
+    /// How far the velocity of the base may be from zero, 1σ \[m/s\].
+    pub velocity: f64,
+}
+
+/// A recording on a rig.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The rig.
+    pub rig: Rig,
+    /// The samples.
+    pub recording: Recording,
+}
+
+/// The fewest samples that a run may have.
+pub const FEWEST_SAMPLES: usize = 100;
+
+/// Why a run cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// Too few samples.
+    #[error("a run of {samples} samples is too short; it needs {FEWEST_SAMPLES}")]
+    TooShort {
+        /// How many there are.
+        samples: usize,
+    },
+    /// The log has no encoder, which is to be the reference.
+    #[error("the table angle is to be the reference, and the recording has none")]
+    NoAngle,
+    /// The log has no commanded rate, which is to be the reference.
+    #[error("the commanded rate is to be the reference, and the recording has none")]
+    NoRate,
+    /// Gravity has no component across the axis.
+    #[error("the axis is tilted by {tilt} rad, too little for gravity to show the table's angle")]
+    NoTilt {
+        /// The axis' angle from the vertical \[rad\].
+        tilt: f64,
+    },
+    /// A figure of the rig is not what it must be.
+    #[error("{quantity} is {value}; it must be finite and more than zero")]
+    Figure {
+        /// Which.
+        quantity: &'static str,
+        /// Its value, in SI units.
+        value: f64,
+    },
+}
+
+impl Run {
+    /// A run, if the recording has what the rig refers to.
+    ///
+    /// # Errors
+    /// [`RunError`] if it is too short, lacks the reference, or a figure of the rig is impossible.
+    pub fn new(rig: Rig, recording: Recording) -> Result<Self, RunError> {
+        if recording.len() < FEWEST_SAMPLES {
+            return Err(RunError::TooShort { samples: recording.len() });
+        }
+        let positive = |quantity, value: f64| {
+            let fine = value.is_finite() && value > 0.0;
+            if fine { Ok(()) } else { Err(RunError::Figure { quantity, value }) }
+        };
+        positive("the wobble of the axis", rig.wobble)?;
+        positive("the velocity noise of the base", rig.velocity)?;
+        match rig.reference {
+            Reference::Encoder { noise } => {
+                positive("the noise of the encoder", noise)?;
+                if recording.table_angle.is_none() {
+                    return Err(RunError::NoAngle);
+                }
+            }
+            Reference::Command { noise } => {
+                if !(noise.is_finite() && noise >= 0.0) {
+                    return Err(RunError::Figure { quantity: "the servo's noise", value: noise });
+                }
+                if recording.table_rate.is_none() {
+                    return Err(RunError::NoRate);
+                }
+            }
+            Reference::Gravity => {
+                /// Below it a milliradian of the angle is less than 17 µg.
+                const LEAST_TILT: f64 = 0.017;
+                let up = rig.nav_from_table.matrix()[(2, 2)];
+                let tilt = up.clamp(-1.0, 1.0).acos();
+                if tilt.sin() < LEAST_TILT {
+                    return Err(RunError::NoTilt { tilt });
+                }
+            }
+            Reference::Rest => {}
+        }
+        Ok(Self { rig, recording })
+    }
+}

@@ -1,0 +1,263 @@
+//! The states beside the parameters, and how an epoch carries and shows them.
+//!
+//! First attitude and velocity, then the servo's angle where a rate is commanded, then the processes of
+//! coloured noise, three numbers each.
+
+use nalgebra::{DMatrix, Matrix3, SMatrix};
+use rins_frames::cross_matrix;
+
+use crate::colour::{Colours, Passage};
+use crate::linear::{Epoch, Linear};
+use crate::run::Reference;
+use crate::strengths::Noise;
+
+/// Attitude and velocity.
+pub(crate) const NAVIGATION: usize = 6;
+
+/// What an epoch shows: the mean attitude and the velocity at its end.
+pub(crate) const SHOWN: usize = 6;
+
+/// How far a first attitude may be off where its epoch's readings put it \[rad\].
+const START_ATTITUDE: f64 = 2e-3;
+
+/// The same about an axis whose angle only gravity shows \[rad\].
+const START_ANGLE_BY_GRAVITY: f64 = 0.2;
+
+/// The least 1σ of an epoch's mean angle where the reference is exact \[rad\].
+const EXACT: f64 = 1e-10;
+
+/// The triad that a process belongs to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Of {
+    Gyro,
+    Accel,
+}
+
+/// The states and their noise for a linear run.
+pub(crate) struct Space<'a> {
+    linear: &'a Linear,
+    white: [f64; 2],
+    servo: Option<f64>,
+    colours: Vec<(Of, crate::colour::Process)>,
+    force_cross: Matrix3<f64>,
+    wobble: f64,
+    encoder: f64,
+}
+
+/// One epoch as a linear system: `x⁺ = Φ x + w`, `y = H x + e`.
+///
+/// Of `Φ` the rows of navigation are given, and the others' diagonal; `w` and `e` are correlated.
+pub(crate) struct Step {
+    /// The first six rows of Φ.
+    pub(crate) navigation: DMatrix<f64>,
+    /// Φ's diagonal below.
+    pub(crate) decay: Vec<f64>,
+    /// The rows of H that show the attitude; the velocity is shown as carried.
+    pub(crate) attitude: DMatrix<f64>,
+    /// The covariance of `e`.
+    pub(crate) shown: SMatrix<f64, SHOWN, SHOWN>,
+    /// That of the first six of `w`, and of all of `w` with these, and of `w` with `e`.
+    pub(crate) noise: DMatrix<f64>,
+    pub(crate) cross: DMatrix<f64>,
+    /// The variances of the rest of `w`.
+    pub(crate) colour_noise: Vec<f64>,
+}
+
+impl<'a> Space<'a> {
+    pub(crate) fn new(linear: &'a Linear, noise: &Noise) -> Self {
+        let strengths = &noise.imu;
+        let (epoch, duration) = (linear.mean_epoch(), linear.duration());
+        let gyro = Colours::of(&strengths.gyro, epoch, duration);
+        let accel = Colours::of(&strengths.accel, epoch, duration);
+        let servo = match linear.reference {
+            Reference::Command { noise } if noise > 0.0 => Some(noise),
+            _ => None,
+        };
+        let white = [
+            strengths.gyro.white.powi(2) + gyro.white,
+            strengths.accel.white.powi(2) + accel.white,
+        ];
+        let of = |of, colours: Colours| colours.processes.into_iter().map(move |p| (of, p));
+        Self {
+            linear,
+            white,
+            servo,
+            colours: of(Of::Gyro, gyro).chain(of(Of::Accel, accel)).collect(),
+            force_cross: cross_matrix(&linear.force),
+            wobble: noise.wobble,
+            encoder: noise.encoder,
+        }
+    }
+
+    /// How many states there are.
+    pub(crate) fn states(&self) -> usize {
+        self.first_colour() + 3 * self.colours.len()
+    }
+
+    fn first_colour(&self) -> usize {
+        NAVIGATION + usize::from(self.servo.is_some())
+    }
+
+    /// Whether the angle about the axis is shown.
+    pub(crate) fn shows_angle(&self) -> bool {
+        self.linear.reference != Reference::Gravity
+    }
+
+    /// The covariance at the start of a run.
+    pub(crate) fn start(&self) -> DMatrix<f64> {
+        let mut covariance = DMatrix::zeros(self.states(), self.states());
+        self.forget_navigation(&mut covariance);
+        for (index, (_, process)) in self.colours.iter().enumerate() {
+            for axis in 0..3 {
+                let place = self.first_colour() + 3 * index + axis;
+                covariance[(place, place)] = process.initial_variance();
+            }
+        }
+        covariance
+    }
+
+    /// Nothing is known of attitude and velocity any more, but what is known of any fixed table's.
+    pub(crate) fn forget_navigation(&self, covariance: &mut DMatrix<f64>) {
+        covariance.rows_mut(0, NAVIGATION).fill(0.0);
+        covariance.columns_mut(0, NAVIGATION).fill(0.0);
+        let angle = if self.shows_angle() { START_ATTITUDE } else { START_ANGLE_BY_GRAVITY };
+        let velocity = self.linear.velocity_noise;
+        for (place, sigma) in
+            [START_ATTITUDE, START_ATTITUDE, angle, velocity, velocity, velocity].iter().enumerate()
+        {
+            covariance[(place, place)] = sigma * sigma;
+        }
+    }
+
+    /// An epoch as a linear system.
+    pub(crate) fn step(&self, epoch: &Epoch) -> Step {
+        let (n, t) = (self.states(), epoch.duration);
+        let mut navigation = DMatrix::zeros(NAVIGATION, n);
+        let mut attitude = DMatrix::zeros(3, n);
+        let identity = Matrix3::identity();
+        let turning = cross_matrix(&self.linear.earth_rate);
+        set(&mut navigation, 0, 0, &(identity - turning * t));
+        set(&mut navigation, 3, 0, &(-self.force_cross * t));
+        set(&mut navigation, 3, 3, &identity);
+        set(&mut attitude, 0, 0, &(identity - turning * (0.5 * t)));
+        let mut step = Step {
+            navigation,
+            decay: vec![1.0; n - NAVIGATION],
+            attitude,
+            shown: SMatrix::zeros(),
+            noise: DMatrix::zeros(n, NAVIGATION),
+            cross: DMatrix::zeros(n, SHOWN),
+            colour_noise: vec![0.0; n - NAVIGATION],
+        };
+        self.add_white(epoch, &mut step);
+        if let Some(noise) = self.servo {
+            step.attitude[(2, NAVIGATION)] = -1.0;
+            step.colour_noise[0] = noise * noise * t;
+        }
+        for (index, (of, process)) in self.colours.iter().enumerate() {
+            let place = self.first_colour() + 3 * index;
+            self.add_colour(epoch, (*of, place), &process.passage(t), &mut step);
+        }
+        if !self.shows_angle() {
+            // The row shows nothing: it is one of pure noise, of variance one.
+            step.attitude.row_mut(2).fill(0.0);
+            step.cross.column_mut(2).fill(0.0);
+            step.shown.row_mut(2).fill(0.0);
+            step.shown.column_mut(2).fill(0.0);
+            step.shown[(2, 2)] = 1.0;
+        }
+        step
+    }
+
+    /// White noise of both triads, of the readings and of the base.
+    fn add_white(&self, epoch: &Epoch, step: &mut Step) {
+        let (t, m) = (epoch.duration, epoch.count());
+        let [gyro, accel] = self.white;
+        let identity = Matrix3::identity();
+        // Of a random walk of m equal steps, its mean over the steps' ends: variance, and covariance with the end.
+        let mean_variance = gyro * t * (m + 1.0) * (2.0 * m + 1.0) / (6.0 * m * m);
+        let mean_covariance = gyro * t * (m + 1.0) / (2.0 * m);
+        let f = &self.force_cross;
+        // φ gains W, v gains -F × ∫W dt besides its own noise.
+        let velocity = identity * (accel * t) + f * f.transpose() * (gyro * t * t * t / 3.0);
+        let across = f.transpose() * (gyro * t * t / 2.0);
+        let mean_across = f.transpose() * (gyro * t * t / 3.0);
+        set(&mut step.noise, 0, 0, &(identity * (gyro * t)));
+        set(&mut step.noise, 0, 3, &-across);
+        set(&mut step.noise, 3, 0, &-across.transpose());
+        set(&mut step.noise, 3, 3, &velocity);
+        set(&mut step.cross, 0, 0, &(identity * mean_covariance));
+        set(&mut step.cross, 0, 3, &-across);
+        set(&mut step.cross, 3, 0, &-mean_across.transpose());
+        set(&mut step.cross, 3, 3, &velocity);
+        let wobble = self.wobble * self.wobble / m;
+        let angle = match self.linear.reference {
+            Reference::Encoder { .. } => self.encoder * self.encoder / m,
+            Reference::Command { .. } => EXACT * EXACT,
+            Reference::Gravity | Reference::Rest => wobble,
+        };
+        let shown = &mut step.shown;
+        for axis in 0..3 {
+            let reading = if axis == 2 { angle } else { wobble };
+            shown[(axis, axis)] = mean_variance + reading;
+            for other in 0..3 {
+                shown[(axis, 3 + other)] = -mean_across[(axis, other)];
+                shown[(3 + other, axis)] = -mean_across[(axis, other)];
+                shown[(3 + axis, 3 + other)] = velocity[(axis, other)];
+            }
+            shown[(3 + axis, 3 + axis)] += self.linear.velocity_noise.powi(2);
+        }
+    }
+
+    /// A process with memory, of a triad, whose three states begin at a place.
+    fn add_colour(
+        &self,
+        epoch: &Epoch,
+        (of, place): (Of, usize),
+        passage: &Passage,
+        step: &mut Step,
+    ) {
+        let mean_turn = epoch.turned / epoch.duration;
+        for axis in 0..3 {
+            let index = place - NAVIGATION + axis;
+            step.decay[index] = passage.decay;
+            step.colour_noise[index] = passage.end;
+        }
+        let identity = Matrix3::identity();
+        let of_end = -mean_turn.transpose() * passage.end_integral;
+        match of {
+            Of::Gyro => {
+                let f = &self.force_cross;
+                set(&mut step.navigation, 0, place, &(-epoch.turned * passage.mean));
+                set(&mut step.navigation, 3, place, &(f * epoch.twice_turned * passage.half_mean));
+                set(&mut step.attitude, 0, place, &(-epoch.mean_turned * passage.half_mean));
+                add(&mut step.noise, 0, 0, &(identity * passage.integral));
+                add(&mut step.cross, 0, 0, &(identity * passage.integral_half));
+                set(&mut step.noise, place, 0, &of_end);
+                set(&mut step.cross, place, 0, &(-mean_turn.transpose() * passage.end_half));
+                for axis in 0..3 {
+                    step.shown[(axis, axis)] += passage.half;
+                }
+            }
+            Of::Accel => {
+                set(&mut step.navigation, 3, place, &(-epoch.turned * passage.mean));
+                add(&mut step.noise, 3, 3, &(identity * passage.integral));
+                add(&mut step.cross, 3, 3, &(identity * passage.integral));
+                set(&mut step.noise, place, 3, &of_end);
+                set(&mut step.cross, place, 3, &of_end);
+                for axis in 0..3 {
+                    step.shown[(3 + axis, 3 + axis)] += passage.integral;
+                }
+            }
+        }
+    }
+}
+
+fn set(to: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
+    to.fixed_view_mut::<3, 3>(row, column).copy_from(block);
+}
+
+fn add(to: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
+    let mut view = to.fixed_view_mut::<3, 3>(row, column);
+    view += block;
+}

@@ -1,0 +1,63 @@
+//! How strong the random errors are.
+
+use rins_imu::{ImuSpec, TriadSpec};
+
+/// The random errors of one triad.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TriadStrengths {
+    /// The root density of white noise \[per √Hz\].
+    pub white: f64,
+    /// The flicker floor, as the bias instability `B` of IEEE Std 952: density `B²/(2πf)`.
+    pub flicker: f64,
+    /// The density of the bias' random walk, `K` \[per √s\].
+    pub walk: f64,
+}
+
+/// The random errors of an IMU.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Strengths {
+    /// Of the gyros \[rad/s\].
+    pub gyro: TriadStrengths,
+    /// Of the accelerometers \[m/s²\].
+    pub accel: TriadStrengths,
+}
+
+impl TriadStrengths {
+    /// Those of a data sheet; what it leaves out is zero.
+    pub fn of(spec: &TriadSpec) -> Self {
+        Self {
+            white: spec.noise_density,
+            flicker: spec.bias_instability.unwrap_or_default(),
+            walk: spec.random_walk.unwrap_or_default(),
+        }
+    }
+}
+
+impl Strengths {
+    /// Those of a data sheet; what it leaves out is zero.
+    pub fn of(imu: &ImuSpec) -> Self {
+        Self { gyro: TriadStrengths::of(&imu.gyro), accel: TriadStrengths::of(&imu.accel) }
+    }
+}
+
+/// All noise of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Of the sensors.
+    pub imu: Strengths,
+    /// 1σ of the axis' direction at a reading, each of two components \[rad\].
+    pub wobble: f64,
+    /// 1σ of a reading of the encoder \[rad\]; unused where there is none.
+    pub encoder: f64,
+}
+
+impl Noise {
+    /// That of the sensors' strengths on a rig.
+    pub fn on(rig: &crate::run::Rig, imu: &Strengths) -> Self {
+        let encoder = match rig.reference {
+            crate::run::Reference::Encoder { noise } => noise,
+            _ => rig.wobble,
+        };
+        Self { imu: *imu, wobble: rig.wobble, encoder }
+    }
+}

@@ -1,0 +1,10 @@
+//! The estimator against simulated runs, closed forms and itself.
+#![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
+
+mod batch_and_filter;
+mod colour;
+mod gravity;
+mod refusals;
+mod several_runs;
+mod support;
+mod terms;

@@ -1,0 +1,49 @@
+//! What cannot be estimated is refused, with the figure.
+
+use rins_estimation::{FitError, NoiseKnowledge, Reference, Run, RunError, Strengths, fit};
+use rins_imu::ImuError;
+use rins_motion::Recording;
+use rins_terms::Model;
+
+use crate::support::{fibre, profile, run, scenario, tilted};
+
+fn any_run() -> Run {
+    let truth = (ImuError::default(), Model::default());
+    run(&scenario(tilted(25.0, 0.0), profile(&[(10.0, 20.0)]), truth, None, 0))
+}
+
+#[test]
+fn run_lacks_its_reference_is_too_short_or_level() {
+    let Run { rig, recording } = any_run();
+    let of = |rig, recording| Run::new(rig, recording).unwrap_err();
+    let short = recording.slice(0, 50);
+    assert_eq!(of(rig, short), RunError::TooShort { samples: 50 });
+    let blind = Recording { table_angle: None, ..recording.clone() };
+    assert_eq!(of(rig, blind), RunError::NoAngle);
+    let commanded = rins_estimation::Rig { reference: Reference::Command { noise: 0.0 }, ..rig };
+    assert_eq!(of(commanded, recording.clone()), RunError::NoRate);
+    let level = rins_estimation::Rig {
+        reference: Reference::Gravity,
+        nav_from_table: rins_frames::Dcm::identity(),
+        ..rig
+    };
+    let refusal = of(level, recording.clone());
+    assert!(refusal.to_string().starts_with("the axis is tilted by 0 rad"), "{refusal}");
+    let steady = rins_estimation::Rig { wobble: 0.0, ..rig };
+    let refusal = of(steady, recording);
+    assert_eq!(
+        refusal.to_string(),
+        "the wobble of the axis is 0; it must be finite and more than zero"
+    );
+}
+
+#[test]
+fn nothing_to_estimate_is_said() {
+    let imu = fibre();
+    let strengths = Strengths::of(&imu);
+    let of = |runs: &[Run], model: &Model| {
+        fit(runs, model, &imu, NoiseKnowledge::Given(strengths), |_| ()).unwrap_err()
+    };
+    assert_eq!(of(&[], &Model::full()), FitError::NoRun);
+    assert_eq!(of(&[any_run()], &Model::default()), FitError::NothingFree);
+}

@@ -1,0 +1,73 @@
+//! Prints how honest the estimator of `Model::full()` is; fails where it is not.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
+
+use std::process::ExitCode;
+
+use indicatif::ProgressBar;
+use rins_frames::units::DEG_PER_HOUR;
+use rins_reproduction::ReproductionError;
+use rins_reproduction::model_coverage::{Colour, Coverage, Schedule, coverage};
+
+/// How many runs of each kind, where nothing is said.
+const RUNS: usize = 200;
+
+fn main() -> ExitCode {
+    let argument = std::env::args().nth(1);
+    let n_runs = match argument.as_deref().map(str::parse) {
+        None => RUNS,
+        Some(Ok(n)) if n > 1 => n,
+        _ => {
+            eprintln!("error: the only argument is the number of runs, at least 2");
+            return ExitCode::from(2);
+        }
+    };
+    match run(n_runs) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(faults) => {
+            eprintln!("error: {faults} figures are not those of an honest estimator");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints a table and returns how many figures are not what they should be.
+fn run(n_runs: usize) -> Result<usize, ReproductionError> {
+    println!(
+        "| schedule | noise | pooled 95 % | each | NEES of 27 | variance / bound, at most | B found [deg/h] |"
+    );
+    println!("| --- | --- | ---: | ---: | ---: | ---: | ---: |");
+    let mut faults = Vec::new();
+    for colour in [Colour::WHITE, Colour::FAINT, Colour::STRONG] {
+        for schedule in Schedule::ALL {
+            let bar = ProgressBar::new(n_runs as u64);
+            let figures = coverage(schedule, &colour, n_runs, || bar.inc(1))?;
+            bar.finish_and_clear();
+            println!("{}", row(schedule, &colour, &figures));
+            let name = format!("{}, {}", schedule.name(), colour.name());
+            faults.extend(figures.faults().into_iter().map(|fault| format!("{name}: {fault}")));
+        }
+    }
+    for fault in &faults {
+        println!("{fault}");
+    }
+    Ok(faults.len())
+}
+
+fn row(schedule: Schedule, colour: &Colour, figures: &Coverage) -> String {
+    let least = figures.each.iter().copied().fold(1.0, f64::min);
+    let most = figures.each.iter().copied().fold(0.0, f64::max);
+    let ratio = figures.variance_ratio.iter().copied().fold(0.0, f64::max);
+    format!(
+        "| {} | {} | {:.4} | {least:.3}-{most:.3} | {:.2} ± {:.2} | {ratio:.2} | {:.4} |",
+        schedule.name(),
+        colour.name(),
+        figures.pooled,
+        figures.nees,
+        figures.nees_sigma,
+        figures.flicker / DEG_PER_HOUR,
+    )
+}

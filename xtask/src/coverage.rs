@@ -1,0 +1,21 @@
+//! How honest the estimator's intervals are, over seeds.
+
+use std::path::Path;
+
+use clap::Args;
+
+use crate::Result;
+use crate::reproduce::program;
+
+/// How many runs to simulate.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Runs of each schedule and each noise
+    #[arg(long, default_value_t = 200)]
+    runs: u32,
+}
+
+/// Prints coverage, NEES and variance against the bound; fails if they are not those of an honest estimator.
+pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
+    program(root, "coverage", &["--", &options.runs.to_string()])
+}
