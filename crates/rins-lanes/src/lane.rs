@@ -27,6 +27,19 @@ impl<S: Simd> Lane<S> {
         Self { simd, values: simd.splat_f64s(value) }
     }
 
+    /// Replaces every number by a function of it, a vector at a time.
+    #[inline(always)]
+    pub fn map_slice(simd: S, numbers: &mut [f64], f: impl Fn(Self) -> Self) {
+        let (vectors, rest) = S::as_mut_simd_f64s(numbers);
+        for values in vectors {
+            *values = f(Self { simd, values: *values }).values;
+        }
+        if !rest.is_empty() {
+            let values = f(Self { simd, values: simd.partial_load_f64s(rest) }).values;
+            simd.partial_store_f64s(rest, values);
+        }
+    }
+
     #[inline(always)]
     fn with(self, values: S::f64s) -> Self {
         Self { simd: self.simd, values }

@@ -6,21 +6,82 @@
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
+use rins_lanes::{Arch, Lane, Real, Simd, WithSimd};
 
-/// A standard normal number, from 52 random bits: at most 8.2 in magnitude.
-pub(super) fn standard_normal(generator: &mut Pcg64) -> f64 {
-    let bits = generator.next_u64() >> 12;
-    // The middle of one of 2⁵² equal parts of (-½, ½), without rounding.
-    quantile((bits as f64 + 0.5) * f64::EPSILON - 0.5)
+/// How many numbers are made at once: whole vectors of any machine.
+const BLOCK: usize = 64;
+
+/// Standard normal numbers, each from 52 random bits: at most 8.2 in magnitude.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    numbers: [f64; BLOCK],
+    taken: usize,
 }
 
-/// The normal deviate that a fraction of ½ + `offset` lies below, for |`offset`| < ½
+impl Block {
+    /// A block of which nothing is left.
+    pub(super) const fn spent() -> Self {
+        Self { numbers: [0.0; BLOCK], taken: BLOCK }
+    }
+
+    /// The next number; one step of the generator makes one.
+    #[inline]
+    pub(super) fn next(&mut self, generator: &mut Pcg64) -> f64 {
+        if self.taken == BLOCK {
+            self.fill(generator);
+        }
+        let number = self.numbers[self.taken];
+        self.taken += 1;
+        number
+    }
+
+    fn fill(&mut self, generator: &mut Pcg64) {
+        let offsets: [f64; BLOCK] = core::array::from_fn(|_| {
+            let bits = generator.next_u64() >> 12;
+            // The middle of one of 2⁵² equal parts of (-½, ½), without rounding.
+            (bits as f64 + 0.5) * f64::EPSILON - 0.5
+        });
+        self.numbers = offsets;
+        // Five of six lie in the centre, whose quantiles are had in lanes.
+        Arch::new().dispatch(Centre(&mut self.numbers));
+        for (number, &offset) in self.numbers.iter_mut().zip(&offsets) {
+            if offset.abs() > CENTRAL {
+                *number = tail_quantile(offset);
+            }
+        }
+        self.taken = 0;
+    }
+}
+
+/// Offsets that become quantiles, as far as they are central.
+struct Centre<'a>(&'a mut [f64]);
+
+impl WithSimd for Centre<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
+    fn with_simd<S: Simd>(self, simd: S) {
+        Lane::map_slice(simd, self.0, central_quantile);
+    }
+}
+
+/// The offset from ½ up to which a fraction is central.
+const CENTRAL: f64 = 0.425;
+
+/// The normal deviate that a fraction of ½ + `offset` lies below, for |`offset`| up to 0.425
 /// (Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied Statistics
 /// 37 (1988) 477-484, routine PPND16, with a relative error of about 10⁻¹⁶).
-fn quantile(offset: f64) -> f64 {
-    if offset.abs() <= 0.425 {
-        return offset * ratio(&CENTRE, 0.180625 - offset * offset);
-    }
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
+fn central_quantile<T: Real>(offset: T) -> T {
+    offset * ratio(&CENTRE, -(offset * offset) + CENTRAL_SQUARE)
+}
+
+const CENTRAL_SQUARE: f64 = 0.180625;
+
+/// The same for |`offset`| from 0.425 to ½.
+fn tail_quantile(offset: f64) -> f64 {
     let tail = libm::log(0.5 - offset.abs());
     let root = libm::sqrt(-tail);
     let magnitude =
@@ -29,9 +90,15 @@ fn quantile(offset: f64) -> f64 {
 }
 
 /// A ratio of two polynomials: coefficients from the highest power to the constant.
-fn ratio((numerator, denominator): &([f64; 8], [f64; 8]), x: f64) -> f64 {
-    let value = |polynomial: &[f64; 8]| polynomial.iter().fold(0.0, |sum, c| sum * x + c);
-    value(numerator) / value(denominator)
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
+fn ratio<T: Real>((numerator, denominator): &([f64; 8], [f64; 8]), x: T) -> T {
+    let (mut above, mut below) = (x.constant(numerator[0]), x.constant(denominator[0]));
+    for power in 1..8 {
+        above = above * x + numerator[power];
+        below = below * x + denominator[power];
+    }
+    above / below
 }
 
 #[expect(clippy::excessive_precision, reason = "the digits of the source")]
@@ -126,6 +193,21 @@ mod tests {
         (0.4999999999999991, 7.9560381254815309622),
     ];
 
+    fn quantile(offset: f64) -> f64 {
+        if offset.abs() <= CENTRAL { central_quantile(offset) } else { tail_quantile(offset) }
+    }
+
+    #[test]
+    fn a_number_has_the_same_bits_alone_and_in_its_block() {
+        let (mut block, mut generator) = (Block::spent(), Pcg64::seed_from_u64(3));
+        let mut alone = generator.clone();
+        for _ in 0..5 * BLOCK {
+            let bits = alone.next_u64() >> 12;
+            let want = quantile((bits as f64 + 0.5) * f64::EPSILON - 0.5);
+            assert_eq!(block.next(&mut generator).to_bits(), want.to_bits());
+        }
+    }
+
     #[test]
     fn quantiles_agree_with_those_of_arbitrary_precision() {
         for (offset, want) in REFERENCE {
@@ -145,10 +227,10 @@ mod tests {
     #[test]
     fn moments_are_those_of_a_standard_normal() {
         const COUNT: usize = 1_000_000;
-        let mut generator = Pcg64::seed_from_u64(7);
+        let (mut block, mut generator) = (Block::spent(), Pcg64::seed_from_u64(7));
         let mut moments = [0.0; 4];
         for _ in 0..COUNT {
-            let x = standard_normal(&mut generator);
+            let x = block.next(&mut generator);
             for (power, moment) in (1..).zip(&mut moments) {
                 *moment += x.powi(power) / COUNT as f64;
             }
