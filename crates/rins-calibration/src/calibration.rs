@@ -223,18 +223,21 @@ pub fn likely_wobble(recording: &Recording, setup: &Setup) -> Result<f64, Calibr
 }
 
 /// A recording made ready for the filter.
-struct Run<'a> {
+pub(crate) struct Run<'a> {
     recording: &'a Recording,
     /// The table angle before the first sample and after each.
     angles: Vec<f64>,
     /// What is left after the rest at the start.
-    span: Range<usize>,
-    start: Start,
+    pub(crate) span: Range<usize>,
+    pub(crate) start: Start,
     attitude_source: AttitudeSource,
 }
 
 impl<'a> Run<'a> {
-    fn prepare(recording: &'a Recording, setup: &Setup) -> Result<Self, CalibrationError> {
+    pub(crate) fn prepare(
+        recording: &'a Recording,
+        setup: &Setup,
+    ) -> Result<Self, CalibrationError> {
         let angles =
             table_angles(recording, setup.table.latency).ok_or(CalibrationError::NoTable)?;
         let rest = rest_spans(recording, SHORTEST_REST)
@@ -257,7 +260,7 @@ impl<'a> Run<'a> {
     }
 
     /// Runs the filter over the first `samples` of the span; `seen` is shown each step.
-    fn pass(
+    pub(crate) fn pass(
         &self,
         setup: &Setup,
         samples: usize,

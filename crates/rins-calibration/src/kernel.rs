@@ -4,6 +4,7 @@ use rins_frames::{Dcm, Nav};
 use rins_lanes::{Matrix, Real, Vector, rotation};
 use rins_motion::{Figures, Mechanisation, VerticalChannel};
 
+use crate::filter::PLAIN;
 use crate::layout::{AXIS, PAPER_STATES, SPIN_AXIS_ERRORS, STATES};
 use crate::setup::Setup;
 use crate::structured::{Comparison, Covariance, Found, Input, Means, States, Transition, With};
@@ -110,20 +111,19 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         }
     }
 
-    /// One sample, whatever its covariance; a run that breaks off is not a number from then on.
+    /// One sample by the plain update, on a table at rest in its place; says whether all that it is
+    /// compared with may be taken in plainly.
     #[inline(always)]
-    pub(crate) fn step(
-        &mut self,
-        sample: &Sample<T>,
-        velocity: &Vector<T>,
-        reading: &Reading<T>,
-    ) -> Found<T, N> {
+    pub(crate) fn step(&mut self, sample: &Sample<T>, reading: &Reading<T>) -> (Found<T, N>, bool) {
         let interval = self.predict(sample);
         let comparison = self.compare(&interval, reading);
-        let off = self.mechanisation.velocity - *velocity;
-        let found = self.covariance.update::<M>(&comparison, &off, self.setup.velocity_noise);
+        let (off, noise) = (self.mechanisation.velocity, self.setup.velocity_noise);
+        let [a, b, c, d, e, f] = self.covariance.ratios::<M>(&comparison, noise);
+        // All are positive, so that none exceeds their sum.
+        let plain = (a + b + c + d + e + f).all_below(PLAIN);
+        let found = self.covariance.update::<M>(&comparison, &off, noise);
         self.correct(&found.state, &interval);
-        found
+        (found, plain)
     }
 
     /// Navigates one compensated sample, and predicts.

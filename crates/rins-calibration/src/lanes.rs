@@ -13,10 +13,12 @@ use crate::setup::Setup;
 /// lanes: a campaign's [`crate::SpinAxisFilter`].
 ///
 /// It is the same arithmetic, without the axis frame's attitude, which only readings of an angle need.
-/// A run of which an innovation covariance is not positive definite is not a number from then on.
+/// A run of which an innovation covariance is not positive definite is not a number from then on, and
+/// the update is the plain one throughout: [`Self::is_plain`] says whether that was right.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinAxisLanes<T> {
     kernel: Kernel<T, SpinAxisErrors, PAPER_STATES>,
+    plain: bool,
 }
 
 impl<T: Real> SpinAxisLanes<T> {
@@ -26,7 +28,8 @@ impl<T: Real> SpinAxisLanes<T> {
         let nav_from_body = nav_from_table * Dcm::<Table, Body>::about_z(start.angle);
         let p = start.covariance(setup);
         let attitudes = [nav_from_body.matrix(), nav_from_table.matrix()];
-        Self { kernel: Kernel::at_rest(like, setup, attitudes, |row, column| p[(row, column)]) }
+        let kernel = Kernel::at_rest(like, setup, attitudes, |row, column| p[(row, column)]);
+        Self { kernel, plain: true }
     }
 
     /// Takes in one sample of each run, over an interval \[s\] that they share, and the mean rate
@@ -39,8 +42,15 @@ impl<T: Real> SpinAxisLanes<T> {
         table_rate: T,
     ) -> [T; 6] {
         let sample = Sample { angle: *angle, velocity: *velocity, interval };
-        let still = Vector::zeros(table_rate);
-        self.kernel.step(&sample, &still, &Reading::Rate(table_rate)).whitened
+        let (found, plain) = self.kernel.step(&sample, &Reading::Rate(table_rate));
+        self.plain &= plain;
+        found.whitened
+    }
+
+    /// Whether no run was ever told anything so precise that the plain update lost digits of its
+    /// covariance.
+    pub const fn is_plain(&self) -> bool {
+        self.plain
     }
 
     /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated so far.

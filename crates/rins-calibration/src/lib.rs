@@ -21,6 +21,7 @@
 mod calibration;
 mod consistency;
 mod dense;
+mod estimate;
 mod filter;
 mod history;
 mod kernel;
@@ -37,6 +38,7 @@ pub use calibration::{
     table_angles,
 };
 pub use consistency::{Consistency, Verdict};
+pub use estimate::{Estimate, beginning, estimate};
 pub use filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
 pub use lanes::SpinAxisLanes;
 pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};

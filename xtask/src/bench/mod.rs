@@ -30,7 +30,8 @@ pub(crate) struct Options {
 type Bench = (&'static str, &'static str);
 
 /// The benches that are timed, each beside its rival.
-const BENCHES: &[Bench] = &[("rins-calibration", "step"), ("rins-motion", "strapdown")];
+const BENCHES: &[Bench] =
+    &[("rins-calibration", "step"), ("rins-motion", "strapdown"), ("rins-campaign", "campaign")];
 
 /// A row of the table: its name, what is timed, and its rival.
 type Row = (&'static str, &'static str, Option<&'static str>);
@@ -44,7 +45,11 @@ const ROWS: &[Row] = &[
     ("filter_step_40", "filter_step_40/one", Some("filter_step_40/dense")),
     ("strapdown_step", "strapdown_step/one", Some("strapdown_step/bare")),
     ("strapdown_step_lanes", "strapdown_step/lanes", Some("strapdown_step/bare")),
+    (CAMPAIGN, "campaign_30/lanes", Some("campaign_30/dense")),
 ];
+
+/// The row whose times are told in seconds.
+const CAMPAIGN: &str = "campaign_30";
 
 /// Times the benches and writes `target/bench.json`, or counts instructions.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
@@ -70,7 +75,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
         let rival = rival.map(|rival| timings.of(rival)).transpose()?;
         let ratio = rival.map(|rival| rival / own);
         println!("{name:24} {own:>12.1} {:>12} {:>8}", per(rival, 1), per(ratio, 2));
-        all.insert(*name, entry(own, rival));
+        all.insert(*name, entry(name, own, rival));
     }
     let path = target.join("bench.json");
     fs::write(&path, serde_json::to_string_pretty(&json!(all))?)?;
@@ -78,11 +83,15 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     Ok(())
 }
 
-fn entry(ns: f64, dense: Option<f64>) -> Value {
-    match dense {
-        Some(dense) => json!({ "ns": ns, "dense_ns": dense, "ratio": dense / ns }),
-        None => json!({ "ns": ns }),
+/// A row for `bench.json`, from times in nanoseconds.
+fn entry(name: &str, own: f64, dense: Option<f64>) -> Value {
+    let (unit, scale) = if name == CAMPAIGN { ("s", 1e-9) } else { ("ns", 1.0) };
+    let mut entry = json!({ unit: own * scale });
+    if let Some(dense) = dense {
+        entry[format!("dense_{unit}")] = json!(dense * scale);
+        entry["ratio"] = json!(dense / own);
     }
+    entry
 }
 
 /// Where cargo puts what it builds.

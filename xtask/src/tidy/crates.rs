@@ -13,7 +13,7 @@ const LAYERS: &[&[&str]] = &[
     &["rins-imu", "rins-motion"],
     &["rins-terms"],
     &["rins-simulation", "rins-calibration"],
-    &["rins-estimation"],
+    &["rins-estimation", "rins-campaign"],
     &["rins-io"],
     &["rins-cli", "rins-reproduction"],
 ];

@@ -1,0 +1,4 @@
+//! Integration tests of campaigns.
+mod runs;
+mod statistics;
+mod support;
