@@ -28,6 +28,15 @@ fn damaged_parquet_files_are_refused() {
     );
 }
 
+/// A page's header holds a list of two billion items, and the file ends.
+#[test]
+fn a_list_without_an_end_is_not_skipped_item_by_item() {
+    let start = Instant::now();
+    let said = said("a.parquet", include_bytes!("../data/damaged/endless_list.parquet"));
+    assert!(said.starts_with("a.parquet: not a Parquet file, or a damaged one: "), "{said}");
+    assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
+}
+
 /// A MATLAB file of one matrix of doubles, which is `data`.
 fn matrix(name: &str, rows: u32, columns: u32, data: &[u8]) -> Vec<u8> {
     let mut file = [b' '; 124].to_vec();

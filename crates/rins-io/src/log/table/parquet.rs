@@ -1,6 +1,7 @@
 //! Columns of Parquet files.
 
 mod pages;
+mod whole;
 
 use std::path::Path;
 
@@ -13,6 +14,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use self::pages::SoundPages;
+use self::whole::Whole;
 use super::typed::{Numbers, most_rows, together};
 use super::{Columns, MOST_COLUMNS, Wanted, place};
 use crate::error::{IoError, LogError};
@@ -34,7 +36,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         return Err(LogError::of(path, LogProblem::Empty));
     }
     let damaged = |error: ParquetError| LogError::of(path, damage(&error));
-    let reader = SerializedFileReader::new(file).map_err(damaged)?;
+    let reader = SerializedFileReader::new(Whole(file)).map_err(damaged)?;
     let metadata = reader.metadata();
     let schema = metadata.file_metadata().schema_descr();
     let refuse = |problem| LogError::of(path, problem);
