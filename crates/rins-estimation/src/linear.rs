@@ -12,8 +12,8 @@ const EPOCH: (f64, f64) = (0.1, 0.5);
 
 /// A stretch of samples, taken as one.
 ///
-/// Over it `φ`, the small rotation from the reference attitude to the true one, and `v`, the velocity, both
-/// in the axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`; what is observed are
+/// Over it `φ`, the attitude error of the reference path, `C~ = (I - φ×) C`, and `v`, the velocity, both in the
+/// axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`; what is observed are
 /// the mean of `φ` over the readings within and the velocity at the end. Every gain has one
 /// column of what was read beyond the model, and one a parameter: the derivative by it.
 #[derive(Clone, Debug)]
