@@ -138,66 +138,68 @@ struct Pass {
 impl Pass {
     /// Goes on by one epoch; half the logarithm of the innovation covariance's determinant.
     fn step(&mut self, step: &Step, inputs: &Inputs) -> Option<f64> {
-        let n = self.covariance.nrows();
-        let p = &self.covariance;
-        // Φ P, of which the rows below navigation are scaled.
-        let navigation_p = &step.navigation * p;
-        let attitude_p = &step.attitude * p;
-        let mut shown_p = DMatrix::zeros(SHOWN, n);
-        shown_p.rows_mut(0, 3).copy_from(&attitude_p);
-        shown_p.rows_mut(3, 3).copy_from(&navigation_p.rows(3, 3));
-        let mut shown = DMatrix::zeros(SHOWN, n);
-        shown.rows_mut(0, 3).copy_from(&step.attitude);
-        shown.rows_mut(3, 3).copy_from(&step.navigation.rows(3, 3));
+        let shown = step.shown_by();
+        // P Φᵀ of navigation, and P Hᵀ, which has three columns of it.
+        let of_navigation = times_transposed(&self.covariance, &step.navigation);
+        let mut of_shown =
+            times_transposed(&self.covariance, &step.attitude).resize_horizontally(SHOWN, 0.0);
+        of_shown.columns_mut(3, 3).copy_from(&of_navigation.columns(3, 3));
 
-        let s: Square = Square::from_iterator((&shown_p * shown.transpose()).iter().copied());
-        let s = s + step.shown;
-        let s = (s + s.transpose()) * 0.5;
-        let l = Cholesky::new(s)?.l();
+        let s = Square::from_iterator((&shown * &of_shown).iter().copied()) + step.shown;
+        let l = Cholesky::new((s + s.transpose()) * 0.5)?.l();
 
-        // C = Φ P Hᵀ + cov(w, e), and W = L⁻¹ Cᵀ.
-        let mut gain = DMatrix::zeros(SHOWN, n);
-        gain.columns_mut(0, NAVIGATION).copy_from(&(&shown * navigation_p.transpose()));
-        for (index, decay) in step.decay.iter().enumerate() {
-            let place = NAVIGATION + index;
-            gain.set_column(place, &(shown_p.column(place) * *decay));
+        // C = Φ P Hᵀ + cov(w, e), and W = C L⁻ᵀ.
+        let corner = &step.navigation * &of_shown;
+        of_shown.rows_mut(0, NAVIGATION).copy_from(&corner);
+        for mut column in of_shown.column_iter_mut() {
+            for (value, decay) in column.iter_mut().skip(NAVIGATION).zip(&step.decay) {
+                *value *= decay;
+            }
         }
-        gain += step.cross.transpose();
-        l.solve_lower_triangular_mut(&mut gain);
+        let gain = over_transposed(&(of_shown + &step.cross), &l);
 
-        // The columns: what is shown, whitened, and what is carried on.
-        let mut seen = DMatrix::zeros(SHOWN, self.columns.ncols());
+        self.carry_columns(step, inputs, &l, &gain);
+        self.carry_covariance(step, &of_navigation, &gain);
+        Some(l.diagonal().iter().map(|x| x.ln()).sum())
+    }
+
+    /// What of the columns is shown, whitened, and what is carried on.
+    fn carry_columns(&mut self, step: &Step, inputs: &Inputs, l: &Square, gain: &DMatrix<f64>) {
         let carried = &step.navigation * &self.columns + &inputs.navigation;
+        let seen = &mut self.whitened;
         seen.rows_mut(0, 3).copy_from(&(&step.attitude * &self.columns + &inputs.shown_attitude));
         seen.rows_mut(3, 3).copy_from(&carried.rows(3, 3));
         if !self.shows_angle {
             seen.row_mut(2).fill(0.0);
         }
-        l.solve_lower_triangular_mut(&mut seen);
+        l.solve_lower_triangular_mut(seen);
         self.columns.rows_mut(0, NAVIGATION).copy_from(&carried);
-        for (index, decay) in step.decay.iter().enumerate() {
-            self.columns.row_mut(NAVIGATION + index).scale_mut(*decay);
+        for mut column in self.columns.column_iter_mut() {
+            for (value, decay) in column.iter_mut().skip(NAVIGATION).zip(&step.decay) {
+                *value *= decay;
+            }
         }
-        self.columns.gemm_tr(-1.0, &gain, &seen, 1.0);
-        self.whitened = seen;
-
-        self.carry_covariance(step, &navigation_p, &gain);
-        Some(l.diagonal().iter().map(|x| x.ln()).sum())
+        for (mut column, seen) in self.columns.column_iter_mut().zip(seen.column_iter()) {
+            for part in 0..SHOWN {
+                column.axpy(-seen[part], &gain.column(part), 1.0);
+            }
+        }
     }
 
-    /// `Φ P Φᵀ + Q - Wᵀ W`.
-    fn carry_covariance(&mut self, step: &Step, navigation_p: &DMatrix<f64>, gain: &DMatrix<f64>) {
+    /// `Φ P Φᵀ + Q - W Wᵀ`.
+    fn carry_covariance(&mut self, step: &Step, of_navigation: &DMatrix<f64>, gain: &DMatrix<f64>) {
         let n = self.covariance.nrows();
-        let corner = navigation_p * step.navigation.transpose();
+        let corner = &step.navigation * of_navigation;
         let p = &mut self.covariance;
         for column in NAVIGATION..n {
             let decay = step.decay[column - NAVIGATION];
-            for row in NAVIGATION..n {
-                p[(row, column)] *= decay * step.decay[row - NAVIGATION];
+            let mut of_column = p.column_mut(column);
+            for (value, other) in of_column.iter_mut().skip(NAVIGATION).zip(&step.decay) {
+                *value *= decay * other;
             }
             p[(column, column)] += step.colour_noise[column - NAVIGATION];
             for row in 0..NAVIGATION {
-                let value = navigation_p[(row, column)] * decay + step.noise[(column, row)];
+                let value = of_navigation[(column, row)] * decay + step.noise[(column, row)];
                 p[(row, column)] = value;
                 p[(column, row)] = value;
             }
@@ -208,6 +210,40 @@ impl Pass {
                     + step.noise[(row, column)];
             }
         }
-        p.gemm_tr(-1.0, gain, gain, 1.0);
+        // One triangle, and the other from it: half the work, and no less symmetric.
+        for column in 0..n {
+            let mut column_below = p.column_mut(column);
+            let mut of_column = column_below.rows_mut(column, n - column);
+            for part in 0..SHOWN {
+                let of_gain = gain.column(part);
+                of_column.axpy(-gain[(column, part)], &of_gain.rows(column, n - column), 1.0);
+            }
+        }
+        p.fill_upper_triangle_with_lower_triangle();
     }
+}
+
+/// `P Aᵀ`, where `A` has few rows and many zeros, and `P` is symmetric.
+fn times_transposed(p: &DMatrix<f64>, a: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut product = DMatrix::zeros(p.nrows(), a.nrows());
+    for row in 0..a.nrows() {
+        let mut of_row = product.column_mut(row);
+        for (column, value) in a.row(row).iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            of_row.axpy(*value, &p.column(column), 1.0);
+        }
+    }
+    product
+}
+
+/// `C L⁻ᵀ`, column after column.
+fn over_transposed(c: &DMatrix<f64>, l: &Square) -> DMatrix<f64> {
+    let mut w = c.clone();
+    for column in 0..SHOWN {
+        for before in 0..column {
+            let (done, mut now) = w.columns_range_pair_mut(before, column);
+            now.axpy(-l[(column, before)], &done, 1.0);
+        }
+        w.column_mut(column).scale_mut(1.0 / l[(column, column)]);
+    }
+    w
 }

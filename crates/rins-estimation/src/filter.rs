@@ -108,9 +108,7 @@ impl<'a> Filter<'a> {
         // Navigation as carried, and the parameters' part in it.
         let carry = &step.navigation;
         let input = inputs.navigation.columns(1, p);
-        let mut shown = DMatrix::zeros(SHOWN, n);
-        shown.rows_mut(0, 3).copy_from(&step.attitude);
-        shown.rows_mut(3, 3).copy_from(&carry.rows(3, 3));
+        let shown = step.shown_by();
         let mut shown_input = DMatrix::zeros(SHOWN, p);
         shown_input.rows_mut(0, 3).copy_from(&inputs.shown_attitude.columns(1, p));
         shown_input.rows_mut(3, 3).copy_from(&input.rows(3, 3));

@@ -39,6 +39,8 @@ pub(crate) struct Space<'a> {
     white: [f64; 2],
     servo: Option<f64>,
     colours: Vec<(Of, crate::colour::Process)>,
+    /// What each process does over an epoch of the usual length, which is nearly every one's \[s\].
+    usual: (f64, Vec<Passage>),
     force_cross: Matrix3<f64>,
     wobble: f64,
     encoder: f64,
@@ -63,6 +65,16 @@ pub(crate) struct Step {
     pub(crate) colour_noise: Vec<f64>,
 }
 
+impl Step {
+    /// H: the rows that show the attitude, and the velocity as carried.
+    pub(crate) fn shown_by(&self) -> DMatrix<f64> {
+        let mut shown = DMatrix::zeros(SHOWN, self.navigation.ncols());
+        shown.rows_mut(0, 3).copy_from(&self.attitude);
+        shown.rows_mut(3, 3).copy_from(&self.navigation.rows(3, 3));
+        shown
+    }
+}
+
 impl<'a> Space<'a> {
     pub(crate) fn new(linear: &'a Linear, noise: &Noise) -> Self {
         let strengths = &noise.imu;
@@ -78,11 +90,15 @@ impl<'a> Space<'a> {
             strengths.accel.white.powi(2) + accel.white,
         ];
         let of = |of, colours: Colours| colours.processes.into_iter().map(move |p| (of, p));
+        let colours: Vec<_> = of(Of::Gyro, gyro).chain(of(Of::Accel, accel)).collect();
+        let usual = linear.epochs.first().map_or(epoch, |epoch| epoch.duration);
+        let passages = colours.iter().map(|(_, process)| process.passage(usual)).collect();
         Self {
             linear,
             white,
             servo,
-            colours: of(Of::Gyro, gyro).chain(of(Of::Accel, accel)).collect(),
+            colours,
+            usual: (usual, passages),
             force_cross: cross_matrix(&linear.force),
             wobble: noise.wobble,
             encoder: noise.encoder,
@@ -156,7 +172,13 @@ impl<'a> Space<'a> {
         }
         for (index, (of, process)) in self.colours.iter().enumerate() {
             let place = self.first_colour() + 3 * index;
-            self.add_colour(epoch, (*of, place), &process.passage(t), &mut step);
+            // Durations are sums of time stamps' differences: they differ in the last digits.
+            let passage = if (t - self.usual.0).abs() <= 1e-9 * t {
+                self.usual.1[index]
+            } else {
+                process.passage(t)
+            };
+            self.add_colour(epoch, (*of, place), &passage, &mut step);
         }
         if !self.shows_angle() {
             // The row shows nothing: it is one of pure noise, of variance one.
