@@ -13,9 +13,8 @@ const WHITE: f64 = 1.0;
 /// The same for strengths of which nothing is known.
 const UNKNOWN: f64 = 3.0;
 
-/// The flicker, over the white noise of a second, that shows at once: the search comes down from there, since
-/// flicker that is too weak leaves white noise to explain it, and the way up is long.
-const SHOWING: f64 = 1.0;
+/// The flicker, over the white noise of a second, where the search starts: about as much as shows within minutes.
+const SHOWING: f64 = 0.25;
 
 /// The same that is expected where nothing is said of it: without effect within an hour.
 const UNSEEN: f64 = 0.01;
@@ -165,10 +164,10 @@ fn minimum(n: usize, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> DVector<f64>
         if !step.iter().all(|s| s.is_finite()) {
             break;
         }
-        // Not further than a factor of three at once.
+        // Not further than a factor of five at once.
         let longest = step.amax();
-        if longest > 1.1 {
-            step *= 1.1 / longest;
+        if longest > 1.6 {
+            step *= 1.6 / longest;
         }
         let foreseen = -slope.dot(&step);
         let mut tried = cost(&(&x + &step));
