@@ -28,8 +28,9 @@ const MOST_STEPS: usize = 15;
 /// The gain of log-likelihood below which the search ends.
 const LEAST_GAIN: f64 = 0.02;
 
-/// The step of one-sided differences, in logarithms: half of it is what the result may be off by.
-const DIFFERENCE: f64 = 0.05;
+/// The step of one-sided differences, in logarithms: half of it is what the result is off by, so that it
+/// must be small against what thousands of innovations show, and large against rounding.
+const DIFFERENCE: f64 = 0.004;
 
 /// One strength that is searched for.
 #[derive(Clone, Copy, Debug, PartialEq)]
