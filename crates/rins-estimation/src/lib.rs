@@ -6,7 +6,8 @@
 //! zero velocity, the direction of the axis, and the table angle, which is never differenced. Where the noise is
 //! not known its strengths are found by restricted maximum likelihood. [`Filter`] is the same model
 //! taken sample by sample with the parameters as states: it ends where the batch does. [`Evidence`] is all that a
-//! run says of any number of parameters, [`innovations`] what a model leaves of it.
+//! run says of any number of parameters, [`innovations`] what a model leaves of it, and [`Identifiability`] which of them,
+//! alone or in what combination, it tells.
 //!
 //! The reference is an encoder, a commanded rate, or, on a tilted axis, gravity turning in the plane of
 //! rotation ([`Reference`]).
@@ -34,10 +35,16 @@ mod filter;
 mod fit;
 mod likely;
 
+mod identifiability;
+
 pub use evidence::{Indefinite, innovations};
 pub use filter::Filter;
 pub use fit::{Estimate, Fit, FitError, Iteration, NoiseKnowledge, fit};
 pub use gravity::{axis_from_gravity, turning_span};
+pub use identifiability::{
+    Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
+    Separation, Shown, Unknown, distance, joint, separation,
+};
 pub use linear::{Linear, linearise};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};

@@ -1,0 +1,201 @@
+//! What schedules tell of a tilted table's IMU.
+
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
+use rins_frames::{EulerAngles, Site};
+use rins_imu::{ImuSpec, TriadSpec};
+use rins_motion::{Profile, Segment, Station};
+use rins_simulation::{Scenario, simulate};
+use rins_terms::{Chosen, Model, catalogue};
+use rins_testing::assert_close;
+
+use super::*;
+use crate::run::{Reference, Rig, Run};
+use crate::strengths::Strengths;
+
+const IMU: ImuSpec = ImuSpec {
+    gyro: TriadSpec {
+        noise_density: 0.02 * DEG_PER_HOUR,
+        bias_sigma: 0.1 * DEG_PER_HOUR,
+        scale_sigma: 500.0 * PPM,
+        misalignment_sigma: 120.0 * ARCSEC,
+        bias_instability: None,
+        random_walk: None,
+        range: None,
+        resolution: None,
+    },
+    accel: TriadSpec {
+        noise_density: 30.0 * MICRO_G,
+        bias_sigma: 200.0 * MICRO_G,
+        scale_sigma: 300.0 * PPM,
+        misalignment_sigma: 60.0 * ARCSEC,
+        bias_instability: None,
+        random_walk: None,
+        range: None,
+        resolution: None,
+    },
+};
+
+/// A run at these rates [deg/s], each for so long [s], on an axis tilted by so much, turned to an azimuth [deg].
+fn run(rates: &[(f64, f64)], tilt: f64, azimuth: f64) -> Run {
+    let site = Site { latitude: 45.0 * DEG, longitude: 9.0 * DEG, height: 100.0 };
+    let station = Station::with_normal_gravity(site);
+    let segments: Vec<Segment> = rates
+        .iter()
+        .map(|&(rate, duration)| Segment { rate: rate * DEG_PER_SECOND, duration })
+        .collect();
+    let profile = Profile::new(&segments, None).unwrap();
+    let nav_from_table = EulerAngles { roll: 0.0, pitch: tilt * DEG, yaw: azimuth * DEG }.dcm();
+    let scenario = Scenario::perfect(station, nav_from_table, profile, 0.02);
+    let rig = Rig {
+        station,
+        nav_from_table,
+        reference: Reference::Encoder { noise: ARCSEC },
+        wobble: 1e-3 * ARCSEC,
+        velocity: 1e-6,
+    };
+    Run::new(rig, simulate(&scenario).unwrap().recording).unwrap()
+}
+
+fn model(ids: &[&str]) -> Model {
+    let term = |id: &&str| Chosen::new(catalogue::term(id).unwrap()).estimated();
+    Model { terms: ids.iter().map(term).collect() }
+}
+
+/// What the errors of the spin axis, biases, attitude and mounting are told apart by.
+fn of_baseline(rates: &[(f64, f64)]) -> Identifiability {
+    let baseline = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
+        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]));
+    let run = run(rates, 25.0, 0.0);
+    joint(&[run], &baseline, &IMU, &Strengths::of(&IMU)).unwrap().identifiability()
+}
+
+#[test]
+fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
+    let told = of_baseline(&[(10.0, 360.0)]);
+    assert_eq!(told.rank.rank() + 3, told.unknowns.len());
+    // A clear case: rounding is far below what is told faintly.
+    assert!(told.rank.most_null < 1e-4 * told.rank.least_told, "{:?}", told.rank);
+    // b + (S, M) ω with ω of the table and the Earth: the combination is S + b/ω.
+    // The axis is tilted to the south.
+    let earth = 7.292115e-5 * ((45.0 - 25.0) * DEG).sin();
+    let rate = 10.0 * DEG_PER_SECOND + earth;
+    for (kept, lost) in [
+        ("gyro.scale.z", "gyro.bias.z"),
+        ("gyro.misalignment.xz", "gyro.bias.x"),
+        ("gyro.misalignment.yz", "gyro.bias.y"),
+    ] {
+        let (kept, lost) = (told.find(kept).unwrap(), told.find(lost).unwrap());
+        let Shown::Combination(aliases) = &told.seen[kept].shown else {
+            panic!("{:?}", told.seen[kept])
+        };
+        assert_eq!(aliases.len(), 1);
+        assert_eq!((aliases[0].unknown, aliases[0].exactly), (lost, true));
+        assert_close!(aliases[0].coefficient * rate, 1.0, 1e-6);
+        assert_eq!(told.seen[lost].shown, Shown::Part { of: vec![kept], exactly: true });
+        assert!(!told.seen[kept].identifiable && !told.seen[lost].identifiable);
+    }
+}
+
+#[test]
+fn a_reversal_rates_or_dwells_tell_all_of_the_baseline() {
+    let mut dwells = Vec::new();
+    for _ in 0..8 {
+        dwells.extend([(0.0, 40.0), (10.0, 4.5)]);
+    }
+    let ladder: Vec<(f64, f64)> =
+        [10.0, -10.0, 20.0, -20.0, 5.0, -5.0].map(|rate| (rate, 60.0)).to_vec();
+    for rates in [vec![(10.0, 180.0), (-10.0, 180.0)], ladder, dwells] {
+        let told = of_baseline(&rates);
+        assert!(told.rank.lost.is_empty(), "{rates:?}: {:?}", told.rank);
+        assert!(told.seen.iter().all(|seen| seen.identifiable && seen.shown == Shown::Alone));
+    }
+}
+
+/// White noise over 180 s each way leaves the mean of both, and half of their difference.
+#[test]
+fn predicted_sigmas_are_those_of_means_of_white_noise() {
+    let told = of_baseline(&[(10.0, 180.0), (-10.0, 180.0)]);
+    let mean = 0.02 * DEG_PER_HOUR / 360.0_f64.sqrt();
+    let sigma = |id: &str| told.seen[told.find(id).unwrap()].data_sigma;
+    assert_close!(sigma("gyro.bias.x") / mean, 1.0, 0.02);
+    // An encoder of 1 arcsec blurs the ends of a run of gyro z a little.
+    assert_close!(sigma("gyro.scale.z") * 10.0 * DEG_PER_SECOND / mean, 1.04, 0.04);
+}
+
+#[test]
+fn gauges_stay_lost_under_a_rich_schedule() {
+    let rates = [(0.0, 20.0), (10.0, 40.0), (-10.0, 40.0), (20.0, 20.0), (-20.0, 20.0)];
+    let runs = [(25.0, 0.0), (60.0, 120.0), (85.0, 240.0)]
+        .map(|(tilt, azimuth)| run(&rates, tilt, azimuth));
+    let full = Model::full();
+    let more = model(&["mounting", "encoder.zero", "wrong_gravity"]);
+    let model = Model { terms: full.terms.into_iter().chain(more.terms).collect() };
+    let told = joint(&runs, &model, &IMU, &Strengths::of(&IMU)).unwrap().identifiability();
+    let named = |name: &str| {
+        told.seen.iter().filter(|seen| seen.gauge.is_some_and(|gauge| gauge.name == name)).count()
+    };
+    // One for each run, and the others once: about x and about y.
+    assert_eq!(named("the zero of the table's angle"), 3);
+    assert_eq!(named("the body axes about the spin axis"), 1);
+    assert_eq!(named("the mounting of the IMU on the table"), 2);
+    // What belongs to the sensors is told, but for these.
+    let told_well = ["gyro.scale.z", "gyro.bias.x"];
+    assert!(told_well.iter().all(|id| told.seen[told.find(id).unwrap()].identifiable));
+}
+
+/// The information of a schedule on the baseline, gyro z's g-sensitivity across the axis and the encoder's
+/// eccentricity, in units of the priors, and where the latter two stand.
+fn of_one_per_turn(rates: &[(f64, f64)]) -> (DMatrix<f64>, Vec<usize>, Vec<usize>) {
+    let model = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
+        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(Chosen::new(&catalogue::GYRO_G_SENSITIVITY).estimating(&["zx", "zy"]))
+        .with(Chosen::new(&catalogue::ENCODER_ECCENTRICITY).estimated());
+    let joint = joint(&[run(rates, 25.0, 0.0)], &model, &IMU, &Strengths::of(&IMU)).unwrap();
+    let n = joint.unknowns.len();
+    (joint.information(), vec![n - 4, n - 3], vec![n - 2, n - 1])
+}
+
+#[test]
+fn two_harmonics_that_differ_in_sign_separate_by_the_closed_form() {
+    let (information, first, second) = of_one_per_turn(&[(10.0, 360.0)]);
+    // By the accelerometers alone, to which the encoder's error is one of phase.
+    let constant = separation(&information, &first, &second).kappa();
+    assert!((80.0..150.0).contains(&constant), "{constant}");
+    for (forward, back) in [(5.0, 5.0), (9.0, 3.0)] {
+        let turns = [(10.0, 36.0 * forward), (-10.0, 36.0 * back)];
+        let (information, first, second) = of_one_per_turn(&turns);
+        // s √(4 Nf Nr / (Nf + Nr)) of a signal that is seen by s √(Nf + Nr).
+        let expected = (forward + back) / (2.0 * f64::sqrt(forward * back));
+        let told = separation(&information, &first, &second);
+        assert_eq!((told.directions.len(), told.absorbed), (2, [0, 0]));
+        for direction in &told.directions {
+            // Bias and scale take a little of three turns.
+            assert_close!(direction.kappa, expected, 0.03);
+            let apart = distance(&information, &first, &direction.along);
+            assert_close!(apart, direction.told, 1e-6 * direction.told);
+        }
+    }
+}
+
+#[test]
+fn one_signature_under_two_names_is_never_told_apart() {
+    let model = model(&["gyro.bias", "accel.bias", "axis.attitude"])
+        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(Chosen::new(&catalogue::GYRO_BIAS_RAMP).estimating(&["z"]))
+        .with(Chosen::new(&catalogue::GYRO_SCALE_RAMP).estimated());
+    let kappa = |rates: &[(f64, f64)]| {
+        let run = run(rates, 25.0, 0.0);
+        let joint = joint(&[run], &model, &IMU, &Strengths::of(&IMU)).unwrap();
+        let n = joint.unknowns.len();
+        separation(&joint.information(), &[n - 2], &[n - 1]).kappa()
+    };
+    assert_eq!(kappa(&[(10.0, 120.0)]), f64::INFINITY);
+    assert_close!(kappa(&[(10.0, 180.0), (-10.0, 180.0)]), 1.0, 0.1);
+    // What a bias absorbs has no direction left.
+    let (information, ..) = of_one_per_turn(&[(10.0, 60.0)]);
+    let doubled = |place: usize| if place < 3 { place } else { 0 };
+    let copied = DMatrix::from_fn(4, 4, |r, c| information[(doubled(r), doubled(c))]);
+    let absorbed = separation(&copied, &[3], &[1]);
+    assert_eq!((absorbed.kappa(), absorbed.absorbed), (f64::INFINITY, [1, 0]));
+}
