@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use rins_io::quantity::kinds;
 use rins_io::{LogFile, Overwrite};
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
@@ -46,6 +47,17 @@ pub(crate) enum Command {
     Navigate(Navigate),
     /// Estimate sensor errors from a run on the table, and show what compensating them gains
     Calibrate(Calibrate),
+    /// Say what a rotation schedule tells apart before it is run, and which one to run next
+    ///
+    /// The information that a run would hold on the parameters of a model is reckoned from the scenario's motion, site
+    /// and [imu] figures, without noise and without errors. What the data tell is said of every parameter: itself, or a
+    /// combination with others; its sigma by the data alone, and with the figures of [imu] known beforehand.
+    ///
+    /// Several scenarios are runs of one IMU: what belongs to the sensors is shared, attitude, turn-on biases and the
+    /// like are each run's own. An effect is named by its id, or by that of one of its parameters
+    /// (accel.bias.x). Two effects are told apart if each, where it looks most like the other and is as large
+    /// as is usual, differs from any amount of the other by 6 sigma, the model's parameters being estimated along.
+    Observe(Observe),
 }
 
 #[derive(Debug, Args)]
@@ -155,6 +167,70 @@ pub(crate) enum Model {
     Paper12,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct Observe {
+    /// The scenario files
+    #[arg(required = true, value_name = "SCENARIO")]
+    pub(crate) scenarios: Vec<PathBuf>,
+    /// What is estimated: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default
+    /// full, but with --separate baseline: biases, attitude, mounting and the gyro errors tied to the spin axis
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) model: Option<String>,
+    /// Look at each scenario for itself, side by side; A+B are two runs of one schedule
+    #[arg(long)]
+    pub(crate) compare: bool,
+    /// Two effects to be told apart, and the shortest schedule that does
+    #[arg(long, value_name = "A,B", value_parser = pair)]
+    pub(crate) separate: Option<[String; 2]>,
+    /// A parameter and the 1σ wanted of it, such as gyro.scale.z=0.1ppm, and the shortest schedule
+    #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate")]
+    pub(crate) want: Option<String>,
+    /// The table's fastest rate; by default the scenario's fastest, or 10 deg/s if it rests
+    #[arg(long, value_name = "RATE", value_parser = table_rate)]
+    pub(crate) max_rate: Option<f64>,
+    /// The table's acceleration; by default the scenario's, or 5 deg/s^2
+    #[arg(long, value_name = "ACCELERATION", value_parser = table_acceleration)]
+    pub(crate) max_acceleration: Option<f64>,
+    /// The longest that the runs of a schedule may take together
+    #[arg(long, value_name = "DURATION", default_value = "3600 s", value_parser = duration)]
+    pub(crate) max_duration: f64,
+    /// Into how many directions the axis may be brought, at most 3
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = directions)]
+    pub(crate) directions: usize,
+    /// Folder for result.json, report.html and the proposed scenarios, next-1.toml and on
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+fn pair(text: &str) -> Result<[String; 2], String> {
+    match text.split(',').map(str::trim).collect::<Vec<_>>()[..] {
+        [first, second] if !first.is_empty() && !second.is_empty() => {
+            Ok([first.into(), second.into()])
+        }
+        _ => Err("expected two ids, such as gyro_g_sensitivity,encoder_eccentricity".into()),
+    }
+}
+
+fn table_rate(text: &str) -> Result<f64, String> {
+    let rate = kinds::TABLE_RATE.parse(text).map_err(|error| error.to_string())?;
+    if rate > 0.0 { Ok(rate) } else { Err("a fastest rate is more than zero".into()) }
+}
+
+fn table_acceleration(text: &str) -> Result<f64, String> {
+    kinds::TABLE_ACCELERATION.parse(text).map_err(|error| error.to_string())
+}
+
+fn duration(text: &str) -> Result<f64, String> {
+    kinds::DURATION.parse(text).map_err(|error| error.to_string())
+}
+
+fn directions(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=3) => Ok(n),
+        _ => Err("expected 1, 2 or 3".into()),
+    }
+}
+
 impl Command {
     /// Where results go, if anywhere.
     pub(crate) fn destination(&self) -> Option<&Path> {
@@ -167,6 +243,7 @@ impl Command {
             Self::Check(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.input.output.as_deref(),
+            Self::Observe(observe) => observe.output.as_deref(),
         }
     }
 }

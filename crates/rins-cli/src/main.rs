@@ -37,6 +37,7 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Command::Align(input) => commands::align::run(&input.rig),
         Command::Navigate(navigate) => commands::navigate::run(navigate),
         Command::Calibrate(calibrate) => commands::calibrate::run(calibrate),
+        Command::Observe(observe) => commands::observe::run(observe),
     }
 }
 

@@ -43,7 +43,7 @@ pub use fit::{Estimate, Fit, FitError, Iteration, NoiseKnowledge, fit};
 pub use gravity::{axis_from_gravity, turning_span};
 pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
-    Separation, Shown, Unknown, distance, joint, separation,
+    Separation, Shown, Unknown, distance, gauge_of, joint, separation,
 };
 pub use linear::{Linear, linearise};
 pub use posterior::{Evidence, Posterior, correlation};

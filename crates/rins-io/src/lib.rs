@@ -54,6 +54,7 @@ pub use rig::{
 };
 pub use run::truth_json;
 pub use scenario::ScenarioFile;
+pub use suggestion::nearest;
 pub use write::{
     Converted, Difference, LogFile, WriteProblem, convert, write_log, write_recording,
 };

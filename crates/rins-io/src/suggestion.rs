@@ -2,10 +2,7 @@
 
 /// The candidate that is nearest to `word`, if one is near: by letters changed, added, left out or
 /// swapped with their neighbour, of which at most a third of the word (and at least one) may be.
-pub(crate) fn nearest<'c>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'c str>,
-) -> Option<&'c str> {
+pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let allowed = (word.chars().count() / 3).max(1);
     candidates
         .into_iter()

@@ -8,8 +8,18 @@ use std::path::{Path, PathBuf};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 9] =
-    ["", "demo", "init", "simulate", "convert", "check", "align", "navigate", "calibrate"];
+const COMMANDS: [&str; 10] = [
+    "",
+    "demo",
+    "init",
+    "simulate",
+    "convert",
+    "check",
+    "align",
+    "navigate",
+    "calibrate",
+    "observe",
+];
 
 fn snapshot(command: &str) -> PathBuf {
     let name = if command.is_empty() { "rins" } else { command };

@@ -7,6 +7,7 @@ pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod init;
 pub(crate) mod navigate;
+pub(crate) mod observe;
 pub(crate) mod repairs;
 mod setup;
 pub(crate) mod simulate;

@@ -60,8 +60,8 @@ pub static GAUGES: &[Gauge] = &[
     },
 ];
 
-/// The gauge that all these parameters belong to.
-pub(super) fn of(ids: &[&str]) -> Option<&'static Gauge> {
+/// The gauge that all these parameters belong to, two of them at least.
+pub fn gauge_of(ids: &[&str]) -> Option<&'static Gauge> {
     let is_in = |gauge: &Gauge, id: &str| gauge.members.iter().any(|member| id.starts_with(member));
     GAUGES.iter().find(|gauge| ids.len() > 1 && ids.iter().all(|id| is_in(gauge, id)))
 }

@@ -13,7 +13,7 @@ mod tests;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rins_terms::Unit;
 
-pub use gauge::{GAUGES, Gauge};
+pub use gauge::{GAUGES, Gauge, gauge_of};
 pub use joint::{Joint, JointError, joint};
 pub use rank::{EXACT, Lost, Rank};
 pub use separation::{Direction, Separation, distance, separation};
@@ -181,7 +181,7 @@ impl Identifiability {
             .map(|row| self.rank.kept[row])
             .collect();
         let ids = of.iter().chain([&unknown]).map(|&place| self.unknowns[place].id.as_str());
-        self.seen[unknown].gauge = gauge::of(&ids.collect::<Vec<_>>());
+        self.seen[unknown].gauge = gauge_of(&ids.collect::<Vec<_>>());
         self.seen[unknown].shown = Shown::Part { of, exactly };
     }
 }

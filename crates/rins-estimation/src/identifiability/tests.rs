@@ -190,12 +190,13 @@ fn one_signature_under_two_names_is_never_told_apart() {
         let n = joint.unknowns.len();
         separation(&joint.information(), &[n - 2], &[n - 1]).kappa()
     };
-    assert_eq!(kappa(&[(10.0, 120.0)]), f64::INFINITY);
+    assert!(kappa(&[(10.0, 120.0)]).is_infinite());
     assert_close!(kappa(&[(10.0, 180.0), (-10.0, 180.0)]), 1.0, 0.1);
     // What a bias absorbs has no direction left.
     let (information, ..) = of_one_per_turn(&[(10.0, 60.0)]);
     let doubled = |place: usize| if place < 3 { place } else { 0 };
     let copied = DMatrix::from_fn(4, 4, |r, c| information[(doubled(r), doubled(c))]);
     let absorbed = separation(&copied, &[3], &[1]);
-    assert_eq!((absorbed.kappa(), absorbed.absorbed), (f64::INFINITY, [1, 0]));
+    assert!(absorbed.kappa().is_infinite());
+    assert_eq!(absorbed.absorbed, [1, 0]);
 }

@@ -1,0 +1,106 @@
+//! What was found of schedules, as a report page.
+
+use rins_estimation::Shown;
+
+use super::words::{
+    comparison, gauges, list, pair_sentences, proposal_sentences, rank_sentence, row,
+};
+use super::{Found, Observed};
+use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
+
+pub(super) fn report(found: &Found) -> Report {
+    let names: Vec<String> =
+        found.observed.iter().map(|observed| observed.schedule.name.clone()).collect();
+    let first = &found.observed[0];
+    let mut summary = Vec::new();
+    if found.observed.len() == 1 {
+        summary.extend(proposal_sentences(found));
+        summary.push(rank_sentence(&first.told));
+        summary.extend(first.pair.iter().flat_map(|pair| pair_sentences(pair, found)));
+    } else {
+        summary.extend(found.observed.iter().map(|observed| {
+            format!("{}: {}", observed.schedule.name, rank_sentence(&observed.told))
+        }));
+    }
+    let mut sections = Vec::new();
+    if found.observed.len() > 1 {
+        sections.push(comparison_section(found));
+    }
+    sections.extend(found.observed.iter().map(schedule_section));
+    Report {
+        title: format!("What {} tells", list(&names)),
+        subtitle: format!("rins observe, model {}", found.model),
+        summary,
+        sections,
+    }
+}
+
+fn comparison_section(found: &Found) -> Section {
+    let mut rows = comparison(found).into_iter();
+    let heads = rows.next().unwrap_or_default();
+    let columns = heads.iter().take(heads.len() - 1).enumerate();
+    let columns = columns
+        .map(|(place, head)| if place == 0 { Column::id("") } else { Column::number(head.clone()) })
+        .collect();
+    let rows = rows.map(|row| row.into_iter().map(Cell::text).collect()).collect();
+    Section {
+        heading: "Side by side".into(),
+        intro: "1σ of each parameter with what is known beforehand; a star marks what the data do not tell by itself."
+            .into(),
+        items: vec![Item::Table(Table { caption: "Schedules".into(), columns, rows })],
+    }
+}
+
+fn schedule_section(observed: &Observed) -> Section {
+    let told = &observed.told;
+    let rows = (0..told.unknowns.len()).map(|place| {
+        let [id, unit, known, data, both, meaning] = row(told, place);
+        let seen = &told.seen[place];
+        let badge = match (&seen.shown, seen.identifiable) {
+            (_, true) => Cell::badge(Tone::Good, "identifiable"),
+            (Shown::Combination(_), _) => Cell::badge(Tone::Warning, "combination"),
+            (Shown::Part { .. }, _) if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
+            (Shown::Part { .. }, _) => Cell::badge(Tone::Warning, "part"),
+            _ => Cell::badge(Tone::Neutral, "not shown"),
+        };
+        vec![
+            Cell::text(id),
+            Cell::text(known),
+            Cell::text(data),
+            Cell::text(both),
+            Cell::text(unit),
+            badge,
+            Cell::text(meaning),
+        ]
+    });
+    let mut items = vec![Item::Table(Table {
+        caption: "Predicted 1σ".into(),
+        columns: vec![
+            Column::id("parameter"),
+            Column::number("known before"),
+            Column::number("data alone"),
+            Column::number("with both"),
+            Column::text("unit"),
+            Column::text("under this schedule"),
+            Column::text("what the data tell"),
+        ],
+        rows: rows.collect(),
+    })];
+    items.extend(gauges(told).into_iter().map(|gauge| {
+        Item::Note(
+            Tone::Neutral,
+            format!("Gauge, under every schedule: {}: {}.", gauge.name, gauge.why),
+        )
+    }));
+    Section {
+        heading: observed.schedule.name.clone(),
+        intro: format!(
+            "{:.0} s. {} The least that is told has {:.0e} of its information for itself, what is invisible {:.0e}.",
+            observed.schedule.duration(),
+            rank_sentence(told),
+            told.rank.least_told,
+            told.rank.most_null
+        ),
+        items,
+    }
+}

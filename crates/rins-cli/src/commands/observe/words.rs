@@ -1,0 +1,310 @@
+//! What was found of schedules, in words.
+
+use std::fmt::Write as _;
+
+use rins_estimation::{Gauge, Identifiability, Shown, gauge_of};
+use rins_frames::units::DEG;
+
+use super::proposal::ENOUGH;
+use super::{Found, Observed, Pair};
+use crate::view::table::aligned;
+
+/// A number to three digits, as short as it can be.
+fn short(value: f64) -> String {
+    if value.is_infinite() {
+        return "∞".into();
+    }
+    if value == 0.0 {
+        return "0".into();
+    }
+    let decimals = match value.abs() {
+        size if size < 1e-3 => return format!("{value:.2e}"),
+        size if size < 0.01 => 5,
+        size if size < 0.1 => 4,
+        size if size < 1.0 => 3,
+        size if size < 10.0 => 2,
+        size if size < 100.0 => 1,
+        size if size < 1e5 => 0,
+        _ => return format!("{value:.2e}"),
+    };
+    format!("{value:.decimals$}")
+}
+
+/// The name of an unknown, with its run if there are several.
+fn name(told: &Identifiability, place: usize) -> String {
+    let unknown = &told.unknowns[place];
+    match unknown.run {
+        Some(run) => format!("{} of run {}", unknown.id, run + 1),
+        None => unknown.id.clone(),
+    }
+}
+
+/// What of an unknown is told, such as `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`.
+fn meaning(told: &Identifiability, place: usize) -> String {
+    let unit = told.unknowns[place].unit;
+    match &told.seen[place].shown {
+        Shown::Alone => "itself".into(),
+        Shown::Nothing => "nothing".into(),
+        Shown::Part { of, .. } => {
+            let of: Vec<String> = of.iter().map(|&kept| name(told, kept)).collect();
+            format!("a part of what shows as {}", list(&of))
+        }
+        Shown::Combination(aliases) => {
+            let mut sum = format!("only {}", name(told, place));
+            for alias in aliases {
+                let other = told.unknowns[alias.unknown].unit;
+                let coefficient = alias.coefficient * other.factor / unit.factor;
+                let sign = if coefficient < 0.0 { '-' } else { '+' };
+                let size = short(coefficient.abs());
+                let _ = write!(sum, " {sign} ");
+                if other == unit {
+                    let _ = if size == "1.00" { Ok(()) } else { write!(sum, "{size} × ") };
+                } else {
+                    let _ = write!(sum, "{size} {}/({}) × ", unit.symbol, other.symbol);
+                }
+                sum.push_str(&name(told, alias.unknown));
+            }
+            sum
+        }
+    }
+}
+
+pub(super) fn list(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [before @ .., last] => format!("{} and {last}", before.join(", ")),
+    }
+}
+
+/// The gauges met, each once.
+pub(super) fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
+    let mut met: Vec<&'static Gauge> = Vec::new();
+    for gauge in told.seen.iter().filter_map(|seen| seen.gauge) {
+        if !met.contains(&gauge) {
+            met.push(gauge);
+        }
+    }
+    met
+}
+
+/// How many there are of what, in a sentence.
+pub(super) fn rank_sentence(told: &Identifiability) -> String {
+    let (n, rank) = (told.unknowns.len(), told.rank.rank());
+    let better = told.rank.kept.len();
+    let identifiable = told.seen.iter().filter(|seen| seen.identifiable).count();
+    let lost = match n - rank {
+        0 => "no combination of them is invisible".to_string(),
+        1 => "one combination of them is exactly invisible".to_string(),
+        lost => format!("{lost} combinations of them are exactly invisible"),
+    };
+    format!(
+        "Of {n} unknowns {lost}; {better} combinations are told better than they were known, and {identifiable} \
+         parameters by themselves."
+    )
+}
+
+/// What is to be said of two effects under a schedule.
+pub(super) fn pair_sentences(pair: &Pair, found: &Found) -> Vec<String> {
+    let Some(effects) = &found.effects else { return Vec::new() };
+    let mut sentences = Vec::new();
+    for (place, separation) in pair.separations.iter().enumerate() {
+        let (own, other) = (&effects[place].asked, &effects[1 - place].asked);
+        let Some(worst) = separation.directions.first() else {
+            sentences.push(format!("{own} does not show beside what the model estimates."));
+            continue;
+        };
+        let weakest =
+            separation.directions.iter().min_by(|a, b| a.told.total_cmp(&b.told)).unwrap_or(worst);
+        sentences.push(format!(
+            "{own} of its usual size is seen by {} sigma and told from {other} by {} ({ENOUGH} needed); kappa is {}.",
+            short(weakest.seen),
+            short(weakest.told),
+            short(worst.kappa)
+        ));
+    }
+    sentences
+}
+
+/// What the search came to.
+pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
+    let given = &found.observed[0];
+    let limits = &found.limits;
+    let within = format!(
+        "within {} deg/s, {} deg/s^2, {} s and {} of the axis",
+        short(limits.rate / DEG),
+        short(limits.acceleration / DEG),
+        limits.duration,
+        if limits.directions == 1 {
+            "one direction".into()
+        } else {
+            format!("{} directions", limits.directions)
+        }
+    );
+    let Some(proposal) = &found.proposal else {
+        return match (&found.effects, &given.pair, &found.wanted) {
+            (Some([first, second]), Some(pair), _) if pair.is_told() => {
+                vec![format!("This schedule tells {} from {}.", first.asked, second.asked)]
+            }
+            (_, _, Some((effect, sigma))) if given.knows(effect, *sigma) => {
+                vec![format!("This schedule brings {} to the sigma that is wanted.", effect.asked)]
+            }
+            _ => Vec::new(),
+        };
+    };
+    let candidate = &proposal.candidate;
+    let figure = match (&found.effects, &found.wanted) {
+        (Some(_), _) => format!("{} sigma apart", short(proposal.reached)),
+        (_, Some((effect, _))) => {
+            let told = proposal.joint.identifiability();
+            let unit = told.find(&effect.ids[0]).map(|place| told.unknowns[place].unit);
+            unit.map_or_else(String::new, |unit| {
+                format!(
+                    "{} to {} {}",
+                    effect.asked,
+                    short(proposal.reached / unit.factor),
+                    unit.symbol
+                )
+            })
+        }
+        _ => String::new(),
+    };
+    let mut sentences = if proposal.enough {
+        vec![format!(
+            "Run next: {}, {:.0} s in all. Predicted: {figure}.",
+            candidate.words, candidate.duration
+        )]
+    } else {
+        vec![format!(
+            "No schedule of the library does it {within}; the nearest is {}: {figure}.",
+            candidate.words
+        )]
+    };
+    if let Some([first, second]) = &found.effects {
+        let ids: Vec<&str> = first.ids.iter().chain(&second.ids).map(String::as_str).collect();
+        if let Some(gauge) = gauge_of(&ids).filter(|_| !proposal.enough) {
+            sentences.push(format!(
+                "None ever will: {} is a matter of choice. In short: {}.",
+                gauge.name, gauge.why
+            ));
+        }
+        for (own, other) in [(first, second), (second, first)] {
+            if own.term.partners.contains(&other.term.id) {
+                sentences.push(format!(
+                    "Of {} the catalogue says: {}.",
+                    own.asked, own.term.told_apart_by
+                ));
+            }
+        }
+    }
+    if proposal.enough {
+        sentences
+            .push(format!("It is the shortest of the library {within}; -o writes its scenario."));
+    }
+    sentences
+}
+
+pub(super) fn text(found: &Found) -> String {
+    let mut text = String::new();
+    if found.observed.len() > 1 {
+        text.push_str(&aligned(&comparison(found)));
+        for observed in &found.observed {
+            for sentence in observed.pair.iter().flat_map(|pair| pair_sentences(pair, found)) {
+                let _ = writeln!(text, "  {}: {sentence}", observed.schedule.name);
+            }
+        }
+        return text;
+    }
+    let observed = &found.observed[0];
+    let told = &observed.told;
+    let _ = writeln!(
+        text,
+        "Schedule {}, {:.0} s",
+        observed.schedule.name,
+        observed.schedule.duration()
+    );
+    let _ = writeln!(text, "  {}\n", rank_sentence(told));
+    let heading = ["parameter", "unit", "known", "data alone", "with both", "what the data tell"];
+    let mut rows = vec![heading.map(String::from).to_vec()];
+    rows.extend((0..told.unknowns.len()).map(|place| row(told, place).to_vec()));
+    text.push_str(&aligned(&rows));
+    for gauge in gauges(told) {
+        let _ = writeln!(text, "  Gauge: {}: {}.", gauge.name, gauge.why);
+    }
+    let sentences: Vec<String> = observed
+        .pair
+        .iter()
+        .flat_map(|pair| pair_sentences(pair, found))
+        .chain(proposal_sentences(found))
+        .collect();
+    if !sentences.is_empty() {
+        text.push('\n');
+    }
+    for sentence in sentences {
+        let _ = writeln!(text, "  {sentence}");
+    }
+    text
+}
+
+/// A parameter as cells of a table.
+pub(super) fn row(told: &Identifiability, place: usize) -> [String; 6] {
+    let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+    let factor = unknown.unit.factor;
+    [
+        name(told, place),
+        unknown.unit.symbol.into(),
+        short(unknown.sigma / factor),
+        short(seen.data_sigma / factor),
+        short(seen.sigma / factor),
+        meaning(told, place),
+    ]
+}
+
+/// Schedules side by side: their sigmas, and what they do not tell.
+pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
+    let line = |head: &str, of: &dyn Fn(&Observed) -> String| {
+        let mut row = vec![head.to_string()];
+        row.extend(found.observed.iter().map(of));
+        row.push(String::new());
+        row
+    };
+    let mut rows = vec![
+        line("schedule", &|observed| observed.schedule.name.clone()),
+        line("duration [s]", &|observed| format!("{:.0}", observed.schedule.duration())),
+        line("exactly invisible", &|observed| {
+            (observed.told.unknowns.len() - observed.told.rank.rank()).to_string()
+        }),
+    ];
+    if found.effects.is_some() {
+        rows.push(line("kappa of the pair", &|observed| {
+            let worst = observed
+                .pair
+                .as_ref()
+                .map(|pair| pair.separations[0].kappa().max(pair.separations[1].kappa()));
+            worst.map_or_else(String::new, short)
+        }));
+        rows.push(line("pair told by [sigma]", &|observed| {
+            observed
+                .pair
+                .as_ref()
+                .map_or_else(String::new, |pair| short(pair.told[0].min(pair.told[1])))
+        }));
+    }
+    for unknown in found.observed[0]
+        .told
+        .unknowns
+        .iter()
+        .filter(|unknown| unknown.run.is_none_or(|run| run == 0))
+    {
+        let head = format!("{} [{}]", unknown.id, unknown.unit.symbol);
+        rows.push(line(&head, &|observed| {
+            let told = &observed.told;
+            told.find(&unknown.id).map_or_else(String::new, |place| {
+                let mark = if told.seen[place].identifiable { "" } else { " *" };
+                format!("{}{mark}", short(told.seen[place].sigma / unknown.unit.factor))
+            })
+        }));
+    }
+    rows.push(line("* not told by itself", &|_| String::new()));
+    rows
+}
