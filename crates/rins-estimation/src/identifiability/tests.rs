@@ -2,13 +2,14 @@
 
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
 use rins_frames::{EulerAngles, Site};
-use rins_imu::{ImuSpec, TriadSpec};
+use rins_imu::{ImuNoise, ImuSpec, NoiseModel, Seed, TriadSpec};
 use rins_motion::{Profile, Segment, Station};
-use rins_simulation::{Scenario, simulate};
+use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
 use rins_terms::{Chosen, Model, catalogue};
 use rins_testing::assert_close;
 
 use super::*;
+use crate::fit::{NoiseKnowledge, fit};
 use crate::run::{Reference, Rig, Run};
 use crate::strengths::Strengths;
 
@@ -199,4 +200,63 @@ fn one_signature_under_two_names_is_never_told_apart() {
     let absorbed = separation(&copied, &[3], &[1]);
     assert!(absorbed.kappa().is_infinite());
     assert_eq!(absorbed.absorbed, [1, 0]);
+}
+
+/// Simulated with noise, two effects differ by as much as was predicted.
+///
+/// What a fit without the first effect leaves, beyond a fit with both, is χ² of two degrees of freedom, its
+/// noncentrality the square of the sigmas by which they are told apart.
+#[test]
+fn simulated_runs_tell_two_effects_apart_as_predicted() {
+    const RUNS: u64 = 12;
+    let rates = [(10.0, 45.0), (-10.0, 45.0)];
+    let second = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
+        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]))
+        .with(Chosen::new(&catalogue::ENCODER_ECCENTRICITY).estimated());
+    let both =
+        second.clone().with(Chosen::new(&catalogue::GYRO_G_SENSITIVITY).estimating(&["zx", "zy"]));
+    let planned = run(&rates, 25.0, 0.0);
+    let joint = joint(std::slice::from_ref(&planned), &both, &IMU, &Strengths::of(&IMU)).unwrap();
+    let n = joint.unknowns.len();
+    let (of_first, of_second) = ([n - 2, n - 1], [n - 4, n - 3]);
+    let mut information = joint.information();
+    (0..n - 4).for_each(|place| information[(place, place)] += 1.0);
+    let direction = separation(&information, &of_first, &of_second).directions.remove(0);
+    let size: Vec<f64> =
+        direction.along.iter().map(|part| part * joint.unknowns[n - 1].sigma).collect();
+    let mut g_sensitivity = Chosen::new(&catalogue::GYRO_G_SENSITIVITY);
+    g_sensitivity.values[6..8].copy_from_slice(&size);
+    let eccentricity =
+        Chosen::new(&catalogue::ENCODER_ECCENTRICITY).with_values(&[3.0 * ARCSEC, -4.0 * ARCSEC]);
+    let gain: f64 = (0..RUNS)
+        .map(|seed| {
+            let segments =
+                rates.map(|(rate, duration)| Segment { rate: rate * DEG_PER_SECOND, duration });
+            let mut scenario = Scenario::perfect(
+                planned.rig.station,
+                planned.rig.nav_from_table,
+                Profile::new(&segments, None).unwrap(),
+                0.02,
+            );
+            scenario.effects = Model { terms: vec![g_sensitivity.clone(), eccentricity.clone()] };
+            scenario.noise = Some(ImuNoise {
+                gyro: NoiseModel::from(&IMU.gyro),
+                accel: NoiseModel::from(&IMU.accel),
+            });
+            scenario.table = TableRecord::Angle(Encoder { noise: ARCSEC, ..Encoder::default() });
+            scenario.seed = Seed::new(seed);
+            let recording = simulate(&scenario).unwrap().recording;
+            let run = [Run::new(planned.rig, recording).unwrap()];
+            let left = |model: &Model| {
+                fit(&run, model, &IMU, NoiseKnowledge::Given(Strengths::of(&IMU)), |_| {})
+                    .unwrap()
+                    .evidence
+                    .square
+            };
+            left(&second) - left(&both)
+        })
+        .sum();
+    let apart = (gain / RUNS as f64 - 2.0).sqrt();
+    assert_close!(apart / direction.told, 1.0, 0.2);
 }
