@@ -14,6 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["rins-terms"],
     &["rins-simulation", "rins-calibration"],
     &["rins-estimation", "rins-campaign"],
+    &["rins-diagnosis"],
     &["rins-io"],
     &["rins-cli", "rins-reproduction"],
 ];

@@ -1,0 +1,94 @@
+//! One effect, two, and none.
+
+use rins_diagnosis::{Diagnosis, diagnose};
+use rins_estimation::{NoiseKnowledge, Run, Strengths};
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
+use rins_terms::{Chosen, Model, Term, catalogue};
+
+use crate::support::{fibre, run};
+
+/// Three rates, both ways: most effects differ here.
+const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
+
+fn found(run: &Run, knowledge: fn(Strengths) -> NoiseKnowledge) -> Diagnosis {
+    let imu = fibre();
+    diagnose(run, &Model::full(), &imu, knowledge(Strengths::of(&imu)), |_| ()).unwrap()
+}
+
+fn hiding(effects: &[(&'static Term, &[f64])]) -> Model {
+    let chosen = effects.iter().map(|(term, values)| Chosen::new(term).with_values(values));
+    Model { terms: chosen.collect() }
+}
+
+/// The cause of this id or one whose rival it is.
+fn names(diagnosis: &Diagnosis, id: &str) -> bool {
+    diagnosis
+        .causes
+        .iter()
+        .any(|cause| cause.term.id == id || cause.rivals.iter().any(|rival| rival.term == id))
+}
+
+#[test]
+fn hidden_effects_are_named_with_their_size() {
+    let cases: [(&'static Term, &[f64]); 4] = [
+        (&catalogue::ACCEL_LEVER_ARM, &[3e-3, -2e-3]),
+        (&catalogue::ENCODER_LATENCY, &[20e-6]),
+        (&catalogue::GYRO_SCALE_ASYMMETRY, &[2.0 * PPM]),
+        (&catalogue::ENCODER_ECCENTRICITY, &[0.3 * ARCSEC, -0.2 * ARCSEC]),
+    ];
+    for (seed, (term, values)) in cases.into_iter().enumerate() {
+        let run = run(&RATES, hiding(&[(term, values)]), 0.0, seed as u64 + 40);
+        let diagnosis = found(&run, NoiseKnowledge::Given);
+        let [cause] = &diagnosis.causes[..] else {
+            panic!("{}: {:?}", term.id, diagnosis.causes);
+        };
+        assert_eq!(cause.term.id, term.id);
+        assert!(cause.ln_p < -20.0, "{}: {}", term.id, cause.ln_p);
+        for (estimate, truth) in cause.parameters.iter().zip(values) {
+            let off = (estimate.value - truth) / estimate.sigma;
+            assert!(off.abs() < 4.0, "{}: {off} sigma off", estimate.parameter.id);
+        }
+    }
+}
+
+#[test]
+fn two_effects_are_both_found() {
+    let effects = hiding(&[
+        (&catalogue::ACCEL_LEVER_ARM, &[3e-3, 1e-3]),
+        (&catalogue::GYRO_THERMAL_BIAS, &[0.0, 0.0, 0.05 * DEG_PER_HOUR]),
+    ]);
+    let diagnosis = found(&run(&RATES, effects, 0.0, 50), NoiseKnowledge::Given);
+    assert_eq!(diagnosis.causes.len(), 2, "{:?}", diagnosis.causes);
+    assert!(names(&diagnosis, "accel_lever_arm") && names(&diagnosis, "gyro_thermal_bias"));
+    let gain = diagnosis.after.log_likelihood - diagnosis.before.log_likelihood;
+    assert!(gain > 50.0, "{gain}");
+}
+
+#[test]
+fn clean_runs_are_adequate() {
+    for seed in 60..64 {
+        let diagnosis = found(&run(&RATES, Model::default(), 0.0, seed), NoiseKnowledge::Given);
+        assert!(diagnosis.causes.is_empty(), "{:?}", diagnosis.causes);
+    }
+}
+
+/// Flicker taken for white noise makes false names; its strength found beside every effect does not.
+#[test]
+fn flicker_is_not_named_as_an_effect() {
+    let run = run(&RATES, Model::default(), 0.02 * DEG_PER_HOUR, 70);
+    let honest = found(&run, NoiseKnowledge::Likely);
+    assert!(honest.causes.is_empty(), "{:?}", honest.causes);
+    let naive = found(&run, NoiseKnowledge::Given);
+    assert!(!naive.causes.is_empty());
+}
+
+/// At one constant rate an eccentric encoder and a gyro that feels gravity are one signal.
+#[test]
+fn what_a_schedule_confuses_is_a_set() {
+    let effects = hiding(&[(&catalogue::ENCODER_ECCENTRICITY, &[0.5 * ARCSEC, 0.0])]);
+    let diagnosis = found(&run(&[10.0; 6], effects, 0.0, 80), NoiseKnowledge::Given);
+    assert!(!diagnosis.causes.is_empty());
+    let set: Vec<&str> = diagnosis.causes[0].rivals.iter().map(|rival| rival.term).collect();
+    assert!(names(&diagnosis, "encoder_eccentricity"), "{set:?}");
+    assert!(!set.is_empty(), "{} alone", diagnosis.causes[0].term.id);
+}
