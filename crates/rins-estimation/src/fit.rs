@@ -87,7 +87,7 @@ pub struct Iteration {
 pub struct Fit {
     /// The parameters, in the order of the model, those of the IMU first, then those of each run.
     pub parameters: Vec<Estimate>,
-    /// Their covariance, in SI units.
+    /// Their covariance, in SI units; where the noise was found, its own uncertainty is in it.
     pub covariance: DMatrix<f64>,
     /// What the data alone say, made linear about the estimate.
     pub evidence: Evidence,
@@ -130,6 +130,7 @@ pub fn fit(
     let mut problem = Problem::new(runs, model, free);
     let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut iterations = Vec::new();
+    let mut around = Vec::new();
     loop {
         let linear = problem.linear();
         let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
@@ -150,10 +151,11 @@ pub fn fit(
     }
     if find_noise {
         let linear = problem.linear();
-        noise = likely_noise(&linear, &noise, |linear, noise| {
+        let likely = likely_noise(&linear, &noise, |linear, noise| {
             let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
             Some(posterior.log_likelihood)
         });
+        (noise, around) = (likely.noise, likely.around);
         loop {
             let linear = problem.linear();
             let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
@@ -169,7 +171,7 @@ pub fn fit(
             }
         }
     }
-    problem.finish(noise, iterations)
+    problem.finish(noise, &around, iterations)
 }
 
 /// Runs, a model for each, and where each one's parameters stand among all.
@@ -269,19 +271,33 @@ impl<'a> Problem<'a> {
         largest
     }
 
-    fn finish(self, noise: Vec<Noise>, iterations: Vec<Iteration>) -> Result<Fit, FitError> {
+    fn finish(
+        self,
+        noise: Vec<Noise>,
+        around: &[[Vec<Noise>; 2]],
+        iterations: Vec<Iteration>,
+    ) -> Result<Fit, FitError> {
         let linear = self.linear();
         let (evidence, posterior) = self.posterior(&linear, &noise, iterations.len())?;
+        // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
+        // where the estimate would then be.
+        let mut covariance = posterior.covariance.clone();
+        for side in around.iter().flatten() {
+            let (_, other) = self.posterior(&linear, side, iterations.len())?;
+            let moved = &other.step - &posterior.step;
+            covariance +=
+                (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
+        }
         let estimate = |(place, &(index, run)): (usize, &(usize, Option<usize>))| Estimate {
             parameter: self.free[index].clone(),
             run,
             expected: self.expected[place],
             value: self.values[place],
-            sigma: posterior.sigma(place),
+            sigma: covariance[(place, place)].sqrt(),
         };
         Ok(Fit {
             parameters: self.all.iter().enumerate().map(estimate).collect(),
-            covariance: posterior.covariance,
+            covariance,
             evidence,
             log_likelihood: posterior.log_likelihood,
             models: self.models,

@@ -71,6 +71,22 @@ impl Which {
     }
 }
 
+/// The most likely noise, and what else it might be.
+pub(crate) struct Likely {
+    /// The noise that makes the data most likely.
+    pub(crate) noise: Vec<Noise>,
+    /// Pairs of a stronger and a weaker flicker, √3 of its own σ away: the outer points of a Gauss-Hermite
+    /// quadrature, each of which counts for a sixth.
+    pub(crate) around: Vec<[Vec<Noise>; 2]>,
+}
+
+/// The step of second differences, in logarithms: about the σ of a flicker that shows.
+const CURVATURE_STEP: f64 = 0.2;
+
+/// How far at most, in logarithms, a flicker's strength is taken to be uncertain, 1σ: where it does not show at
+/// all its curvature is the prior's, and so weak a flicker does not matter.
+const MOST_UNCERTAIN: f64 = 0.6;
+
 /// The noise that makes the data most likely, the parameters integrated out.
 ///
 /// White noise of the sensors is known to a factor of e, everything else to a factor of twenty, as a
@@ -79,7 +95,7 @@ pub(crate) fn likely_noise(
     linear: &[Linear],
     first: &[Noise],
     log_likelihood: impl Fn(&[Linear], &[Noise]) -> Option<f64> + Sync,
-) -> Vec<Noise> {
+) -> Likely {
     let unknown = unknowns(linear, first);
     let noise_at = |x: &DVector<f64>| {
         let mut noise = first.to_vec();
@@ -100,7 +116,22 @@ pub(crate) fn likely_noise(
         let value = log_likelihood(linear, &noise_at(x)).filter(|value| value.is_finite());
         value.map_or(f64::INFINITY, |value| prior - value)
     };
-    noise_at(&minimum(unknown.len(), cost))
+    let best = minimum(unknown.len(), cost);
+    let least = cost(&best);
+    let flickers = (0..unknown.len())
+        .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker));
+    let around = flickers.map(|axis| {
+        let away = |by: f64| {
+            let mut x = best.clone();
+            x[axis] += by;
+            x
+        };
+        let sides = cost(&away(CURVATURE_STEP)) + cost(&away(-CURVATURE_STEP));
+        let curvature = (sides - 2.0 * least) / (CURVATURE_STEP * CURVATURE_STEP);
+        let sigma = curvature.max(0.0).sqrt().recip().min(MOST_UNCERTAIN);
+        [3.0_f64.sqrt() * sigma, -(3.0_f64.sqrt()) * sigma].map(|by| noise_at(&away(by)))
+    });
+    Likely { noise: noise_at(&best), around: around.collect() }
 }
 
 fn unknowns(linear: &[Linear], first: &[Noise]) -> Vec<Unknown> {
