@@ -76,6 +76,14 @@ pub enum DiagnosisError {
     Screening(#[from] Indefinite),
 }
 
+/// What stays the same from one effect to the next.
+#[derive(Clone, Copy)]
+struct Case<'a> {
+    run: &'a Run,
+    imu: &'a ImuSpec,
+    knowledge: NoiseKnowledge,
+}
+
 /// A candidate as far as it has been tried.
 struct Trial {
     candidate: Candidate,
@@ -100,17 +108,17 @@ pub fn diagnose(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
-    let runs = std::slice::from_ref(run);
-    let before = fit(runs, model, imu, knowledge, |_| ())?;
+    let case = Case { run, imu, knowledge };
+    let before = case.fit(model)?;
     let mut present = before.clone();
     let mut causes: Vec<Cause> = Vec::new();
     let mut not_testable = None;
     while causes.len() < MOST_CAUSES {
         let list = candidates(run, present.model());
-        let screened = screened_both_ways(run, &present, imu, knowledge, &list)?;
+        let screened = case.screened_both_ways(&present, &list)?;
         not_testable.get_or_insert_with(|| unseen(&list, &screened));
         let tested = best_of_terms(&list, &screened).len();
-        let mut trials = trials(run, &present, imu, knowledge, &list, &screened);
+        let mut trials = case.trials(&present, &list, &screened);
         for trial in &mut trials {
             trial.ln_p = (trial.ln_p + (tested as f64).ln()).min(0.0);
         }
@@ -121,9 +129,7 @@ pub fn diagnose(
         };
         let rivals = rivals(&trials, best);
         let trial = trials.swap_remove(best);
-        let Some(fitted) =
-            trial.fit.or_else(|| refit(run, &present, &trial.candidate, imu, knowledge))
-        else {
+        let Some(fitted) = trial.fit.or_else(|| case.refit(&present, &trial.candidate)) else {
             break;
         };
         progress(trial.candidate.chosen.term.id);
@@ -148,20 +154,75 @@ pub fn diagnose(
     Ok(Diagnosis { causes, before, after: present, not_testable })
 }
 
-/// Candidates screened with the noise that was found, and with that of the data sheet.
-fn screened_both_ways(
-    run: &Run,
-    present: &Fit,
-    imu: &ImuSpec,
-    knowledge: NoiseKnowledge,
-    list: &[Candidate],
-) -> Result<Vec<Vec<Screened>>, Indefinite> {
-    let found = present.noise[0];
-    let mut noises = vec![found];
-    if let NoiseKnowledge::Likely(sheet) = knowledge {
-        noises.push(Noise { imu: sheet, ..found });
+impl Case<'_> {
+    fn fit(&self, model: &Model) -> Result<Fit, FitError> {
+        fit(std::slice::from_ref(self.run), model, self.imu, self.knowledge, |_| ())
     }
-    noises.par_iter().map(|noise| screen(run, present, imu, noise, list)).collect()
+
+    /// Candidates screened with the noise that was found, and with that of the data sheet.
+    fn screened_both_ways(
+        &self,
+        present: &Fit,
+        list: &[Candidate],
+    ) -> Result<Vec<Vec<Screened>>, Indefinite> {
+        let found = present.noise[0];
+        let mut noises = vec![found];
+        if let NoiseKnowledge::Likely(sheet) = self.knowledge {
+            noises.push(Noise { imu: sheet, ..found });
+        }
+        noises.par_iter().map(|noise| screen(self.run, present, self.imu, noise, list)).collect()
+    }
+
+    /// The most likely effects; where the noise is to be found, each with its own.
+    fn trials(&self, present: &Fit, list: &[Candidate], screened: &[Vec<Screened>]) -> Vec<Trial> {
+        let looks = |one: &Screened| list[one.candidate].looks.ln();
+        if let NoiseKnowledge::Given(_) = self.knowledge {
+            let trial = |one: &&Screened| Trial {
+                candidate: list[one.candidate].clone(),
+                fit: None,
+                dof: one.dof,
+                ln_p: one.ln_p,
+                gain: 0.5 * one.statistic - one.occam,
+                evidence: one.evidence,
+            };
+            return best_of_terms(list, screened).iter().map(trial).collect();
+        }
+        let mut chosen: Vec<&Screened> = Vec::new();
+        for one_way in screened {
+            let mut best = best_of_terms(list, std::slice::from_ref(one_way));
+            best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+            for one in best.into_iter().take(TRIED).filter(|one| one.evidence > -1.0) {
+                if !chosen.iter().any(|other| other.candidate == one.candidate) {
+                    chosen.push(one);
+                }
+            }
+        }
+        chosen
+            .par_iter()
+            .filter_map(|one| {
+                let candidate = &list[one.candidate];
+                let fit = self.refit(present, candidate)?;
+                let gain = fit.log_likelihood - present.log_likelihood;
+                // What the likelihood gained at its best, before the prior's part is taken from it.
+                let statistic = (2.0 * (gain + one.occam)).max(0.0);
+                let ln_p = (ln_tail(statistic, one.dof) + looks(one)).min(0.0);
+                let evidence = gain - looks(one);
+                let candidate = candidate.clone();
+                Some(Trial { candidate, fit: Some(fit), dof: one.dof, ln_p, gain, evidence })
+            })
+            .collect()
+    }
+
+    /// The present model with a candidate in it, fitted; none where that does not converge.
+    fn refit(&self, present: &Fit, candidate: &Candidate) -> Option<Fit> {
+        let mut model = present.model().clone();
+        // Priors are about what was expected, not about what was found.
+        for estimate in &present.parameters {
+            let at = &estimate.parameter;
+            model.terms[at.term].values[at.parameter] = estimate.expected;
+        }
+        self.fit(&model.with(candidate.chosen.clone())).ok()
+    }
 }
 
 /// The best shape of every term that the run shows anything of.
@@ -190,71 +251,6 @@ fn unseen(list: &[Candidate], screened: &[Vec<Screened>]) -> Vec<&'static str> {
         }
     }
     ids
-}
-
-/// The most likely effects; where the noise is to be found, each with its own.
-fn trials(
-    run: &Run,
-    present: &Fit,
-    imu: &ImuSpec,
-    knowledge: NoiseKnowledge,
-    list: &[Candidate],
-    screened: &[Vec<Screened>],
-) -> Vec<Trial> {
-    let looks = |one: &Screened| list[one.candidate].looks.ln();
-    if let NoiseKnowledge::Given(_) = knowledge {
-        let trial = |one: &&Screened| Trial {
-            candidate: list[one.candidate].clone(),
-            fit: None,
-            dof: one.dof,
-            ln_p: one.ln_p,
-            gain: 0.5 * one.statistic - one.occam,
-            evidence: one.evidence,
-        };
-        return best_of_terms(list, screened).iter().map(trial).collect();
-    }
-    let mut chosen: Vec<&Screened> = Vec::new();
-    for one_way in screened {
-        let mut best = best_of_terms(list, std::slice::from_ref(one_way));
-        best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-        for one in best.into_iter().take(TRIED).filter(|one| one.evidence > -1.0) {
-            if !chosen.iter().any(|other| other.candidate == one.candidate) {
-                chosen.push(one);
-            }
-        }
-    }
-    chosen
-        .par_iter()
-        .filter_map(|one| {
-            let candidate = &list[one.candidate];
-            let fit = refit(run, present, candidate, imu, knowledge)?;
-            let gain = fit.log_likelihood - present.log_likelihood;
-            // What the likelihood gained at its best, before the prior's part is taken from it.
-            let statistic = (2.0 * (gain + one.occam)).max(0.0);
-            let ln_p = (ln_tail(statistic, one.dof) + looks(one)).min(0.0);
-            let evidence = gain - looks(one);
-            let candidate = candidate.clone();
-            Some(Trial { candidate, fit: Some(fit), dof: one.dof, ln_p, gain, evidence })
-        })
-        .collect()
-}
-
-/// The present model with a candidate in it, fitted; none where that does not converge.
-fn refit(
-    run: &Run,
-    present: &Fit,
-    candidate: &Candidate,
-    imu: &ImuSpec,
-    knowledge: NoiseKnowledge,
-) -> Option<Fit> {
-    let mut model = present.model().clone();
-    // Priors are about what was expected, not about what was found.
-    for estimate in &present.parameters {
-        let at = &estimate.parameter;
-        model.terms[at.term].values[at.parameter] = estimate.expected;
-    }
-    let model = model.with(candidate.chosen.clone());
-    fit(std::slice::from_ref(run), &model, imu, knowledge, |_| ()).ok()
 }
 
 fn rivals(trials: &[Trial], best: usize) -> Vec<Rival> {
