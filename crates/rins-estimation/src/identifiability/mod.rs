@@ -78,12 +78,12 @@ pub struct Seen {
 /// What data tell of a list of unknowns.
 ///
 /// ```
-/// use nalgebra::dmatrix;
+/// use nalgebra::DMatrix;
 /// use rins_estimation::{Identifiability, Shown, Unknown};
 /// use rins_terms::Unit;
 /// let unknown = |id: &str| Unknown { id: id.into(), run: None, unit: Unit::ONE, sigma: 1.0 };
 /// // A hundred readings of a + 2 b, each to 1σ of 1.
-/// let information = dmatrix![100.0, 200.0; 200.0, 400.0];
+/// let information = DMatrix::from_row_slice(2, 2, &[100.0, 200.0, 200.0, 400.0]);
 /// let told = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
 /// assert_eq!(told.rank.rank(), 1);
 /// // They tell b + a/2 to 0.05, and neither alone.
