@@ -19,6 +19,7 @@
 //! # Ok::<(), rins_io::QuantityError>(())
 //! ```
 mod calibration;
+mod campaign;
 mod document;
 mod draft;
 mod error;
@@ -37,6 +38,9 @@ mod term;
 mod write;
 
 pub use calibration::{Calibration, Covariance};
+pub use campaign::{
+    GridCell, Identity, Journal, Part, Record, Row, ScenarioGrid, read_part, write_part,
+};
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{

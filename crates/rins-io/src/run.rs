@@ -21,13 +21,13 @@ use crate::write::write_recording;
 
 impl ScenarioFile {
     /// The rig file of a run that was simulated from this scenario: all of the scenario's sections
-    /// but `[truth]`, its quantities as they are written there, and a `[log]` that describes what
+    /// but `[truth]` and `[grid]`, its quantities as they are written there, and a `[log]` that describes what
     /// [`write_recording`] writes.
     pub fn rig_toml(&self, recording: &Recording) -> String {
         let mut text = String::from("# A simulated run: where it was measured, and with what.\n");
         for Entry { key, value, .. } in &self.document.root {
             match (key.as_str(), &value.node) {
-                ("truth", _) => {}
+                ("truth" | "grid", _) => {}
                 ("log", Node::Table(entries)) => {
                     let source = |key: &str| {
                         entries.iter().find(|entry| entry.key == key).map(|entry| &entry.value)

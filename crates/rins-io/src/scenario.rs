@@ -22,7 +22,8 @@ use crate::term::{self, Use};
 /// Of `[log]` it takes the rate, the log's name, what a `table_angle` says of its noise and
 /// resolution, and whether there is a `table_angle` or a `table_rate` to be recorded. Columns and
 /// units, which a rig file with `[truth]` put behind it has, are not looked at: a simulated log has
-/// its own ([`write_recording`](crate::write_recording)). Errors that `[truth]` leaves out are zero,
+/// its own ([`write_recording`](crate::write_recording)). A `[grid]` is for campaigns
+/// ([`ScenarioGrid`](crate::ScenarioGrid)) and not looked at. Errors that `[truth]` leaves out are zero,
 /// and noise is on, with the figures of `[imu]`, unless it is switched off.
 ///
 /// ```
@@ -83,8 +84,8 @@ impl ScenarioFile {
         Self::from_document(Document::parse(text, path)?)
     }
 
-    fn from_document(document: Document) -> Result<Self, IoError> {
-        let known: Vec<&str> = rig::SECTIONS.into_iter().chain(["truth"]).collect();
+    pub(crate) fn from_document(document: Document) -> Result<Self, IoError> {
+        let known: Vec<&str> = rig::SECTIONS.into_iter().chain(["truth", "grid"]).collect();
         let root = Section::root(&document, &known)?;
         let Some(station) = rig::station(&root)? else {
             return Err(root.missing("[site]", "latitude, longitude and height"));

@@ -1,0 +1,301 @@
+//! The results of a campaign as Parquet: a row for each run and parameter.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::record::RowAccessor;
+use parquet::schema::types::Type;
+
+use crate::error::IoError;
+use crate::output::{Overwrite, write_file};
+
+/// The rows of a group: what is held in memory twice.
+const GROUP: usize = 1 << 18;
+
+/// Which campaign a file is of, and which part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// The scenario file's text.
+    pub scenario: String,
+    /// How many runs of each scenario.
+    pub runs: u64,
+    /// The seed.
+    pub seed: u64,
+    /// Which shard, from 1, of how many.
+    pub shard: (u64, u64),
+}
+
+impl Identity {
+    /// The program's version, which may change numbers.
+    const VERSION: &'static str = env!("CARGO_PKG_VERSION");
+
+    /// The identity in one line.
+    pub(super) fn line(&self) -> String {
+        let Self { scenario, runs, seed, shard: (shard, of) } = self;
+        let scenario = serde_json::Value::from(scenario.as_str());
+        format!("rins {} runs {runs} seed {seed} shard {shard}/{of} {scenario}", Self::VERSION)
+    }
+
+    /// The same campaign as a whole.
+    #[must_use]
+    pub fn whole(&self) -> Self {
+        Self { shard: (1, 1), ..self.clone() }
+    }
+
+    fn metadata(&self) -> Vec<KeyValue> {
+        let (shard, of) = self.shard;
+        [
+            ("rins.version", Self::VERSION.into()),
+            ("rins.scenario", self.scenario.clone()),
+            ("rins.runs", self.runs.to_string()),
+            ("rins.seed", self.seed.to_string()),
+            ("rins.shard", format!("{shard}/{of}")),
+        ]
+        .map(|(key, value)| KeyValue::new(key.into(), value))
+        .into()
+    }
+
+    fn from_metadata(metadata: &[KeyValue]) -> Option<Self> {
+        let get = |key: &str| {
+            metadata.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.as_deref())
+        };
+        (get("rins.version")? == Self::VERSION).then_some(())?;
+        let (shard, of) = get("rins.shard")?.split_once('/')?;
+        Some(Self {
+            scenario: get("rins.scenario")?.into(),
+            runs: get("rins.runs")?.parse().ok()?,
+            seed: get("rins.seed")?.parse().ok()?,
+            shard: (shard.parse().ok()?, of.parse().ok()?),
+        })
+    }
+}
+
+/// What one run found of one parameter, in the parameter's unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The true value.
+    pub truth: f64,
+    /// The estimate; not a number if the run failed.
+    pub estimate: f64,
+    /// Its covariances with the three parameters.
+    pub covariances: [f64; 3],
+    /// The run's mean normalised innovation squared over its degrees of freedom.
+    pub nis_ratio: f64,
+}
+
+/// A row: which run of which scenario, which parameter, and what was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The scenario's place in the grid, from 0.
+    pub cell: u64,
+    /// The run's number, from 0.
+    pub run: u64,
+    /// The parameter's id.
+    pub parameter: String,
+    /// The unit of the numbers.
+    pub unit: String,
+    /// What was found.
+    pub record: Record,
+    /// Why the run failed; empty if it did not.
+    pub failure: String,
+}
+
+/// A campaign's results, or a shard of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Which campaign.
+    pub identity: Identity,
+    /// The keys of the grid.
+    pub keys: Vec<String>,
+    /// What stands at the keys, for each scenario of the grid.
+    pub values: Vec<Vec<String>>,
+    /// The rows, by scenario, run and parameter.
+    pub rows: Vec<Row>,
+}
+
+/// The columns of whole numbers.
+const INTEGERS: [&str; 2] = ["cell", "run"];
+/// The columns of texts, which follow those of the grid.
+const TEXTS: [&str; 2] = ["parameter", "unit"];
+/// The columns of numbers.
+const NUMBERS: [&str; 7] =
+    ["truth", "estimate", "sigma", "covariance_1", "covariance_2", "covariance_3", "nis_ratio"];
+/// The last column.
+const FAILURE: &str = "failure";
+
+/// Writes results, whole or not at all.
+///
+/// # Errors
+/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
+/// system refuses.
+pub fn write_part(path: &Path, overwrite: Overwrite, part: &Part) -> Result<(), IoError> {
+    write_file(path, overwrite, |out| {
+        let mut bytes = Vec::new();
+        encode(part, &mut bytes)
+            .and_then(|()| out.write_all(&bytes).map_err(ParquetError::from))
+            .map_err(|error| IoError::file("write", path)(std::io::Error::other(error)))
+    })
+}
+
+fn encode(part: &Part, out: &mut Vec<u8>) -> Result<(), ParquetError> {
+    let field = |name: &str, physical, logical| {
+        let builder = Type::primitive_type_builder(name, physical).with_logical_type(logical);
+        builder.with_repetition(Repetition::REQUIRED).build().map(Arc::new)
+    };
+    let text = |name: &str| field(name, Physical::BYTE_ARRAY, Some(LogicalType::String));
+    let mut fields = Vec::new();
+    for name in INTEGERS {
+        fields.push(field(name, Physical::INT64, None)?);
+    }
+    for name in part.keys.iter().map(String::as_str).chain(TEXTS) {
+        fields.push(text(name)?);
+    }
+    for name in NUMBERS {
+        fields.push(field(name, Physical::DOUBLE, None)?);
+    }
+    fields.push(text(FAILURE)?);
+    let schema = Type::group_type_builder("campaign").with_fields(fields).build()?;
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(format!("rins {}", Identity::VERSION))
+        .set_key_value_metadata(Some(part.identity.metadata()));
+    let properties = Arc::new(properties.build());
+    let mut writer = SerializedFileWriter::new(out, Arc::new(schema), properties)?;
+    for rows in part.rows.chunks(GROUP) {
+        let mut group = writer.next_row_group()?;
+        integers(&mut group, rows, |row| row.cell)?;
+        integers(&mut group, rows, |row| row.run)?;
+        for key in 0..part.keys.len() {
+            let value = |row: &Row| {
+                let cell = usize::try_from(row.cell).unwrap_or(usize::MAX);
+                part.values.get(cell).map_or("", |values| values[key].as_str()).to_string()
+            };
+            texts(&mut group, rows, value)?;
+        }
+        texts(&mut group, rows, |row| row.parameter.clone())?;
+        texts(&mut group, rows, |row| row.unit.clone())?;
+        for column in 0..NUMBERS.len() {
+            numbers(&mut group, rows, column)?;
+        }
+        texts(&mut group, rows, |row| row.failure.clone())?;
+        group.close()?;
+    }
+    writer.close()?;
+    Ok(())
+}
+
+type Group<'w, 'a> = SerializedRowGroupWriter<'w, &'a mut Vec<u8>>;
+
+fn integers(
+    group: &mut Group<'_, '_>,
+    rows: &[Row],
+    of: impl Fn(&Row) -> u64,
+) -> Result<(), ParquetError> {
+    let values: Vec<i64> =
+        rows.iter().map(|row| i64::try_from(of(row)).unwrap_or(i64::MAX)).collect();
+    let mut column = group.next_column()?.ok_or_else(missing)?;
+    column.typed::<Int64Type>().write_batch(&values, None, None)?;
+    column.close()
+}
+
+fn texts(
+    group: &mut Group<'_, '_>,
+    rows: &[Row],
+    of: impl Fn(&Row) -> String,
+) -> Result<(), ParquetError> {
+    let values: Vec<ByteArray> =
+        rows.iter().map(|row| ByteArray::from(of(row).into_bytes())).collect();
+    let mut column = group.next_column()?.ok_or_else(missing)?;
+    column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
+    column.close()
+}
+
+fn numbers(group: &mut Group<'_, '_>, rows: &[Row], place: usize) -> Result<(), ParquetError> {
+    let values: Vec<f64> = rows.iter().map(|row| row.numbers()[place]).collect();
+    let mut column = group.next_column()?.ok_or_else(missing)?;
+    column.typed::<DoubleType>().write_batch(&values, None, None)?;
+    column.close()
+}
+
+fn missing() -> ParquetError {
+    ParquetError::General("a column is missing".into())
+}
+
+impl Row {
+    /// The numbers, in the order of the columns.
+    fn numbers(&self) -> [f64; NUMBERS.len()] {
+        let Record { truth, estimate, covariances: [a, b, c], nis_ratio } = self.record;
+        let of_itself =
+            place(&self.parameter).map_or(f64::NAN, |place| self.record.covariances[place]);
+        [truth, estimate, of_itself.sqrt(), a, b, c, nis_ratio]
+    }
+}
+
+/// The place of a parameter among the three.
+fn place(parameter: &str) -> Option<usize> {
+    rins_campaign::PARAMETERS.iter().position(|id| *id == parameter)
+}
+
+/// Reads results.
+///
+/// # Errors
+/// [`IoError::File`] if the system refuses, or the file is no campaign's of this version.
+pub fn read_part(path: &Path) -> Result<Part, IoError> {
+    let failed = || IoError::file("read", path);
+    let file = std::fs::File::open(path).map_err(failed())?;
+    decode(file).map_err(|error| failed()(std::io::Error::other(error)))
+}
+
+fn decode(file: std::fs::File) -> Result<Part, ParquetError> {
+    let reader = SerializedFileReader::new(file)?;
+    let metadata = reader.metadata().file_metadata();
+    let identity =
+        metadata
+            .key_value_metadata()
+            .and_then(|pairs| Identity::from_metadata(pairs))
+            .ok_or_else(|| ParquetError::General("no campaign of this version of rins".into()))?;
+    let columns = metadata.schema_descr().columns();
+    let names: Vec<String> = columns.iter().map(|column| column.name().into()).collect();
+    let fixed = INTEGERS.len() + TEXTS.len() + NUMBERS.len() + 1;
+    let n_keys = names.len().checked_sub(fixed).ok_or_else(missing)?;
+    let keys = names[INTEGERS.len()..INTEGERS.len() + n_keys].to_vec();
+    let mut values: Vec<Vec<String>> = Vec::new();
+    let mut rows = Vec::new();
+    for row in reader.get_row_iter(None)? {
+        let row = row?;
+        let whole = |place: usize| -> Result<u64, ParquetError> {
+            u64::try_from(row.get_long(place)?).map_err(|_| missing())
+        };
+        let text = |place: usize| row.get_string(place).cloned();
+        let first = INTEGERS.len() + n_keys + TEXTS.len();
+        let number = |place: usize| row.get_double(first + place);
+        let cell = whole(0)?;
+        let place = usize::try_from(cell).map_err(|_| missing())?;
+        if place >= values.len() {
+            // Rows are in the order of cells; those of which a shard has no run stay empty.
+            values.resize(place + 1, vec![String::new(); n_keys]);
+            values[place] = (0..n_keys).map(|key| text(2 + key)).collect::<Result<_, _>>()?;
+        }
+        rows.push(Row {
+            cell,
+            run: whole(1)?,
+            parameter: text(INTEGERS.len() + n_keys)?,
+            unit: text(INTEGERS.len() + n_keys + 1)?,
+            record: Record {
+                truth: number(0)?,
+                estimate: number(1)?,
+                covariances: [number(3)?, number(4)?, number(5)?],
+                nis_ratio: number(6)?,
+            },
+            failure: text(first + NUMBERS.len())?,
+        });
+    }
+    Ok(Part { identity, keys, values, rows })
+}
