@@ -58,6 +58,10 @@ pub(crate) enum Command {
     /// (accel.bias.x). Two effects are told apart if each, where it looks most like the other and is as large
     /// as is usual, differs from any amount of the other by 6 sigma, the model's parameters being estimated along.
     Observe(Observe),
+    /// Simulate and calibrate a scenario thousands of times: do estimates scatter as claimed?
+    MonteCarlo(MonteCarlo),
+    /// Join the shards of a campaign
+    Merge(Merge),
 }
 
 #[derive(Debug, Args)]
@@ -160,6 +164,50 @@ pub(crate) struct Calibrate {
     pub(crate) model: Model,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct MonteCarlo {
+    /// The scenario file, with a [grid] or without
+    pub(crate) scenario: PathBuf,
+    /// How many runs of each scenario
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub(crate) runs: u64,
+    /// Use this seed in place of the scenario's
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
+    /// Where to write the results, as Parquet; a report lies beside them and ends in .html
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Continue a campaign that was interrupted
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Do a part only, such as 2/5: the second of five, for `rins merge`
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    pub(crate) shard: Option<(u64, u64)>,
+    /// How many threads; by default one a core
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Merge {
+    /// The results of all shards
+    #[arg(required = true)]
+    pub(crate) parts: Vec<PathBuf>,
+    /// Where to write the whole; a report lies beside it and ends in .html
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+/// A shard and how many there are.
+fn shard(text: &str) -> Result<(u64, u64), String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(shard, of)| Some((shard.parse::<u64>().ok()?, of.parse::<u64>().ok()?)));
+    numbers
+        .filter(|(shard, of)| (1..=*of).contains(shard))
+        .ok_or_else(|| "expected a shard of so many, such as 2/5".into())
+}
+
 /// The error models that can be estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
@@ -238,8 +286,8 @@ impl Command {
             Self::Demo(demo) => Some(&demo.output),
             Self::Init(init) => init.output.as_deref(),
             Self::Simulate(simulate) => Some(&simulate.output),
-            // It writes its two files itself, once it has read them.
-            Self::Convert(_) => None,
+            // These write their two files themselves.
+            Self::Convert(_) | Self::MonteCarlo(_) | Self::Merge(_) => None,
             Self::Check(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.input.output.as_deref(),

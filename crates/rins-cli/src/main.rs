@@ -35,6 +35,10 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Command::Convert(convert) => commands::convert::run(convert, arguments.overwrite()),
         Command::Check(input) => commands::check::run(&input.rig),
         Command::Align(input) => commands::align::run(&input.rig),
+        Command::MonteCarlo(campaign) => {
+            commands::monte_carlo::run(campaign, arguments.overwrite())
+        }
+        Command::Merge(merge) => commands::merge::run(merge, arguments.overwrite()),
         Command::Navigate(navigate) => commands::navigate::run(navigate),
         Command::Calibrate(calibrate) => commands::calibrate::run(calibrate),
         Command::Observe(observe) => commands::observe::run(observe),

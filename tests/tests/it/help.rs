@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 12] = [
     "",
     "demo",
     "init",
@@ -19,6 +19,8 @@ const COMMANDS: [&str; 10] = [
     "navigate",
     "calibrate",
     "observe",
+    "monte-carlo",
+    "merge",
 ];
 
 fn snapshot(command: &str) -> PathBuf {

@@ -10,6 +10,7 @@ mod hostile;
 mod identifiability;
 mod interrupted;
 mod measured;
+mod monte_carlo;
 mod no_room;
 mod observe;
 mod repairs;

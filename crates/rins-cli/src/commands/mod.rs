@@ -6,6 +6,8 @@ pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod init;
+pub(crate) mod merge;
+pub(crate) mod monte_carlo;
 pub(crate) mod navigate;
 pub(crate) mod observe;
 pub(crate) mod repairs;

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use anyhow::Context;
 use rins_calibration::{AxisAttitude, Setup, TableSpec};
-use rins_io::Loaded;
+use rins_io::{Loaded, Rig};
+use rins_motion::Station;
 
 /// Reads a rig file and the log that it names.
 pub(crate) fn load(rig: &Path) -> anyhow::Result<Loaded> {
@@ -19,7 +20,11 @@ pub(crate) fn load(rig: &Path) -> anyhow::Result<Loaded> {
 /// Where the rig gives no figure for the direction of the axis, it is taken for now to be as steady
 /// as the encoder reads.
 pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
-    let rig = &loaded.rig;
+    setup_at(&loaded.rig, loaded.station)
+}
+
+/// [`setup`] where the station is known.
+pub(crate) fn setup_at(rig: &Rig, station: Station) -> anyhow::Result<Setup> {
     let imu = *rig.require_imu().context("the calibration needs the IMU's data sheet")?;
     let encoder = rig.log.table_angle();
     let read = encoder.and_then(|angle| angle.noise).unwrap_or(TableSpec::DEFAULT_ANGLE_NOISE);
@@ -29,7 +34,7 @@ pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
     let wobble = rig.table.as_ref().and_then(|table| table.wobble).unwrap_or(angle_noise);
     let latency = encoder.and_then(|angle| angle.latency).unwrap_or_default();
     Ok(Setup {
-        station: loaded.station,
+        station,
         axis: rig
             .attitude
             .map(|attitude| AxisAttitude { angles: attitude.angles, sigma: attitude.sigma }),

@@ -1,6 +1,7 @@
 //! How results are shown: numbers in the units of their field, tables and plots.
 
 mod calibration;
+pub(crate) mod campaign;
 mod navigation;
 pub(crate) mod table;
 

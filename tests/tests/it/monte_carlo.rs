@@ -1,0 +1,158 @@
+//! Campaigns: the same bytes whatever the threads, the shards and the interruptions.
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use rins_tests::rins;
+use tempfile::tempdir;
+
+use crate::support::{list, number, result_in, rins_in};
+
+/// The paper's simulation for 36 s, at two rates and without biases.
+fn scenario(folder: &Path) {
+    let paper = rins_tests::workspace().join("scenarios/paper/simulation.toml");
+    let text = fs::read_to_string(paper).unwrap();
+    let short = text.replace("\"360 s\"", "\"36 s\"").replace(
+        "bias = [\"0.05 deg/h\", \"0.05 deg/h\", \"0.05 deg/h\"]",
+        "bias = [\"0 deg/h\", \"0 deg/h\", \"0 deg/h\"]",
+    );
+    assert!(short != text && !short.contains("0.05 deg/h\""));
+    let grid = "\n[grid]\n\"table.profile.0.rate\" = { from = \"5 deg/s\", to = \"10 deg/s\", steps = 2 }\n";
+    fs::write(folder.join("scenario.toml"), short + grid).unwrap();
+}
+
+const CAMPAIGN: &str = "monte-carlo scenario.toml --runs 150 --seed 3";
+
+fn bytes(folder: &Path, name: &str) -> Vec<u8> {
+    fs::read(folder.join(name)).unwrap()
+}
+
+#[test]
+fn bytes_are_the_same_for_any_threads_and_shards() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    result_in(folder, &format!("{CAMPAIGN} -o one.parquet --threads 1"));
+    result_in(folder, &format!("{CAMPAIGN} -o three.parquet --threads 3"));
+    assert!(bytes(folder, "one.parquet") == bytes(folder, "three.parquet"));
+    for shard in 1..=2 {
+        result_in(folder, &format!("{CAMPAIGN} -o part{shard}.parquet --shard {shard}/2"));
+    }
+    result_in(folder, "merge part2.parquet part1.parquet -o merged.parquet");
+    assert!(bytes(folder, "one.parquet") == bytes(folder, "merged.parquet"));
+    let page = fs::read_to_string(folder.join("merged.html")).unwrap();
+    assert!(page.contains("Errors over the sigma claimed"));
+    let left: Vec<_> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert!(left.iter().all(|name| !name.to_string_lossy().ends_with(".part")), "{left:?}");
+}
+
+#[test]
+fn an_interrupted_campaign_is_continued_to_the_same_bytes() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    result_in(folder, &format!("{CAMPAIGN} -o whole.parquet"));
+
+    let mut command = rins();
+    command.args(CAMPAIGN.split_whitespace()).args(["-o", "cut.parquet", "--threads", "1"]);
+    let mut child =
+        command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let journal = folder.join("cut.parquet.part");
+    let finished = || fs::read_to_string(&journal).is_ok_and(|text| text.contains("\nend\n"));
+    let begun = Instant::now();
+    while !finished() && begun.elapsed() < Duration::from_secs(60) {
+        sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    if !folder.join("cut.parquet").exists() {
+        let refused = rins_in(folder, &format!("{CAMPAIGN} -o cut.parquet"));
+        assert_eq!(refused.code, Some(1));
+        assert!(refused.err.contains("--resume"), "{}", refused.err);
+        let other = "monte-carlo scenario.toml --runs 150 --seed 4 --resume -o cut.parquet";
+        let other = rins_in(folder, other);
+        assert_eq!(other.code, Some(1));
+        assert!(other.err.contains("another campaign"), "{}", other.err);
+        // What a crash leaves of a line does not count.
+        let mut text = fs::read_to_string(&journal).unwrap();
+        text.push_str("chunk 1 64\n3ff0");
+        fs::write(&journal, text).unwrap();
+        result_in(folder, &format!("{CAMPAIGN} -o cut.parquet --resume"));
+    }
+    assert!(bytes(folder, "whole.parquet") == bytes(folder, "cut.parquet"));
+}
+
+#[test]
+fn a_campaign_says_whether_covariances_are_honest() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    let result = result_in(folder, &format!("{CAMPAIGN} -o a.parquet"));
+    assert_eq!(result["command"], "monte-carlo");
+    let cells = list(&result, "/cells");
+    assert_eq!(cells.len(), 2);
+    assert_eq!(cells[1]["grid"]["table.profile.0.rate"], "10 deg/s");
+    for cell in cells {
+        assert_eq!(number(cell, "/runs").to_bits(), 150_f64.to_bits());
+        let nees = number(cell, "/nees");
+        assert!((2.0..4.0).contains(&nees), "{nees}");
+        assert!(number(cell, "/parameters/2/coverage_95") > 0.85);
+    }
+    // A misalignment shows as the rate does: half the rate, twice the sigma.
+    let claimed = |cell: usize| number(&cells[cell], "/parameters/0/claimed");
+    assert!((claimed(0) / claimed(1) - 2.0).abs() < 0.1);
+}
+
+#[test]
+fn parts_that_do_not_belong_together_are_refused() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    for (seed, shard) in [(3, 1), (4, 2)] {
+        let campaign = format!("monte-carlo scenario.toml --runs 70 --seed {seed}");
+        result_in(folder, &format!("{campaign} --shard {shard}/2 -o s{seed}.parquet"));
+    }
+    fs::write(folder.join("text.parquet"), "no Parquet").unwrap();
+    for (parts, word) in [
+        ("s3.parquet s4.parquet", "not of the campaign"),
+        ("s3.parquet", "shard 2 is missing"),
+        ("s3.parquet s3.parquet", "given twice"),
+        ("text.parquet", "text.parquet"),
+        ("none.parquet", "none.parquet"),
+    ] {
+        let refused = rins_in(folder, &format!("merge {parts} -o whole.parquet"));
+        assert_eq!(refused.code, Some(1), "{parts}");
+        assert!(refused.err.contains(word), "{parts}: {}", refused.err);
+        assert!(!folder.join("whole.parquet").exists());
+    }
+}
+
+#[test]
+fn a_grid_that_is_none_is_refused_with_its_line() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    let text = fs::read_to_string(folder.join("scenario.toml")).unwrap();
+    let (base, _) = text.split_once("\n[grid]\n").unwrap();
+    for (grid, words) in [
+        ("\"table.profile.3.rate\" = [\"1 deg/s\"]", ["table.profile.3.rate", "no "]),
+        ("\"imu.gyro.noise\" = \"0.1 deg/h/sqrt(Hz)\"", ["imu.gyro.noise", "a list"]),
+        ("\"imu.gyro.noise\" = [\"0.1 deg/h\"]", ["noise", "deg/h"]),
+        ("\"imu.gyro.noize\" = [\"0.1 deg/h\"]", ["noize", "unknown"]),
+        (
+            "\"site.height\" = { from = \"0 m\", to = \"1 km\", steps = 3 }",
+            ["site.height", "a range"],
+        ),
+    ] {
+        fs::write(folder.join("bad.toml"), format!("{base}\n[grid]\n{grid}\n")).unwrap();
+        let refused = rins_in(folder, "monte-carlo bad.toml --runs 2 -o x.parquet");
+        assert_eq!(refused.code, Some(1), "{grid}: {}", refused.out);
+        assert!(refused.err.contains("bad.toml:"), "{grid}: {}", refused.err);
+        for word in words {
+            assert!(refused.err.contains(word), "{grid}: {}", refused.err);
+        }
+    }
+}
