@@ -53,7 +53,7 @@ pub use alignment::{
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, SignedAxes,
-    Suspicion, Timing, inspect,
+    Suspicion, TableLag, Timing, inspect,
 };
 pub use recording::Recording;
 pub use rest::{RestMean, rest_spans};

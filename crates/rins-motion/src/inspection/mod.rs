@@ -2,6 +2,8 @@
 
 mod channel;
 mod correction;
+mod exchange;
+mod lag;
 mod orientation;
 mod spin;
 mod suspicion;
@@ -10,10 +12,11 @@ mod turning;
 
 use std::ops::Range;
 
-use rins_frames::units::STANDARD_GRAVITY;
+use rins_frames::units::{MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EARTH_RATE, EulerAngles};
 
 pub use correction::{Correction, SignedAxes};
+pub use lag::TableLag;
 pub use suspicion::Suspicion;
 pub use timing::Timing;
 
@@ -93,6 +96,8 @@ pub struct Inspection {
     pub turns: f64,
     /// The gyro z's turn over the table's, its bias left out, if there is a table that turns.
     pub spin_ratio: Option<f64>,
+    /// How late the table's angle is, if it was read and the rate changes.
+    pub table_lag: Option<TableLag>,
     /// For each channel the step between neighbouring readings, if there are few of them (SI units of an increment).
     pub resolution: [Option<f64>; 6],
     /// For each channel the longest run of equal readings.
@@ -160,10 +165,13 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         .and_then(|(rest, station)| gravity_suspicion(rest, station, &timing));
     let table_angle = table_angle(recording);
     let spin = Spin::of(recording, table_angle.as_deref());
+    let exchanged = exchange::suspicion(recording, table_angle.as_deref());
     let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected));
-    let right_units = gravity.is_none() && spin.as_ref().is_none_or(Spin::counts);
-    suspicions.extend(gravity);
-    suspicions.extend(spun);
+    let right_units =
+        gravity.is_none() && exchanged.is_none() && spin.as_ref().is_none_or(Spin::counts);
+    // What exchanged columns look like beside is nothing of its own.
+    let of_units = if exchanged.is_some() { [exchanged, None] } else { [gravity, spun] };
+    suspicions.extend(of_units.into_iter().flatten());
     // Directions mean something once units are right.
     if right_units {
         let rest = longest.map(|rest| {
@@ -179,6 +187,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         turns: recording.increments.iter().map(|s| s.angle.components().z.abs()).sum::<f64>()
             / std::f64::consts::TAU,
         spin_ratio: spin.map(|spin| spin.ratio),
+        table_lag: TableLag::of(recording),
         resolution: std::array::from_fn(|index| channel::resolution(&channels[index])),
         longest_repeat,
         earth_rate_visible: rests
@@ -207,6 +216,8 @@ fn gravity_suspicion(rest: &RestSeen, station: &Station, timing: &Timing) -> Opt
             (1.0 / STANDARD_GRAVITY, "readings in g were declared as m/s^2"),
             (1e3, "readings in mg were declared as g"),
             (1e-3, "readings in g were declared as mg"),
+            (1.0 / (1e3 * MICRO_G), "readings in mg were declared as m/s^2"),
+            (1e3 * MICRO_G, "readings in m/s^2 were declared as mg"),
             (timing.interval, "velocity increments were declared as specific force"),
             (1.0 / timing.interval, "specific force was declared as velocity increments"),
         ],

@@ -22,6 +22,13 @@ pub enum Suspicion {
         /// The mistake that would explain it.
         cause: Option<&'static str>,
     },
+    /// The accelerometers follow the table's turn and the gyros do not: their columns are exchanged.
+    Triads {
+        /// The closest that a gyro follows the table's rate, as a correlation.
+        gyro: f64,
+        /// The same of an accelerometer.
+        accel: f64,
+    },
     /// Another axis than z counts the table's turn.
     SpinAxis {
         /// The channel that follows the table.

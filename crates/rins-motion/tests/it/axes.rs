@@ -13,7 +13,7 @@ use crate::run::{ANGLES, CHIP, NAVIGATION, assert_unsuspected, expected, record,
 use crate::support::{PAPER_LATITUDE, station};
 
 /// The recording with its gyros and accelerometers read along other axes.
-fn read_as(recording: &Recording, gyro: SignedAxes, accel: SignedAxes) -> Recording {
+pub(crate) fn read_as(recording: &Recording, gyro: SignedAxes, accel: SignedAxes) -> Recording {
     let along = |axes: SignedAxes, vector: InFrame<Body>| {
         InFrame::from_components(axes.apply(vector.components()))
     };
@@ -34,7 +34,7 @@ fn axes(source: [usize; 3], sign: [f64; 3]) -> SignedAxes {
 }
 
 /// The axes by which what `axes` has mixed up is right again.
-fn undone(axes: SignedAxes) -> SignedAxes {
+pub(crate) fn undone(axes: SignedAxes) -> SignedAxes {
     let mut inverse = axes;
     for row in 0..3 {
         inverse.source[axes.source[row]] = row;
@@ -50,7 +50,7 @@ fn without_table(recording: Recording) -> Recording {
 const RIGHT: SignedAxes = SignedAxes::IDENTITY;
 
 /// The corrections that every suspicion about directions tells.
-fn corrections(recording: &Recording, expected: &Expected) -> Vec<Correction> {
+pub(crate) fn corrections(recording: &Recording, expected: &Expected) -> Vec<Correction> {
     let inspection = inspect(recording, expected);
     let mut told = inspection.suspicions.iter().filter(|suspicion| {
         matches!(

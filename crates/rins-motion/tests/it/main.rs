@@ -7,6 +7,7 @@ mod closed_form;
 mod fine_alignment;
 mod inspection;
 mod linear_model;
+mod mistakes;
 mod moving;
 mod oscillations;
 mod rest;

@@ -24,6 +24,10 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
         Suspicion::SpinScale { ratio, cause } => {
             format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(*cause))
         }
+        Suspicion::Triads { gyro, accel } => format!(
+            "an accelerometer follows the table's rate (correlation {accel:.3}) and no gyro does ({gyro:.3} at most): \
+             the columns of gyro and accel are exchanged"
+        ),
         Suspicion::SpinAxis { channel, ratio } => format!(
             "{channel} counts {ratio:.4} of the table's turn and gyro.z does not: the axes are exchanged; set `axes` \
              under [log] gyro, or [axis] spin"

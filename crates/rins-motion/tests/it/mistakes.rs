@@ -1,0 +1,163 @@
+//! Every mistake that a rig file can make of axes, units and columns is named with what undoes it.
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G, STANDARD_GRAVITY};
+use rins_frames::{EulerAngles, InFrame, Increments};
+use rins_motion::{Correction, Expected, ExpectedAxis, Recording, SignedAxes, Suspicion, inspect};
+use rins_testing::assert_close;
+
+use crate::axes::{corrections, read_as, undone};
+use crate::run::{CHIP, INTERVAL, NAVIGATION, assert_unsuspected, expected, profile};
+use crate::run::{record, record_tilted, usual};
+
+/// All orders and signs of three axes but the right one.
+fn mistakes() -> Vec<SignedAxes> {
+    let orders = [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
+    let signs =
+        |bits: u8| std::array::from_fn(|axis| if bits >> axis & 1 == 1 { -1.0 } else { 1.0 });
+    let all = orders.into_iter().flat_map(|source| (0..8).map(move |bits| (source, signs(bits))));
+    let all = all.map(|(source, sign)| SignedAxes { source, sign });
+    all.filter(|axes| *axes != SignedAxes::IDENTITY).collect()
+}
+
+#[test]
+fn every_order_and_sign_of_axes_is_named_with_its_correction() {
+    let recording = record(usual(), NAVIGATION, 20);
+    let right = SignedAxes::IDENTITY;
+    assert_eq!(mistakes().len(), 47);
+    for mistake in mistakes() {
+        let undo = undone(mistake);
+        for (gyro, accel, correction) in [
+            (mistake, right, Correction::Gyro(undo)),
+            (right, mistake, Correction::Accel(undo)),
+            (mistake, mistake, Correction::Imu(undo)),
+        ] {
+            let wrong = read_as(&recording, gyro, accel);
+            let told = corrections(&wrong, &expected(NAVIGATION));
+            assert!(told.contains(&correction), "{correction:?} is not among {told:?}");
+            assert!(told.len() <= 2, "{correction:?} is one of {told:?}");
+        }
+    }
+}
+
+/// The recording with its readings multiplied.
+fn scaled(recording: &Recording, gyro: f64, accel: f64, table: f64) -> Recording {
+    let increments = recording.increments.iter().map(|sample| Increments {
+        angle: sample.angle * gyro,
+        velocity: sample.velocity * accel,
+        ..*sample
+    });
+    let table_angle = recording.table_angle.as_ref();
+    let table_angle = table_angle.map(|list| list.iter().map(|angle| angle * table).collect());
+    Recording { increments: increments.collect(), table_angle, ..recording.clone() }
+}
+
+/// A unit that was meant and the one that was said, as the factor by which readings are then wrong,
+/// and what the cause is to say.
+const GYRO_UNITS: [(f64, &str); 8] = [
+    (1.0 / DEG, "readings in deg were declared as rad"),
+    (DEG, "readings in rad were declared as deg"),
+    (DEG / DEG_PER_HOUR, "readings in deg/h were declared as deg/s"),
+    (DEG_PER_HOUR / DEG, "readings in deg/s were declared as deg/h"),
+    (1.0 / DEG_PER_HOUR, "readings in arcsec were declared as rad, or in deg/h as rad/s"),
+    (DEG_PER_HOUR, "readings in rad were declared as arcsec, or in rad/s as deg/h"),
+    (INTERVAL, "angle increments were declared as rates"),
+    (1.0 / INTERVAL, "rates were declared as angle increments"),
+];
+
+const ACCEL_UNITS: [(f64, &str); 8] = [
+    (STANDARD_GRAVITY, "readings in m/s^2 were declared as g"),
+    (1.0 / STANDARD_GRAVITY, "readings in g were declared as m/s^2"),
+    (1e3, "readings in mg were declared as g"),
+    (1e-3, "readings in g were declared as mg"),
+    (1.0 / (1e3 * MICRO_G), "readings in mg were declared as m/s^2"),
+    (1e3 * MICRO_G, "readings in m/s^2 were declared as mg"),
+    (INTERVAL, "velocity increments were declared as specific force"),
+    (1.0 / INTERVAL, "specific force was declared as velocity increments"),
+];
+
+fn causes(recording: &Recording) -> Vec<&'static str> {
+    let found = inspect(recording, &expected(NAVIGATION)).suspicions;
+    let cause = |suspicion: &Suspicion| match suspicion {
+        Suspicion::Gravity { cause, .. } | Suspicion::SpinScale { cause, .. } => *cause,
+        _ => None,
+    };
+    found.iter().filter_map(cause).collect()
+}
+
+#[test]
+fn every_unit_taken_for_another_is_named() {
+    let recording = record(usual(), NAVIGATION, 21);
+    for (factor, cause) in GYRO_UNITS {
+        let told = causes(&scaled(&recording, factor, 1.0, 1.0));
+        assert!(matches!(told[..], [told] if told.starts_with(cause)), "{cause}: {told:?}");
+    }
+    for (factor, cause) in ACCEL_UNITS {
+        assert_eq!(causes(&scaled(&recording, 1.0, factor, 1.0)), [cause]);
+    }
+    for (factor, cause) in [
+        (DEG, "readings in deg were declared as rad, or the table's unit is wrong"),
+        (1.0 / DEG, "readings in rad were declared as deg, or the table's unit is wrong"),
+        (-1.0, "the table's sense is opposite to the gyro's"),
+        (1.0 / 0.9, "a table angle in gon was declared as deg, or gyros in deg as gon"),
+    ] {
+        assert_eq!(causes(&scaled(&recording, 1.0, 1.0, factor)), [cause], "{factor}");
+    }
+}
+
+/// Accelerometers read as gyros and gyros as accelerometers, each in the other's unit.
+#[test]
+fn exchanged_triads_are_named_whatever_their_units() {
+    let recording = record(usual(), NAVIGATION, 22);
+    for (gyro_unit, accel_unit) in
+        [(1.0, 1.0), (DEG, 1.0), (DEG_PER_HOUR, STANDARD_GRAVITY), (DEG, 1e3 * MICRO_G)]
+    {
+        let mut wrong = recording.clone();
+        for sample in &mut wrong.increments {
+            let (angle, velocity) = (*sample.angle.components(), *sample.velocity.components());
+            sample.angle = InFrame::from_components(velocity / accel_unit * gyro_unit);
+            sample.velocity = InFrame::from_components(angle / gyro_unit * accel_unit);
+        }
+        let found = inspect(&wrong, &expected(NAVIGATION)).suspicions;
+        let named = |suspicion: &Suspicion| matches!(suspicion, Suspicion::Triads { gyro, accel } if *accel > 0.99 && *gyro < 0.3);
+        assert!(found.iter().any(named), "{found:?}");
+    }
+}
+
+/// Of a hundred runs without a mistake, in all attitudes and places, none is suspected.
+#[test]
+fn a_hundred_good_runs_are_not_suspected() {
+    let mut rng = Pcg64::seed_from_u64(23);
+    for seed in 0..100 {
+        let mut angle = |most: f64| rng.random_range(-most..most) * DEG;
+        let angles = EulerAngles { roll: angle(60.0), pitch: angle(60.0), yaw: angle(180.0) };
+        let rate = angle(20.0) / DEG;
+        let rate = rate + 3.0_f64.copysign(rate);
+        let grade = if seed % 4 == 3 { CHIP } else { NAVIGATION };
+        let turns = profile(&[(0.0, 40.0), (rate, 40.0), (-1.5 * rate, 30.0), (0.0, 10.0)]);
+        let recording = record_tilted(angles.dcm(), turns, grade, 1000 + seed);
+        let axis = Some(ExpectedAxis { angles, sigma: 0.1 * DEG });
+        assert_unsuspected(&recording, &Expected { axis, ..expected(grade) });
+    }
+}
+
+#[test]
+fn a_late_table_is_seen_by_so_much() {
+    let recording = record(usual(), NAVIGATION, 24);
+    let on_time = inspect(&recording, &expected(NAVIGATION)).table_lag.unwrap();
+    assert!(on_time.latency.abs() < 20e-6 && on_time.sigma < 10e-6, "{on_time:?}");
+    assert_close!(on_time.ratio, 1.0, 1e-6);
+    // The angle at each stamp is that of 1.5 ms before: 0.075 of an interval.
+    let mut late = recording.clone();
+    let angle = late.table_angle.as_mut().unwrap();
+    for index in (1..angle.len()).rev() {
+        angle[index] -= 0.0015 / INTERVAL * (angle[index] - angle[index - 1]);
+    }
+    let lag = inspect(&late, &expected(NAVIGATION)).table_lag.unwrap();
+    assert_close!(lag.latency - on_time.latency, 0.0015, 10e-6);
+    // Of a table that turns at one rate nothing is late.
+    let steady = record(profile(&[(10.0, 60.0)]), NAVIGATION, 25);
+    let from = steady.slice(500, steady.len());
+    assert_eq!(inspect(&from, &expected(NAVIGATION)).table_lag, None);
+}
