@@ -17,3 +17,4 @@ mod repairs;
 mod round_trip;
 mod support;
 mod synthetic;
+mod verdicts;

@@ -1,6 +1,8 @@
 //! `rins check`: what a run holds, and what looks wrong with it.
 
 mod oddities;
+mod shows;
+mod verdicts;
 mod words;
 
 use std::fmt::Write as _;
@@ -13,6 +15,7 @@ use rins_motion::{CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, R
 use serde_json::{Value, json};
 
 use self::oddities::oddities;
+use self::verdicts::{Verdict, verdicts};
 pub(crate) use self::words::suspicion_in_words;
 use crate::commands::align::table;
 use crate::commands::repairs::repairs;
@@ -34,7 +37,7 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     if inspection.rests.len() > 1 {
         let _ = writeln!(text, "\n  rests\n{}", aligned(&rests(&inspection, &loaded)));
     }
-    text.push('\n');
+    let _ = writeln!(text, "\n{}", aligned(&judged(&inspection, &loaded)[1..]));
     for oddity in &oddities {
         let _ = writeln!(text, "  ! {oddity}");
     }
@@ -133,6 +136,14 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         ));
     }
     rows
+}
+
+/// The verdicts as rows of a table, below a row of headings.
+fn judged(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
+    let head = ["on", "verdict", ""].map(String::from).to_vec();
+    let row = |verdict: Verdict| vec![verdict.item.into(), verdict.word().into(), verdict.says];
+    let rows = verdicts(inspection, loaded).into_iter().map(row);
+    std::iter::once(head).chain(rows).collect()
 }
 
 fn gaps(inspection: &Inspection, loaded: &Loaded) -> String {
@@ -262,6 +273,11 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
         sections: vec![
             Section { heading: "What is in it".into(), intro: String::new(), items },
             Section {
+                heading: "Verdicts".into(),
+                intro: "One on each thing that can be wrong with a log: good, a fact that is neither, odd, or bad.".into(),
+                items: vec![Item::Table(table(&judged(inspection, loaded)))],
+            },
+            Section {
                 heading: "Readings".into(),
                 intro: "Mean rates and specific forces over each interval, along the body axes."
                     .into(),
@@ -362,6 +378,7 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         "expected_gravity_m_s2": loaded.station.gravity,
         "suspicions": suspicions,
         "oddities": oddities,
+        "verdicts": verdicts(inspection, loaded).iter().map(Verdict::json).collect::<Vec<_>>(),
         "repairs": repairs(&loaded.rig, &loaded.summary),
     })
 }
