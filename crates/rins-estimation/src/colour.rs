@@ -108,7 +108,7 @@ impl Colours {
     /// For a run of `duration` in epochs of `epoch` \[s\].
     ///
     /// Flicker of density `B²/2πf` is a ladder of processes whose times are a factor of four apart, each of
-    /// variance `B² ln 4 / π`; it reaches from an epoch to eight times the run. What lasts less is white as
+    /// variance `B² ln 4 / π`; it reaches from an epoch to sixteen times the run. What lasts less is white as
     /// seen in epochs.
     pub(crate) fn of(strengths: &TriadStrengths, epoch: f64, duration: f64) -> Self {
         let mut colours = Self::default();
@@ -118,7 +118,7 @@ impl Colours {
             let mut time = 0.75 * epoch;
             // Those faster still: 2 σ² (τ/4 + τ/16 + ...).
             colours.white = 2.0 * variance * time / (LADDER - 1.0);
-            while time < 8.0 * duration {
+            while time < 16.0 * duration {
                 colours.processes.push(Process { time, strength: variance });
                 time *= LADDER;
             }
