@@ -9,9 +9,9 @@ use crate::filter::MEASUREMENTS;
 /// What the whitened innovations say of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Consistency {
-    /// The mean normalised innovation squared; [`MEASUREMENTS`] if the model is right.
+    /// The mean normalised innovation squared.
     pub nis_mean: f64,
-    /// What it should be.
+    /// What it should be: the number of channels.
     pub nis_dof: usize,
     /// How probable a mean so far off is, if the model is right (two-sided).
     pub nis_p: f64,
@@ -44,6 +44,8 @@ impl Consistency {
     pub const SIGNIFICANCE: f64 = 0.005;
 
     /// The consistency of whitened innovations in order of time; `None` if there are fewer than 8.
+    ///
+    /// A channel that is zero throughout is one that this run does not have, and counts for nothing.
     pub fn of(innovations: &[SVector<f64, MEASUREMENTS>]) -> Option<Self> {
         const FEWEST: usize = 8;
         if innovations.len() < FEWEST {
@@ -51,7 +53,9 @@ impl Consistency {
         }
         let count = innovations.len() as f64;
         let sum: f64 = innovations.iter().map(SVector::norm_squared).sum();
-        let dof = MEASUREMENTS as f64;
+        let there = |channel: &usize| innovations.iter().any(|nu| nu[*channel] != 0.0);
+        let channels = (0..MEASUREMENTS).filter(there).count();
+        let dof = channels as f64;
         // The sum is chi-squared with so many degrees of freedom that it is normal.
         let off = (sum - count * dof) / (2.0 * count * dof).sqrt();
         let mut channel_rms = [0.0; MEASUREMENTS];
@@ -68,7 +72,7 @@ impl Consistency {
         }
         Some(Self {
             nis_mean: sum / count,
-            nis_dof: MEASUREMENTS,
+            nis_dof: channels,
             nis_p: erfc(off.abs() / std::f64::consts::SQRT_2),
             whiteness_p: (least_p * dof).min(1.0),
             channel_rms,
@@ -212,6 +216,16 @@ mod tests {
         assert_eq!(verdict(|_, innovation| *innovation *= 0.9), Verdict::NoiseOverstated);
         assert_eq!(verdict(|_, innovation| *innovation *= 1.1), Verdict::Misfit);
         assert_eq!(verdict(|_, innovation| innovation[1] += 0.5), Verdict::Misfit);
+    }
+
+    #[test]
+    fn a_channel_that_is_not_there_counts_for_nothing() {
+        let mut innovations = white(5);
+        for innovation in &mut innovations {
+            innovation[2] = 0.0;
+        }
+        let consistency = Consistency::of(&innovations).unwrap();
+        assert_eq!((consistency.nis_dof, consistency.verdict()), (5, Verdict::Fits));
     }
 
     #[test]
