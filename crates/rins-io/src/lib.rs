@@ -60,7 +60,8 @@ pub use run::truth_json;
 pub use scenario::ScenarioFile;
 pub use suggestion::nearest;
 pub use write::{
-    Converted, Difference, LogFile, WriteProblem, convert, write_log, write_recording,
+    Converted, Difference, LogFile, WriteProblem, convert, convert_changed, write_log,
+    write_recording,
 };
 
 /// What only a build for fuzzing has.

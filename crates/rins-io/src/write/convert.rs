@@ -52,12 +52,29 @@ pub fn convert(
     format: LogFile,
     overwrite: Overwrite,
 ) -> Result<Converted, IoError> {
+    convert_changed(rig, log, format, overwrite, |_| Ok("Written by `rins convert`.".into()))
+}
+
+/// The same with what is done to the run by `change`, which says in a line what the new rig file begins with.
+///
+/// What is not the same to the last bit is told against the run as it was changed.
+///
+/// # Errors
+/// As [`convert`], and what `change` refuses.
+pub fn convert_changed<E: From<IoError>>(
+    rig: &Path,
+    log: &Path,
+    format: LogFile,
+    overwrite: Overwrite,
+    change: impl FnOnce(&mut Loaded) -> Result<String, E>,
+) -> Result<Converted, E> {
     let document = Document::read(rig)?;
-    let loaded = read_log(Rig::read(rig)?, LogPolicy::default())?;
+    let mut loaded = read_log(Rig::read(rig)?, LogPolicy::default())?;
+    let opening = change(&mut loaded)?;
     let new_rig = log.with_extension("toml");
     refuse_inputs(&loaded, &[log, &new_rig])?;
     let (loaded, commanded) = without_commanded(loaded);
-    let description = Description { document: &document, loaded: &loaded, format };
+    let description = Description { document: &document, loaded: &loaded, format, opening };
     let mut least_differences = Vec::new();
     write_files(&[log, &new_rig], overwrite, |folder| {
         let name = |path: &Path| PathBuf::from(path.file_name().unwrap_or_default());
@@ -142,6 +159,8 @@ struct Description<'d> {
     document: &'d Document,
     loaded: &'d Loaded,
     format: LogFile,
+    /// What its rig file begins with, in a line.
+    opening: String,
 }
 
 impl Description<'_> {
@@ -163,8 +182,8 @@ impl Description<'_> {
     }
 
     fn rig_toml(&self, log_name: &str, rate: Option<f64>) -> String {
-        let Self { document, loaded, .. } = self;
-        let mut text = String::from("# Written by `rins convert`.\n");
+        let Self { document, loaded, opening, .. } = self;
+        let mut text = format!("# {}\n", opening.replace(char::is_control, " "));
         if loaded.rig.station.is_none() {
             let site = loaded.station.site;
             let angle = |angle: f64| match inverted(angle, angle / DEG, |degrees| degrees * DEG) {

@@ -18,7 +18,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 pub use compare::Difference;
-pub use convert::{Converted, convert};
+pub use convert::{Converted, convert, convert_changed};
 pub use csv::write_recording;
 
 use crate::error::IoError;
