@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use rins_io::quantity::kinds;
 use rins_io::{LogFile, Overwrite};
 
@@ -24,6 +25,22 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
+    /// The command line, or the end of the program where it cannot be meant.
+    pub(crate) fn read() -> Self {
+        let arguments = Self::parse();
+        let refusal = match &arguments.command {
+            Command::Calibrate(calibrate) => calibrate.refusal().map(|why| ("calibrate", why)),
+            _ => None,
+        };
+        if let Some((name, (kind, message))) = refusal {
+            let mut command = Self::command();
+            command.build();
+            let of = command.find_subcommand_mut(name).expect("the command has just been read");
+            of.error(kind, message).exit();
+        }
+        arguments
+    }
+
     pub(crate) const fn overwrite(&self) -> Overwrite {
         if self.force { Overwrite::Force } else { Overwrite::Refuse }
     }
@@ -45,7 +62,7 @@ pub(crate) enum Command {
     Align(Input),
     /// Navigate freely from rest, with or without a calibration
     Navigate(Navigate),
-    /// Estimate sensor errors from a run on the table, and show what compensating them gains
+    /// Estimate sensor errors from runs on the table, and show what compensating them gains
     Calibrate(Calibrate),
     /// Say what a rotation schedule tells apart before it is run, and which one to run next
     ///
@@ -62,6 +79,10 @@ pub(crate) enum Command {
     MonteCarlo(MonteCarlo),
     /// Join the shards of a campaign
     Merge(Merge),
+    /// Write a log without the errors that a calibration has found, with the rig file that reads it
+    Apply(Apply),
+    /// Say what moved between two calibrations of one IMU
+    Compare(Compare),
 }
 
 #[derive(Debug, Args)]
@@ -157,11 +178,20 @@ pub(crate) struct Navigate {
 
 #[derive(Debug, Args)]
 pub(crate) struct Calibrate {
-    #[command(flatten)]
-    pub(crate) input: Input,
-    /// The error model to estimate
-    #[arg(long, value_enum, default_value_t = Model::Paper12)]
-    pub(crate) model: Model,
+    /// The rig files: one, or several runs of one IMU
+    #[arg(required = true, value_name = "RIG")]
+    pub(crate) rigs: Vec<PathBuf>,
+    /// Folder for result.json, report.html, calibration.toml and model.toml
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// What to estimate: paper12 (`M_xz`, `M_yz` and `S_z` by the paper's filter), full (biases, scale
+    /// errors, misalignments, the axis' attitude), or a model file; by default paper12 for one run with a
+    /// table reading, and full otherwise
+    #[arg(long, value_parser = ModelChoice::parse)]
+    pub(crate) model: Option<ModelChoice>,
+    /// Whether the data sheet's noise is found anew from the data or trusted; paper12 trusts it
+    #[arg(long, value_enum, default_value_t = NoiseChoice::Likely)]
+    pub(crate) noise: NoiseChoice,
 }
 
 #[derive(Debug, Args)]
@@ -208,11 +238,79 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
         .ok_or_else(|| "expected a shard of so many, such as 2/5".into())
 }
 
-/// The error models that can be estimated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Model {
-    /// Position, velocity, attitude, `M_xz`, `M_yz` and `S_z`
+impl Calibrate {
+    /// Why this command line cannot be meant, if it cannot.
+    fn refusal(&self) -> Option<(ErrorKind, String)> {
+        if self.rigs.len() > 1 && self.model == Some(ModelChoice::Paper12) {
+            let message = "--model paper12 takes one rig; full takes several";
+            return Some((ErrorKind::ArgumentConflict, message.into()));
+        }
+        let again =
+            (1..self.rigs.len()).find(|&place| self.rigs[..place].contains(&self.rigs[place]));
+        again.map(|place| {
+            let message = format!("{} is given twice", self.rigs[place].display());
+            (ErrorKind::ValueValidation, message)
+        })
+    }
+}
+
+/// The error model to be estimated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum ModelChoice {
+    /// The paper's, by the paper's filter.
     Paper12,
+    /// All of eq. (1), and the attitude of the axis.
+    Full,
+    /// As a model file lists it.
+    File(PathBuf),
+}
+
+impl ModelChoice {
+    fn parse(text: &str) -> Result<Self, String> {
+        match text {
+            "paper12" => Ok(Self::Paper12),
+            "full" => Ok(Self::Full),
+            path if Path::new(path).extension().is_some_and(|ending| ending == "toml") => {
+                Ok(Self::File(path.into()))
+            }
+            _ => Err("expected paper12, full or a model file such as model.toml".into()),
+        }
+    }
+}
+
+/// What is known of the random errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NoiseChoice {
+    /// The data sheet is a first guess; the most likely strengths are found
+    Likely,
+    /// The data sheet is right
+    Given,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Apply {
+    /// The rig file
+    pub(crate) rig: PathBuf,
+    /// The calibration
+    #[arg(long, value_name = "FILE")]
+    pub(crate) calibration: PathBuf,
+    /// The new log; its rig file lies beside it and ends in .toml
+    #[arg(short, long, value_name = "LOG")]
+    pub(crate) output: PathBuf,
+    /// How to write it; by default .csv, .parquet, .mat, .imu (psins) and .bin (psins-bin) tell
+    #[arg(long, value_enum)]
+    pub(crate) format: Option<Format>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Compare {
+    /// The calibration before
+    pub(crate) before: PathBuf,
+    /// The calibration after
+    pub(crate) after: PathBuf,
+    /// Folder for result.json and report.html
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -287,11 +385,12 @@ impl Command {
             Self::Init(init) => init.output.as_deref(),
             Self::Simulate(simulate) => Some(&simulate.output),
             // These write their two files themselves.
-            Self::Convert(_) | Self::MonteCarlo(_) | Self::Merge(_) => None,
+            Self::Convert(_) | Self::MonteCarlo(_) | Self::Merge(_) | Self::Apply(_) => None,
             Self::Check(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
-            Self::Calibrate(calibrate) => calibrate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),
+            Self::Calibrate(calibrate) => calibrate.output.as_deref(),
+            Self::Compare(compare) => compare.output.as_deref(),
         }
     }
 }

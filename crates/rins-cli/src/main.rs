@@ -3,8 +3,6 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 use crate::args::{Arguments, Command};
 use crate::outcome::Outcome;
 
@@ -16,7 +14,7 @@ mod report;
 mod view;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::read();
     let delivered = run(&arguments).and_then(|outcome| deliver(&arguments, &outcome));
     match delivered {
         Ok(()) => ExitCode::SUCCESS,
@@ -42,6 +40,8 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Command::Navigate(navigate) => commands::navigate::run(navigate),
         Command::Calibrate(calibrate) => commands::calibrate::run(calibrate),
         Command::Observe(observe) => commands::observe::run(observe),
+        Command::Apply(apply) => commands::apply::run(apply, arguments.overwrite()),
+        Command::Compare(compare) => commands::compare::run(compare),
     }
 }
 

@@ -22,7 +22,7 @@ pub(crate) struct Outcome {
     /// For a person in a browser.
     pub(crate) report: Option<Report>,
     /// Further files for the output folder.
-    pub(crate) files: Vec<(&'static str, Vec<u8>)>,
+    pub(crate) files: Vec<(String, Vec<u8>)>,
     /// What else to write into the output folder.
     pub(crate) fill: Option<Fill>,
     /// The whole result, where it is one file and not a folder.
@@ -43,7 +43,9 @@ impl Outcome {
         if let Some(report) = &mut self.report {
             report.summary.extend(repairs.iter().cloned());
         }
-        self.json["repairs"] = repairs.into();
+        let mut all = self.json["repairs"].as_array().cloned().unwrap_or_default();
+        all.extend(repairs.into_iter().map(Value::from));
+        self.json["repairs"] = all.into();
         self
     }
 

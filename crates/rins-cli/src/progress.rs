@@ -14,3 +14,11 @@ pub(crate) fn bar(length: usize, what: &'static str) -> ProgressBar {
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
 }
+
+/// A sign of life for what cannot say how far it has come.
+pub(crate) fn spinner(what: &'static str) -> ProgressBar {
+    let spinner = ProgressBar::new_spinner().with_message(what);
+    spinner.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
+    spinner.enable_steady_tick(Duration::from_millis(200));
+    spinner
+}

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 14] = [
     "",
     "demo",
     "init",
@@ -21,6 +21,8 @@ const COMMANDS: [&str; 12] = [
     "observe",
     "monte-carlo",
     "merge",
+    "apply",
+    "compare",
 ];
 
 fn snapshot(command: &str) -> PathBuf {

@@ -28,7 +28,7 @@ pub(crate) struct Found {
     /// The body's attitude over the rest.
     pub(crate) nav_from_body: Dcm<Nav, Body>,
     /// The 1σ of the error about east, north and up \[rad\]; no third if north was not found.
-    sigma: (f64, f64, Option<f64>),
+    pub(crate) sigma: (f64, f64, Option<f64>),
     /// Why north was not found.
     hidden: Option<AlignmentError>,
     /// The samples of the rest.

@@ -1,28 +1,19 @@
 //! `rins convert`: a log of one format as one of another, with the rig file that reads it.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use rins_io::{Converted, LogFile, Overwrite, convert};
 use serde_json::{Value, json};
 
-use crate::args::Convert;
+use crate::args::{Convert, Format};
 use crate::commands::repairs::repairs;
 use crate::commands::setup::shown;
 use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Convert, overwrite: Overwrite) -> anyhow::Result<Outcome> {
     let Convert { rig, output, format } = arguments;
-    let format = match format {
-        Some(format) => (*format).into(),
-        None => LogFile::of(output).ok_or_else(|| {
-            let names: Vec<&str> = LogFile::ALL.iter().map(|format| format.name()).collect();
-            anyhow::anyhow!(
-                "{}: the name does not tell a format; say --format, one of {}",
-                output.display(),
-                names.join(", ")
-            )
-        })?,
-    };
+    let format = format_of(output, *format)?;
     let converted = convert(rig, output, format, overwrite)?;
     let mut text = format!(
         "Converted {} to {}\n  {} samples as {}, read by {}\n",
@@ -38,8 +29,23 @@ pub(crate) fn run(arguments: &Convert, overwrite: Overwrite) -> anyhow::Result<O
     Ok(Outcome { json: json(&converted, arguments, format), text, ..Outcome::default() })
 }
 
+/// The format of a new log: as it is said, or as its name tells.
+pub(crate) fn format_of(output: &Path, said: Option<Format>) -> anyhow::Result<LogFile> {
+    if let Some(format) = said {
+        return Ok(format.into());
+    }
+    LogFile::of(output).ok_or_else(|| {
+        let names: Vec<&str> = LogFile::ALL.iter().map(|format| format.name()).collect();
+        anyhow::anyhow!(
+            "{}: the name does not tell a format; say --format, one of {}",
+            output.display(),
+            names.join(", ")
+        )
+    })
+}
+
 /// What a user must know of what was written.
-fn remarks(converted: &Converted) -> Vec<String> {
+pub(crate) fn remarks(converted: &Converted) -> Vec<String> {
     let mut lines = Vec::new();
     if converted.differences.is_empty() {
         lines.push("read again, it is the same to the last bit".into());

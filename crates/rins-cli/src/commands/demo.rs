@@ -25,10 +25,10 @@ pub(crate) fn run(demo: &Demo) -> anyhow::Result<Outcome> {
     write("run.csv", LOG)?;
     let loaded = rins_io::read(&rig)?;
     let calibration = calibrated(&loaded)?;
-    let mut outcome = outcome(&calibration, &loaded, Path::new("the embedded demo run"));
+    let mut outcome = outcome(&calibration, &loaded, Path::new("the embedded demo run"))?;
     outcome.json["command"] = "demo".into();
-    outcome.files.push(("rig.toml", RIG.into()));
-    outcome.files.push(("run.csv", LOG.into()));
+    outcome.files.push(("rig.toml".into(), RIG.into()));
+    outcome.files.push(("run.csv".into(), LOG.into()));
     outcome.text.push_str(&next(&demo.output));
     Ok(outcome)
 }

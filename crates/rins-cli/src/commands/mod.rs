@@ -1,8 +1,10 @@
 //! One file a command: from its arguments to its outcome.
 
 pub(crate) mod align;
+pub(crate) mod apply;
 pub(crate) mod calibrate;
 pub(crate) mod check;
+pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod demo;
 pub(crate) mod init;

@@ -84,6 +84,11 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
     })
 }
 
+/// The attitude of a run's axis at table angle zero: given, or found from a rest.
+pub(crate) fn axis_attitude(loaded: &Loaded) -> anyhow::Result<Dcm<Nav, Table>> {
+    Ok(start(loaded)?.nav_from_table)
+}
+
 /// Whether anything tells how the table stood.
 const fn has_table(recording: &Recording) -> bool {
     recording.table_angle.is_some() || recording.table_rate.is_some()

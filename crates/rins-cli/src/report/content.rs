@@ -125,6 +125,13 @@ pub(crate) enum Cell {
         /// Its standard deviation, in the same unit.
         sigma: f64,
     },
+    /// A value and its standard deviation drawn to a scale that is the column's; beyond −1 and 1 they are cut.
+    Bar {
+        /// The value.
+        value: f64,
+        /// Its standard deviation.
+        sigma: f64,
+    },
     /// A word or two that stand out, such as "identifiable".
     Badge(Tone, String),
 }

@@ -7,6 +7,9 @@ use super::number::{estimate, fixed};
 /// A coefficient below this is not worth the reader's eye.
 const SLIGHT: f64 = 0.1;
 
+/// More names than this are set small, their coefficients told by shade and on pointing alone.
+const MANY: usize = 12;
+
 /// The class by which the style sheet colours a tone.
 pub(super) fn class(tone: Tone) -> &'static str {
     match tone {
@@ -44,16 +47,18 @@ pub(super) fn table(table: &Table) -> String {
 
 /// A matrix whose cells are shaded by the size of their coefficient.
 pub(super) fn matrix(matrix: &Matrix) -> String {
+    let many = matrix.labels.len() > MANY;
     let head = each(&matrix.labels, |label| {
         format!("<th scope=\"col\"><span>{}</span></th>", html(label))
     });
     let body = each(matrix.values.iter().enumerate(), |(row, values)| {
         let label = matrix.labels.get(row).map_or("", String::as_str);
-        let cells = each(values.iter().enumerate(), |(column, v)| coefficient(*v, row == column));
+        let cells =
+            each(values.iter().enumerate(), |(column, v)| coefficient(*v, row == column, many));
         format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", html(label))
     });
     let parts = format!("<thead><tr><td></td>{head}</tr></thead>\n<tbody>\n{body}</tbody>");
-    sheet("sheet matrix", &matrix.caption, &parts)
+    sheet(if many { "sheet matrix many" } else { "sheet matrix" }, &matrix.caption, &parts)
 }
 
 fn sheet(class: &str, caption: &str, parts: &str) -> String {
@@ -93,21 +98,40 @@ fn cell(cell: &Cell, sigma_width: usize) -> String {
                  <span class=\"sigma\" style=\"min-width:{sigma_width}ch\">{sigma}</span>"
             )
         }
+        Cell::Bar { value, sigma } => bar(*value, *sigma),
         Cell::Badge(tone, text) => {
             format!("<span class=\"badge {}\">{}</span>", class(*tone), html(text))
         }
     }
 }
 
-fn coefficient(value: f64, own: bool) -> String {
+/// A bar from the middle to the value, and a line over its standard deviation.
+fn bar(value: f64, sigma: f64) -> String {
+    if !(value.is_finite() && sigma.is_finite()) {
+        return String::new();
+    }
+    let place = |part: f64| 50.0 + 50.0 * part.clamp(-1.0, 1.0);
+    let (from, to) = (place(value.min(0.0)), place(value.max(0.0)));
+    let (least, most) = (place(value - sigma), place(value + sigma));
+    format!(
+        "<span class=\"bar\"><i style=\"left:{from:.1}%;width:{:.1}%\"></i>\
+         <b style=\"left:{least:.1}%;width:{:.1}%\"></b></span>",
+        to - from,
+        most - least
+    )
+}
+
+fn coefficient(value: f64, own: bool, many: bool) -> String {
     let shown = fixed((value * 100.0).round() / 100.0, 2);
+    let (text, title) =
+        if many { (String::new(), format!(" title=\"{shown}\"")) } else { (shown, String::new()) };
     if own {
-        return format!("<td class=\"own\">{shown}</td>");
+        return format!("<td class=\"own\">{text}</td>");
     }
     let direction = if value < 0.0 { "down" } else { "up" };
     let slight = if value.abs() >= SLIGHT { "" } else { " slight" };
     let part = if value.is_finite() { value.abs().min(1.0) } else { 0.0 };
-    format!("<td class=\"{direction}{slight}\" style=\"--part:{part:.2}\">{shown}</td>")
+    format!("<td class=\"{direction}{slight}\" style=\"--part:{part:.2}\"{title}>{text}</td>")
 }
 
 #[cfg(test)]
@@ -138,6 +162,22 @@ mod tests {
             rows: estimates.map(|(value, sigma)| vec![Cell::Estimate { value, sigma }]).to_vec(),
         });
         assert_eq!(shown.matches("style=\"min-width:5ch\"").count(), 2, "{shown}");
+    }
+
+    #[test]
+    fn bars_stay_in_their_cell() {
+        assert!(bar(0.5, 0.1).contains("left:50.0%;width:25.0%"), "{}", bar(0.5, 0.1));
+        assert!(bar(-7.0, 1.0).contains("left:0.0%;width:50.0%"), "{}", bar(-7.0, 1.0));
+        assert!(bar(-7.0, 1.0).contains("left:0.0%;width:0.0%"), "{}", bar(-7.0, 1.0));
+        assert_eq!(bar(f64::NAN, 1.0), "");
+    }
+
+    #[test]
+    fn coefficients_of_a_large_matrix_are_told_on_pointing() {
+        let labels: Vec<String> = (0..=MANY).map(|place| format!("p{place}")).collect();
+        let values = vec![vec![-0.5; labels.len()]; labels.len()];
+        let shown = matrix(&Matrix { caption: String::new(), labels, values });
+        assert!(shown.contains("style=\"--part:0.50\" title=\"−0.50\"></td>"), "{shown}");
     }
 
     #[test]

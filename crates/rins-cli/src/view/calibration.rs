@@ -3,25 +3,20 @@
 use std::fmt::Write as _;
 
 use nalgebra::Vector3;
-use rins_calibration::{
-    AttitudeSource, Calibration, Consistency, EstimatePoint, MEASUREMENTS, Parameter, Verdict,
-};
+use rins_calibration::{AttitudeSource, Calibration, EstimatePoint, MEASUREMENTS, Parameter};
 use rins_frames::units::{ARCSEC, DEG};
 
 use crate::report::{
-    Band, Cell, Column, Item, Matrix, Plot, Reference, Report, Scale, Section, Series, Style,
-    Table, Tone,
+    Band, Cell, Column, Item, Matrix, Plot, Report, Scale, Section, Series, Style, Table, Tone,
 };
-use crate::view::navigation::{attitude_plot, velocity_plot};
+use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
+use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::table::aligned;
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
 pub(crate) const SYSTEMATIC_NOTE: &str = "Zero velocity also sees accelerometer biases, which this \
 model does not have. Of a bias of 200 ug about 0.03 arcsec and 0.1 ppm may be in the estimates \
 beyond sigma, of a larger one more.";
-
-/// A change of the velocity error by less than this factor is none.
-const LEAST_GAIN: f64 = 1.5;
 
 /// What the rows of the innovation are.
 const CHANNELS: [&str; MEASUREMENTS] =
@@ -72,12 +67,8 @@ pub(crate) fn calibration_text(calibration: &Calibration, title: &str) -> String
 /// The result in plain words.
 fn summary(calibration: &Calibration) -> Vec<String> {
     let (before, after) = (&calibration.before, &calibration.after);
-    let duration = match (before.history.first(), before.history.last()) {
-        (Some(first), Some(last)) => last.time - first.time,
-        _ => 0.0,
-    };
     let consistency = consistency_sentence(&calibration.consistency);
-    let gain = gain_sentence(before.velocity.norm(), after.velocity.norm(), duration);
+    let gain = gain_sentence("the gyro errors along the spin axis", before, after);
     let mut sentences = vec![gain, consistency];
     let combined = calibration.parameters.iter().filter(|p| !p.identifiable()).count();
     if combined > 0 {
@@ -99,61 +90,6 @@ fn summary(calibration: &Calibration) -> Vec<String> {
     sentences
 }
 
-/// What compensating the estimates does to free navigation.
-fn gain_sentence(before: f64, after: f64, duration: f64) -> String {
-    let navigation =
-        format!("the velocity error after {duration:.0} s of free inertial navigation");
-    if after * LEAST_GAIN < before {
-        // Beyond this the remainder is the noise's, and its ratio means nothing.
-        let ratio = (before / after.max(1e-9)).min(1e6);
-        format!(
-            "Compensating the gyro errors along the spin axis brings {navigation} from {before:.3} m/s down to \
-             {after:.4} m/s, {ratio:.0} times less."
-        )
-    } else if before * LEAST_GAIN < after {
-        format!(
-            "Compensating the estimates makes it worse: {navigation} goes from {before:.3} m/s up to {after:.3} m/s."
-        )
-    } else {
-        format!(
-            "Compensating the estimates gains nothing: {navigation} is {before:.3} m/s before and {after:.3} m/s after."
-        )
-    }
-}
-
-/// A p-value as a person reads it.
-fn probability(p: f64) -> String {
-    if p < 1e-12 {
-        "below 1e-12".into()
-    } else if p < 0.001 {
-        format!("= {p:.0e}")
-    } else {
-        format!("= {p:.3}")
-    }
-}
-
-fn consistency_sentence(consistency: &Consistency) -> String {
-    let figures = format!(
-        "mean NIS {:.2} where {} is expected, whiteness p {}",
-        consistency.nis_mean,
-        consistency.nis_dof,
-        probability(consistency.whiteness_p)
-    );
-    match consistency.verdict() {
-        Verdict::Fits => {
-            format!("The innovations are what the model says they should be ({figures}).")
-        }
-        Verdict::NoiseOverstated => format!(
-            "The innovations are smaller than the rig's noise figures claim ({figures}): the sigmas are too \
-             large rather than too small."
-        ),
-        Verdict::Misfit => format!(
-            "The model does not fit these data ({figures}): there is more in them than its states, \
-             and the sigmas do not hold what that does to the estimates."
-        ),
-    }
-}
-
 /// The report page.
 pub(crate) fn calibration_report(calibration: &Calibration, title: &str, subtitle: &str) -> Report {
     Report {
@@ -163,8 +99,20 @@ pub(crate) fn calibration_report(calibration: &Calibration, title: &str, subtitl
         sections: vec![
             parameters_section(calibration),
             history_section(calibration),
-            navigation_section(calibration),
-            consistency_section(calibration),
+            navigation_section(
+                "Free inertial navigation before and after",
+                &calibration.before,
+                &calibration.after,
+            ),
+            consistency_section(
+                "Does the model fit?",
+                &calibration.consistency,
+                &Residuals {
+                    channels: CHANNELS,
+                    times: &calibration.innovation_times,
+                    innovations: &calibration.innovations,
+                },
+            ),
         ],
     }
 }
@@ -295,98 +243,5 @@ fn history_section(calibration: &Calibration) -> Section {
             "Each estimate with its 3σ band, from where its sigma has come down to {SETTLED} times the last."
         ),
         items: plots.chain(std::iter::once(sigma)).collect(),
-    }
-}
-
-fn navigation_section(calibration: &Calibration) -> Section {
-    let runs = [("before", &calibration.before), ("after", &calibration.after)];
-    let rows = runs.map(|(name, run)| {
-        let number = |value: f64, decimals| Cell::Number { value, decimals };
-        let angles = [run.attitude_error.roll, run.attitude_error.pitch, run.attitude_error.yaw];
-        let mut row = vec![Cell::text(name), number(run.velocity.x, 4), number(run.velocity.y, 4)];
-        row.extend(angles.map(|angle| number(angle / DEG, 5)));
-        row
-    });
-    Section {
-        heading: "Free inertial navigation before and after".into(),
-        intro: "The run navigated freely from rest, twice from the same attitude: as recorded, and compensated. The truth is \
-                a velocity of zero and an axis that does not move."
-            .into(),
-        items: vec![
-            Item::Table(Table {
-                caption: "Errors at the end".into(),
-                columns: ["", "v east [m/s]", "v north [m/s]", "roll [deg]", "pitch [deg]", "yaw [deg]"]
-                    .iter()
-                    .enumerate()
-                    .map(|(place, name)| {
-                        if place == 0 { Column::text(*name) } else { Column::number(*name) }
-                    })
-                    .collect(),
-                rows: rows.to_vec(),
-            }),
-            Item::Plot(velocity_plot(&runs)),
-            Item::Plot(attitude_plot(&runs)),
-        ],
-    }
-}
-
-fn consistency_section(calibration: &Calibration) -> Section {
-    let consistency = &calibration.consistency;
-    let rows = (0..MEASUREMENTS).map(|channel| {
-        vec![
-            Cell::text(CHANNELS[channel]),
-            Cell::Number { value: consistency.channel_rms[channel], decimals: 3 },
-            Cell::Number { value: consistency.periodogram_distance[channel], decimals: 4 },
-        ]
-    });
-    let plots = (0..MEASUREMENTS).map(|channel| {
-        let innovations = &calibration.innovations;
-        let time = calibration.innovation_times.clone();
-        Item::Plot(Plot {
-            title: CHANNELS[channel].into(),
-            x_label: "Time [s]".into(),
-            y_label: "Whitened innovation [σ]".into(),
-            series: vec![Series {
-                name: "innovation".into(),
-                x: time,
-                y: innovations.iter().map(|nu| nu[channel]).collect(),
-                style: Style::Line,
-            }],
-            references: [-3.0, 3.0]
-                .map(|value| Reference { name: format!("{value:+.0}σ"), value })
-                .to_vec(),
-            ..Plot::default()
-        })
-    });
-    let tone = match consistency.verdict() {
-        Verdict::Fits => Tone::Good,
-        Verdict::NoiseOverstated => Tone::Neutral,
-        Verdict::Misfit => Tone::Warning,
-    };
-    let verdict = consistency_sentence(consistency);
-    let mut items = vec![
-        Item::Note(tone, verdict),
-        Item::Text(
-            "RMS is 1 for a right model; below 1, more noise was claimed than there is. The last column is the largest \
-             distance of the cumulative periodogram from that of white noise."
-                .into(),
-        ),
-        Item::Table(Table {
-            caption: "Whitened innovations".into(),
-            columns: vec![
-                Column::text("channel"),
-                Column::number("RMS"),
-                Column::number("periodogram distance"),
-            ],
-            rows: rows.collect(),
-        }),
-    ];
-    items.extend(plots);
-    Section {
-        heading: "Does the model fit?".into(),
-        intro: "If it does, each whitened innovation is a draw from N(0, 1) of its own. Structure that you can see is an \
-                effect that the model does not have."
-            .into(),
-        items,
     }
 }

@@ -2,11 +2,18 @@
 
 mod calibration;
 pub(crate) mod campaign;
+mod certificate;
+mod comparison;
+mod consistency;
 mod navigation;
 pub(crate) mod table;
+mod worth;
 
 pub(crate) use calibration::{SYSTEMATIC_NOTE, calibration_report, calibration_text, meaning};
+pub(crate) use certificate::{certificate_report, certificate_text};
+pub(crate) use comparison::{comparison_report, comparison_text};
 pub(crate) use navigation::{attitude_plot, position_plot, velocity_plot};
+pub(crate) use worth::{budget_section, compensation_section};
 
 use rins_frames::EulerAngles;
 use rins_frames::units::DEG;

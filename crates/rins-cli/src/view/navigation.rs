@@ -1,9 +1,12 @@
-//! Plots of free inertial navigation.
+//! Free inertial navigation: what it ends with, before and after, and plots of the way there.
 
 use rins_calibration::{FreeNavigation, NavigationPoint};
 use rins_frames::units::DEG;
 
-use crate::report::{Plot, Series, Style};
+use crate::report::{Cell, Column, Item, Plot, Section, Series, Style, Table};
+
+/// A change of the velocity error by less than this factor is none.
+const LEAST_GAIN: f64 = 1.5;
 
 /// A run of free navigation and what it is called.
 pub(crate) type Named<'a> = (&'a str, &'a FreeNavigation);
@@ -53,5 +56,71 @@ fn plot(title: &str, y_label: &str, runs: &[Named<'_>], components: &[Component]
         y_label: y_label.into(),
         series,
         ..Plot::default()
+    }
+}
+
+/// What compensating the estimates does to free navigation.
+///
+/// `what` is undone, such as "the gyro errors along the spin axis".
+pub(crate) fn gain_sentence(what: &str, before: &FreeNavigation, after: &FreeNavigation) -> String {
+    let duration = match (before.history.first(), before.history.last()) {
+        (Some(first), Some(last)) => last.time - first.time,
+        _ => 0.0,
+    };
+    let (before, after) = (before.velocity.norm(), after.velocity.norm());
+    let navigation =
+        format!("the velocity error after {duration:.0} s of free inertial navigation");
+    if after * LEAST_GAIN < before {
+        // Beyond this the remainder is the noise's, and its ratio means nothing.
+        let ratio = (before / after.max(1e-9)).min(1e6);
+        format!(
+            "Compensating {what} brings {navigation} from {before:.3} m/s down to \
+             {after:.4} m/s, {ratio:.0} times less."
+        )
+    } else if before * LEAST_GAIN < after {
+        format!(
+            "Compensating the estimates makes it worse: {navigation} goes from {before:.3} m/s up to {after:.3} m/s."
+        )
+    } else {
+        format!(
+            "Compensating the estimates gains nothing: {navigation} is {before:.3} m/s before and {after:.3} m/s after."
+        )
+    }
+}
+
+/// What compensating gains in free navigation.
+pub(crate) fn navigation_section(
+    heading: &str,
+    before: &FreeNavigation,
+    after: &FreeNavigation,
+) -> Section {
+    let runs = [("before", before), ("after", after)];
+    let rows = runs.map(|(name, run)| {
+        let number = |value: f64, decimals| Cell::Number { value, decimals };
+        let angles = [run.attitude_error.roll, run.attitude_error.pitch, run.attitude_error.yaw];
+        let mut row = vec![Cell::text(name), number(run.velocity.x, 4), number(run.velocity.y, 4)];
+        row.extend(angles.map(|angle| number(angle / DEG, 5)));
+        row
+    });
+    Section {
+        heading: heading.into(),
+        intro: "The run navigated freely from rest, twice from the same attitude: as recorded, and compensated. The truth is \
+                a velocity of zero and an axis that does not move."
+            .into(),
+        items: vec![
+            Item::Table(Table {
+                caption: "Errors at the end".into(),
+                columns: ["", "v east [m/s]", "v north [m/s]", "roll [deg]", "pitch [deg]", "yaw [deg]"]
+                    .iter()
+                    .enumerate()
+                    .map(|(place, name)| {
+                        if place == 0 { Column::text(*name) } else { Column::number(*name) }
+                    })
+                    .collect(),
+                rows: rows.to_vec(),
+            }),
+            Item::Plot(velocity_plot(&runs)),
+            Item::Plot(attitude_plot(&runs)),
+        ],
     }
 }

@@ -93,7 +93,11 @@ fn words() -> Section {
                 Cell::badge(Tone::Good, HOSTILE),
                 Cell::Estimate { value: 300.02, sigma: 0.034 },
             ],
-            vec![Cell::text(HOSTILE), Cell::Empty, Cell::Number { value: 1.5, decimals: 2 }],
+            vec![
+                Cell::text(HOSTILE),
+                Cell::Bar { value: 0.4, sigma: 0.1 },
+                Cell::Number { value: 1.5, decimals: 2 },
+            ],
         ],
     };
     let labels: Vec<String> = (0..20).map(|row| format!("accel.misalignment.{row}")).collect();

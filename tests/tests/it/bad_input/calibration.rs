@@ -26,7 +26,7 @@ const CALIBRATIONS: &[Row] = &[
     (
         "of another format",
         NAVIGATE,
-        Replace(FILE, "schema = 1", "schema = 3"),
+        Replace(FILE, "schema = 2", "schema = 3"),
         &["calibration.toml:{line}: schema: 3 is not allowed, expected 1 or 2"],
     ),
     (

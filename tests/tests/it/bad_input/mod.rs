@@ -4,6 +4,7 @@
 mod calibration;
 mod files;
 mod log;
+mod model;
 mod output;
 mod rig;
 mod scenario;

@@ -1,0 +1,73 @@
+//! `rins apply`: a log without the errors that a calibration has found.
+
+use std::fmt::Write as _;
+
+use anyhow::Context;
+use rins_io::{Calibration, Loaded, LogFile, Overwrite, convert_changed};
+use rins_terms::{Surroundings, compensated};
+use serde_json::json;
+
+use crate::args::Apply;
+use crate::commands::convert::{format_of, remarks};
+use crate::commands::navigate::axis_attitude;
+use crate::commands::repairs::repairs;
+use crate::commands::setup::shown;
+use crate::outcome::Outcome;
+
+pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Outcome> {
+    let Apply { rig, calibration: file, output, format } = arguments;
+    let format: LogFile = format_of(output, *format)?;
+    let calibration = Calibration::read(file)?;
+    let converted = convert_changed(rig, output, format, overwrite, |loaded| {
+        undo(&calibration, loaded).with_context(|| shown(file))?;
+        anyhow::Ok(format!("Written by `rins apply` with the calibration {}.", shown(file)))
+    })?;
+    let model = calibration.model();
+    let undone: Vec<&str> = model.terms.iter().map(|chosen| chosen.term.id).collect();
+    let mut text = format!(
+        "Compensated {} by {}\n  {} samples to {} as {}, read by {}\n  undone: {}\n",
+        shown(rig),
+        shown(file),
+        converted.samples,
+        shown(output),
+        format.name(),
+        shown(&converted.rig),
+        undone.join(", ")
+    );
+    for line in remarks(&converted) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {line}");
+    }
+    let json = json!({
+        "schema": 1,
+        "command": "apply",
+        "rig": shown(rig),
+        "calibration": shown(file),
+        "log": shown(output),
+        "new_rig": shown(&converted.rig),
+        "format": format.name(),
+        "samples": converted.samples,
+        "undone": undone,
+        "exact": converted.differences.is_empty(),
+        "left_out": converted.left_out,
+        "time_origin_s": converted.time_origin,
+        "repairs": repairs(&converted.old, &converted.summary),
+    });
+    Ok(Outcome { json, text, ..Outcome::default() })
+}
+
+/// Takes what a calibration holds out of a run.
+fn undo(calibration: &Calibration, loaded: &mut Loaded) -> anyhow::Result<()> {
+    let model = calibration.model();
+    if calibration.terms.terms.is_empty() {
+        // Eq. (1) is undone sample by sample, wherever the axis points.
+        let compensation = calibration.compensation()?;
+        for sample in &mut loaded.recording.increments {
+            *sample = compensation.compensate(sample);
+        }
+        return Ok(());
+    }
+    let around = Surroundings::new(loaded.station, axis_attitude(loaded)?);
+    loaded.recording = compensated(&model, around, &loaded.recording)?;
+    Ok(())
+}

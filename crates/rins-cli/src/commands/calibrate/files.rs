@@ -1,0 +1,107 @@
+//! What a calibration leaves for other programs: the errors to undo, the model, and how to undo them.
+
+use nalgebra::DMatrix;
+use rins_estimation::{Estimate, Fit};
+use rins_io::{Covariance, Parameter};
+use rins_terms::{Model, Role};
+
+use crate::commands::calibrate::{Finding, seen};
+
+/// The compensation, in one line.
+pub(crate) const EQUATION: &str = "true = measured − (bias + [S, M] true + terms(true)); with no terms, true = (I + [S, M])⁻¹ (measured − bias)";
+
+/// The compensation, step by step.
+pub(crate) const STEPS: [&str; 5] = [
+    "1. Turn the sensors' axes into body axes as the rig file says, z along the spin axis. Divide increments by their \
+     interval: what is measured is a mean rate and a mean specific force.",
+    "2. Take what was measured for the first guess of what was true, for gyros and accelerometers both.",
+    "3. From that guess compute for each triad bias + [S, M] true, and what each further term of the file adds (its \
+     equation is in the catalogue). A value in the file has the sign with which the error enters what was measured.",
+    "4. Subtract the sum from what was measured: this is the next guess. Misalignments are read row, column: \
+     gyro.misalignment.xz times the rate about z is taken from gyro x.",
+    "5. Go back to 3 until nothing changes, three rounds or so; then multiply by the interval. Noise is left as it is.",
+];
+
+/// Whether a term of the model describes the run's table alone, so that there is nothing to undo in another run.
+fn of_table_alone(id: &str) -> bool {
+    id == "axis.attitude"
+}
+
+/// The calibration file of one run: what its sensors and its encoder get wrong.
+pub(super) fn calibration(fit: &Fit, findings: &[Finding], run: usize) -> rins_io::Calibration {
+    let (error, mut terms) = fit.models[run].split();
+    terms.terms.retain(|chosen| !of_table_alone(chosen.term.id));
+    let places: Vec<usize> = (0..fit.parameters.len())
+        .filter(|&place| {
+            let estimate = &fit.parameters[place];
+            let term = fit.models[run].terms[estimate.parameter.term].term;
+            estimate.run.is_none_or(|of| of == run) && !of_table_alone(term.id)
+        })
+        .collect();
+    let mut sigmas = Vec::new();
+    for &place in &places {
+        let estimate = &fit.parameters[place];
+        let unit = estimate.parameter.unit;
+        match terms.find(&estimate.parameter.id) {
+            Some((term, parameter)) => {
+                terms.terms[term].roles[parameter] = Role::Within(estimate.sigma);
+            }
+            None => sigmas.push(Parameter {
+                id: estimate.parameter.id.clone(),
+                value: estimate.sigma / unit.factor,
+                unit: unit.symbol,
+            }),
+        }
+    }
+    // A term that was held has no sigma, whatever was known of it before.
+    for chosen in &mut terms.terms {
+        for role in &mut chosen.roles {
+            if *role == Role::Free {
+                *role = Role::Held;
+            }
+        }
+    }
+    rins_io::Calibration {
+        sigmas,
+        notes: notes(fit, findings, &places),
+        terms,
+        covariance: covariance(fit, &places),
+        ..rins_io::Calibration::of(error)
+    }
+}
+
+fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {
+    let of = |place: usize| &fit.parameters[places[place]];
+    let n = places.len();
+    let unit = |place: usize| of(place).parameter.unit.factor;
+    (n > 0).then(|| Covariance {
+        ids: (0..n).map(|place| of(place).parameter.id.clone()).collect(),
+        matrix: DMatrix::from_fn(n, n, |row, column| {
+            fit.covariance[(places[row], places[column])] / (unit(row) * unit(column))
+        }),
+    })
+}
+
+fn notes(fit: &Fit, findings: &[Finding], places: &[usize]) -> Vec<String> {
+    let unseen = places.iter().filter(|&&place| !findings[place].identifiable);
+    unseen
+        .map(|&place| {
+            format!(
+                "{}: {}",
+                fit.parameters[place].parameter.id,
+                seen::words(&fit.parameters, findings, place)
+            )
+        })
+        .collect()
+}
+
+/// The model with the estimates in it, the sigma of each as what is known of it now.
+pub(super) fn model(fit: &Fit) -> Model {
+    let mut model = fit.model().clone();
+    let first = |estimate: &&Estimate| estimate.run.is_none_or(|run| run == 0);
+    for estimate in fit.parameters.iter().filter(first) {
+        let parameter = &estimate.parameter;
+        model.terms[parameter.term].roles[parameter.parameter] = Role::Within(estimate.sigma);
+    }
+    model
+}

@@ -1,0 +1,51 @@
+//! Runs from which no estimate would mean anything.
+
+use rins_frames::units::DEG;
+use rins_io::Loaded;
+use rins_motion::Suspicion;
+
+use crate::commands::check::{inspected, suspicion_in_words};
+
+/// A table that turns by less in all \[rad\] stands still.
+const LEAST_TURN: f64 = 1.0 * DEG;
+
+/// Refuses a run whose units, signs or axes are wrong: estimates from it would mean nothing.
+pub(super) fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
+    let mistaken: Vec<String> = inspected(loaded)
+        .suspicions
+        .iter()
+        // A coarse accelerometer may well say the same throughout.
+        .filter(|suspicion| !matches!(suspicion, Suspicion::StuckChannel { .. }))
+        .map(suspicion_in_words)
+        .collect();
+    anyhow::ensure!(
+        mistaken.is_empty(),
+        "{}: {}",
+        loaded.rig.path.display(),
+        mistaken.join("; and ")
+    );
+    Ok(())
+}
+
+/// Refuses a run whose table does not turn: it does not show the gyro errors along the spin axis.
+pub(super) fn refuse_standing(loaded: &Loaded) -> anyhow::Result<()> {
+    let recording = &loaded.recording;
+    let turned = match (&recording.table_angle, &recording.table_rate) {
+        (Some(angle), _) => {
+            let most = angle.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            most - angle.iter().copied().fold(f64::INFINITY, f64::min)
+        }
+        (None, Some(rate)) => {
+            rate.iter().zip(&recording.increments).map(|(rate, s)| rate.abs() * s.interval).sum()
+        }
+        (None, None) => return Ok(()),
+    };
+    anyhow::ensure!(
+        turned > LEAST_TURN,
+        "{}: the table turns by {:.3} deg in all, the z gyro by {:.2}: gyro errors along the spin axis do not show",
+        loaded.rig.log.path.display(),
+        turned / DEG,
+        inspected(loaded).turns * 360.0
+    );
+    Ok(())
+}

@@ -1,0 +1,209 @@
+//! A calibration for a machine.
+
+use nalgebra::{DMatrix, Vector3};
+use rins_calibration::{Consistency, FreeNavigation, Verdict};
+use rins_estimation::{Reference, correlation};
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
+use serde_json::{Value, json};
+
+use crate::args::NoiseChoice;
+use crate::commands::calibrate::{Budget, Certificate, CertifiedRun, Drift, EQUATION, seen};
+use crate::view::euler_json;
+
+/// Free inertial navigation as JSON: what it ended with.
+pub(crate) fn navigation_json(navigation: &FreeNavigation) -> Value {
+    json!({
+        "velocity_m_s": navigation.velocity.as_slice(),
+        "position_error_m": navigation.position_error.as_slice(),
+        "attitude_error_deg": euler_json(&navigation.attitude_error),
+    })
+}
+
+/// What the innovations say of the model, as JSON.
+pub(crate) fn consistency_json(consistency: &Consistency) -> Value {
+    json!({
+        "nis_mean": consistency.nis_mean,
+        "nis_dof": consistency.nis_dof,
+        "nis_p": consistency.nis_p,
+        "whiteness_p": consistency.whiteness_p,
+        "channel_rms": consistency.channel_rms,
+        "model_fits": consistency.verdict() != Verdict::Misfit,
+        "verdict": match consistency.verdict() {
+            Verdict::Fits => "fits",
+            Verdict::NoiseOverstated => "noise_overstated",
+            Verdict::Misfit => "misfit",
+        },
+    })
+}
+
+/// The whole of a calibration with any model.
+pub(super) fn certificate(certificate: &Certificate) -> Value {
+    let fit = &certificate.fit;
+    let parameters: Vec<Value> =
+        (0..fit.parameters.len()).map(|place| parameter_json(certificate, place)).collect();
+    let iterations: Vec<Value> = fit
+        .iterations
+        .iter()
+        .map(|i| json!({"step_sigma": i.step, "log_likelihood": i.log_likelihood}))
+        .collect();
+    let first = &certificate.runs[0];
+    let names: Vec<&str> = certificate.runs.iter().map(|run| run.prepared.name.as_str()).collect();
+    let runs: Vec<Value> = certificate
+        .runs
+        .iter()
+        .enumerate()
+        .map(|(place, run)| run_json(certificate, place, run))
+        .collect();
+    json!({
+        "schema": 1,
+        "command": "calibrate",
+        "model": certificate.model,
+        "rig": names[0],
+        "rigs": names,
+        "parameters": parameters,
+        "correlation": rows(&correlation(&fit.covariance)),
+        "axis_attitude_deg": euler_json(&first.nav_from_table.euler_angles()),
+        "navigation": {
+            "before": navigation_json(&first.before),
+            "after": navigation_json(&first.after),
+        },
+        "consistency": consistency_json(&certificate.consistency),
+        "iterations": iterations,
+        "log_likelihood": fit.log_likelihood,
+        "noise": noise_json(certificate),
+        "identifiability": identifiability_json(certificate),
+        "error_budget": budget_json(&ids(certificate, first), &first.budget),
+        "compensation": EQUATION,
+        "runs": runs,
+        "notes": certificate.remarks,
+    })
+}
+
+/// The ids of what was estimated of a run and of the IMU, in the order of the run's budget.
+fn ids<'c>(certificate: &'c Certificate, run: &CertifiedRun) -> Vec<&'c str> {
+    run.places
+        .iter()
+        .map(|&place| certificate.fit.parameters[place].parameter.id.as_str())
+        .collect()
+}
+
+pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+fn parameter_json(certificate: &Certificate, place: usize) -> Value {
+    let fit = &certificate.fit;
+    let (estimate, finding) = (&fit.parameters[place], &certificate.findings[place]);
+    let unit = estimate.parameter.unit;
+    let aliases: Vec<&str> = finding
+        .partners
+        .iter()
+        .map(|&(other, _)| fit.parameters[other].parameter.id.as_str())
+        .collect();
+    let coefficients: Vec<f64> = finding
+        .partners
+        .iter()
+        .map(|&(other, share)| share * fit.parameters[other].parameter.unit.factor / unit.factor)
+        .collect();
+    json!({
+        "id": estimate.parameter.id,
+        "run": estimate.run.map(|run| run + 1),
+        "value": finding.value / unit.factor,
+        "sigma": finding.sigma / unit.factor,
+        "unit": unit.symbol,
+        "identifiable": finding.identifiable,
+        "aliases": aliases,
+        "alias_coefficients": coefficients,
+        "alone": {"value": estimate.value / unit.factor, "sigma": estimate.sigma / unit.factor},
+        "prior_sigma": finding.prior_sigma / unit.factor,
+        "meaning": seen::words(&fit.parameters, &certificate.findings, place),
+    })
+}
+
+fn identifiability_json(certificate: &Certificate) -> Value {
+    let of = |keep: &dyn Fn(usize) -> bool| -> Vec<&str> {
+        (0..certificate.findings.len())
+            .filter(|&place| keep(place))
+            .map(|place| certificate.fit.parameters[place].parameter.id.as_str())
+            .collect()
+    };
+    let findings = &certificate.findings;
+    json!({
+        "alone": of(&|place| findings[place].identifiable),
+        "in_combination": of(&|place| {
+            !findings[place].identifiable && !findings[place].partners.is_empty()
+        }),
+        "not_shown": of(&|place| {
+            !findings[place].identifiable && findings[place].partners.is_empty()
+        }),
+    })
+}
+
+fn noise_json(certificate: &Certificate) -> Value {
+    let imu = certificate.fit.noise[0].imu;
+    json!({
+        "found": certificate.noise == NoiseChoice::Likely,
+        "gyro": {
+            "white_deg_h_sqrt_hz": imu.gyro.white / DEG_PER_HOUR,
+            "flicker_deg_h": imu.gyro.flicker / DEG_PER_HOUR,
+            "random_walk_deg_h_sqrt_h": imu.gyro.walk * 60.0 / DEG_PER_HOUR,
+        },
+        "accel": {
+            "white_ug_sqrt_hz": imu.accel.white / MICRO_G,
+            "flicker_ug": imu.accel.flicker / MICRO_G,
+            "random_walk_ug_sqrt_h": imu.accel.walk * 60.0 / MICRO_G,
+        },
+    })
+}
+
+fn run_json(certificate: &Certificate, place: usize, run: &CertifiedRun) -> Value {
+    let noise = &certificate.fit.noise[place];
+    let reference = run.prepared.run.rig.reference;
+    let encoder = matches!(reference, Reference::Encoder { .. });
+    json!({
+        "rig": run.prepared.name,
+        "reference": match reference {
+            Reference::Encoder { .. } => "table_angle",
+            Reference::Command { .. } => "table_rate",
+            Reference::Gravity => "gravity",
+            Reference::Rest => "rest",
+        },
+        "samples": run.prepared.run.recording.len(),
+        "axis_attitude_deg": euler_json(&run.nav_from_table.euler_angles()),
+        "wobble_arcsec": noise.wobble / ARCSEC,
+        "encoder_noise_arcsec": encoder.then_some(noise.encoder / ARCSEC),
+        "navigation": {
+            "before": navigation_json(&run.before),
+            "after": navigation_json(&run.after),
+        },
+        "consistency": consistency_json(&run.consistency),
+        "error_budget": budget_json(&ids(certificate, run), &run.budget),
+    })
+}
+
+/// An error budget, of parameters with these ids.
+pub(super) fn budget_json(ids: &[&str], budget: &Budget) -> Value {
+    let vector = |v: Vector3<f64>| v.as_slice().to_vec();
+    let drift = |drift: &Drift| {
+        json!({
+            "velocity_m_s": vector(drift.velocity),
+            "attitude_deg": vector(drift.attitude / DEG),
+        })
+    };
+    let parameters: Vec<Value> = ids
+        .iter()
+        .zip(&budget.worth)
+        .map(|(id, worth)| {
+            json!({
+                "id": id,
+                "by_sigma": drift(&worth.by_sigma),
+                "by_value": drift(&worth.by_value),
+            })
+        })
+        .collect();
+    json!({
+        "after_s": budget.after,
+        "parameters": parameters,
+        "total_1_sigma": drift(&budget.total),
+    })
+}

@@ -1,0 +1,62 @@
+//! `rins calibrate`: from runs to sensor errors, with the certificate of what was found.
+
+mod budget;
+mod certificate;
+mod files;
+mod gates;
+mod json;
+mod paper;
+mod prepared;
+pub(crate) mod seen;
+
+use rins_io::ModelFile;
+use rins_terms::Model;
+
+pub(crate) use self::budget::{Budget, Drift};
+pub(crate) use self::certificate::{Certificate, CertifiedRun};
+pub(crate) use self::files::{EQUATION, STEPS};
+pub(crate) use self::json::navigation_json;
+pub(crate) use self::paper::{calibrated, outcome};
+pub(crate) use self::prepared::Prepared;
+pub(crate) use self::seen::Finding;
+use crate::args::{Calibrate, ModelChoice};
+use crate::commands::setup::load;
+use crate::outcome::Outcome;
+
+/// A model to be estimated, and what it is called.
+pub(crate) struct NamedModel {
+    pub(crate) name: String,
+    pub(crate) model: Model,
+}
+
+pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
+    let loaded = arguments.rigs.iter().map(|rig| load(rig)).collect::<anyhow::Result<Vec<_>>>()?;
+    let read = |of: &rins_io::Loaded| {
+        of.recording.table_angle.is_some() || of.recording.table_rate.is_some()
+    };
+    let by_default = match &loaded[..] {
+        [only] if read(only) => ModelChoice::Paper12,
+        _ => ModelChoice::Full,
+    };
+    let named = match arguments.model.as_ref().unwrap_or(&by_default) {
+        ModelChoice::Paper12 => {
+            let calibration = calibrated(&loaded[0])?;
+            let outcome = outcome(&calibration, &loaded[0], &arguments.rigs[0])?;
+            return Ok(outcome.of_log(&loaded[0]));
+        }
+        ModelChoice::Full => NamedModel { name: "full".into(), model: Model::full() },
+        ModelChoice::File(path) => {
+            NamedModel { name: path.display().to_string(), model: ModelFile::read(path)?.model }
+        }
+    };
+    let runs = arguments.rigs.iter().zip(loaded);
+    let runs = runs
+        .map(|(rig, loaded)| Prepared::of(rig, loaded, arguments.noise))
+        .collect::<anyhow::Result<Vec<_>>>()?;
+    let certificate = Certificate::of(runs, named, arguments.noise)?;
+    let mut outcome = certificate.outcome();
+    for run in &certificate.runs {
+        outcome = outcome.of_log(&run.prepared.loaded);
+    }
+    Ok(outcome)
+}

@@ -1,0 +1,209 @@
+//! The paper's model: one run, three gyro errors, the filter of twelve states.
+
+use std::path::Path;
+
+use anyhow::Context;
+use nalgebra::DMatrix;
+use rins_calibration::{
+    Calibration, MEASUREMENTS, Parameter, calibrate, likely_wobble, table_angles,
+};
+use rins_frames::units::DEG;
+use rins_io::{Covariance, Loaded, ModelFile};
+use rins_terms::{Model, Role, Surroundings, Track};
+use serde_json::{Value, json};
+
+use crate::commands::calibrate::budget::{Asked, Truth};
+use crate::commands::calibrate::gates::{refuse_mistaken, refuse_standing};
+use crate::commands::calibrate::json::{budget_json, consistency_json};
+use crate::commands::calibrate::{Budget, EQUATION, navigation_json};
+use crate::commands::setup::{setup, shown};
+use crate::outcome::Outcome;
+use crate::progress;
+use crate::view::{
+    SYSTEMATIC_NOTE, budget_section, calibration_report, calibration_text, compensation_section,
+    euler_json, meaning,
+};
+
+/// A mean NIS above this is no matter of a sensor error more or less.
+const ABSURD_NIS: f64 = 100.0;
+
+/// Calibrates a run, with progress shown.
+pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
+    let mut setup = setup(loaded)?;
+    refuse_mistaken(loaded)?;
+    refuse_standing(loaded)?;
+    if loaded.rig.table.as_ref().is_none_or(|table| table.wobble.is_none()) {
+        setup.table.wobble = likely_wobble(&loaded.recording, &setup)
+            .with_context(|| loaded.rig.log.path.display().to_string())?;
+    }
+    let bar = progress::bar(loaded.recording.len(), "calibrating");
+    let calibration = calibrate(&loaded.recording, &setup, |done| bar.set_position(done as u64));
+    bar.finish_and_clear();
+    calibration.with_context(|| loaded.rig.log.path.display().to_string())
+}
+
+/// A calibration as JSON, text, report and calibration file.
+pub(crate) fn outcome(
+    calibration: &Calibration,
+    loaded: &Loaded,
+    rig: &Path,
+) -> anyhow::Result<Outcome> {
+    let title = format!("Calibration of {}", shown(rig));
+    let span = &calibration.span;
+    let subtitle = format!(
+        "rins calibrate, model paper12: {} samples from {:.2} s to {:.2} s of {}",
+        span.len(),
+        loaded.recording.times[span.start],
+        loaded.recording.times[span.end - 1],
+        loaded.rig.log.path.file_name().map_or_else(String::new, |name| name.display().to_string()),
+    );
+    let file = rins_io::Calibration {
+        sigmas: calibration.parameters.iter().map(sigma).collect(),
+        notes: calibration.parameters.iter().filter_map(combination_note).collect(),
+        covariance: Some(covariance(calibration)),
+        ..rins_io::Calibration::of(calibration.imu_error)
+    };
+    let model = model(calibration);
+    let budget = budget(calibration, &model, loaded)?;
+    let ids: Vec<&str> = calibration.parameters.iter().map(|parameter| parameter.id).collect();
+    let mut report = calibration_report(calibration, &title, &subtitle);
+    report.sections.push(compensation_section(&model));
+    report.sections.push(budget_section("Error budget", &ids, &budget));
+    let mut result = json(calibration, rig);
+    result["error_budget"] = budget_json(&ids, &budget);
+    result["compensation"] = EQUATION.into();
+    Ok(Outcome {
+        json: result,
+        text: calibration_text(calibration, &title),
+        failure: absurd(calibration),
+        report: Some(report),
+        files: vec![
+            ("calibration.toml".into(), file.to_toml().into_bytes()),
+            ("model.toml".into(), ModelFile::of(model).to_toml().into_bytes()),
+        ],
+        ..Outcome::default()
+    })
+}
+
+/// The paper's model with the estimates in it.
+fn model(calibration: &Calibration) -> Model {
+    calibration.parameters.iter().fold(Model::paper12(), |model, parameter| {
+        model
+            .with_value(parameter.id, parameter.value)
+            .with_role(parameter.id, Role::Within(parameter.sigma))
+    })
+}
+
+/// The covariance of the estimates, in the products of their units.
+fn covariance(calibration: &Calibration) -> Covariance {
+    let parameters = &calibration.parameters;
+    let sigma = |place: usize| parameters[place].sigma / parameters[place].kind.factor();
+    Covariance {
+        ids: parameters.iter().map(|parameter| parameter.id.to_owned()).collect(),
+        matrix: DMatrix::from_fn(parameters.len(), parameters.len(), |row, column| {
+            calibration.correlation[(row, column)] * sigma(row) * sigma(column)
+        }),
+    }
+}
+
+/// What each estimate is worth over the calibrated span.
+fn budget(calibration: &Calibration, model: &Model, loaded: &Loaded) -> anyhow::Result<Budget> {
+    let (span, recording) = (&calibration.span, &loaded.recording);
+    let latency = loaded.rig.log.table_angle().and_then(|angle| angle.latency);
+    let angles = table_angles(recording, latency.unwrap_or_default()).unwrap_or_default();
+    let mut undone = recording.slice(span.start, span.end);
+    let compensation = calibration.imu_error.compensation()?;
+    for sample in &mut undone.increments {
+        *sample = compensation.compensate(sample);
+    }
+    let track = Track::new(
+        Surroundings::new(loaded.station, calibration.nav_from_table),
+        undone.times.clone(),
+        undone.increments.iter().map(|sample| sample.interval).collect(),
+        angles[span.start..=span.end].to_vec(),
+        undone.temperature.clone(),
+    );
+    let asked: Vec<Asked<'_>> = calibration
+        .parameters
+        .iter()
+        .filter_map(|estimate| {
+            let (term, parameter) = model.find(estimate.id)?;
+            let (value, sigma) = (estimate.value, estimate.sigma);
+            Some(Asked { chosen: &model.terms[term], parameter, value, sigma })
+        })
+        .collect();
+    let covariance = DMatrix::from_fn(asked.len(), asked.len(), |row, column| {
+        calibration.correlation[(row, column)] * asked[row].sigma * asked[column].sigma
+    });
+    let truth = Truth {
+        station: &loaded.station,
+        nav_from_table: calibration.nav_from_table,
+        recording: &undone,
+        track: &track,
+    };
+    Ok(Budget::of(&truth, &asked, &covariance))
+}
+
+/// A parameter's sigma as a calibration file holds it.
+fn sigma(parameter: &Parameter) -> rins_io::Parameter {
+    let (value, unit) = (parameter.sigma / parameter.kind.factor(), parameter.kind.unit());
+    rins_io::Parameter { id: parameter.id.into(), value, unit }
+}
+
+/// What a calibration file says of a parameter that is estimated together with a bias.
+fn combination_note(parameter: &Parameter) -> Option<String> {
+    let partner = parameter.partners.first()?;
+    Some(format!(
+        "{}: {}; compensating it also undoes {} at a table rate of {:.4} deg/s, and at no other",
+        parameter.id,
+        meaning(parameter),
+        partner.id,
+        1.0 / partner.share / DEG
+    ))
+}
+
+/// Why estimates mean nothing, if the innovations are beyond what any sensor error explains.
+fn absurd(calibration: &Calibration) -> Option<String> {
+    let nis = calibration.consistency.nis_mean;
+    (nis > ABSURD_NIS).then(|| {
+        format!(
+            "the innovations are {:.0} times larger than the rig's figures allow: units, axes, signs, attitude or table \
+             profile are wrong, and so are the estimates",
+            (nis / MEASUREMENTS as f64).sqrt()
+        )
+    })
+}
+
+fn json(calibration: &Calibration, rig: &Path) -> Value {
+    let correlation: Vec<Vec<f64>> = (0..3)
+        .map(|row| (0..3).map(|column| calibration.correlation[(row, column)]).collect())
+        .collect();
+    json!({
+        "schema": 1,
+        "command": "calibrate",
+        "model": "paper12",
+        "rig": shown(rig),
+        "parameters": calibration.parameters.iter().map(parameter_json).collect::<Vec<_>>(),
+        "correlation": correlation,
+        "axis_attitude_deg": euler_json(&calibration.nav_from_table.euler_angles()),
+        "navigation": {
+            "before": navigation_json(&calibration.before),
+            "after": navigation_json(&calibration.after),
+        },
+        "consistency": consistency_json(&calibration.consistency),
+        "notes": [SYSTEMATIC_NOTE],
+    })
+}
+
+fn parameter_json(parameter: &Parameter) -> Value {
+    let factor = parameter.kind.factor();
+    json!({
+        "id": parameter.id,
+        "value": parameter.value / factor,
+        "sigma": parameter.sigma / factor,
+        "unit": parameter.kind.unit(),
+        "identifiable": parameter.identifiable(),
+        "aliases": parameter.partners.iter().map(|partner| partner.id).collect::<Vec<_>>(),
+        "meaning": meaning(parameter),
+    })
+}

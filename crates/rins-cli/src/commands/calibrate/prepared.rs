@@ -1,0 +1,180 @@
+//! A rig made ready to be estimated from: what tells the table's angle, and how its axis stands.
+
+use std::path::Path;
+
+use anyhow::Context;
+use nalgebra::{Matrix3, Vector3};
+use rins_calibration::{Setup, likely_wobble, table_angles};
+use rins_estimation::{Reference, Rig, Run, axis_from_gravity, turning_span};
+use rins_frames::units::DEG;
+use rins_frames::{Body, Dcm, Nav, Table};
+use rins_imu::ImuSpec;
+use rins_io::Loaded;
+use rins_motion::Recording;
+
+use crate::args::NoiseChoice;
+use crate::commands::align::found;
+use crate::commands::calibrate::gates::refuse_mistaken;
+use crate::commands::setup::{setup, shown};
+
+/// An attitude that was found in the same data is counted again by a hundredth of its information.
+const FOUND_HERE: f64 = 10.0;
+
+/// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
+const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
+
+/// How far gravity's turning may be off the axis that it shows, 1σ \[rad\]: the base may move.
+const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
+
+/// A body that turns by less, without anything that says how far, is taken to be handled \[rad\].
+const LEAST_SPIN: f64 = 2.0 * std::f64::consts::TAU;
+
+/// A rig, its log, and the run that is estimated from.
+pub(crate) struct Prepared {
+    /// What it is called: the path of its rig file.
+    pub(crate) name: String,
+    /// The files' content.
+    pub(crate) loaded: Loaded,
+    /// What the data sheet says.
+    pub(crate) imu: ImuSpec,
+    /// The samples that are used.
+    pub(crate) run: Run,
+    /// How well the axis' attitude is known beforehand.
+    pub(crate) attitude: Attitude,
+    /// What a reader must know of how it was prepared.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// How well the attitude of an axis is known before anything is estimated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Attitude {
+    /// The 1σ of its error about each axis of the axis frame \[rad\]; none if it is a definition.
+    pub(crate) sigma: [Option<f64>; 3],
+}
+
+impl Attitude {
+    /// Known to `sigma` about any axis \[rad\].
+    const fn within(sigma: f64) -> Self {
+        Self { sigma: [Some(sigma); 3] }
+    }
+}
+
+/// What is known of the table, as far as the samples go.
+struct Axis {
+    recording: Recording,
+    reference: Reference,
+    nav_from_table: Dcm<Nav, Table>,
+    attitude: Attitude,
+    remarks: Vec<String>,
+}
+
+impl Prepared {
+    /// Makes a rig ready.
+    pub(crate) fn of(path: &Path, loaded: Loaded, noise: NoiseChoice) -> anyhow::Result<Self> {
+        let mut setup = setup(&loaded)?;
+        refuse_mistaken(&loaded)?;
+        let log = || loaded.rig.log.path.display().to_string();
+        let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
+        let axis = axis(&loaded, &setup).with_context(log)?;
+        let turned = matches!(axis.reference, Reference::Encoder { .. });
+        if noise == NoiseChoice::Given && !has_wobble && turned {
+            setup.table.wobble = likely_wobble(&loaded.recording, &setup).with_context(log)?;
+        }
+        let rig = Rig {
+            station: loaded.station,
+            nav_from_table: axis.nav_from_table,
+            reference: axis.reference,
+            wobble: setup.table.wobble,
+            velocity: setup.velocity_noise,
+        };
+        let run = Run::new(rig, axis.recording).with_context(log)?;
+        let (attitude, remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
+        Ok(Self { name: shown(path), loaded, imu, run, attitude, remarks })
+    }
+}
+
+fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
+    let mut recording = loaded.recording.clone();
+    let reference = match (&recording.table_angle, &recording.table_rate) {
+        (Some(_), _) => Reference::Encoder { noise: setup.table.angle_noise },
+        (None, Some(_)) => Reference::Command { noise: setup.table.rate_noise },
+        (None, None) => return unread(loaded),
+    };
+    let angles = table_angles(&recording, setup.table.latency).unwrap_or_default();
+    if recording.table_angle.is_some() {
+        recording.table_angle = Some(angles[1..].to_vec());
+    }
+    if let Some(given) = loaded.rig.attitude {
+        let nav_from_table = given.angles.dcm();
+        let attitude = Attitude::within(given.sigma);
+        return Ok(Axis { recording, reference, nav_from_table, attitude, remarks: Vec::new() });
+    }
+    let rest = found(loaded).context("the rig gives no [attitude], and none can be found")?;
+    let table_from_body = Dcm::<Table, Body>::about_z(angles[rest.span.start]);
+    let nav_from_table = rest.nav_from_body * table_from_body.inverse();
+    let attitude = aligned(&nav_from_table, rest.sigma);
+    let remarks = vec![format!(
+        "The attitude of the axis was found over the rest from {:.0} s to {:.0} s.",
+        rest.start,
+        loaded.recording.times[rest.span.end - 1]
+    )];
+    Ok(Axis { recording, reference, nav_from_table, attitude, remarks })
+}
+
+/// A run whose table nothing reads: it turns by gravity, or rests.
+fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
+    let recording = &loaded.recording;
+    let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
+    let turning = turning_span(recording).map(|span| (recording.slice(span.start, span.end), span));
+    if let Some((turning, span)) = turning
+        && spin(&turning) > LEAST_SPIN
+        && let Some(nav_from_table) = axis_from_gravity(&turning, yaw)
+    {
+        let angles = nav_from_table.euler_angles();
+        let remarks = vec![format!(
+            "Nothing reads the table: gravity, turning about an axis at roll {:.1}, pitch {:.1} deg, is the angle \
+             reference from {:.1} s to {:.1} s, {:.1} turns. The table angle is zero where it begins.",
+            angles.roll / DEG,
+            angles.pitch / DEG,
+            recording.times[span.start],
+            recording.times[span.end - 1],
+            spin(&turning) / (360.0 * DEG)
+        )];
+        let wide = Some(AXIS_BY_GRAVITY);
+        let attitude = Attitude { sigma: [wide, wide, None] };
+        let reference = Reference::Gravity;
+        return Ok(Axis { recording: turning, reference, nav_from_table, attitude, remarks });
+    }
+    let rest = found(loaded)
+        .context("nothing reads the table, and there are no two turns about its axis that gravity would show")?;
+    let remarks = vec![format!(
+        "Nothing reads a table and nothing turns about the axis: only the longest rest, from {:.0} s to {:.0} s, is used.",
+        rest.start,
+        recording.times[rest.span.end - 1]
+    )];
+    let (nav_from_table, attitude) = match loaded.rig.attitude {
+        Some(given) => (given.angles.dcm(), Attitude::within(given.sigma)),
+        None => {
+            let nav_from_table = rest.nav_from_body * Dcm::<Table, Body>::about_z(0.0).inverse();
+            (nav_from_table, aligned(&nav_from_table, rest.sigma))
+        }
+    };
+    let recording = recording.slice(rest.span.start, rest.span.end);
+    Ok(Axis { recording, reference: Reference::Rest, nav_from_table, attitude, remarks })
+}
+
+/// What an alignment's 1σ about east, north and up are about the axes of the axis frame, widened since the
+/// estimate uses the same data.
+fn aligned(nav_from_table: &Dcm<Nav, Table>, sigma: (f64, f64, Option<f64>)) -> Attitude {
+    let (east, north, up) = sigma;
+    let wide = |sigma: f64| (FOUND_HERE * sigma).min(ANY_AZIMUTH);
+    let about = Vector3::new(wide(east), wide(north), up.map_or(ANY_AZIMUTH, wide));
+    let covariance = Matrix3::from_diagonal(&about.map(|sigma| sigma * sigma));
+    let turned = nav_from_table.matrix().transpose() * covariance * nav_from_table.matrix();
+    Attitude { sigma: [0, 1, 2].map(|axis| Some(turned[(axis, axis)].sqrt())) }
+}
+
+/// How far a body turns about z on the whole \[rad\].
+fn spin(recording: &Recording) -> f64 {
+    recording.increments.iter().map(|sample| sample.angle.components().z).sum::<f64>().abs()
+}

@@ -1,0 +1,196 @@
+//! `rins compare`: what moved between two calibrations of one IMU.
+
+use std::path::Path;
+
+use nalgebra::{DMatrix, DVector};
+use rins_io::{Calibration, parameters};
+use rins_terms::Role;
+use serde_json::{Value, json};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use crate::args::Compare;
+use crate::commands::setup::shown;
+use crate::outcome::Outcome;
+use crate::view::{comparison_report, comparison_text};
+
+/// What one parameter did.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Moved {
+    pub(crate) id: String,
+    pub(crate) unit: &'static str,
+    /// Both values, in its unit.
+    pub(crate) values: [f64; 2],
+    /// The 1σ of both.
+    pub(crate) sigmas: [f64; 2],
+}
+
+impl Moved {
+    /// By how much it moved, in its unit.
+    pub(crate) fn difference(&self) -> f64 {
+        self.values[1] - self.values[0]
+    }
+
+    /// The 1σ of that.
+    pub(crate) fn sigma(&self) -> f64 {
+        self.sigmas[0].hypot(self.sigmas[1])
+    }
+
+    /// The same in sigmas.
+    pub(crate) fn sigmas_moved(&self) -> f64 {
+        self.difference() / self.sigma()
+    }
+}
+
+/// All that moved together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Together {
+    pub(crate) chi_square: f64,
+    pub(crate) dof: usize,
+    /// How probable so much is, if nothing moved.
+    pub(crate) p: f64,
+}
+
+/// Two calibrations, held against each other.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Comparison {
+    /// What they are called.
+    pub(crate) names: [String; 2],
+    /// What both have estimated.
+    pub(crate) moved: Vec<Moved>,
+    pub(crate) together: Option<Together>,
+    /// What only one has estimated.
+    pub(crate) only: [Vec<String>; 2],
+}
+
+pub(crate) fn run(arguments: &Compare) -> anyhow::Result<Outcome> {
+    let read = |path: &Path| Calibration::read(path);
+    let (before, after) = (read(&arguments.before)?, read(&arguments.after)?);
+    let names = [shown(&arguments.before), shown(&arguments.after)];
+    let comparison = Comparison::of(&before, &after, names);
+    anyhow::ensure!(
+        !comparison.moved.is_empty(),
+        "{} and {} have no parameter in common that was estimated in both",
+        comparison.names[0],
+        comparison.names[1]
+    );
+    Ok(Outcome {
+        json: json(&comparison),
+        text: comparison_text(&comparison),
+        report: Some(comparison_report(&comparison)),
+        ..Outcome::default()
+    })
+}
+
+/// A number that was estimated, in its unit.
+struct Estimated {
+    id: String,
+    unit: &'static str,
+    value: f64,
+    sigma: f64,
+}
+
+fn estimated(calibration: &Calibration) -> Vec<Estimated> {
+    let sigma_of = |id: &str| calibration.sigmas.iter().find(|sigma| sigma.id == id);
+    let triads = parameters(&calibration.error).into_iter().filter_map(|parameter| {
+        let sigma = sigma_of(&parameter.id)?.value;
+        Some(Estimated { id: parameter.id, unit: parameter.unit, value: parameter.value, sigma })
+    });
+    let terms = &calibration.terms;
+    let others = terms.terms.iter().enumerate().flat_map(|(place, chosen)| {
+        chosen.term.parameters.iter().enumerate().filter_map(move |(which, parameter)| {
+            let Role::Within(sigma) = chosen.roles[which] else { return None };
+            let unit = parameter.unit;
+            Some(Estimated {
+                id: terms.id(place, which),
+                unit: unit.symbol,
+                value: chosen.values[which] / unit.factor,
+                sigma: sigma / unit.factor,
+            })
+        })
+    });
+    triads.chain(others).collect()
+}
+
+impl Comparison {
+    fn of(before: &Calibration, after: &Calibration, names: [String; 2]) -> Self {
+        let lists = [estimated(before), estimated(after)];
+        let moved: Vec<Moved> = lists[0]
+            .iter()
+            .filter_map(|a| {
+                let b = lists[1].iter().find(|b| b.id == a.id)?;
+                Some(Moved {
+                    id: a.id.clone(),
+                    unit: a.unit,
+                    values: [a.value, b.value],
+                    sigmas: [a.sigma, b.sigma],
+                })
+            })
+            .collect();
+        let only = |list: &[Estimated]| -> Vec<String> {
+            let alone = list.iter().filter(|a| !moved.iter().any(|both| both.id == a.id));
+            alone.map(|a| a.id.clone()).collect()
+        };
+        let only = [only(&lists[0]), only(&lists[1])];
+        let together = together(&moved, before, after);
+        Self { names, moved, together, only }
+    }
+}
+
+/// The chi-square of all differences with both covariances.
+fn together(moved: &[Moved], before: &Calibration, after: &Calibration) -> Option<Together> {
+    let n = moved.len();
+    let covariance = covariance(moved, before, 0) + covariance(moved, after, 1);
+    // In units of each one's sigma, so that unlike units do not drown each other.
+    let correlation = DMatrix::from_fn(n, n, |row, column| {
+        covariance[(row, column)] / (moved[row].sigma() * moved[column].sigma())
+    });
+    let off = DVector::from_fn(n, |row, _| moved[row].sigmas_moved());
+    let chi_square = off.dot(&correlation.cholesky()?.solve(&off));
+    let p = ChiSquared::new(n as f64).ok()?.sf(chi_square);
+    Some(Together { chi_square, dof: n, p })
+}
+
+/// The covariance of what moved, as one calibration has it; without one, its sigmas.
+fn covariance(moved: &[Moved], calibration: &Calibration, which: usize) -> DMatrix<f64> {
+    let known = calibration.covariance.as_ref();
+    let place = |id: &str| known.and_then(|known| known.ids.iter().position(|other| other == id));
+    DMatrix::from_fn(moved.len(), moved.len(), |row, column| {
+        match (known, place(&moved[row].id), place(&moved[column].id)) {
+            (Some(known), Some(a), Some(b)) => known.matrix[(a, b)],
+            _ if row == column => moved[row].sigmas[which].powi(2),
+            _ => 0.0,
+        }
+    })
+}
+
+fn json(comparison: &Comparison) -> Value {
+    let parameters: Vec<Value> = comparison
+        .moved
+        .iter()
+        .map(|moved| {
+            json!({
+                "id": moved.id,
+                "unit": moved.unit,
+                "before": {"value": moved.values[0], "sigma": moved.sigmas[0]},
+                "after": {"value": moved.values[1], "sigma": moved.sigmas[1]},
+                "difference": moved.difference(),
+                "sigma": moved.sigma(),
+                "sigmas": moved.sigmas_moved(),
+            })
+        })
+        .collect();
+    json!({
+        "schema": 1,
+        "command": "compare",
+        "before": comparison.names[0],
+        "after": comparison.names[1],
+        "parameters": parameters,
+        "together": comparison.together.map(|together| json!({
+            "chi_square": together.chi_square,
+            "dof": together.dof,
+            "p": together.p,
+        })),
+        "only_before": comparison.only[0],
+        "only_after": comparison.only[1],
+    })
+}

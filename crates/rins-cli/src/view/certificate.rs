@@ -1,0 +1,355 @@
+//! A calibration with any model, for a terminal and for a browser.
+
+use std::fmt::Write as _;
+
+use rins_calibration::MEASUREMENTS;
+use rins_estimation::{Reference, correlation};
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
+
+use crate::args::NoiseChoice;
+use crate::commands::calibrate::seen::{figure, words};
+use crate::commands::calibrate::{Certificate, CertifiedRun};
+use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
+use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
+use crate::view::navigation::{gain_sentence, navigation_section};
+use crate::view::table::aligned;
+use crate::view::worth::{budget_section, compensation_section};
+
+/// What the rows of an innovation are.
+const CHANNELS: [&str; MEASUREMENTS] = [
+    "direction of the axis, x",
+    "direction of the axis, y",
+    "table angle",
+    "velocity along x of the axis frame",
+    "velocity along y of the axis frame",
+    "velocity along z of the axis frame",
+];
+
+/// The summary for a terminal.
+pub(crate) fn certificate_text(certificate: &Certificate) -> String {
+    let mut text = format!("{}\n", certificate.title());
+    for sentence in summary(certificate) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {sentence}");
+    }
+    text.push('\n');
+    let several = certificate.runs.len() > 1;
+    let mut rows = vec![
+        ["parameter", "run", "value", "sigma", "unit", "what it is"].map(String::from).to_vec(),
+    ];
+    let parameters = &certificate.fit.parameters;
+    for (place, finding) in certificate.findings.iter().enumerate() {
+        let estimate = &parameters[place];
+        let unit = estimate.parameter.unit;
+        rows.push(vec![
+            estimate.parameter.id.clone(),
+            run_name(estimate.run),
+            figure(finding.value / unit.factor),
+            figure(finding.sigma / unit.factor),
+            unit.symbol.into(),
+            words(parameters, &certificate.findings, place),
+        ]);
+    }
+    if !several {
+        for row in &mut rows {
+            row.remove(1);
+        }
+    }
+    text.push_str(&aligned(&rows));
+    text
+}
+
+fn run_name(run: Option<usize>) -> String {
+    run.map_or_else(String::new, |run| (run + 1).to_string())
+}
+
+/// The result in plain words.
+fn summary(certificate: &Certificate) -> Vec<String> {
+    let mut sentences: Vec<String> = certificate
+        .runs
+        .iter()
+        .map(|run| {
+            let gain = gain_sentence("what was estimated", &run.before, &run.after);
+            if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
+        })
+        .collect();
+    sentences.push(consistency_sentence(&certificate.consistency));
+    sentences.push(identified(certificate));
+    sentences.push(noise(certificate));
+    sentences.extend(certificate.remarks.iter().cloned());
+    sentences
+}
+
+fn identified(certificate: &Certificate) -> String {
+    let findings = &certificate.findings;
+    let alone = findings.iter().filter(|finding| finding.identifiable).count();
+    let combined = findings.iter().filter(|f| !f.identifiable && !f.partners.is_empty()).count();
+    let hidden: Vec<&str> = findings
+        .iter()
+        .zip(&certificate.fit.parameters)
+        .filter(|(finding, _)| !finding.identifiable && finding.partners.is_empty())
+        .map(|(_, estimate)| estimate.parameter.id.as_str())
+        .collect();
+    let mut text = format!("Of {} parameters this schedule shows {alone} alone", findings.len());
+    if combined > 0 {
+        let _ = write!(text, ", {combined} only in combinations");
+    }
+    if hidden.is_empty() {
+        text.push('.');
+    } else {
+        let _ = write!(text, "; it does not show {}.", hidden.join(", "));
+    }
+    text
+}
+
+fn noise(certificate: &Certificate) -> String {
+    let imu = certificate.fit.noise[0].imu;
+    let how = match certificate.noise {
+        NoiseChoice::Likely => "Most likely noise",
+        NoiseChoice::Given => "Noise as given",
+    };
+    let triad = |white: f64, flicker: f64, unit: f64, white_unit: &str, flicker_unit: &str| {
+        format!(
+            "{} {white_unit} and {} {flicker_unit} of flicker",
+            figure(white / unit),
+            figure(flicker / unit)
+        )
+    };
+    format!(
+        "{how}: gyros {}, accelerometers {}.",
+        triad(imu.gyro.white, imu.gyro.flicker, DEG_PER_HOUR, "deg/h/√Hz", "deg/h"),
+        triad(imu.accel.white, imu.accel.flicker, MICRO_G, "µg/√Hz", "µg")
+    )
+}
+
+/// The report page.
+pub(crate) fn certificate_report(certificate: &Certificate) -> Report {
+    let mut sections = vec![parameters_section(certificate), correlation_section(certificate)];
+    let several = certificate.runs.len() > 1;
+    let of = |heading: &str, run: &CertifiedRun| {
+        if several { format!("{heading}: {}", run.prepared.name) } else { heading.to_owned() }
+    };
+    for run in &certificate.runs {
+        sections.push(navigation_section(
+            &of("Free inertial navigation before and after", run),
+            &run.before,
+            &run.after,
+        ));
+    }
+    sections.push(compensation_section(certificate.fit.model()));
+    for run in &certificate.runs {
+        let ids: Vec<&str> = run
+            .places
+            .iter()
+            .map(|&place| certificate.fit.parameters[place].parameter.id.as_str())
+            .collect();
+        sections.push(budget_section(&of("Error budget", run), &ids, &run.budget));
+    }
+    sections.push(noise_section(certificate));
+    for run in &certificate.runs {
+        sections.push(consistency_section(
+            &of("Does the model fit?", run),
+            &run.consistency,
+            &Residuals { channels: CHANNELS, times: &run.times, innovations: &run.innovations },
+        ));
+    }
+    let samples: usize = certificate.runs.iter().map(|run| run.prepared.run.recording.len()).sum();
+    Report {
+        title: certificate.title(),
+        subtitle: format!(
+            "rins calibrate, model {}: {} parameters from {samples} samples",
+            certificate.model,
+            certificate.findings.len()
+        ),
+        summary: summary(certificate),
+        sections,
+    }
+}
+
+fn parameters_section(certificate: &Certificate) -> Section {
+    let parameters = &certificate.fit.parameters;
+    let rows = certificate.findings.iter().enumerate().map(|(place, finding)| {
+        let estimate = &parameters[place];
+        let unit = estimate.parameter.unit;
+        let badge = match (finding.identifiable, finding.partners.is_empty()) {
+            (true, _) => Cell::badge(Tone::Good, "identifiable"),
+            (false, false) => Cell::badge(Tone::Warning, "combination"),
+            (false, true) => Cell::badge(Tone::Neutral, "not shown"),
+        };
+        let meaning = if finding.identifiable {
+            String::new()
+        } else {
+            words(parameters, &certificate.findings, place)
+        };
+        vec![
+            Cell::text(&estimate.parameter.id),
+            Cell::text(run_name(estimate.run)),
+            Cell::Estimate {
+                value: finding.value / unit.factor,
+                sigma: finding.sigma / unit.factor,
+            },
+            Cell::text(unit.symbol),
+            Cell::Bar {
+                value: finding.value / (3.0 * finding.prior_sigma),
+                sigma: finding.sigma / (3.0 * finding.prior_sigma),
+            },
+            badge,
+            Cell::text(meaning),
+        ]
+    });
+    let axes = certificate.runs.iter().map(|run| {
+        let angles = run.nav_from_table.euler_angles();
+        let mut row = vec![Cell::text(&run.prepared.name)];
+        row.extend(
+            [angles.roll, angles.pitch, angles.yaw]
+                .map(|angle| Cell::Number { value: angle / DEG, decimals: 5 }),
+        );
+        row
+    });
+    Section {
+        heading: "Parameters".into(),
+        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. A combination \
+                has the value and the sigma of the whole. A run's number stands where a parameter is that run's own."
+            .into(),
+        items: vec![
+            Item::Table(Table {
+                caption: "Estimates, 1σ".into(),
+                columns: vec![
+                    Column::id("parameter"),
+                    Column::number("run"),
+                    Column::number("estimate"),
+                    Column::text("unit"),
+                    Column::text("within ±3 prior σ"),
+                    Column::text("under this schedule"),
+                    Column::text("what it is"),
+                ],
+                rows: rows.collect(),
+            }),
+            Item::Table(Table {
+                caption: "Attitude of the axis frame".into(),
+                columns: vec![
+                    Column::text("run"),
+                    Column::number("roll [deg]"),
+                    Column::number("pitch [deg]"),
+                    Column::number("yaw [deg]"),
+                ],
+                rows: axes.collect(),
+            }),
+        ],
+    }
+}
+
+fn correlation_section(certificate: &Certificate) -> Section {
+    let correlation = correlation(&certificate.fit.covariance);
+    let labels = certificate.fit.parameters.iter().map(|estimate| {
+        let run = if certificate.runs.len() > 1 { run_name(estimate.run) } else { String::new() };
+        format!("{} {run}", estimate.parameter.id).trim_end().to_owned()
+    });
+    Section {
+        heading: "Correlations".into(),
+        intro: "Strong shades are pairs that the data tell apart badly. The covariance itself stands in calibration.toml, \
+                the correlations in result.json."
+            .into(),
+        items: vec![Item::Matrix(Matrix {
+            caption: "Correlation of the estimates".into(),
+            labels: labels.collect(),
+            values: correlation.row_iter().map(|row| row.iter().copied().collect()).collect(),
+        })],
+    }
+}
+
+fn noise_section(certificate: &Certificate) -> Section {
+    let imu = certificate.fit.noise[0].imu;
+    let sheet = &certificate.runs[0].prepared.imu;
+    let row = |name: String, found: f64, given: Option<f64>, factor: f64, unit: &str| {
+        vec![
+            Cell::text(name),
+            Cell::text(figure(found / factor)),
+            Cell::text(given.map_or_else(|| "–".into(), |given| figure(given / factor))),
+            Cell::text(unit),
+        ]
+    };
+    let mut rows = Vec::new();
+    let triads = [
+        ("gyro", imu.gyro, &sheet.gyro, DEG_PER_HOUR, "deg/h"),
+        ("accelerometer", imu.accel, &sheet.accel, MICRO_G, "µg"),
+    ];
+    for (name, found, spec, factor, unit) in triads {
+        let given = Some(spec.noise_density);
+        rows.push(row(
+            format!("{name}, white"),
+            found.white,
+            given,
+            factor,
+            &format!("{unit}/√Hz"),
+        ));
+        rows.push(row(
+            format!("{name}, bias instability"),
+            found.flicker,
+            spec.bias_instability,
+            factor,
+            unit,
+        ));
+        let walk_unit = format!("{unit}/√h");
+        rows.push(row(
+            format!("{name}, random walk"),
+            found.walk,
+            spec.random_walk,
+            factor / 60.0,
+            &walk_unit,
+        ));
+    }
+    for (run, noise) in certificate.runs.iter().zip(&certificate.fit.noise) {
+        let rig = &run.prepared.run.rig;
+        let name = |what: &str| format!("{what}, {}", run.prepared.name);
+        rows.push(row(
+            name("wobble of the axis"),
+            noise.wobble,
+            Some(rig.wobble),
+            ARCSEC,
+            "arcsec",
+        ));
+        if let Reference::Encoder { noise: given } = rig.reference {
+            rows.push(row(name("encoder"), noise.encoder, Some(given), ARCSEC, "arcsec"));
+        }
+    }
+    let iterations = certificate.fit.iterations.iter().enumerate().map(|(place, iteration)| {
+        vec![
+            Cell::text((place + 1).to_string()),
+            Cell::text(figure(iteration.step)),
+            Cell::Number { value: iteration.log_likelihood, decimals: 2 },
+        ]
+    });
+    let intro = match certificate.noise {
+        NoiseChoice::Likely => {
+            "The strengths under which the data are most probable, all parameters left open; the data sheet was the first \
+             guess."
+        }
+        NoiseChoice::Given => "The strengths of the data sheet, taken as they are.",
+    };
+    Section {
+        heading: "Noise and iteration".into(),
+        intro: intro.into(),
+        items: vec![
+            Item::Table(Table {
+                caption: "Strength of the noise".into(),
+                columns: vec![
+                    Column::text("noise"),
+                    Column::number("used"),
+                    Column::number("given"),
+                    Column::text("unit"),
+                ],
+                rows,
+            }),
+            Item::Table(Table {
+                caption: "Steps of the estimate, the largest in sigmas".into(),
+                columns: vec![
+                    Column::number("step"),
+                    Column::number("size"),
+                    Column::number("log-likelihood"),
+                ],
+                rows: iterations.collect(),
+            }),
+        ],
+    }
+}
