@@ -31,7 +31,8 @@ fn demo_leaves_a_result_that_others_can_read() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    let expected = ["calibration.toml", "report.html", "result.json", "rig.toml", "run.csv"];
+    let expected =
+        ["calibration.toml", "model.toml", "report.html", "result.json", "rig.toml", "run.csv"];
     assert_eq!(names, expected);
     for (name, opening) in [("report.html", "<!"), ("run.csv", "time,"), ("result.json", "{")] {
         let content = fs::read_to_string(folder.path().join("rins-demo").join(name)).unwrap();
