@@ -9,65 +9,112 @@ use rins_motion::Recording;
 /// The least rate of a turning wheel \[rad/s\].
 const LEAST_RATE: f64 = 0.1;
 
-/// How long a stop may be that does not end a turning \[s\].
-const LONGEST_STOP: f64 = 3.0;
+/// The part of its fastest rate below which a wheel is being started or stopped, by hands that tilt it.
+const LEAST_PART: f64 = 0.3;
+
+/// The time over which rates are smoothed \[s\].
+const SMOOTHING: f64 = 0.25;
 
 /// Two phases of gravity, the pulls of w² and w' on what is off the axis, and constants in the body.
 const COLUMNS: usize = 6;
 
-/// The longest stretch of samples over which the body turns about z: what a run without a table reading is
-/// taken from.
+/// The longest stretch of samples over which the body turns about z one way, and not slowly: what a run without
+/// a table reading is taken from.
 ///
-/// The rate is that of the z gyro, smoothed over half a second. `None` if it never turns.
+/// Slowly is by less than a third of the fastest rate, the rate that of the z gyro, smoothed over a quarter of a
+/// second. `None` if it never turns.
 pub fn turning_span(recording: &Recording) -> Option<Range<usize>> {
+    let mut rate = 0.0;
+    let rates: Vec<f64> = recording
+        .increments
+        .iter()
+        .map(|sample| {
+            let weight = (sample.interval / SMOOTHING).min(1.0);
+            rate += weight * (sample.angle.components().z / sample.interval - rate);
+            rate
+        })
+        .collect();
+    let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+    let least = LEAST_RATE.max(LEAST_PART * fastest);
     let mut longest: Option<Range<usize>> = None;
-    let mut now: Option<Range<usize>> = None;
-    let (mut rate, mut still) = (0.0, 0.0);
-    for (index, sample) in recording.increments.iter().enumerate() {
-        let interval = sample.interval;
-        let weight = (interval / 0.25).min(1.0);
-        rate += weight * (sample.angle.components().z / interval - rate);
-        if rate.abs() > LEAST_RATE {
-            still = 0.0;
-            let start = now.as_ref().map_or(index, |span: &Range<usize>| span.start);
-            now = Some(start..index + 1);
-        } else {
-            still += interval;
-            if still > LONGEST_STOP {
-                now = None;
+    let mut start = 0;
+    for (index, rate) in rates.iter().enumerate() {
+        let one_way = rate.abs() > least && rate.signum() == rates[start].signum();
+        if !one_way {
+            start = if rate.abs() > least { index } else { index + 1 };
+            if start >= rates.len() {
+                break;
             }
+            continue;
         }
-        let better = |span: &Range<usize>| longest.as_ref().is_none_or(|l| span.len() > l.len());
-        if let Some(span) = now.clone().filter(better) {
+        let span = start..index + 1;
+        if longest.as_ref().is_none_or(|longest| span.len() > longest.len()) {
             longest = Some(span);
         }
     }
     longest
 }
 
+/// How far a gyro's scale may be off.
+const LARGEST_SCALE_ERROR: f64 = 0.05;
+
+/// The most of a turning that is looked at \[rad\]: sixty turns show the axis, and the search grows with their square.
+const MOST_TURNED: f64 = 60.0 * std::f64::consts::TAU;
+
+/// By how much two scales that are tried differ in the angle at the end \[rad\].
+const STEP: f64 = 0.25;
+
 /// The attitude of an axis about which the body turns, from the accelerometers.
 ///
 /// What of the specific force turns with the body is gravity's part across the axis; the part along
-/// it is what the z accelerometer reads. The azimuth, which gravity does not show, is `yaw` \[rad\]; the table
-/// angle is zero where the run begins.
+/// it is what the z accelerometer reads. The gyro's scale error, which would take its angle away from
+/// gravity's within a few turns, is searched for beside it. The azimuth, which gravity does not show, is
+/// `yaw` \[rad\]; the table angle is zero where the run begins.
 ///
 /// `None` if the body makes less than a turn.
 pub fn axis_from_gravity(recording: &Recording, yaw: f64) -> Option<Dcm<Nav, Table>> {
+    let turned: f64 = recording.increments.iter().map(|k| k.angle.components().z.abs()).sum();
+    let turned = turned.min(MOST_TURNED);
+    let (mut best, mut least) = (None, f64::INFINITY);
+    let half = (LARGEST_SCALE_ERROR * turned / STEP).ceil();
+    let mut step = -half;
+    while step <= half {
+        if let Some((up, misfit)) = up_seen(recording, 1.0 + step * STEP / turned)
+            && misfit < least
+        {
+            (best, least) = (Some(up), misfit);
+        }
+        step += 1.0;
+    }
+    let up = best?;
+    // The third row of C_s^n is up: -cos(pitch) sin(roll), sin(pitch), cos(pitch) cos(roll).
+    let pitch = up.y.clamp(-1.0, 1.0).asin();
+    let roll = (-up.x).atan2(up.z);
+    Some(EulerAngles { roll, pitch, yaw }.dcm())
+}
+
+/// Where up is in the axis frame, if the true rate is `scale` times what the z gyro reads; and what is left over
+/// of the accelerometers' readings across the axis, as a sum of squares.
+fn up_seen(recording: &Recording, scale: f64) -> Option<(Vector3<f64>, f64)> {
     let samples = &recording.increments;
     let mut normal = DMatrix::<f64>::zeros(COLUMNS, COLUMNS);
     let mut right = DVector::<f64>::zeros(COLUMNS);
     let (mut angle, mut least, mut most, mut along) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
-    let mut duration = 0.0;
+    let (mut duration, mut turned, mut square) = (0.0, 0.0, 0.0);
     for (index, sample) in samples.iter().enumerate() {
         let interval = sample.interval;
         let rates = sample.rates();
-        let (w, force) = (rates.angular_rate.components().z, rates.specific_force.components());
+        let force = rates.specific_force.components();
+        let w = scale * rates.angular_rate.components().z;
         let middle = angle + 0.5 * w * interval;
         angle += w * interval;
+        turned += (w * interval).abs();
         least = least.min(angle);
         most = most.max(angle);
-        let neighbour =
-            |at: usize| samples[at.min(samples.len() - 1)].rates().angular_rate.components().z;
+        let neighbour = |at: usize| {
+            let at = at.min(samples.len() - 1);
+            scale * samples[at].rates().angular_rate.components().z
+        };
         let acceleration =
             (neighbour(index + 1) - neighbour(index.saturating_sub(1))) / (2.0 * interval);
         let (sin, cos) = middle.sin_cos();
@@ -80,9 +127,13 @@ pub fn axis_from_gravity(recording: &Recording, yaw: f64) -> Option<Dcm<Nav, Tab
             let row = DVector::from_column_slice(row);
             normal.syger(interval, &row, &row, 1.0);
             right.axpy(read * interval, &row, 1.0);
+            square += read * read * interval;
         }
         along += force.z * interval;
         duration += interval;
+        if turned > MOST_TURNED {
+            break;
+        }
     }
     if most - least < std::f64::consts::TAU {
         return None;
@@ -90,8 +141,5 @@ pub fn axis_from_gravity(recording: &Recording, yaw: f64) -> Option<Dcm<Nav, Tab
     normal.fill_upper_triangle_with_lower_triangle();
     let solved = normal.cholesky()?.solve(&right);
     let up = Vector3::new(solved[0], solved[1], along / duration).normalize();
-    // The third row of C_s^n is up: -cos(pitch) sin(roll), sin(pitch), cos(pitch) cos(roll).
-    let pitch = up.y.clamp(-1.0, 1.0).asin();
-    let roll = (-up.x).atan2(up.z);
-    Some(EulerAngles { roll, pitch, yaw }.dcm())
+    Some((up, square - right.dot(&solved)))
 }
