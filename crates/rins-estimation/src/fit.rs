@@ -133,11 +133,14 @@ pub fn fit(
     let mut around = Vec::new();
     loop {
         let linear = problem.linear();
-        let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
+        let (evidence, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
         let step = problem.advance(&posterior);
         let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
         progress(&iteration);
         iterations.push(iteration);
+        if find_noise {
+            calm(&mut noise, &evidence, &posterior);
+        }
         // Noise is judged where the parameters no longer move by much.
         if find_noise && step < 1.0 && iterations.len() > 1 {
             break;
@@ -172,6 +175,21 @@ pub fn fit(
         }
     }
     problem.finish(noise, &around, iterations)
+}
+
+/// Makes all noise as strong as the residuals, if these are stronger: a model that does not fit would chase them
+/// from one end of the priors to the other.
+fn calm(noise: &mut [Noise], evidence: &Evidence, posterior: &Posterior) {
+    let factor = (posterior.square / evidence.figures as f64).sqrt();
+    if factor <= 1.5 {
+        return;
+    }
+    for noise in noise {
+        let Noise { imu, wobble, encoder } = noise;
+        for strength in [&mut imu.gyro.white, &mut imu.accel.white, wobble, encoder] {
+            *strength *= factor;
+        }
+    }
 }
 
 /// Runs, a model for each, and where each one's parameters stand among all.
