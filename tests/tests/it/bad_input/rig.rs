@@ -320,8 +320,8 @@ const LOG_KEYS: &[Row] = &[
 /// `[table]`.
 const TABLE: &[Row] = &[
     (
-        "no table",
-        CALIBRATE,
+        "no table for the paper's filter",
+        "calibrate rig.toml --model paper12",
         Replace(RIG, "table_angle = ", "#"),
         &["the calibration needs the table angle or the commanded rate; the log has neither"],
     ),
