@@ -182,3 +182,50 @@ fn xsens_rests_38_times_and_reads_gravity_each_time() {
     let align = result_in(folder.path(), "align rig.toml");
     assert!(align["attitude_deg"]["yaw"].is_null(), "{align}");
 }
+
+/// The parameter of this id in a calibration.
+fn calibrated<'r>(result: &'r Value, id: &str) -> &'r Value {
+    list(result, "/parameters").iter().find(|parameter| parameter["id"] == id).unwrap()
+}
+
+/// Of the model's errors only: the chair moves, and more than its sigmas may be off.
+#[test]
+fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
+    let Some(folder) = rig("worklab_wheel_right") else { return };
+    let result = result_in(folder.path(), "calibrate rig.toml");
+    assert_eq!(
+        (&result["model"], &result["runs"][0]["reference"]),
+        (&"full".into(), &"gravity".into())
+    );
+    assert_eq!(result["consistency"]["verdict"], "misfit");
+    assert_eq!(result["consistency"]["nis_dof"], 5);
+    // A plain regression of the readings on gravity's turning, w² and w' says (43, -20) mm.
+    let arm = |axis: &str| calibrated(&result, &format!("accel_lever_arm.r_{axis}"));
+    assert_close!(number(arm("x"), "/value"), 43.0, 5.0);
+    assert_close!(number(arm("y"), "/value"), -20.0, 12.0);
+    assert!(number(arm("x"), "/sigma") < 5.0, "{}", arm("x"));
+    // Most of gravity turns in the plane of a wheel.
+    let across = number(&result, "/runs/0/gravity_across_axis_m_s2");
+    assert!((8.5..9.81).contains(&across), "{across}");
+    let scale = calibrated(&result, "gyro.scale.z");
+    let (value, sigma) = (number(scale, "/alone/value"), number(scale, "/alone/sigma"));
+    assert!((1000.0..10000.0).contains(&sigma) && value.abs() < 3.0 * sigma, "{scale}");
+    assert!(texts(&result, "/notes").iter().any(|note| note.contains("lever arm")), "{result}");
+}
+
+#[test]
+fn xsens_at_rest_shows_its_gyro_biases_and_names_what_does_not_show() {
+    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let result = result_in(folder.path(), "calibrate rig.toml");
+    assert_eq!(result["runs"][0]["reference"], "rest");
+    let hidden = texts(&result, "/identifiability/not_shown");
+    for id in ["gyro.scale.z", "gyro.misalignment.xz", "accel.scale.x", "accel.misalignment.xy"] {
+        assert!(hidden.contains(&id), "{id} is not named: {hidden:?}");
+    }
+    for axis in ["x", "y", "z"] {
+        let bias = calibrated(&result, &format!("gyro.bias.{axis}"));
+        assert_eq!(bias["identifiable"], true, "{bias}");
+        // The rig file's offsets are means over all rests, between which they wander by 0.1 deg/s.
+        assert!(number(bias, "/value").abs() < 720.0, "{bias}");
+    }
+}

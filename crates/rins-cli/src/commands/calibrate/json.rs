@@ -7,6 +7,7 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use serde_json::{Value, json};
 
 use crate::args::NoiseChoice;
+use crate::commands::calibrate::prepared::across_axis;
 use crate::commands::calibrate::{Budget, Certificate, CertifiedRun, Drift, EQUATION, seen};
 use crate::view::euler_json;
 
@@ -170,6 +171,8 @@ fn run_json(certificate: &Certificate, place: usize, run: &CertifiedRun) -> Valu
         },
         "samples": run.prepared.run.recording.len(),
         "axis_attitude_deg": euler_json(&run.nav_from_table.euler_angles()),
+        "gravity_across_axis_m_s2":
+            across_axis(run.prepared.loaded.station.gravity, &run.nav_from_table),
         "wobble_arcsec": noise.wobble / ARCSEC,
         "encoder_noise_arcsec": encoder.then_some(noise.encoder / ARCSEC),
         "navigation": {

@@ -6,7 +6,7 @@ use anyhow::Context;
 use nalgebra::{Matrix3, Vector3};
 use rins_calibration::{Setup, likely_wobble, table_angles};
 use rins_estimation::{Reference, Rig, Run, axis_from_gravity, turning_span};
-use rins_frames::units::DEG;
+use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
 use rins_io::Loaded;
@@ -25,6 +25,9 @@ const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
 
 /// How far gravity's turning may be off the axis that it shows, 1σ \[rad\]: the base may move.
 const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
+
+/// The first guess of how a floor or a hand lets an axis tremble on which no encoder sits \[rad\].
+const UNREAD_WOBBLE: f64 = 20.0 * ARCSEC;
 
 /// A body that turns by less, without anything that says how far, is taken to be handled \[rad\].
 const LEAST_SPIN: f64 = 2.0 * std::f64::consts::TAU;
@@ -80,6 +83,10 @@ impl Prepared {
         if noise == NoiseChoice::Given && !has_wobble && turned {
             setup.table.wobble = likely_wobble(&loaded.recording, &setup).with_context(log)?;
         }
+        let unread = matches!(axis.reference, Reference::Gravity | Reference::Rest);
+        if unread && !has_wobble {
+            setup.table.wobble = UNREAD_WOBBLE;
+        }
         let rig = Rig {
             station: loaded.station,
             nav_from_table: axis.nav_from_table,
@@ -132,8 +139,9 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
     {
         let angles = nav_from_table.euler_angles();
         let remarks = vec![format!(
-            "Nothing reads the table: gravity, turning about an axis at roll {:.1}, pitch {:.1} deg, is the angle \
+            "Nothing reads the table: gravity, {:.2} m/s² of it across the axis (roll {:.1}, pitch {:.1} deg), is the angle \
              reference from {:.1} s to {:.1} s, {:.1} turns. The table angle is zero where it begins.",
+            across_axis(loaded.station.gravity, &nav_from_table),
             angles.roll / DEG,
             angles.pitch / DEG,
             recording.times[span.start],
@@ -172,6 +180,11 @@ fn aligned(nav_from_table: &Dcm<Nav, Table>, sigma: (f64, f64, Option<f64>)) -> 
     let covariance = Matrix3::from_diagonal(&about.map(|sigma| sigma * sigma));
     let turned = nav_from_table.matrix().transpose() * covariance * nav_from_table.matrix();
     Attitude { sigma: [0, 1, 2].map(|axis| Some(turned[(axis, axis)].sqrt())) }
+}
+
+/// How much of gravity turns in the plane of rotation \[m/s²\].
+pub(super) fn across_axis(gravity: f64, nav_from_table: &Dcm<Nav, Table>) -> f64 {
+    gravity * nav_from_table.matrix()[(2, 0)].hypot(nav_from_table.matrix()[(2, 1)])
 }
 
 /// How far a body turns about z on the whole \[rad\].
