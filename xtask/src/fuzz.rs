@@ -13,7 +13,7 @@ use crate::Result;
 pub(crate) struct Options {
     /// Fuzz these targets only
     targets: Vec<String>,
-    /// How long each target is fuzzed [s]
+    /// How many seconds each target is fuzzed
     #[arg(long, default_value_t = 5)]
     seconds: u32,
     /// Name the targets, and fuzz none

@@ -67,8 +67,8 @@ pub(crate) enum Command {
     /// Say what a rotation schedule tells apart before it is run, and which one to run next
     ///
     /// The information that a run would hold on the parameters of a model is reckoned from the scenario's motion, site
-    /// and [imu] figures, without noise and without errors. What the data tell is said of every parameter: itself, or a
-    /// combination with others; its sigma by the data alone, and with the figures of [imu] known beforehand.
+    /// and IMU figures, without noise and without errors. What the data tell is said of every parameter: itself, or a
+    /// combination with others; its sigma by the data alone, and with the figures of the IMU known beforehand.
     ///
     /// Several scenarios are runs of one IMU: what belongs to the sensors is shared, attitude, turn-on biases and the
     /// like are each run's own. An effect is named by its id, or by that of one of its parameters
@@ -196,7 +196,7 @@ pub(crate) struct Calibrate {
 
 #[derive(Debug, Args)]
 pub(crate) struct MonteCarlo {
-    /// The scenario file, with a [grid] or without
+    /// The scenario file, with a grid or without
     pub(crate) scenario: PathBuf,
     /// How many runs of each scenario
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
