@@ -2,8 +2,12 @@
 
 use crate::strengths::TriadStrengths;
 
-/// The ratio of neighbouring correlation times of the processes that make flicker noise.
-const LADDER: f64 = 4.0;
+/// The ratio of neighbouring correlation times of the processes that make flicker noise: between them its density
+/// is off by 4 %, where the strength of a flicker is seldom known to 20 %.
+const LADDER: f64 = 8.0;
+
+/// How many times the run the longest of them last: what lasts longer is a bias, and a parameter.
+const LONGEST: f64 = 4.0;
 
 /// A process with memory, one for each axis of a triad: `b' = -b/τ + white noise`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,9 +111,8 @@ pub(crate) struct Colours {
 impl Colours {
     /// For a run of `duration` in epochs of `epoch` \[s\].
     ///
-    /// Flicker of density `B²/2πf` is a ladder of processes whose times are a factor of four apart, each of
-    /// variance `B² ln 4 / π`; it reaches from an epoch to sixteen times the run. What lasts less is white as
-    /// seen in epochs.
+    /// Flicker of density `B²/2πf` is a ladder of processes whose times are a factor `r` apart, each of
+    /// variance `B² ln r / π`. What lasts less than an epoch is white as seen in epochs.
     pub(crate) fn of(strengths: &TriadStrengths, epoch: f64, duration: f64) -> Self {
         let mut colours = Self::default();
         if strengths.flicker > 0.0 {
@@ -118,7 +121,7 @@ impl Colours {
             let mut time = 0.75 * epoch;
             // Those faster still: 2 σ² (τ/4 + τ/16 + ...).
             colours.white = 2.0 * variance * time / (LADDER - 1.0);
-            while time < 16.0 * duration {
+            while time < LONGEST * duration {
                 colours.processes.push(Process { time, strength: variance });
                 time *= LADDER;
             }

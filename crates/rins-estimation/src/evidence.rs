@@ -4,7 +4,7 @@
 //! of a linear model: sums of their products are the information, and equal what a filter with the
 //! parameters as states would find from a diffuse start.
 
-use nalgebra::{Cholesky, DMatrix, SMatrix, SVector};
+use nalgebra::{Cholesky, DMatrix, Dim, Dyn, Matrix, SMatrix, SVector, StorageMut};
 
 use crate::gram::Gram;
 use crate::linear::{Epoch, Linear};
@@ -56,13 +56,13 @@ pub fn innovations(
     let mut combination = vec![1.0];
     combination.extend_from_slice(delta);
     pass(linear, noise, &combination, |whitened, _| {
-        all.push(-SVector::<f64, SHOWN>::from_column_slice(whitened.column(0).as_slice()));
+        all.push(-SVector::<f64, SHOWN>::from_column_slice(whitened.as_slice()));
     })?;
     Ok(all)
 }
 
-/// Runs the filter; `each` is given the whitened columns of every epoch, and half the
-/// logarithm of the determinant.
+/// Runs the filter; `each` is given what every epoch shows of the columns, whitened, a row a column, and half
+/// the logarithm of the determinant.
 ///
 /// With a `combination` the columns are summed up, each times its number, into one.
 fn pass(
@@ -75,15 +75,17 @@ fn pass(
     let columns = if combination.is_empty() { linear.parameters + 1 } else { 1 };
     let mut filter = Pass {
         covariance: space.start(),
-        columns: DMatrix::zeros(space.states(), columns),
-        whitened: DMatrix::zeros(SHOWN, columns),
+        columns: DMatrix::zeros(columns, space.states()),
+        whitened: DMatrix::zeros(columns, SHOWN),
+        carried: DMatrix::zeros(columns, NAVIGATION),
         shows_angle: space.shows_angle(),
     };
     for (index, epoch) in linear.epochs.iter().enumerate() {
         let inputs = Inputs::of(epoch, combination);
         if epoch.fresh {
             space.forget_navigation(&mut filter.covariance);
-            filter.columns.rows_mut(0, NAVIGATION).copy_from(&inputs.start(space.shows_angle()));
+            let start = inputs.start(space.shows_angle());
+            filter.columns.columns_mut(0, NAVIGATION).tr_copy_from(&start);
         }
         let log_determinant =
             filter.step(&space.step(epoch), &inputs).ok_or(Indefinite { epoch: index })?;
@@ -128,10 +130,13 @@ impl Inputs {
 }
 
 /// The filter's covariance and the recursions of the columns.
+///
+/// Here a column is a row: hundreds of them are carried by the same few numbers, one state after the other.
 struct Pass {
     covariance: DMatrix<f64>,
     columns: DMatrix<f64>,
     whitened: DMatrix<f64>,
+    carried: DMatrix<f64>,
     shows_angle: bool,
 }
 
@@ -156,7 +161,8 @@ impl Pass {
                 *value *= decay;
             }
         }
-        let gain = over_transposed(&(of_shown + &step.cross), &l);
+        let mut gain = of_shown + &step.cross;
+        over_transposed(&mut gain, &l);
 
         self.carry_columns(step, inputs, &l, &gain);
         self.carry_covariance(step, &of_navigation, &gain);
@@ -165,23 +171,32 @@ impl Pass {
 
     /// What of the columns is shown, whitened, and what is carried on.
     fn carry_columns(&mut self, step: &Step, inputs: &Inputs, l: &Square, gain: &DMatrix<f64>) {
-        let carried = &step.navigation * &self.columns + &inputs.navigation;
-        let seen = &mut self.whitened;
-        seen.rows_mut(0, 3).copy_from(&(&step.attitude * &self.columns + &inputs.shown_attitude));
-        seen.rows_mut(3, 3).copy_from(&carried.rows(3, 3));
+        let Self { columns, whitened: seen, carried, .. } = self;
+        carried.tr_copy_from(&inputs.navigation);
+        add_times_transposed(carried, columns, &step.navigation);
+        let mut attitude = seen.columns_mut(0, 3);
+        attitude.tr_copy_from(&inputs.shown_attitude);
+        add_times_transposed(&mut attitude, columns, &step.attitude);
+        seen.columns_mut(3, 3).copy_from(&carried.columns(3, 3));
         if !self.shows_angle {
-            seen.row_mut(2).fill(0.0);
+            seen.column_mut(2).fill(0.0);
         }
-        l.solve_lower_triangular_mut(seen);
-        self.columns.rows_mut(0, NAVIGATION).copy_from(&carried);
-        for mut column in self.columns.column_iter_mut() {
-            for (value, decay) in column.iter_mut().skip(NAVIGATION).zip(&step.decay) {
-                *value *= decay;
-            }
-        }
-        for (mut column, seen) in self.columns.column_iter_mut().zip(seen.column_iter()) {
-            for part in 0..SHOWN {
-                column.axpy(-seen[part], &gain.column(part), 1.0);
+        over_transposed(seen, l);
+        columns.columns_mut(0, NAVIGATION).copy_from(carried);
+        let seen: [&[f64]; SHOWN] = {
+            let count = seen.nrows();
+            let (seen, mut start) = (seen.as_slice(), 0);
+            [(); SHOWN].map(|()| {
+                start += count;
+                &seen[start - count..start]
+            })
+        };
+        for (state, mut column) in columns.column_iter_mut().enumerate() {
+            let decay = if state < NAVIGATION { 1.0 } else { step.decay[state - NAVIGATION] };
+            let gain: [f64; SHOWN] = std::array::from_fn(|part| gain[(state, part)]);
+            for (place, value) in column.iter_mut().enumerate() {
+                let shown: f64 = (0..SHOWN).map(|part| gain[part] * seen[part][place]).sum();
+                *value = *value * decay - shown;
             }
         }
     }
@@ -226,24 +241,31 @@ impl Pass {
 /// `P Aᵀ`, where `A` has few rows and many zeros, and `P` is symmetric.
 fn times_transposed(p: &DMatrix<f64>, a: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(p.nrows(), a.nrows());
-    for row in 0..a.nrows() {
-        let mut of_row = product.column_mut(row);
-        for (column, value) in a.row(row).iter().enumerate().filter(|(_, value)| **value != 0.0) {
-            of_row.axpy(*value, &p.column(column), 1.0);
-        }
-    }
+    add_times_transposed(&mut product, p, a);
     product
 }
 
-/// `C L⁻ᵀ`, column after column.
-fn over_transposed(c: &DMatrix<f64>, l: &Square) -> DMatrix<f64> {
-    let mut w = c.clone();
+/// Adds `C Aᵀ` to `to`, where `A` has few rows and many zeros.
+fn add_times_transposed<S: StorageMut<f64, Dyn, C>, C: Dim>(
+    to: &mut Matrix<f64, Dyn, C, S>,
+    c: &DMatrix<f64>,
+    a: &DMatrix<f64>,
+) {
+    for row in 0..a.nrows() {
+        let mut of_row = to.column_mut(row);
+        for (column, value) in a.row(row).iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            of_row.axpy(*value, &c.column(column), 1.0);
+        }
+    }
+}
+
+/// `C` becomes `C L⁻ᵀ`, column after column.
+fn over_transposed(c: &mut DMatrix<f64>, l: &Square) {
     for column in 0..SHOWN {
         for before in 0..column {
-            let (done, mut now) = w.columns_range_pair_mut(before, column);
+            let (done, mut now) = c.columns_range_pair_mut(before, column);
             now.axpy(-l[(column, before)], &done, 1.0);
         }
-        w.column_mut(column).scale_mut(1.0 / l[(column, column)]);
+        c.column_mut(column).scale_mut(1.0 / l[(column, column)]);
     }
-    w
 }

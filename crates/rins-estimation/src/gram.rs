@@ -1,45 +1,48 @@
 //! Sums of products of many rows.
 
-use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::{Accum, Mat, Par};
 use nalgebra::DMatrix;
 
-/// How many rows are taken together.
-const ROWS: usize = 384;
+/// How many columns are taken together.
+const COLUMNS: usize = 384;
 
-/// `Σ ZᵀZ` over matrices `Z` of few rows, a block at a time.
+/// `Σ Z Zᵀ` over matrices `Z` of few columns, a block at a time.
 pub(crate) struct Gram {
-    rows: Mat<f64>,
+    block: Mat<f64>,
     filled: usize,
     sum: Mat<f64>,
 }
 
 impl Gram {
-    pub(crate) fn new(columns: usize) -> Self {
-        Self { rows: Mat::zeros(ROWS, columns), filled: 0, sum: Mat::zeros(columns, columns) }
+    pub(crate) fn new(rows: usize) -> Self {
+        Self { block: Mat::zeros(rows, COLUMNS), filled: 0, sum: Mat::zeros(rows, rows) }
     }
 
-    pub(crate) fn add(&mut self, rows: &DMatrix<f64>) {
-        if self.filled + rows.nrows() > ROWS {
+    pub(crate) fn add(&mut self, columns: &DMatrix<f64>) {
+        if self.filled + columns.ncols() > COLUMNS {
             self.empty();
         }
-        for column in 0..rows.ncols() {
-            for row in 0..rows.nrows() {
-                self.rows[(self.filled + row, column)] = rows[(row, column)];
+        for column in columns.column_iter() {
+            let place = self.filled;
+            for (to, from) in self.block.col_mut(place).iter_mut().zip(column.iter()) {
+                *to = *from;
             }
+            self.filled += 1;
         }
-        self.filled += rows.nrows();
     }
 
     fn empty(&mut self) {
-        let block = self.rows.as_ref().subrows(0, self.filled);
-        matmul(&mut self.sum, Accum::Add, block.transpose(), block, 1.0, Par::Seq);
+        let block = self.block.as_ref().subcols(0, self.filled);
+        let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+        let (sum, par) = (&mut self.sum, Par::Seq);
+        matmul(sum, lower, Accum::Add, block, full, block.transpose(), full, 1.0, par);
         self.filled = 0;
     }
 
     pub(crate) fn finish(mut self) -> DMatrix<f64> {
         self.empty();
         let n = self.sum.ncols();
-        DMatrix::from_fn(n, n, |row, column| self.sum[(row, column)])
+        DMatrix::from_fn(n, n, |row, column| self.sum[(row.max(column), row.min(column))])
     }
 }
