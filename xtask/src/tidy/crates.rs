@@ -9,14 +9,14 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 
 /// The crates in layers, bottom first: a crate uses those of the layers below its own.
 const LAYERS: &[&[&str]] = &[
-    &["rins-frames", "rins-ekf", "rins-lanes"],
+    &["rins-frames", "rins-ekf", "rins-lanes", "rins-blind"],
     &["rins-imu", "rins-motion"],
     &["rins-terms"],
     &["rins-simulation", "rins-calibration"],
     &["rins-estimation", "rins-campaign"],
     &["rins-diagnosis"],
     &["rins-io"],
-    &["rins-cli", "rins-reproduction"],
+    &["rins-cli", "rins-reproduction", "rins-trials"],
 ];
 
 /// The crate that is for tests only: a dev-dependency of any other, and in no layer.

@@ -1,0 +1,47 @@
+//! True motions of the table and of what it stands on.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{Complex, Vector3};
+
+use crate::drive::Ripple;
+use crate::effect::Law;
+
+/// How long a step of the base takes \[s\].
+const STEP_TIME: f64 = 0.02;
+
+/// The laws of this file.
+pub(crate) const LAWS: &[(&str, Law)] = &[
+    (
+        "table_wobble",
+        Law::Tilt(|p, s, pose| {
+            let tilt = Complex::new(p[0], p[1]) * Complex::from_polar(1.0, s[0] * pose.angle);
+            Vector3::new(tilt.re, tilt.im, 0.0)
+        }),
+    ),
+    ("cable_torque_tilt", Law::Tilt(|p, _, pose| Vector3::new(p[0], p[1], 0.0) * pose.angle)),
+    ("base_tilt_ramp", Law::Tilt(|p, _, pose| Vector3::new(p[0], p[1], 0.0) * pose.time)),
+    (
+        "base_tilt_step",
+        Law::Tilt(|p, s, pose| Vector3::new(p[0], p[1], 0.0) * smooth_step(pose.time - s[0])),
+    ),
+    (
+        "base_sway",
+        Law::Tilt(|p, s, pose| {
+            let (sin, cos) = (TAU * s[0] * pose.time).sin_cos();
+            Vector3::new(p[0] * cos + p[1] * sin, p[2] * cos + p[3] * sin, 0.0)
+        }),
+    ),
+    (
+        "table_rate_ripple",
+        Law::Setup(|p, s, experiment| {
+            experiment.drive.ripples.push(Ripple { order: s[0], cos: p[0], sin: p[1] });
+        }),
+    ),
+];
+
+/// From 0 to 1 about a time of zero.
+fn smooth_step(time: f64) -> f64 {
+    let part = (time / STEP_TIME + 0.5).clamp(0.0, 1.0);
+    0.5 - 0.5 * (PI * part).cos()
+}

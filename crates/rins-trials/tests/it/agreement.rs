@@ -1,0 +1,190 @@
+//! The generator and the catalogue, which share nothing, say the same.
+
+use nalgebra::{Matrix3, Vector3};
+use rins_blind::{Experiment, LAWS, Log, record};
+use rins_frames::{Body, InFrame};
+use rins_motion::{Profile, Segment};
+use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
+use rins_terms::{Chosen, Making, Model, Surroundings, Term, Track, catalogue};
+use rins_trials::{Stand, hidden, is_hideable, recording};
+
+use crate::bench::{DEGREE, experiment, known};
+
+/// Three rates, both ways, and a rest.
+const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
+
+/// How far apart the integrals of two signals may be, as a part of them.
+fn tolerance(id: &str) -> f64 {
+    match id {
+        // The catalogue takes a table to turn once it is faster than 0.3 deg/s; here it does so at once.
+        "encoder_backlash" => 0.15,
+        // A mean of a kinked function is not the function of a mean, and Earth's rate crosses zero within samples;
+        // a base takes a sample to give way here, and no time there; a change of rate counts from 0.3 deg/s on.
+        "gyro_dead_zone" | "base_tilt_step" | "gyro_hysteresis" => 0.02,
+        _ => 0.004,
+    }
+}
+
+/// A usual size of every parameter, large enough to show, in different directions.
+fn sized(term: &'static Term, experiment: &Experiment) -> Chosen {
+    let imu = Stand::of(experiment, &known(experiment)).imu;
+    let part = |place: usize| [0.3, -0.2, 0.25][place % 3];
+    let size = |(place, p): (usize, &rins_terms::Parameter)| p.range(&imu).1 * part(place);
+    let values: Vec<f64> = term.parameters.iter().enumerate().map(size).collect();
+    Chosen::new(term).with_values(&values).with_setting("time", 77.7)
+}
+
+/// What `effect` adds, by the catalogue, to a run whose log without it is `plain`.
+fn predicted(effect: Chosen, experiment: &Experiment, plain: &Log) -> [Vec<Vector3<f64>>; 3] {
+    let stand = Stand::of(experiment, &known(experiment));
+    let rig = stand.run(plain, experiment.interval).expect("it is long enough").rig;
+    let track = Track::new(
+        Surroundings::new(rig.station, rig.nav_from_table),
+        plain.times.clone(),
+        vec![experiment.interval; plain.times.len()],
+        std::iter::once(0.0).chain(plain.angles.iter().copied()).collect(),
+        Some(plain.temperature.clone()),
+    );
+    let model = Model { terms: vec![effect] };
+    let mut making = Making::new(&model, &track);
+    let mut signals = [Vec::new(), Vec::new(), Vec::new()];
+    for moment in track.moments() {
+        let interval = experiment.interval;
+        let mut felt = recording(plain, interval).increments[0];
+        felt.angle = InFrame::from_components(moment.rate * interval);
+        felt.velocity = InFrame::from_components(moment.force * interval);
+        let reading = making.read(&moment, &felt);
+        let mean = |of: InFrame<Body>| *of.components() / interval;
+        signals[0].push(mean(reading.increments.angle - felt.angle));
+        signals[1].push(mean(reading.increments.velocity - felt.velocity));
+        signals[2].push(Vector3::z() * reading.angle_error);
+    }
+    signals
+}
+
+fn integral(of: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
+    let mut sum = Vector3::zeros();
+    of.map(|step| {
+        sum += step;
+        sum
+    })
+    .collect()
+}
+
+#[test]
+fn every_signal_is_what_the_catalogue_says() {
+    let base = experiment(&RATES, 20.0);
+    let plain = record(&base);
+    for term in catalogue::CATALOGUE.iter().filter(|term| is_hideable(term)) {
+        let chosen = sized(term, &base);
+        let log = record(&Experiment { effects: vec![hidden(&chosen)], ..base.clone() });
+        let made = [
+            integral(log.gyro.iter().zip(&plain.gyro).map(|(with, without)| with - without)),
+            integral(log.accel.iter().zip(&plain.accel).map(|(with, without)| with - without)),
+            log.angles
+                .iter()
+                .zip(&plain.angles)
+                .map(|(with, without)| Vector3::z() * (with - without))
+                .collect(),
+        ];
+        let [gyro, accel, angle] = predicted(chosen, &base, &plain);
+        let theirs = [integral(gyro.into_iter()), integral(accel.into_iter()), angle];
+        let mut shown = false;
+        for (channel, (made, theirs)) in made.iter().zip(&theirs).enumerate() {
+            let size: f64 = theirs.iter().map(Vector3::norm_squared).sum();
+            let off: f64 = made.iter().zip(theirs).map(|(a, b)| (a - b).norm_squared()).sum();
+            // A tenth of an arcsecond after two minutes, 2 ng as long, two microseconds of arc.
+            let least = [3e-5, 1e-4, 1e-11][channel];
+            let count = made.len() as f64;
+            if (size / count).sqrt() < least && (off / count).sqrt() < least {
+                continue;
+            }
+            shown = true;
+            let ratio = (off / size).sqrt();
+            if term.id != "thermal_one_per_turn" {
+                assert!(ratio < tolerance(term.id), "{}, channel {channel}: {ratio}", term.id);
+            }
+        }
+        assert!(shown, "{} does nothing", term.id);
+    }
+}
+
+/// Every id that a trial may hide has a law, and every law an id of the catalogue.
+#[test]
+fn laws_and_catalogue_have_the_same_ids() {
+    let ids: Vec<&str> = LAWS.iter().copied().flatten().map(|(id, _)| *id).collect();
+    for term in catalogue::CATALOGUE.iter().filter(|term| is_hideable(term)) {
+        assert!(ids.contains(&term.id), "{}", term.id);
+    }
+    for id in ids {
+        assert!(catalogue::term(id).is_some(), "{id}");
+    }
+}
+
+/// A gyro that follows the heat of one side slowly: only once it has settled is it as the catalogue says.
+#[test]
+fn heat_of_one_side_settles_to_what_the_catalogue_says() {
+    let ratio = |rates: &[f64], each: f64, time: f64| {
+        let base = experiment(rates, each);
+        let plain = record(&base);
+        let chosen =
+            sized(&catalogue::THERMAL_ONE_PER_TURN, &base).with_setting("time_constant", time);
+        let log = record(&Experiment { effects: vec![hidden(&chosen)], ..base.clone() });
+        let [gyro, ..] = predicted(chosen, &base, &plain);
+        let made = log.gyro.iter().zip(&plain.gyro).map(|(with, without)| with - without);
+        let off: f64 = made.zip(&gyro).map(|(a, b)| (a - b).norm_squared()).sum();
+        (off / gyro.iter().map(Vector3::norm_squared).sum::<f64>()).sqrt()
+    };
+    assert!(ratio(&[10.0], 120.0, 10.0) < 0.01);
+    let changing = ratio(&[10.0, -10.0, 20.0], 60.0, 10.0);
+    assert!(changing > 0.1, "{changing}");
+}
+
+/// What the estimator's model leaves of a run without noise, in squares of the noise that there might be.
+#[test]
+fn perfect_run_leaves_nothing() {
+    for rates in [&[10.0][..], &[10.0, -10.0], &RATES] {
+        let mut base = experiment(rates, 360.0 / rates.len() as f64);
+        base.mounting = [2e-4, -1e-4];
+        let known = known(&base);
+        let mut stand = Stand::of(&base, &known);
+        stand.noise.imu.gyro.white = known.gyro.noise;
+        stand.noise.imu.accel.white = known.accel.noise;
+        let run = stand.run(&record(&base), base.interval).unwrap();
+        let left = stand.told(&run, &[]).unwrap().square;
+        assert!(left < 0.2, "{rates:?}: {left}");
+        // A part in a million of gyro z shows a hundred times as much.
+        base.gyro.matrix[(2, 2)] += 1e-6;
+        base.gyro.matrix[(0, 1)] += 1e-3;
+        let run = stand.run(&record(&base), base.interval).unwrap();
+        let left = stand.told(&run, &[]).unwrap().square;
+        assert!(left > 1.0, "{rates:?}: {left}");
+    }
+}
+
+/// The exact increments of a perfect IMU at a constant rate, by the simulator's quadrature.
+#[test]
+fn increments_are_those_of_the_simulator() {
+    let mut base = experiment(&[25.0], 20.0);
+    for sensors in [&mut base.gyro, &mut base.accel] {
+        sensors.bias = Vector3::zeros();
+        sensors.matrix = Matrix3::zeros();
+    }
+    let log = recording(&record(&base), base.interval);
+    let rig = Stand::of(&base, &known(&base)).run(&record(&base), base.interval).unwrap().rig;
+    let turn = Segment { rate: 25.0 * DEGREE, duration: 20.0 };
+    let profile = Profile::new(&[turn], None).unwrap();
+    let scenario = Scenario {
+        table: TableRecord::Angle(Encoder::default()),
+        ..Scenario::perfect(rig.station, rig.nav_from_table, profile, base.interval)
+    };
+    let simulated = simulate(&scenario).unwrap().recording;
+    assert_eq!(log.len(), simulated.len());
+    for (ours, theirs) in log.increments.iter().zip(&simulated.increments) {
+        let angle = (ours.angle.components() - theirs.angle.components()).norm();
+        let velocity = (ours.velocity.components() - theirs.velocity.components()).norm();
+        // Steps of a millisecond: a chord for an arc, (0.44 mrad)²/12 of gravity's share.
+        assert!(angle < 1e-13, "{angle} rad");
+        assert!(velocity < 0.02 * 9.81 * 2e-8, "{velocity} m/s");
+    }
+}
