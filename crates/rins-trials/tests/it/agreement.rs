@@ -93,8 +93,8 @@ fn every_signal_is_what_the_catalogue_says() {
         for (channel, (made, theirs)) in made.iter().zip(&theirs).enumerate() {
             let size: f64 = theirs.iter().map(Vector3::norm_squared).sum();
             let off: f64 = made.iter().zip(theirs).map(|(a, b)| (a - b).norm_squared()).sum();
-            // A tenth of an arcsecond after two minutes, 2 ng as long, two microseconds of arc.
-            let least = [3e-5, 1e-4, 1e-11][channel];
+            // 4 milliseconds of arc at the end, 20 ng for 2 min, two microseconds of arc.
+            let least = [1e-6, 1e-5, 1e-11][channel];
             let count = made.len() as f64;
             if (size / count).sqrt() < least && (off / count).sqrt() < least {
                 continue;
