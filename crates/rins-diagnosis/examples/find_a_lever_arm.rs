@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let run = Run::new(rig, simulate(&scenario)?.recording)?;
     let known = NoiseKnowledge::Given(Strengths::of(&imu));
-    let found = diagnose(&run, &Model::full(), &imu, known, |_| ())?;
+    let found = diagnose(&[run], &Model::full(), &imu, known, |_| ())?;
     for cause in &found.causes {
         println!("{}: the odds of chance are e^{:.0}", cause.term.name, cause.ln_p);
         for estimate in &cause.parameters {

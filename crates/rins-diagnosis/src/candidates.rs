@@ -1,7 +1,7 @@
-//! The effects that are tried on a run: every term of the catalogue, in every shape that could differ.
+//! The effects that are tried on runs: every term of the catalogue, in every shape that could differ.
 
 use rins_estimation::{Reference, Run};
-use rins_terms::{Chosen, Model, Need, Term, catalogue};
+use rins_terms::{Chosen, Model, Need, Setting, Term, catalogue};
 
 /// Choices of a frame: nothing could be named by them that a baseline does not hold.
 const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
@@ -9,8 +9,15 @@ const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
 /// How many times of an event are tried over a run.
 const EVENTS: u32 = 16;
 
-/// The orders of the table angle that are tried, signed where a term takes both signs.
-const ORDERS: [f64; 9] = [-3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0];
+/// The time constants that are tried, as parts of the run.
+const TIME_CONSTANTS: [f64; 4] = [0.02, 0.06, 0.18, 0.5];
+
+/// The orders of the table angle that are tried, signed where a term takes both signs. The first is an
+/// effect of its own or a choice of the frame.
+const ORDERS: [f64; 20] = [
+    -6.0, -5.0, -4.0, -3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0,
+    16.0, 18.0, 24.0,
+];
 
 /// A temperature that changes by less \[K\] shows no effect of temperature.
 const LEAST_WARMING: f64 = 0.05;
@@ -20,23 +27,31 @@ const LEAST_WARMING: f64 = 0.05;
 pub struct Candidate {
     /// The term, all its parameters estimated.
     pub chosen: Chosen,
-    /// How many independent shapes stand behind this one: what a test of the best of them costs.
+    /// How many independent shapes the term has: what a test of the best of them costs.
     pub looks: f64,
+    /// How far the neighbouring shapes are, if shapes are taken from a continuum: the place of a setting, and its step.
+    pub step: Option<(usize, f64)>,
 }
 
-/// What is tried on `run` beyond `model`.
+/// What is tried on `runs` beyond `model`.
 ///
-/// Terms that the model estimates already, that need what the run does not have, or whose shape is an unknown
+/// Terms that the model estimates already, that need what no run has, or whose shape is an unknown
 /// frequency are left out.
-pub fn candidates(run: &Run, model: &Model) -> Vec<Candidate> {
+pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
     catalogue::CATALOGUE
         .iter()
         .copied()
         .filter(|term| term.is_signal() && !GAUGES.contains(&term.id))
         .filter(|term| !model.terms.iter().any(|chosen| chosen.term.id == term.id))
-        .filter(|term| term.needs.iter().all(|need| offers(run, *need)))
-        .flat_map(|term| shapes(run, term))
+        .filter(|term| term.needs.iter().all(|need| runs.iter().any(|run| offers(run, *need))))
+        .flat_map(|term| shapes(duration(runs), term))
         .collect()
+}
+
+/// How long the longest run is \[s\].
+fn duration(runs: &[Run]) -> f64 {
+    let of = |run: &Run| run.recording.times[run.recording.len() - 1] - run.recording.times[0];
+    runs.iter().map(of).fold(0.0, f64::max)
 }
 
 fn offers(run: &Run, need: Need) -> bool {
@@ -52,35 +67,60 @@ fn offers(run: &Run, need: Need) -> bool {
 }
 
 /// A term in each of its shapes.
-fn shapes(run: &Run, term: &'static Term) -> Vec<Candidate> {
-    let duration = run.recording.times[run.recording.len() - 1] - run.recording.times[0];
+fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let chosen = Chosen::new(term).estimated();
-    let named = |name: &str| term.settings.iter().find(|setting| setting.name == name);
-    let within = |name: &str, value: f64| {
-        named(name).is_some_and(|setting| (setting.within.0..=setting.within.1).contains(&value))
+    let place = |name: &str| term.settings.iter().position(|setting| setting.name == name);
+    let of = |place: usize, values: &[f64], step: Option<f64>| {
+        let fits = |value: &&f64| allows(&term.settings[place], **value);
+        let fitting: Vec<f64> = values.iter().filter(fits).copied().collect();
+        let looks = fitting.len() as f64;
+        let candidate = |value: f64| {
+            let mut chosen = chosen.clone();
+            chosen.settings[place] = value;
+            Candidate { chosen, looks, step: step.map(|step| (place, step)) }
+        };
+        fitting.into_iter().map(candidate).collect()
     };
-    let of = |name: &str, values: Vec<f64>, looks: f64| {
-        let fitting: Vec<f64> = values.into_iter().filter(|value| within(name, *value)).collect();
-        let each = (looks / fitting.len() as f64).max(1.0);
-        fitting
-            .into_iter()
-            .map(|value| Candidate {
-                chosen: chosen.clone().with_setting(name, value),
-                looks: each,
-            })
-            .collect()
-    };
-    if named("frequency").is_some() {
+    if place("frequency").is_some() {
         Vec::new()
-    } else if named("time").is_some() {
-        let times =
-            (0..EVENTS).map(|event| duration * (f64::from(event) + 0.5) / f64::from(EVENTS));
-        of("time", times.collect(), f64::from(EVENTS))
-    } else if named("time_constant").is_some() {
-        of("time_constant", [0.03, 0.1, 0.3].map(|part| part * duration).to_vec(), 3.0)
-    } else if named("order").is_some() {
-        of("order", ORDERS.to_vec(), ORDERS.len() as f64)
+    } else if let Some(place) = place("time") {
+        let step = duration / f64::from(EVENTS);
+        let times: Vec<f64> = (0..EVENTS).map(|event| step * (f64::from(event) + 0.5)).collect();
+        of(place, &times, Some(step))
+    } else if let Some(place) = place("time_constant") {
+        of(place, &TIME_CONSTANTS.map(|part| part * duration), None)
+    } else if let Some(place) = place("order") {
+        of(place, &ORDERS, None)
     } else {
-        vec![Candidate { chosen, looks: 1.0 }]
+        vec![Candidate { chosen, looks: 1.0, step: None }]
+    }
+}
+
+/// Whether a setting may have this value.
+fn allows(setting: &Setting, value: f64) -> bool {
+    (setting.within.0..=setting.within.1).contains(&value)
+}
+
+impl Candidate {
+    /// Shapes around this one, `part` of its step apart, four on each side, and itself.
+    pub(crate) fn neighbours(&self, part: f64) -> Vec<Self> {
+        let Some((place, step)) = self.step else { return vec![self.clone()] };
+        let setting = &self.chosen.term.settings[place];
+        let moved = |by: i32| {
+            let mut other = self.clone();
+            other.chosen.settings[place] += f64::from(by) * step * part;
+            other
+        };
+        (-4..=4).map(moved).filter(|other| allows(setting, other.chosen.settings[place])).collect()
+    }
+
+    /// The same effect where another one happens, if both are events.
+    pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
+        let (place, _) = self.step?;
+        let time = |term: &Term| term.settings.iter().position(|setting| setting.name == "time");
+        let value = other.settings[time(other.term)?];
+        let mut moved = self.clone();
+        moved.chosen.settings[place] = value;
+        Some(moved)
     }
 }

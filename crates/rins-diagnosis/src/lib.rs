@@ -2,8 +2,7 @@
 //!
 //! **What it does.** [`diagnose`] fits a model to a run, tries every effect of the catalogue on what is left (events at
 //! any time, harmonics of any order), and names the one that explains it best, with its amplitude, the chance
-//! that it is nothing, and the rivals that this run cannot tell from it; then it looks for the next. [`screen`] is
-//! one such pass: the filter once, and one linear recursion a parameter.
+//! that it is nothing, and the rivals that this run cannot tell from it; then it looks for the next.
 //!
 //! **What it does not do.** Gross errors (units, axes, lost samples) are found by `rins_motion::inspect`, and must be
 //! mended first. Lines of unknown frequency, unequal noise and what no catalogued effect explains are not looked
@@ -12,13 +11,16 @@
 //! Numbers are in SI units and radians.
 mod candidates;
 mod probability;
-mod screening;
+mod score;
+mod survey;
+mod trial;
 
-mod naming;
+mod case;
+mod diagnosis;
+mod settling;
 
 pub use candidates::{Candidate, candidates};
-pub use naming::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
-pub use screening::{Screened, screen};
+pub use diagnosis::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,6 +1,7 @@
 //! A run made linear: how each epoch's readings follow from attitude, velocity and the parameters.
 
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
+use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Table};
 use rins_terms::{Model, Signals, Surroundings, Track, derivatives, values};
 
@@ -9,6 +10,9 @@ use crate::run::{Reference, Run};
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (0.1, 0.5);
+
+/// As many columns are made by one thread.
+const COLUMNS_AT_ONCE: usize = 48;
 
 /// A stretch of samples, taken as one.
 ///
@@ -86,12 +90,17 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
     let block = ((length / interval).round() as usize).max(1);
     let track = path::track(run, surroundings, block);
     let readings = path::readings(run);
-    let mut build = Build::new(run, &model, free, readings.as_deref(), block);
-    for (sample, moment) in track.moments().enumerate() {
-        build.sample(sample, &moment);
-    }
+    let build = |free: &[(usize, usize)]| {
+        let mut build = Build::new(run, &model, free, readings.as_deref(), block);
+        for (sample, moment) in track.moments().enumerate() {
+            build.sample(sample, &moment);
+        }
+        build.epochs
+    };
+    let parts: Vec<Vec<Epoch>> = free.par_chunks(COLUMNS_AT_ONCE).map(build).collect();
+    let epochs = parts.into_iter().reduce(beside).unwrap_or_else(|| build(&[]));
     Linear {
-        epochs: build.epochs,
+        epochs,
         force: surroundings.specific_force,
         earth_rate: surroundings.earth_rate,
         parameters: free.len(),
@@ -99,6 +108,21 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
         velocity_noise: run.rig.velocity,
         track,
     }
+}
+
+/// Epochs with the columns of both; the first column, that of the residuals, is the same.
+fn beside(mut one: Vec<Epoch>, other: Vec<Epoch>) -> Vec<Epoch> {
+    for (epoch, other) in one.iter_mut().zip(other) {
+        for (to, from) in [
+            (&mut epoch.attitude, other.attitude),
+            (&mut epoch.mean_attitude, other.mean_attitude),
+            (&mut epoch.velocity, other.velocity),
+            (&mut epoch.reading, other.reading),
+        ] {
+            to.extend(from.column_iter().skip(1));
+        }
+    }
+    one
 }
 
 /// Epochs in the making.

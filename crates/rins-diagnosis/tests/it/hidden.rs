@@ -12,7 +12,14 @@ const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
 
 fn found(run: &Run, knowledge: fn(Strengths) -> NoiseKnowledge) -> Diagnosis {
     let imu = fibre();
-    diagnose(run, &Model::full(), &imu, knowledge(Strengths::of(&imu)), |_| ()).unwrap()
+    diagnose(
+        std::slice::from_ref(run),
+        &Model::full(),
+        &imu,
+        knowledge(Strengths::of(&imu)),
+        |_| (),
+    )
+    .unwrap()
 }
 
 fn hiding(effects: &[(&'static Term, &[f64])]) -> Model {
@@ -25,7 +32,7 @@ fn names(diagnosis: &Diagnosis, id: &str) -> bool {
     diagnosis
         .causes
         .iter()
-        .any(|cause| cause.term.id == id || cause.rivals.iter().any(|rival| rival.term == id))
+        .any(|cause| cause.term.id == id || cause.rivals.iter().any(|rival| rival.term.id == id))
 }
 
 #[test]
@@ -88,7 +95,7 @@ fn what_a_schedule_confuses_is_a_set() {
     let effects = hiding(&[(&catalogue::ENCODER_ECCENTRICITY, &[0.5 * ARCSEC, 0.0])]);
     let diagnosis = found(&run(&[10.0; 6], effects, 0.0, 80), NoiseKnowledge::Given);
     assert!(!diagnosis.causes.is_empty());
-    let set: Vec<&str> = diagnosis.causes[0].rivals.iter().map(|rival| rival.term).collect();
+    let set: Vec<&str> = diagnosis.causes[0].rivals.iter().map(|rival| rival.term.id).collect();
     assert!(names(&diagnosis, "encoder_eccentricity"), "{set:?}");
     assert!(!set.is_empty(), "{} alone", diagnosis.causes[0].term.id);
 }

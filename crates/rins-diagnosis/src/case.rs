@@ -1,0 +1,188 @@
+//! The question put to some runs, and how an answer is tried.
+
+use nalgebra::DMatrix;
+use rins_estimation::{Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, fit};
+use rins_imu::ImuSpec;
+use rins_terms::{Chosen, Model, Role};
+
+use crate::candidates::Candidate;
+use crate::probability::ln_tail;
+use crate::score::USUAL;
+use crate::survey::{RunNoise, Survey};
+use crate::trial::{Context, Trial, trials};
+
+/// How many events, and such of at least this part of the best one's evidence, are searched for their time.
+const REFINED: (usize, f64) = (3, 0.6);
+
+/// How finely the time of an event is searched, in parts of the step between candidates.
+const FINER: [f64; 3] = [0.125, 0.03, 0.0075];
+
+/// What the noise that was found with an effect still to be named may have swallowed of it, in e-folds of p.
+const SWALLOWED: f64 = 4.0;
+
+/// Weaker flicker that is tried, as parts of what was found.
+const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
+
+/// A term of at most so many parameters is estimated whole.
+const WHOLE: usize = 3;
+
+/// What stays the same from one effect to the next.
+#[derive(Clone, Copy)]
+pub(crate) struct Case<'a> {
+    pub(crate) runs: &'a [Run],
+    pub(crate) given: &'a Model,
+    pub(crate) imu: &'a ImuSpec,
+    pub(crate) knowledge: NoiseKnowledge,
+}
+
+impl Case<'_> {
+    /// The given model with causes, fitted; priors are about what was expected, not about what was found.
+    pub(crate) fn fit(&self, causes: &[Chosen]) -> Result<Fit, FitError> {
+        let mut model = self.given.clone();
+        model.terms.extend(causes.iter().cloned());
+        fit(self.runs, &model, self.imu, self.knowledge, |_| ())
+    }
+
+    /// The noise that was found, and weaker flicker, which a further effect might have passed for.
+    pub(crate) fn noises(&self, present: &Fit) -> Vec<RunNoise> {
+        let NoiseKnowledge::Likely(_) = self.knowledge else { return vec![present.noise.clone()] };
+        let ends = self.runs.iter().map(|run| &run.recording.times);
+        let duration: f64 = ends.map(|times| times[times.len() - 1] - times[0]).sum();
+        // Whether flicker is seen over white noise at the lowest frequency that the runs show.
+        let shown = |flicker: f64, white: f64| {
+            flicker * flicker * duration > 0.1 * std::f64::consts::TAU * white * white
+        };
+        let factors = |shown: bool| if shown { &WEAKER[..] } else { &WEAKER[..1] };
+        let imu = present.noise[0].imu;
+        let mut noises = Vec::new();
+        for &of_gyro in factors(shown(imu.gyro.flicker, imu.gyro.white)) {
+            for &of_accel in factors(shown(imu.accel.flicker, imu.accel.white)) {
+                let mut weaker = present.noise.clone();
+                for noise in &mut weaker {
+                    noise.imu.gyro.flicker *= of_gyro;
+                    noise.imu.accel.flicker *= of_accel;
+                }
+                noises.push(weaker);
+            }
+        }
+        noises
+    }
+
+    /// The noise found with all causes and with none, and that between them: what explains less leaves more to noise.
+    pub(crate) fn between(&self, before: &Fit, after: &Fit) -> Vec<RunNoise> {
+        let mut noises = vec![after.noise.clone()];
+        if let NoiseKnowledge::Likely(_) = self.knowledge
+            && before.noise != after.noise
+        {
+            for part in [0.25, 0.5, 1.0] {
+                let each = before.noise.iter().zip(&after.noise);
+                noises.push(each.map(|(before, after)| mixed(after, before, part)).collect());
+            }
+        }
+        noises
+    }
+
+    /// The most likely of the effects that are significant, or may be with their own noise; events where they
+    /// fit best.
+    pub(crate) fn best(
+        &self,
+        present: &Fit,
+        list: &[Candidate],
+        tried: &[Trial],
+        threshold: f64,
+    ) -> Result<Option<(Candidate, Trial)>, Indefinite> {
+        let likely = matches!(self.knowledge, NoiseKnowledge::Likely(_));
+        let threshold = if likely { threshold + SWALLOWED } else { threshold };
+        let significant = |trial: &&Trial| trial.ln_p < threshold && trial.evidence > 0.0;
+        let Some(first) = tried.iter().find(significant) else { return Ok(None) };
+        let mut best = (list[first.candidate].clone(), first.clone());
+        let worth = REFINED.1 * first.evidence;
+        let events = tried
+            .iter()
+            .filter(|trial| list[trial.candidate].step.is_some() && trial.evidence > worth);
+        for event in events.take(REFINED.0) {
+            let refined = self.refined(present, &list[event.candidate], event)?;
+            if refined.1.evidence > best.1.evidence {
+                best = refined;
+            }
+        }
+        Ok(Some(best))
+    }
+
+    /// An event at the time where it fits best.
+    fn refined(
+        &self,
+        present: &Fit,
+        candidate: &Candidate,
+        trial: &Trial,
+    ) -> Result<(Candidate, Trial), Indefinite> {
+        let mut best = (candidate.clone(), trial.clone());
+        let known = present.model().terms.len();
+        for part in FINER {
+            let list = best.0.neighbours(part);
+            let noises = std::slice::from_ref(&present.noise);
+            let survey = Survey::of(self.runs, present, self.imu, &list, noises)?;
+            let Some(context) = Context::of(&survey, &[]) else { break };
+            for found in trials(&survey, &context, &list, known) {
+                if found.evidence > best.1.evidence {
+                    best = (list[found.candidate].clone(), found);
+                }
+            }
+        }
+        Ok(best)
+    }
+
+    /// The logarithm of the chance of a trial, once its effect has been fitted with its own noise: the last term
+    /// of `after`.
+    pub(crate) fn ln_p(&self, before: &Fit, after: &Fit, trial: &Trial) -> f64 {
+        if let NoiseKnowledge::Given(_) = self.knowledge {
+            return trial.ln_p;
+        }
+        let last = after.model().terms.len() - 1;
+        let own: Vec<usize> = (0..after.parameters.len())
+            .filter(|&place| after.parameters[place].parameter.term == last)
+            .collect();
+        // What the likelihood gained at its best, before what the prior takes from it: the logarithm of how much less
+        // is left open.
+        let known: f64 = own.iter().map(|&p| after.parameters[p].parameter.sigma.ln()).sum();
+        let block =
+            DMatrix::from_fn(own.len(), own.len(), |r, c| after.covariance[(own[r], own[c])]);
+        let left: f64 =
+            block.cholesky().map_or(known, |f| f.l_dirty().diagonal().map(f64::ln).sum());
+        let gained = 2.0 * (after.log_likelihood - before.log_likelihood + known - left);
+        (ln_tail(gained.max(0.0), trial.dof) + trial.looks).min(trial.ln_p)
+    }
+}
+
+impl Candidate {
+    /// The term to be estimated, its amplitudes expected within what the trial found them to need.
+    pub(crate) fn expecting(&self, trial: &Trial, imu: &ImuSpec) -> Chosen {
+        let mut chosen = self.chosen.clone();
+        let n = chosen.values.len();
+        for parameter in 0..n {
+            let usual = chosen.term.parameters[parameter].sigma(imu);
+            if n <= WHOLE || trial.parameters.contains(&parameter) {
+                chosen.roles[parameter] = Role::Within(USUAL * usual * trial.amplitude.max(1.0));
+            } else {
+                chosen.roles[parameter] = Role::Held;
+            }
+        }
+        chosen
+    }
+}
+
+/// A noise between two, in logarithms.
+fn mixed(one: &Noise, other: &Noise, part: f64) -> Noise {
+    let mix = |a: f64, b: f64| if a > 0.0 && b > 0.0 { a * (b / a).powf(part) } else { a };
+    let mut mixed = *one;
+    for (to, from) in
+        [(&mut mixed.imu.gyro, &other.imu.gyro), (&mut mixed.imu.accel, &other.imu.accel)]
+    {
+        to.white = mix(to.white, from.white);
+        to.flicker = mix(to.flicker, from.flicker);
+        to.walk = mix(to.walk, from.walk);
+    }
+    mixed.wobble = mix(one.wobble, other.wobble);
+    mixed.encoder = mix(one.encoder, other.encoder);
+    mixed
+}

@@ -1,0 +1,130 @@
+//! From what a model leaves unexplained to the effects that explain it.
+
+use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
+use rins_imu::ImuSpec;
+use rins_terms::{Chosen, Model, Term};
+
+use crate::candidates::{Candidate, candidates};
+use crate::case::Case;
+use crate::survey::Survey;
+use crate::trial::{Context, Trial, trials};
+
+/// The chance of naming anything where there is nothing, over the whole catalogue.
+pub(crate) const FALSE_ALARMS: f64 = 0.01;
+
+/// The most effects that are looked for, one after the other.
+const MOST_CAUSES: usize = 5;
+
+/// An effect that might be what is wrong.
+#[derive(Clone, Debug)]
+pub struct Rival {
+    /// The effect.
+    pub term: &'static Term,
+    /// Its settings, in SI units.
+    pub settings: Vec<f64>,
+    /// The logarithm of its odds against the most likely one.
+    pub odds: f64,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Cause {
+    /// The effect that explains it best.
+    pub term: &'static Term,
+    /// Its settings, in SI units.
+    pub settings: Vec<f64>,
+    /// Its parameters as the final model has them.
+    pub parameters: Vec<Estimate>,
+    /// The logarithm of the probability that anything in the catalogue explains as much by chance.
+    pub ln_p: f64,
+    /// How many of its parameters' directions the runs show.
+    pub dof: usize,
+    /// By how much the logarithm of the likelihood rises.
+    pub gain: f64,
+    /// The other effects that these runs cannot tell from it, best first.
+    pub rivals: Vec<Rival>,
+}
+
+/// A finished diagnosis.
+#[derive(Clone, Debug)]
+pub struct Diagnosis {
+    /// What was found, strongest first; nothing is "adequate".
+    pub causes: Vec<Cause>,
+    /// The model as it was given.
+    pub before: Fit,
+    /// The model with the causes in it.
+    pub after: Fit,
+    /// The effects of which these runs would show nothing.
+    pub not_testable: Vec<&'static str>,
+}
+
+/// Why runs could not be diagnosed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DiagnosisError {
+    /// The given model cannot be fitted.
+    #[error("the model cannot be fitted to the run")]
+    Fit(#[from] FitError),
+    /// The candidates cannot be tried.
+    #[error("the effects of the catalogue cannot be tried on the run")]
+    Screening(#[from] Indefinite),
+}
+
+/// Finds what `model` leaves unexplained in `runs` of one IMU, one effect after the other.
+///
+/// Where the noise is to be found it is found anew beside every effect that is tried: fitted without
+/// the effect, it would have swallowed it. `progress` is told of every effect that is accepted.
+///
+/// # Errors
+/// [`DiagnosisError`] if the model as given cannot be fitted.
+pub fn diagnose(
+    runs: &[Run],
+    model: &Model,
+    imu: &ImuSpec,
+    knowledge: NoiseKnowledge,
+    mut progress: impl FnMut(&'static str),
+) -> Result<Diagnosis, DiagnosisError> {
+    let case = Case { runs, given: model, imu, knowledge };
+    let before = case.fit(&[])?;
+    let mut present = before.clone();
+    let mut found: Vec<Chosen> = Vec::new();
+    let mut not_testable = None;
+    while found.len() < MOST_CAUSES {
+        let list = candidates(runs, present.model());
+        let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
+        let Some(context) = Context::of(&survey, &[]) else { break };
+        let tried = trials(&survey, &context, &list, present.model().terms.len());
+        not_testable.get_or_insert_with(|| unseen(&list, &tried));
+        let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
+        let Some((candidate, trial)) = case.best(&present, &list, &tried, threshold)? else {
+            break;
+        };
+        let next = candidate.expecting(&trial, imu);
+        found.push(next);
+        let Ok(fitted) = case.fit(&found) else {
+            found.pop();
+            break;
+        };
+        if case.ln_p(&present, &fitted, &trial) > threshold {
+            found.pop();
+            break;
+        }
+        progress(candidate.chosen.term.id);
+        present = fitted;
+    }
+    let (after, causes) = case.settled(&before, present, found)?;
+    Ok(Diagnosis { causes, before, after, not_testable: not_testable.unwrap_or_default() })
+}
+
+/// Terms of which no shape shows.
+fn unseen(list: &[Candidate], tried: &[Trial]) -> Vec<&'static str> {
+    let mut ids = Vec::new();
+    for candidate in list {
+        let id = candidate.chosen.term.id;
+        let seen = tried.iter().any(|trial| list[trial.candidate].chosen.term.id == id);
+        if !ids.contains(&id) && !seen {
+            ids.push(id);
+        }
+    }
+    ids
+}

@@ -1,0 +1,135 @@
+//! How well a block of parameters explains what is left, and at what price.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// A direction of an effect's parameters counts as shown if its amplitude is found to this part of what is usual at least.
+const LEAST_SHOWN: f64 = 1.0;
+
+/// Up to how many times its usual amplitude an effect is as likely as any.
+pub(crate) const USUAL: f64 = 3.0;
+
+/// The least part of its usual amplitude at which an effect is looked for.
+const SLIGHT: f64 = 0.01;
+
+/// How many e-folds of odds an e-fold of amplitude beyond the usual costs.
+const UNUSUAL: f64 = 2.0;
+
+/// What data say of some parameters of an effect.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Score {
+    /// By how much the squares would fall: a chi-square of `dof` degrees if the effect is not there.
+    pub(crate) statistic: f64,
+    /// How many directions of the parameters are shown.
+    pub(crate) dof: usize,
+    /// The logarithm of the odds for it over nothing, whatever its amplitude within what is usual.
+    pub(crate) evidence: f64,
+    /// The largest of the amplitudes, in units of what is usual of it.
+    pub(crate) amplitude: f64,
+}
+
+/// Scores a block: information and score in units of the usual amplitudes.
+///
+/// The scale of an amplitude is unknown over decades, so that it is expected to be what it seems to be: an
+/// estimate costs the logarithm of how much more precise it is than that, whatever unit or grade. What is more than
+/// usual costs more, but is not ruled out: nature is not bound by a table.
+pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score {
+    let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(information.clone());
+    let mut estimate = DVector::zeros(score.len());
+    let mut shown = Vec::new();
+    let mut sum = Score { statistic: 0.0, dof: 0, evidence: 0.0, amplitude: 0.0 };
+    for (value, direction) in eigenvalues.iter().zip(eigenvectors.column_iter()) {
+        if value * USUAL * USUAL > LEAST_SHOWN {
+            let along = direction.dot(score);
+            estimate += direction * (along / value);
+            sum.statistic += along * along / value;
+            sum.dof += 1;
+            shown.push(*value);
+        }
+    }
+    sum.amplitude = estimate.amax();
+    let scale = sum.amplitude.max(SLIGHT);
+    let precision: f64 = shown.iter().map(|value| 0.5 * (1.0 + value * scale * scale).ln()).sum();
+    sum.evidence = 0.5 * sum.statistic - precision - UNUSUAL * (scale / USUAL).ln().max(0.0);
+    sum
+}
+
+/// Which parameters of an effect of `n` may be there alone: every choice of up to three; of a matrix, elements, pairs
+/// within a row, rows, the first two rows, and all.
+pub(crate) fn choices(n: usize) -> Vec<Vec<usize>> {
+    if n <= 3 {
+        return (1..1_usize << n)
+            .map(|bits| (0..n).filter(|place| bits >> place & 1 == 1).collect())
+            .collect();
+    }
+    let mut all: Vec<Vec<usize>> = (0..n).map(|place| vec![place]).collect();
+    let row = if n.is_multiple_of(3) { n / 3 } else { n };
+    for first in (0..n).step_by(row) {
+        for one in first..first + row {
+            for other in one + 1..first + row {
+                all.push(vec![one, other]);
+            }
+        }
+        if row > 2 && row < n {
+            all.push((first..first + row).collect());
+        }
+    }
+    if row < n {
+        all.push((0..2 * row).collect());
+    }
+    all.push((0..n).collect());
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_testing::assert_close;
+
+    /// One parameter: the statistic is the square of the estimate over its sigma.
+    #[test]
+    fn statistic_is_the_square_of_the_estimate_in_sigmas() {
+        let sigma = 0.02;
+        let information = DMatrix::from_element(1, 1, 1.0 / (sigma * sigma));
+        for estimate in [0.05, 0.5, 40.0] {
+            let score = DVector::from_element(1, estimate / (sigma * sigma));
+            let scored = scored(&information, &score);
+            assert_close!(scored.statistic, (estimate / sigma).powi(2), 1e-9 * scored.statistic);
+            assert_eq!(scored.dof, 1);
+        }
+    }
+
+    #[test]
+    fn what_data_do_not_show_counts_for_nothing() {
+        let information = DMatrix::from_diagonal(&DVector::from_column_slice(&[1e4, 1e-3]));
+        let score = DVector::from_column_slice(&[300.0, 1e-3]);
+        let scored = scored(&information, &score);
+        assert_eq!(scored.dof, 1);
+        assert_close!(scored.statistic, 9.0, 1e-9);
+    }
+
+    /// Of two effects that explain the same, it counts which is as large as usual, and not how wide that is.
+    #[test]
+    fn a_usual_amplitude_is_cheaper_than_an_unusual_one() {
+        // The same signal to noise, the usual amplitude being so much smaller than what is found.
+        let at = |amplitude: f64| {
+            let information = DMatrix::from_element(1, 1, (30.0 / amplitude).powi(2));
+            let score = &information * DVector::from_element(1, amplitude);
+            scored(&information, &score).evidence
+        };
+        assert_close!(at(0.03), at(1.0), 1e-9);
+        assert_close!(at(3.0) - at(30.0), UNUSUAL * 10.0_f64.ln(), 1e-9);
+    }
+
+    #[test]
+    fn choices_are_distinct_and_within_the_term() {
+        for n in [1, 2, 3, 4, 6, 9, 18] {
+            let all = choices(n);
+            for (place, choice) in all.iter().enumerate() {
+                assert!(choice.iter().all(|&parameter| parameter < n));
+                assert!(choice.is_sorted());
+                assert!(!all[..place].contains(choice), "{n}: {choice:?}");
+            }
+            assert_eq!(all.last().map(Vec::len), Some(n));
+        }
+    }
+}

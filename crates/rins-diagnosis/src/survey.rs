@@ -1,0 +1,228 @@
+//! One pass over the runs tells of all candidates at once how much better each would explain them.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+use rayon::prelude::*;
+use rins_estimation::{Evidence, Fit, Indefinite, Linear, Noise, Run, linearise};
+use rins_imu::ImuSpec;
+use rins_terms::{Free, Owner};
+
+use crate::candidates::Candidate;
+
+/// The noise of every run.
+pub(crate) type RunNoise = Vec<Noise>;
+
+/// What runs say of a fitted model's parameters and of all candidates', for several strengths of the noise.
+pub(crate) struct Survey {
+    /// How many parameters are the model's; the candidates' come after them.
+    known: usize,
+    /// Of every term, first the model's and then the candidates', the places of its parameters: a list for each of the
+    /// term's own, since several runs may each have one.
+    places: Vec<Vec<Vec<usize>>>,
+    /// The information on all parameters in units of their priors' sigmas, the score, and twice the cost of
+    /// the noise: for each strength of it.
+    said: Vec<Said>,
+    /// How far each of the model's parameters is from what was expected of it, in sigmas.
+    off: DVector<f64>,
+}
+
+struct Said {
+    information: DMatrix<f64>,
+    score: DVector<f64>,
+    square: f64,
+    log_determinant: f64,
+}
+
+/// What is left to say of parameters when others have been estimated, or set to nothing.
+pub(crate) struct Left {
+    /// The information on all that is left, in units of the priors' sigmas.
+    pub(crate) information: DMatrix<f64>,
+    /// The derivative of the log-likelihood.
+    pub(crate) score: DVector<f64>,
+    /// The places that are left.
+    pub(crate) places: Vec<usize>,
+    /// The logarithm of the probability of the data, but for a constant, if none of what is left is there.
+    pub(crate) log_likelihood: f64,
+}
+
+impl Survey {
+    /// What `runs` say about the estimates in `fit`, for each of `noises`.
+    ///
+    /// # Errors
+    /// [`Indefinite`] if a noise makes no covariance.
+    pub(crate) fn of(
+        runs: &[Run],
+        fit: &Fit,
+        imu: &ImuSpec,
+        candidates: &[Candidate],
+        noises: &[RunNoise],
+    ) -> Result<Self, Indefinite> {
+        let mut free = Vec::new();
+        let mut linear: Vec<Linear> = Vec::new();
+        for (run, model) in runs.iter().zip(&fit.models) {
+            let mut model = model.clone();
+            model.terms.extend(candidates.iter().map(|candidate| candidate.chosen.clone()));
+            free = model.free(imu);
+            let columns: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
+            linear.push(linearise(run, &model, &columns));
+        }
+        let terms = fit.model().terms.len() + candidates.len();
+        let known_free = free.iter().filter(|f| f.term < fit.model().terms.len()).count();
+        let layout = Layout::of(&free, known_free, runs.len(), terms);
+        let known = layout.known;
+        let off = DVector::from_fn(known, |place, _| {
+            let estimate = &fit.parameters[place];
+            (estimate.value - estimate.expected) / estimate.parameter.sigma
+        });
+        let said = noises
+            .par_iter()
+            .map(|noise| {
+                let mut sum = Evidence::none(layout.sigmas.len());
+                for ((linear, noise), places) in linear.iter().zip(noise).zip(&layout.of_runs) {
+                    sum.add(&Evidence::of(linear, noise)?, places);
+                }
+                Ok(Said::of(&sum, &layout.sigmas))
+            })
+            .collect::<Result<Vec<Said>, Indefinite>>()?;
+        Ok(Self { known, places: layout.of_terms, said, off })
+    }
+
+    /// How many strengths of the noise there are.
+    pub(crate) const fn noises(&self) -> usize {
+        self.said.len()
+    }
+
+    /// The places of a term's parameters, the model's terms first.
+    pub(crate) fn of_term(&self, term: usize) -> &[Vec<usize>] {
+        &self.places[term]
+    }
+
+    /// What is left to say of the candidates and of `dropped`, parameters of the model that are set to what was
+    /// expected of them, when all others of the model have been estimated.
+    ///
+    /// None if the information on these is not finite.
+    pub(crate) fn left(&self, noise: usize, dropped: &[usize]) -> Option<Left> {
+        let Said { information, score, square, log_determinant } = &self.said[noise];
+        let kept: Vec<usize> = (0..self.known).filter(|place| !dropped.contains(place)).collect();
+        let all = information.ncols();
+        let places: Vec<usize> = dropped.iter().copied().chain(self.known..all).collect();
+        // To the point where the dropped are what was expected.
+        let mut shift = DVector::zeros(all);
+        for &place in dropped {
+            shift[place] = -self.off[place];
+        }
+        let moved = information * &shift;
+        let square = square - 2.0 * score.dot(&shift) + shift.dot(&moved);
+        let score = score - moved;
+        let mut corner = chosen(information, &kept, &kept);
+        for place in 0..kept.len() {
+            corner[(place, place)] += 1.0;
+        }
+        let off = DVector::from_iterator(kept.len(), kept.iter().map(|&place| self.off[place]));
+        let pulled = DVector::from_iterator(kept.len(), kept.iter().map(|&p| score[p])) - &off;
+        let factor = Cholesky::new(corner)?;
+        let across = chosen(information, &kept, &places);
+        let solved = factor.solve(&across);
+        let step = factor.solve(&pulled);
+        let rest = DVector::from_iterator(places.len(), places.iter().map(|&place| score[place]));
+        let log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
+        let squares = square + off.norm_squared() - pulled.dot(&step);
+        Some(Left {
+            information: chosen(information, &places, &places) - across.tr_mul(&solved),
+            score: rest - across.tr_mul(&step),
+            places,
+            log_likelihood: -0.5 * squares - log_determinant - log_det,
+        })
+    }
+}
+
+impl Said {
+    fn of(evidence: &Evidence, sigmas: &[f64]) -> Self {
+        let scale = DVector::from_column_slice(sigmas);
+        Self {
+            information: DMatrix::from_fn(sigmas.len(), sigmas.len(), |row, column| {
+                evidence.information[(row, column)] * scale[row] * scale[column]
+            }),
+            score: evidence.score.component_mul(&scale),
+            square: evidence.square,
+            log_determinant: evidence.log_determinant,
+        }
+    }
+}
+
+impl Left {
+    /// Information and score of some of the places that are left.
+    pub(crate) fn block(&self, places: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
+        let own: Vec<usize> = places.iter().filter_map(|&place| self.position(place)).collect();
+        let score = DVector::from_iterator(own.len(), own.iter().map(|&place| self.score[place]));
+        (chosen(&self.information, &own, &own), score)
+    }
+}
+
+impl Left {
+    /// The candidates' places go on without gaps to the last; before them are those that were dropped.
+    fn position(&self, place: usize) -> Option<usize> {
+        let from_end = self.places.last()?.checked_sub(place)?;
+        let by_end = self.places.len().checked_sub(1 + from_end);
+        by_end
+            .filter(|&at| self.places[at] == place)
+            .or_else(|| self.places.iter().position(|p| *p == place))
+    }
+}
+
+fn chosen(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), columns.len(), |row, column| matrix[(rows[row], columns[column])])
+}
+
+/// Where the parameters of several runs stand: the model's as a fit has them, then the candidates'.
+struct Layout {
+    known: usize,
+    of_runs: Vec<Vec<usize>>,
+    of_terms: Vec<Vec<Vec<usize>>>,
+    sigmas: Vec<f64>,
+}
+
+impl Layout {
+    fn of(free: &[Free], known_free: usize, runs: usize, terms: usize) -> Self {
+        let mut layout = Self {
+            known: 0,
+            of_runs: vec![vec![0; free.len()]; runs],
+            of_terms: vec![Vec::new(); terms],
+            sigmas: Vec::new(),
+        };
+        let several = runs > 1;
+        let shared = |parameter: &Free| !several || parameter.owner == Owner::Sensor;
+        for part in [0..known_free, known_free..free.len()] {
+            for index in part.clone().filter(|&index| shared(&free[index])) {
+                let place = layout.next(&free[index]);
+                for of_run in &mut layout.of_runs {
+                    of_run[index] = place;
+                }
+                layout.of_terms[free[index].term].push(vec![place]);
+            }
+            for run in 0..runs {
+                for index in part.clone().filter(|&index| !shared(&free[index])) {
+                    let place = layout.next(&free[index]);
+                    layout.of_runs[run][index] = place;
+                    let term = &mut layout.of_terms[free[index].term];
+                    if run == 0 {
+                        term.push(vec![place]);
+                    } else {
+                        let first = layout.of_runs[0][index];
+                        term.iter_mut()
+                            .filter(|own| own[0] == first)
+                            .for_each(|own| own.push(place));
+                    }
+                }
+            }
+            if part.start == 0 {
+                layout.known = layout.sigmas.len();
+            }
+        }
+        layout
+    }
+
+    fn next(&mut self, parameter: &Free) -> usize {
+        self.sigmas.push(parameter.sigma);
+        self.sigmas.len() - 1
+    }
+}

@@ -1,0 +1,124 @@
+//! Candidates against each other: the best shape and choice of parameters of every effect.
+
+use crate::candidates::Candidate;
+use crate::probability::ln_tail;
+use crate::score::{Score, choices, scored};
+use crate::survey::{Left, Survey};
+
+/// A shape of an effect with those of its parameters that are there.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial {
+    /// Which candidate.
+    pub(crate) candidate: usize,
+    /// Which of its parameters.
+    pub(crate) parameters: Vec<usize>,
+    /// The largest of their amplitudes, in units of what is usual.
+    pub(crate) amplitude: f64,
+    /// By how much the squares fall.
+    pub(crate) statistic: f64,
+    /// How many directions are shown.
+    pub(crate) dof: usize,
+    /// The logarithm of what the shapes and choices among which it was found are worth.
+    pub(crate) looks: f64,
+    /// The logarithm of the odds for it, its shape and choice unknown.
+    pub(crate) evidence: f64,
+    /// The logarithm of the probability of so large a statistic by chance, over all shapes and choices of the effect.
+    pub(crate) ln_p: f64,
+}
+
+/// What is left to say, for each strength of the noise, and the most likely of these.
+pub(crate) struct Context {
+    left: Vec<Left>,
+    most: f64,
+}
+
+impl Context {
+    /// With these of the model's parameters dropped.
+    pub(crate) fn of(survey: &Survey, dropped: &[usize]) -> Option<Self> {
+        let left: Vec<Left> =
+            (0..survey.noises()).map(|noise| survey.left(noise, dropped)).collect::<Option<_>>()?;
+        let most = left.iter().map(|left| left.log_likelihood).fold(f64::NEG_INFINITY, f64::max);
+        Some(Self { left, most })
+    }
+
+    /// The best choice of a candidate's parameters; `own` lists the places of each of them.
+    ///
+    /// None if the runs show nothing of it.
+    pub(crate) fn trial(&self, candidate: usize, shapes: f64, own: &[Vec<usize>]) -> Option<Trial> {
+        let choices = choices(own.len());
+        let looks = (shapes * choices.len() as f64).ln();
+        let mut best: Option<Trial> = None;
+        let mut least_ln_p = 0.0_f64;
+        for parameters in choices {
+            let places: Vec<usize> = parameters.iter().flat_map(|&p| own[p].clone()).collect();
+            let Some((score, statistic)) = self.scored(&places) else { continue };
+            least_ln_p = least_ln_p.min(ln_tail(statistic, score.dof) + looks);
+            let evidence = score.evidence - looks;
+            if best.as_ref().is_none_or(|best| evidence > best.evidence) {
+                let Score { dof, amplitude, .. } = score;
+                best = Some(Trial {
+                    candidate,
+                    parameters,
+                    amplitude,
+                    statistic,
+                    dof,
+                    looks,
+                    evidence,
+                    ln_p: 0.0,
+                });
+            }
+        }
+        best.map(|best| Trial { ln_p: least_ln_p, ..best })
+    }
+
+    /// The score of some places with the noise that is most likely with them, and the statistic with that which
+    /// makes it largest. None if nothing of them is shown.
+    fn scored(&self, places: &[usize]) -> Option<(Score, f64)> {
+        let mut best: Option<Score> = None;
+        let mut statistic = 0.0_f64;
+        for left in &self.left {
+            let behind = left.log_likelihood - self.most;
+            let (information, score) = left.block(places);
+            let mut scored = scored(&information, &score);
+            if scored.dof == 0 {
+                continue;
+            }
+            statistic = statistic.max(scored.statistic + 2.0 * behind);
+            scored.evidence += behind;
+            if best.as_ref().is_none_or(|best| scored.evidence > best.evidence) {
+                best = Some(scored);
+            }
+        }
+        best.map(|best| (best, statistic))
+    }
+}
+
+/// The best shape of every term that the runs show anything of, most likely first; the candidates' terms come
+/// after `model` terms of the survey.
+pub(crate) fn trials(
+    survey: &Survey,
+    context: &Context,
+    list: &[Candidate],
+    model: usize,
+) -> Vec<Trial> {
+    let mut best: Vec<Trial> = Vec::new();
+    for (index, candidate) in list.iter().enumerate() {
+        let Some(trial) = context.trial(index, candidate.looks, survey.of_term(model + index))
+        else {
+            continue;
+        };
+        let id = candidate.chosen.term.id;
+        match best.iter_mut().find(|other| list[other.candidate].chosen.term.id == id) {
+            Some(other) => {
+                let ln_p = other.ln_p.min(trial.ln_p);
+                if other.evidence < trial.evidence {
+                    *other = trial;
+                }
+                other.ln_p = ln_p;
+            }
+            None => best.push(trial),
+        }
+    }
+    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    best
+}
