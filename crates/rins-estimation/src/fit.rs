@@ -2,9 +2,10 @@
 
 use nalgebra::{DMatrix, SVector};
 use rins_imu::ImuSpec;
-use rins_terms::{Free, Model, Owner};
+use rins_terms::{Free, Model};
 
 use crate::evidence::{Indefinite, innovations};
+use crate::layout::Layout;
 use crate::likely::likely_noise;
 use crate::linear::{Linear, linearise};
 use crate::posterior::{Evidence, Posterior};
@@ -63,7 +64,7 @@ pub enum FitError {
 pub struct Estimate {
     /// What it is.
     pub parameter: Free,
-    /// The run that it belongs to, counted from zero; none if to the IMU and so to all.
+    /// The run that it belongs to, counted from zero; none if to the IMU and so to all, or if there is one only.
     pub run: Option<usize>,
     /// What it was expected to be.
     pub expected: f64,
@@ -207,27 +208,7 @@ struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     fn new(runs: &'a [Run], model: &Model, free: Vec<Free>) -> Self {
-        let shared = |parameter: &Free| parameter.owner == Owner::Sensor;
-        let several = runs.len() > 1;
-        let mut all = Vec::new();
-        let mut places = vec![vec![0; free.len()]; runs.len()];
-        // One run has its parameters in the model's order.
-        for (index, parameter) in free.iter().enumerate() {
-            if shared(parameter) || !several {
-                for of_run in &mut places {
-                    of_run[index] = all.len();
-                }
-                all.push((index, if shared(parameter) { None } else { Some(0) }));
-            }
-        }
-        if several {
-            for (run, of_run) in places.iter_mut().enumerate() {
-                for (index, _) in free.iter().enumerate().filter(|(_, p)| !shared(p)) {
-                    of_run[index] = all.len();
-                    all.push((index, Some(run)));
-                }
-            }
-        }
+        let Layout { all, places } = Layout::of(&free, runs.len());
         let value = |&(index, _): &(usize, Option<usize>)| {
             let Free { term, parameter, .. } = free[index];
             model.terms[term].values[parameter]

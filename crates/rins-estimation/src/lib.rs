@@ -16,6 +16,7 @@
 //! it. Which terms to choose is the caller's business, and files are read elsewhere.
 //!
 //! Numbers are in SI units and radians.
+mod layout;
 mod run;
 mod strengths;
 
