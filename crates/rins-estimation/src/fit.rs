@@ -132,50 +132,25 @@ pub fn fit(
     let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut iterations = Vec::new();
     let mut around = Vec::new();
-    loop {
-        let linear = problem.linear();
-        let (evidence, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
-        let step = problem.advance(&posterior);
-        let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
-        progress(&iteration);
-        iterations.push(iteration);
-        if find_noise {
-            calm(&mut noise, &evidence, &posterior);
-        }
-        // Noise is judged where the parameters no longer move by much.
-        if find_noise && step < 1.0 && iterations.len() > 1 {
-            break;
-        }
-        if step < CONVERGED {
-            break;
-        }
-        if iterations.len() == MOST_ITERATIONS || !step.is_finite() {
-            return Err(FitError::Diverged { iterations: iterations.len(), step });
-        }
-    }
     if find_noise {
-        let linear = problem.linear();
-        let likely = likely_noise(&linear, &noise, |linear, noise| {
+        problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
+        let likely = likely_noise(&problem.linear, &noise, |linear, noise| {
             let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
             Some(posterior.log_likelihood)
         });
         (noise, around) = (likely.noise, likely.around);
-        loop {
-            let linear = problem.linear();
-            let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
-            let step = problem.advance(&posterior);
-            let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
-            progress(&iteration);
-            iterations.push(iteration);
-            if step < CONVERGED {
-                break;
-            }
-            if iterations.len() >= 2 * MOST_ITERATIONS || !step.is_finite() {
-                return Err(FitError::Diverged { iterations: iterations.len(), step });
-            }
-        }
     }
+    problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
     problem.finish(noise, &around, iterations)
+}
+
+/// When an iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Until {
+    /// The parameters no longer move by much, so that noise can be judged.
+    NearEnough,
+    /// They do not move.
+    Converged,
 }
 
 /// Makes all noise as strong as the residuals, if these are stronger: a model that does not fit would chase them
@@ -204,6 +179,8 @@ struct Problem<'a> {
     places: Vec<Vec<usize>>,
     expected: Vec<f64>,
     values: Vec<f64>,
+    /// Each run, linear about these values.
+    linear: Vec<Linear>,
 }
 
 impl<'a> Problem<'a> {
@@ -215,10 +192,14 @@ impl<'a> Problem<'a> {
         };
         let expected: Vec<f64> = all.iter().map(value).collect();
         let models = vec![model.clone(); runs.len()];
-        Self { runs, models, values: expected.clone(), expected, free, all, places }
+        let values = expected.clone();
+        let mut problem =
+            Self { runs, models, values, expected, free, all, places, linear: Vec::new() };
+        problem.linear = problem.linearised();
+        problem
     }
 
-    fn linear(&self) -> Vec<Linear> {
+    fn linearised(&self) -> Vec<Linear> {
         let free: Vec<(usize, usize)> =
             self.free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
         self.runs
@@ -255,6 +236,39 @@ impl<'a> Problem<'a> {
         Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
     }
 
+    /// Goes from estimate to estimate.
+    fn settle(
+        &mut self,
+        until: Until,
+        noise: &mut [Noise],
+        iterations: &mut Vec<Iteration>,
+        progress: &mut impl FnMut(&Iteration),
+    ) -> Result<(), FitError> {
+        let most = match until {
+            Until::NearEnough => MOST_ITERATIONS,
+            Until::Converged => iterations.len() + MOST_ITERATIONS,
+        };
+        loop {
+            let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
+            let step = self.advance(&posterior);
+            let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
+            progress(&iteration);
+            iterations.push(iteration);
+            if until == Until::NearEnough {
+                calm(noise, &evidence, &posterior);
+                if step < 1.0 && iterations.len() > 1 {
+                    return Ok(());
+                }
+            }
+            if step < CONVERGED {
+                return Ok(());
+            }
+            if iterations.len() >= most || !step.is_finite() {
+                return Err(FitError::Diverged { iterations: iterations.len(), step });
+            }
+        }
+    }
+
     /// Goes to the estimate; the largest step in sigmas.
     fn advance(&mut self, posterior: &Posterior) -> f64 {
         let mut largest = 0.0_f64;
@@ -267,6 +281,7 @@ impl<'a> Problem<'a> {
                 model.terms[parameter.term].values[parameter.parameter] = self.values[place];
             }
         }
+        self.linear = self.linearised();
         largest
     }
 
@@ -276,13 +291,12 @@ impl<'a> Problem<'a> {
         around: &[[Vec<Noise>; 2]],
         iterations: Vec<Iteration>,
     ) -> Result<Fit, FitError> {
-        let linear = self.linear();
-        let (evidence, posterior) = self.posterior(&linear, &noise, iterations.len())?;
+        let (evidence, posterior) = self.posterior(&self.linear, &noise, iterations.len())?;
         // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
         // where the estimate would then be.
         let mut covariance = posterior.covariance.clone();
         for side in around.iter().flatten() {
-            let (_, other) = self.posterior(&linear, side, iterations.len())?;
+            let (_, other) = self.posterior(&self.linear, side, iterations.len())?;
             let moved = &other.step - &posterior.step;
             covariance +=
                 (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
@@ -301,7 +315,7 @@ impl<'a> Problem<'a> {
             log_likelihood: posterior.log_likelihood,
             models: self.models,
             noise,
-            linear,
+            linear: self.linear,
             iterations,
         })
     }
