@@ -267,6 +267,11 @@ impl Linear {
         self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
     }
 
+    /// Whether the readings show the angle about the axis.
+    pub(crate) fn shows_angle(&self) -> bool {
+        self.reference != Reference::Gravity
+    }
+
     /// The mean length of an epoch \[s\].
     pub(crate) fn mean_epoch(&self) -> f64 {
         let total: f64 = self.epochs.iter().map(|epoch| epoch.duration).sum();
