@@ -147,10 +147,13 @@ impl<'a> Space<'a> {
         let mut attitude = DMatrix::zeros(3, n);
         let identity = Matrix3::identity();
         let turning = cross_matrix(&self.linear.earth_rate);
+        // The mean over the readings, each at the end of a sample, and the integral.
+        let middle = 0.5 * t * (1.0 + epoch.count().recip());
+        let integral = identity * t - turning * (0.5 * t * t);
         set(&mut navigation, 0, 0, &(identity - turning * t));
-        set(&mut navigation, 3, 0, &(-self.force_cross * t));
+        set(&mut navigation, 3, 0, &(-self.force_cross * integral));
         set(&mut navigation, 3, 3, &identity);
-        set(&mut attitude, 0, 0, &(identity - turning * (0.5 * t)));
+        set(&mut attitude, 0, 0, &(identity - turning * middle));
         let mut step = Step {
             navigation,
             decay: vec![1.0; n - NAVIGATION],
