@@ -1,10 +1,11 @@
 //! The batch solution: iterated least squares over one run or several.
 
-use nalgebra::{DMatrix, SVector};
+use nalgebra::{DMatrix, DVector, SVector};
 use rins_imu::ImuSpec;
 use rins_terms::{Free, Model};
 
 use crate::evidence::{Indefinite, innovations};
+use crate::identifiability::{Alias, Identifiability, Unknown};
 use crate::layout::Layout;
 use crate::likely::likely_noise;
 use crate::linear::{Linear, linearise};
@@ -325,6 +326,31 @@ impl Fit {
     /// The parameter of this id, of the IMU or of the first run.
     pub fn parameter(&self, id: &str) -> Option<&Estimate> {
         self.parameters.iter().find(|estimate| estimate.parameter.id == id)
+    }
+
+    /// What the data tell of the parameters, the noise being what was found.
+    pub fn identifiability(&self) -> Identifiability {
+        let unknown = |estimate: &Estimate| Unknown {
+            id: estimate.parameter.id.clone(),
+            run: estimate.run,
+            unit: estimate.parameter.unit,
+            sigma: estimate.parameter.sigma,
+        };
+        let unknowns = self.parameters.iter().map(unknown).collect();
+        Identifiability::of(&self.evidence.information, unknowns)
+    }
+
+    /// The sum of the parameter at `place` and of others, each times its coefficient: value and 1σ, in SI units.
+    pub fn sum(&self, place: usize, others: &[Alias]) -> (f64, f64) {
+        let mut weights = DVector::zeros(self.parameters.len());
+        weights[place] = 1.0;
+        for alias in others {
+            weights[alias.unknown] += alias.coefficient;
+        }
+        let values = self.parameters.iter().map(|estimate| estimate.value);
+        let value = values.zip(&weights).map(|(value, weight)| value * weight).sum();
+        let variance = (weights.transpose() * &self.covariance * &weights)[(0, 0)];
+        (value, variance.max(0.0).sqrt())
     }
 
     /// The whitened innovations of a run: each N(0, I) if the model is right.

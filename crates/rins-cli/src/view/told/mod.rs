@@ -1,203 +1,165 @@
-//! What of an estimate the data show, and what only together with other parameters.
+//! What data tell of parameters, in words.
 
-use nalgebra::{DMatrix, DVector};
-use rins_estimation::{Estimate, Fit};
+mod json;
 
-/// A parameter is seen if the data bring its sigma below this part of what was known beforehand.
-const SEEN: f64 = 0.5;
+use std::fmt::Write as _;
 
-/// A parameter is a combination if that brings its sigma below this part.
-const HELD: f64 = 0.2;
+use rins_estimation::{Alias, Gauge, Identifiability, Shown};
 
-/// A partner belongs to a combination if it brings its variance down by this factor at least.
-const WORTHWHILE: f64 = 1.5;
+pub(crate) use self::json::{identifiability_json, parameter_json};
+use crate::number::figure;
+use crate::report::{Cell, Tone};
 
-/// A combination is complete when its sigma is that near, as a ratio, to the best of all combinations.
-const COMPLETE: f64 = 1.5;
+/// How many of those of which nothing is told are named in a sentence.
+const MOST_NAMED: usize = 12;
 
-/// The most partners that a combination is written with.
-const MOST_PARTNERS: usize = 5;
-
-/// What the data show of a parameter, in SI units.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Finding {
-    /// Whether they show it alone.
-    pub(crate) identifiable: bool,
-    /// The value of what they show: the parameter, or the combination.
-    pub(crate) value: f64,
-    /// Its 1σ.
-    pub(crate) sigma: f64,
-    /// The 1σ of the parameter before.
-    pub(crate) prior_sigma: f64,
-    /// The other parameters of the combination: their place among all, and their coefficient.
-    pub(crate) partners: Vec<(usize, f64)>,
+/// What stands beside a parameter in a sum.
+pub(crate) struct Summand<'a> {
+    /// How much one of its unit counts, in the parameter's unit.
+    pub(crate) coefficient: f64,
+    /// Its unit.
+    pub(crate) unit: &'a str,
+    /// What it is called.
+    pub(crate) name: String,
 }
 
-/// What the data of a fit show of each of its parameters.
-///
-/// Where only prior knowledge of others keeps a parameter in place, it is the combination with the fewest of
-/// them that the data do show: of two whose errors go together, `x - cov(x, y)/var(y) y`. What the data
-/// do not show in any combination has no partners.
-pub(crate) fn findings(fit: &Fit) -> Vec<Finding> {
-    let unseen: Vec<bool> =
-        fit.parameters.iter().map(|e| e.sigma > SEEN * e.parameter.sigma).collect();
-    (0..fit.parameters.len()).map(|place| finding(fit, place, &unseen)).collect()
-}
-
-fn finding(fit: &Fit, place: usize, unseen: &[bool]) -> Finding {
-    let estimate = &fit.parameters[place];
-    let prior_sigma = estimate.parameter.sigma;
-    let alone = Finding {
-        identifiable: !unseen[place],
-        value: estimate.value,
-        sigma: estimate.sigma,
-        prior_sigma,
-        partners: Vec::new(),
-    };
-    // What is seen can only hold what is not.
-    let others = (0..unseen.len()).filter(|&other| other != place);
-    let candidates: Vec<usize> = others.filter(|&other| unseen[place] || unseen[other]).collect();
-    let Some((sigma, partners)) = combination(&fit.covariance, place, &candidates) else {
-        return alone;
-    };
-    if sigma > HELD * estimate.sigma || sigma > SEEN * prior_sigma {
-        return alone;
-    }
-    let others = partners.iter().map(|(other, c)| c * fit.parameters[*other].value);
-    let value = estimate.value + others.sum::<f64>();
-    Finding { identifiable: false, value, sigma, prior_sigma, partners }
-}
-
-/// What the data show of a parameter, as a person reads it.
-pub(crate) fn words(parameters: &[Estimate], findings: &[Finding], place: usize) -> String {
-    let finding = &findings[place];
-    if finding.identifiable {
-        return "alone, by this schedule".into();
-    }
-    if finding.partners.is_empty() {
-        return "not shown by this schedule: it is what was known before".into();
-    }
-    let unit = parameters[place].parameter.unit;
-    let partners: Vec<String> = finding
-        .partners
-        .iter()
-        .map(|&(other, coefficient)| {
-            let other = &parameters[other].parameter;
-            let share = coefficient * other.unit.factor / unit.factor;
-            let sign = if share < 0.0 { "-" } else { "+" };
-            let per = if unit.symbol == other.unit.symbol {
-                String::new()
-            } else {
-                format!(" {}/({})", unit.symbol, other.unit.symbol)
-            };
-            format!("{sign} {}{per} x {}", figure(share.abs()), other.id)
-        })
-        .collect();
-    let id = &parameters[place].parameter.id;
-    format!(
-        "only the combination {id} {}; alone {} ± {} {}",
-        partners.join(" "),
-        figure(parameters[place].value / unit.factor),
-        figure(parameters[place].sigma / unit.factor),
-        unit.symbol
-    )
-}
-
-/// A number to four digits.
-pub(crate) fn figure(value: f64) -> String {
-    let magnitude = value.abs();
-    if magnitude == 0.0 {
-        "0".into()
-    } else if (1e-3..1e5).contains(&magnitude) {
-        let digits = (3.0 - magnitude.log10().floor()).max(0.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 6")]
-        let digits = digits as usize;
-        format!("{value:.digits$}")
-    } else {
-        format!("{value:.3e}")
-    }
-}
-
-/// The combination of the parameter at `place` with the fewest candidates that is about as well known as any,
-/// and its sigma.
-fn combination(
-    covariance: &DMatrix<f64>,
-    place: usize,
-    candidates: &[usize],
-) -> Option<(f64, Vec<(usize, f64)>)> {
-    let n = covariance.nrows();
-    let scale = DVector::from_fn(n, |row, _| covariance[(row, row)].sqrt());
-    let correlation = DMatrix::from_fn(n, n, |row, column| {
-        covariance[(row, column)] / (scale[row] * scale[column])
-    });
-    // What is left of the variance, as a share, where all candidates are known.
-    let (least, _) = regressed(&correlation, place, candidates)?;
-    let mut partners: Vec<usize> = Vec::new();
-    let mut share = 1.0;
-    while share > COMPLETE * COMPLETE * least && partners.len() < MOST_PARTNERS {
-        let others = candidates.iter().copied().filter(|other| !partners.contains(other));
-        let (next, after) = others
-            .filter_map(|other| {
-                let with: Vec<usize> = partners.iter().copied().chain([other]).collect();
-                regressed(&correlation, place, &with).map(|(share, _)| (other, share))
-            })
-            .min_by(|a, b| a.1.total_cmp(&b.1))?;
-        if after * WORTHWHILE > share {
-            break;
+/// A sum as a person reads it, such as `only gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`.
+pub(crate) fn sum_in_words<'a>(
+    name: &str,
+    unit: &str,
+    others: impl IntoIterator<Item = Summand<'a>>,
+) -> String {
+    let mut sum = format!("only {name}");
+    for other in others {
+        let sign = if other.coefficient < 0.0 { '-' } else { '+' };
+        let size = figure(other.coefficient.abs(), 3);
+        // Writing to a string cannot fail.
+        let _ = write!(sum, " {sign} ");
+        if other.unit != unit {
+            let _ = write!(sum, "{size} {unit}/({}) × ", other.unit);
+        } else if size != "1.00" {
+            let _ = write!(sum, "{size} × ");
         }
-        partners.push(next);
-        share = after;
+        sum.push_str(&other.name);
     }
-    if partners.is_empty() {
-        return None;
-    }
-    let (share, coefficients) = regressed(&correlation, place, &partners)?;
-    let with = partners
-        .iter()
-        .zip(coefficients.iter())
-        .map(|(&other, coefficient)| (other, -coefficient * scale[place] / scale[other]));
-    Some((share.sqrt() * scale[place], with.collect()))
+    sum
 }
 
-/// The share of the variance at `place` that is left where those of `others` are known, and the regression on
-/// them, of unit variances all.
-fn regressed(
-    correlation: &DMatrix<f64>,
-    place: usize,
-    others: &[usize],
-) -> Option<(f64, DVector<f64>)> {
-    let among = DMatrix::from_fn(others.len(), others.len(), |row, column| {
-        correlation[(others[row], others[column])]
-    });
-    let with = DVector::from_fn(others.len(), |row, _| correlation[(others[row], place)]);
-    let coefficients = among.cholesky()?.solve(&with);
-    let share = 1.0 - with.dot(&coefficients);
-    (share > 0.0).then_some((share, coefficients))
+/// What is told of a parameter alone.
+pub(crate) const ITSELF: &str = "itself";
+
+/// The name of an unknown, with its run if there are several.
+pub(crate) fn name(told: &Identifiability, place: usize) -> String {
+    let unknown = &told.unknowns[place];
+    match unknown.run {
+        Some(run) => format!("{} of run {}", unknown.id, run + 1),
+        None => unknown.id.clone(),
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rins_testing::assert_close;
-
-    /// Posterior covariance of three parameters of unit priors, of which the data show `x + 2 y` to `sigma`.
-    fn together(sigma: f64) -> DMatrix<f64> {
-        let shown = DVector::from_vec(vec![1.0, 2.0, 0.0]);
-        let information = DMatrix::identity(3, 3) + &shown * shown.transpose() / (sigma * sigma);
-        information.try_inverse().unwrap()
+/// What of an unknown is told, as a person reads it.
+pub(crate) fn meaning(told: &Identifiability, place: usize) -> String {
+    let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+    match seen.shown {
+        Shown::Alone if seen.identifiable => ITSELF.into(),
+        Shown::Alone => "itself, hardly better than it was known".into(),
+        Shown::Nothing => "nothing that was not known before".into(),
+        Shown::Combination | Shown::Part { .. } => {
+            let summand = |alias: &Alias| Summand {
+                coefficient: coefficient(told, place, alias),
+                unit: told.unknowns[alias.unknown].unit.symbol,
+                name: name(told, alias.unknown),
+            };
+            let others = seen.aliases.iter().map(summand);
+            let sum = sum_in_words(&name(told, place), unknown.unit.symbol, others);
+            let gauge = seen.gauge.map(|gauge| format!("; a choice of {}", gauge.name));
+            sum + &gauge.unwrap_or_default()
+        }
     }
+}
 
-    #[test]
-    fn what_goes_together_is_found_with_its_coefficient() {
-        let (sigma, partners) = combination(&together(1e-3), 0, &[1, 2]).unwrap();
-        assert_eq!(partners.len(), 1);
-        assert_eq!(partners[0].0, 1);
-        assert_close!(partners[0].1, 2.0, 1e-4);
-        assert_close!(sigma, 1e-3, 1e-6);
-    }
+/// What one of an alias' unit counts, in the unit of the parameter beside which it stands.
+pub(crate) fn coefficient(told: &Identifiability, place: usize, alias: &Alias) -> f64 {
+    let factor = |place: usize| told.unknowns[place].unit.factor;
+    alias.coefficient * factor(alias.unknown) / factor(place)
+}
 
-    #[test]
-    fn what_goes_with_nothing_has_no_combination() {
-        assert_eq!(combination(&together(1e-3), 2, &[0, 1]), None);
+/// The same as a badge.
+pub(crate) fn badge(told: &Identifiability, place: usize) -> Cell {
+    let seen = &told.seen[place];
+    match seen.shown {
+        _ if seen.identifiable => Cell::badge(Tone::Good, "identifiable"),
+        Shown::Combination => Cell::badge(Tone::Warning, "combination"),
+        Shown::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
+        Shown::Part { .. } => Cell::badge(Tone::Warning, "part"),
+        Shown::Alone | Shown::Nothing => Cell::badge(Tone::Neutral, "not shown"),
     }
+}
+
+/// Which unknowns are told alone, which only in sums, and which not at all.
+struct Sorted {
+    alone: Vec<usize>,
+    in_combination: Vec<usize>,
+    not_shown: Vec<usize>,
+}
+
+impl Sorted {
+    fn of(told: &Identifiability) -> Self {
+        let (alone, others): (Vec<usize>, Vec<usize>) =
+            (0..told.seen.len()).partition(|&place| told.seen[place].identifiable);
+        let (not_shown, in_combination) =
+            others.into_iter().partition(|&place| told.seen[place].aliases.is_empty());
+        Self { alone, in_combination, not_shown }
+    }
+}
+
+/// How many are told how, in a sentence or two.
+pub(crate) fn rank_sentence(told: &Identifiability) -> String {
+    let Sorted { alone, in_combination, not_shown } = Sorted::of(told);
+    let (n, rank) = (told.unknowns.len(), told.rank.rank());
+    let mut text = format!(
+        "Of {n} parameters the data tell {} by themselves and {} only in combinations",
+        alone.len(),
+        in_combination.len()
+    );
+    if !not_shown.is_empty() {
+        let mut names: Vec<String> =
+            not_shown.iter().take(MOST_NAMED).map(|&place| name(told, place)).collect();
+        if not_shown.len() > MOST_NAMED {
+            names.push(format!("{} others", not_shown.len() - MOST_NAMED));
+        }
+        let _ = write!(text, ", and nothing of {}", list(&names));
+    }
+    let lost = match n - rank {
+        0 => "no combination is invisible altogether".to_string(),
+        1 => "one combination is exactly invisible".to_string(),
+        lost => format!("{lost} combinations are exactly invisible"),
+    };
+    format!("{text}; {lost}.")
+}
+
+pub(crate) fn list(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [before @ .., last] => format!("{} and {last}", before.join(", ")),
+    }
+}
+
+/// The gauges met, each once.
+fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
+    let mut met: Vec<&'static Gauge> = Vec::new();
+    for gauge in told.seen.iter().filter_map(|seen| seen.gauge) {
+        if !met.contains(&gauge) {
+            met.push(gauge);
+        }
+    }
+    met
+}
+
+/// What no schedule tells, a sentence for each gauge met.
+pub(crate) fn gauge_sentences(told: &Identifiability) -> Vec<String> {
+    let sentence =
+        |gauge: &Gauge| format!("Gauge, under every schedule: {}: {}.", gauge.name, gauge.why);
+    gauges(told).into_iter().map(sentence).collect()
 }
