@@ -4,16 +4,16 @@ use rins_terms::{Free, Owner};
 
 /// All parameters of some runs of one IMU: those of the sensors are shared, the others each run's own.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Layout {
+pub struct Layout {
     /// Which parameter of the model each one is, and of which run; of none if it is shared, or there is one run only.
-    pub(crate) all: Vec<(usize, Option<usize>)>,
+    pub all: Vec<(usize, Option<usize>)>,
     /// For each run the place among all of each parameter of the model.
-    pub(crate) places: Vec<Vec<usize>>,
+    pub places: Vec<Vec<usize>>,
 }
 
 impl Layout {
     /// Of so many runs. One run has its parameters in the model's order; of several, those that are shared come first.
-    pub(crate) fn of(free: &[Free], n_runs: usize) -> Self {
+    pub fn of(free: &[Free], n_runs: usize) -> Self {
         if n_runs == 1 {
             let all = (0..free.len()).map(|index| (index, None)).collect();
             return Self { all, places: vec![(0..free.len()).collect()] };

@@ -276,8 +276,46 @@ impl Linear {
         self.reference != Reference::Gravity
     }
 
+    /// The table angle in the middle of each epoch \[rad\], and its mean rate over it \[rad/s\].
+    pub fn motion(&self) -> Vec<(f64, f64)> {
+        let angles = self.track.angles();
+        let of = |epoch: &Epoch| {
+            let (first, end) = (angles[epoch.samples.0], angles[epoch.samples.1]);
+            (0.5 * (first + end), (end - first) / epoch.duration)
+        };
+        self.epochs.iter().map(of).collect()
+    }
+
+    /// The same with parameters more: of each of `parameters`, one that acts in the epochs of group 1 only, and so on up
+    /// to group `last`.
+    ///
+    /// # Panics
+    /// If there is not a group for every epoch.
+    #[must_use]
+    pub fn in_groups(&self, parameters: &[usize], groups: &[usize], last: usize) -> Self {
+        assert_eq!(groups.len(), self.epochs.len(), "a group for every epoch");
+        let mut apart = self.clone();
+        for (epoch, &group) in apart.epochs.iter_mut().zip(groups) {
+            for matrix in [
+                &mut epoch.attitude,
+                &mut epoch.mean_attitude,
+                &mut epoch.velocity,
+                &mut epoch.reading,
+            ] {
+                for of in 1..=last {
+                    for parameter in parameters {
+                        let column = matrix.column(parameter + 1).into_owned();
+                        matrix.extend([if of == group { column } else { Vector3::zeros() }]);
+                    }
+                }
+            }
+        }
+        apart.parameters += parameters.len() * last;
+        apart
+    }
+
     /// The mean length of an epoch \[s\].
-    pub(crate) fn mean_epoch(&self) -> f64 {
+    pub fn mean_epoch(&self) -> f64 {
         let total: f64 = self.epochs.iter().map(|epoch| epoch.duration).sum();
         total / self.epochs.len() as f64
     }
