@@ -66,7 +66,8 @@ impl Survey {
             linear.push(linearise(run, &model, &columns));
         }
         let known_free = free.iter().filter(|f| f.term < fit.model().terms.len()).count();
-        let layout = Places::of(&free, known_free, runs.len(), fit.model().terms.len() + candidates.len());
+        let layout =
+            Places::of(&free, known_free, runs.len(), fit.model().terms.len() + candidates.len());
         let known = layout.known;
         let off = DVector::from_fn(known, |place, _| {
             let estimate = &fit.parameters[place];
