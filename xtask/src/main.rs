@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 mod bench;
+mod blind;
 mod ci;
 mod coverage;
 mod doc;
@@ -31,6 +32,8 @@ struct Arguments {
 enum Command {
     /// Time the hot loops beside their rivals, or count their instructions
     Bench(bench::Options),
+    /// Hide effects in runs made apart, and score what the diagnosis says of them
+    Blind(blind::Options),
     /// Everything that CI runs after `cargo test --workspace`
     Ci(ci::Options),
     /// Simulate runs with random truth and check how often the estimator's intervals hold it
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
     let root = root();
     let done = match Arguments::parse().command {
         Command::Bench(options) => bench::run(&root, &options),
+        Command::Blind(options) => blind::run(&root, &options),
         Command::Ci(options) => ci::run(&root, &options),
         Command::Coverage(options) => coverage::run(&root, &options),
         Command::Doc => doc::run(&root),

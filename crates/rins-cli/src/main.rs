@@ -8,7 +8,6 @@ use crate::outcome::Outcome;
 
 mod args;
 mod commands;
-mod number;
 mod outcome;
 mod progress;
 mod report;

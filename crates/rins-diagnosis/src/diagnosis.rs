@@ -8,7 +8,6 @@ use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
-use crate::unexplained::Unexplained;
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
 pub(crate) const FALSE_ALARMS: f64 = 0.01;
@@ -51,8 +50,6 @@ pub struct Cause {
 pub struct Diagnosis {
     /// What was found, strongest first; nothing is "adequate".
     pub causes: Vec<Cause>,
-    /// What is left that no effect explains, most significant first.
-    pub unexplained: Vec<Unexplained>,
     /// The model as it was given.
     pub before: Fit,
     /// The model with the causes in it.
@@ -116,9 +113,7 @@ pub fn diagnose(
         present = fitted;
     }
     let (after, causes) = case.settled(&before, present, found)?;
-    let unexplained = case.unexplained(&after, &causes)?;
-    let not_testable = not_testable.unwrap_or_default();
-    Ok(Diagnosis { causes, unexplained, before, after, not_testable })
+    Ok(Diagnosis { causes, before, after, not_testable: not_testable.unwrap_or_default() })
 }
 
 /// Terms of which no shape shows.

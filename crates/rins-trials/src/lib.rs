@@ -1,15 +1,37 @@
 //! Blind trials of the diagnosis.
 //!
 //! **What it does.** A [`Trial`] is drawn from a seed: a table, an IMU, a schedule, a level of realism, and what is
-//! hidden, so many times its Cramér-Rao bound strong. `rins_blind` makes the run, `rins diagnose` sees its log and
-//! its rig file and nothing else, and a [`Record`] of the answer goes beside the truth into a journal. [`card`] makes the score
-//! card of a journal.
+//! hidden, so many times its Cramér-Rao bound strong. `rins_blind` makes the run; `rins diagnose` sees its log and
+//! its rig file and nothing else; a [`Record`] of its answer goes beside the truth into a journal. [`card`] makes
+//! the score card of a journal.
 //!
 //! **What it does not do.** It judges nothing that it could not judge from the command's JSON: the analyser is a
 //! program, and this crate's use of the estimator is to say how strong a hidden effect is, and which
 //! rivals the schedule tells from it.
+mod trouble;
+
 mod catalogue;
 mod stand;
 
+mod laboratory;
+
+mod hide;
+
+mod draw;
+
+mod answer;
+mod journal;
+
+mod card;
+mod score;
+mod statistics;
+
+pub use answer::{Analyser, Answer, Named};
+pub use card::card;
 pub use catalogue::{hidden, is_hideable};
+pub use draw::{Kind, Trial};
+pub use hide::{Hidden, Outside};
+pub use journal::{Plan, Record, one, records, run, time, try_out};
+pub use laboratory::{Laboratory, Length, Level, Schedule};
 pub use stand::{Stand, StandError, Told, recording};
+pub use trouble::Trouble;

@@ -27,8 +27,8 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("anyhow", &["rins-cli"]),
     ("clap", &["rins-cli"]),
     ("csv", &["rins-io", "rins-cli"]),
-    ("serde", &["rins-io", "rins-cli"]),
-    ("serde_json", &["rins-io", "rins-cli"]),
+    ("serde", &["rins-io", "rins-cli", "rins-trials"]),
+    ("serde_json", &["rins-io", "rins-cli", "rins-trials"]),
     ("toml", &["rins-io", "rins-cli"]),
 ];
 

@@ -12,6 +12,7 @@ mod content;
 mod drawing;
 mod envelope;
 mod escape;
+mod number;
 mod page;
 mod plot;
 mod table;

@@ -2,7 +2,7 @@
 
 use super::content::{Cell, Column, Kind, Matrix, Table, Tone};
 use super::escape::{each, html};
-use crate::number::{estimate, fixed};
+use super::number::{estimate, fixed};
 
 /// A coefficient below this is not worth the reader's eye.
 const SLIGHT: f64 = 0.1;

@@ -2,11 +2,10 @@
 
 use nalgebra::DMatrix;
 use rins_imu::ImuSpec;
-use rins_terms::Model;
+use rins_terms::{Free, Model, Owner};
 
 use crate::evidence::Indefinite;
 use crate::identifiability::{Identifiability, Unknown, scaled};
-use crate::layout::Layout;
 use crate::linear::linearise;
 use crate::posterior::Evidence;
 use crate::run::Run;
@@ -63,7 +62,7 @@ pub fn joint(
     strengths: &Strengths,
 ) -> Result<Joint, JointError> {
     let free = model.free(imu);
-    let Layout { all, places } = Layout::of(&free, runs.len());
+    let (all, places) = shared_out(&free, runs.len());
     let columns: Vec<(usize, usize)> =
         free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
     let mut evidence = Evidence::none(all.len());
@@ -83,4 +82,30 @@ pub fn joint(
         })
         .collect();
     Ok(Joint { unknowns, parameters: all.iter().map(|&(index, _)| index).collect(), evidence })
+}
+
+/// A parameter of the model, and the run that it belongs to.
+type Owned = (usize, Option<usize>);
+
+/// All unknowns of so many runs, and for each run the place of each parameter among them.
+fn shared_out(free: &[Free], n_runs: usize) -> (Vec<Owned>, Vec<Vec<usize>>) {
+    if n_runs == 1 {
+        let all = (0..free.len()).map(|index| (index, None)).collect();
+        return (all, vec![(0..free.len()).collect()]);
+    }
+    let mut all = Vec::new();
+    let mut places = vec![vec![0; free.len()]; n_runs];
+    for (index, _) in free.iter().enumerate().filter(|(_, p)| p.owner == Owner::Sensor) {
+        for of_run in &mut places {
+            of_run[index] = all.len();
+        }
+        all.push((index, None));
+    }
+    for (run, of_run) in places.iter_mut().enumerate() {
+        for (index, _) in free.iter().enumerate().filter(|(_, p)| p.owner == Owner::Run) {
+            of_run[index] = all.len();
+            all.push((index, Some(run)));
+        }
+    }
+    (all, places)
 }

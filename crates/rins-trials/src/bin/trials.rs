@@ -1,0 +1,100 @@
+//! Runs blind trials, or makes the score card of those that were run.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use rins_trials::{Analyser, Length, Plan, Record, Trial, Trouble, card, records, run, time};
+
+const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS | trials time RINS JOURNAL SEED | \
+                     trials folder SEED INDEX FOLDER | trials card JOURNAL PAGE";
+
+/// How many of the longest runs are timed.
+const TIMED: u64 = 5;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match commanded(&words) {
+        None => {
+            eprintln!("error: {USAGE}");
+            ExitCode::from(2)
+        }
+        Some(Ok(())) => ExitCode::SUCCESS,
+        Some(Err(error)) => {
+            eprint!("error: {error}");
+            let mut cause = std::error::Error::source(&error);
+            while let Some(why) = cause {
+                eprint!(": {why}");
+                cause = why.source();
+            }
+            eprintln!();
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What came of a command; none if it is none.
+fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let told = |record: &Record| println!("{}", line(record));
+    Some(match *words {
+        ["run", program, journal, seed, trials, threads] => {
+            let plan = Plan {
+                seed: seed.parse().ok()?,
+                trials: trials.parse().ok()?,
+                threads: threads.parse().ok()?,
+            };
+            let analyser = Analyser::new(program, (cores / plan.threads.max(1)).max(1));
+            run(&plan, &analyser, Path::new(journal), told)
+        }
+        ["time", program, journal, seed] => {
+            let analyser = Analyser::new(program, cores);
+            time(seed.parse().ok()?, TIMED, &analyser, Path::new(journal), told)
+        }
+        ["folder", seed, index, folder] => {
+            made(seed.parse().ok()?, index.parse().ok()?, Path::new(folder))
+        }
+        ["card", journal, page] => page_of(Path::new(journal), Path::new(page)),
+        _ => return None,
+    })
+}
+
+/// Makes the folder of one trial, and says what is hidden in it.
+fn made(seed: u64, index: u64, folder: &Path) -> Result<(), Trouble> {
+    let trial = Trial::draw(seed, index, Length::Drawn)?;
+    std::fs::create_dir_all(folder)?;
+    let log = rins_blind::record(&trial.experiment);
+    rins_blind::write(folder, &log, &trial.known, trial.experiment.interval)?;
+    println!("{}", serde_json::to_string_pretty(&trial.hidden)?);
+    println!("{}", serde_json::to_string_pretty(&trial.outside)?);
+    Ok(())
+}
+
+fn page_of(journal: &Path, page: &Path) -> Result<(), Trouble> {
+    Ok(std::fs::write(page, card(&records(journal)?))?)
+}
+
+/// A trial in one line.
+fn line(record: &Record) -> String {
+    let hidden: Vec<String> =
+        record.hidden.iter().map(|one| format!("{} {:.1}σ", one.id, one.strength)).collect();
+    let outside = record.outside.as_ref().map(|one| {
+        format!("{} on {}, {:.0}σ", one.name, one.channel, one.remainder.unwrap_or_default())
+    });
+    let named: Vec<String> =
+        record.answer.causes.iter().map(|one| one.set().collect::<Vec<_>>().join("|")).collect();
+    format!(
+        "{:5} {:11} {:22} [{}{}] -> {} [{}] {} {:.1} s {}",
+        record.index,
+        record.schedule.name(),
+        record.level.name(),
+        hidden.join(", "),
+        outside.unwrap_or_default(),
+        record.answer.verdict,
+        named.join(", "),
+        record.answer.unexplained.join("; "),
+        record.answer.seconds,
+        record.answer.failure.as_deref().unwrap_or_default()
+    )
+}

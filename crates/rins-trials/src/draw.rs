@@ -1,0 +1,142 @@
+//! Drawing a trial.
+
+use rand::RngExt;
+use rins_blind::{Experiment, Known, Random, random};
+use serde::{Deserialize, Serialize};
+
+use crate::catalogue::hidden;
+use crate::hide::{Ground, Hidden, Outside, hideable};
+use crate::laboratory::{Laboratory, Length, Level, Schedule};
+use crate::stand::StandError;
+
+/// How many times its bound an effect is strong.
+const STRENGTHS: [f64; 10] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 40.0, 100.0];
+
+/// How strong each of two effects is.
+const BOTH: f64 = 10.0;
+
+/// How many sigmas of a structure outside the catalogue are left beside any effect.
+const REMAINDERS: [f64; 6] = [8.0, 12.0, 16.0, 20.0, 30.0, 50.0];
+
+/// How often an effect is drawn before a schedule is said to show none.
+const DRAWS: usize = 200;
+
+/// What is hidden in a trial.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Nothing.
+    Nothing,
+    /// One effect.
+    One,
+    /// Two effects.
+    Two,
+    /// Something outside the catalogue.
+    Outside,
+}
+
+/// A trial: what is true, what is known, and what is hidden.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// What is hidden in it.
+    pub kind: Kind,
+    /// How the table turns.
+    pub schedule: Schedule,
+    /// How real it is.
+    pub level: Level,
+    /// The run.
+    pub experiment: Experiment,
+    /// What the laboratory knows of it.
+    pub known: Known,
+    /// The effects that are hidden.
+    pub hidden: Vec<Hidden>,
+    /// What is hidden and in no catalogue.
+    pub outside: Option<Outside>,
+    /// Effects that are there because no table is perfect.
+    pub present: Vec<String>,
+}
+
+impl Trial {
+    /// Trial number `index` of those under `seed`.
+    ///
+    /// # Errors
+    /// [`StandError`] if the run cannot be looked at.
+    pub fn draw(seed: u64, index: u64, length: Length) -> Result<Self, StandError> {
+        let mut random = random(seed, index);
+        let kind = kind(&mut random);
+        let schedule = Schedule::ALL[random.random_range(0..3)];
+        let level = match random.random_range(0..20_u8) {
+            0..9 => Level::White,
+            9..17 => Level::Flicker,
+            17..19 => Level::Table,
+            _ => Level::Coarse,
+        };
+        let own = random.random();
+        let laboratory = Laboratory::draw((schedule, length), level, own, &mut random);
+        let present = laboratory.experiment.effects.iter().map(|effect| effect.id.clone());
+        let mut trial = Self {
+            kind,
+            schedule,
+            level,
+            present: present.collect(),
+            experiment: laboratory.experiment.clone(),
+            known: laboratory.known.clone(),
+            hidden: Vec::new(),
+            outside: None,
+        };
+        match kind {
+            Kind::Nothing => {}
+            Kind::One => {
+                let meant = STRENGTHS[random.random_range(0..STRENGTHS.len())];
+                trial.hide(&Ground::of(laboratory)?, 1, meant, &mut random)?;
+            }
+            Kind::Two => trial.hide(&Ground::of(laboratory)?, 2, BOTH, &mut random)?,
+            Kind::Outside => {
+                let remainder = REMAINDERS[random.random_range(0..REMAINDERS.len())];
+                let (unknown, outside) = Ground::of(laboratory)?.outside(remainder, &mut random)?;
+                trial.experiment.unknowns.push(unknown);
+                trial.outside = Some(outside);
+            }
+        }
+        Ok(trial)
+    }
+
+    /// What is hidden in trial number `index` of those under `seed`.
+    pub fn kind_of(seed: u64, index: u64) -> Kind {
+        kind(&mut random(seed, index))
+    }
+
+    /// Hides so many different effects, each of this strength.
+    fn hide(
+        &mut self,
+        ground: &Ground,
+        count: usize,
+        meant: f64,
+        random: &mut Random,
+    ) -> Result<(), StandError> {
+        let terms = hideable();
+        for _ in 0..DRAWS {
+            if self.hidden.len() == count {
+                break;
+            }
+            let term = terms[random.random_range(0..terms.len())];
+            if self.hidden.iter().any(|other| other.id == term.id) {
+                continue;
+            }
+            if let Some((chosen, record)) = ground.effect(term, meant, random)? {
+                self.experiment.effects.push(hidden(&chosen));
+                self.hidden.push(record);
+            }
+        }
+        Ok(())
+    }
+}
+
+fn kind(random: &mut Random) -> Kind {
+    match random.random_range(0..100_u8) {
+        0..35 => Kind::Nothing,
+        35..75 => Kind::One,
+        75..85 => Kind::Two,
+        _ => Kind::Outside,
+    }
+}

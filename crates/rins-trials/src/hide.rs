@@ -1,0 +1,328 @@
+//! How strong a hidden effect is, and which rivals the schedule tells from it.
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rand::RngExt;
+use rand_distr::{Distribution, StandardNormal};
+use rins_blind::{Channel, Random, Shape, Unknown, record};
+use rins_estimation::Run;
+use rins_terms::{Chosen, Term, catalogue};
+use serde::{Deserialize, Serialize};
+
+use crate::catalogue::{alike, hidden, is_hideable, rivals};
+use crate::laboratory::{Laboratory, log_uniform};
+use crate::stand::{Stand, StandError, Told};
+
+/// The one effect that is not linear in its parameters.
+const DEAD_ZONE: &str = "gyro_dead_zone";
+
+/// An effect is at most so many times as large as it usually is.
+const LARGEST: f64 = 3.0;
+
+/// A rival is at most so many times as large as it usually is.
+const RIVAL: f64 = 30.0;
+
+/// A rival beside which so many sigmas are left is told apart without a doubt.
+const TOLD: f64 = 8.0;
+
+/// An effect that was hidden.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hidden {
+    /// Its id.
+    pub id: String,
+    /// How many times the Cramér-Rao bound it was meant to be.
+    pub meant: f64,
+    /// How many times it is, found from the run itself: the root of the squares that it adds.
+    pub strength: f64,
+    /// In how many directions the run shows it.
+    pub dof: usize,
+    /// Its parameters in SI units.
+    pub parameters: Vec<f64>,
+    /// Their 1σ where nothing else is unknown but the baseline.
+    pub bounds: Vec<f64>,
+    /// How large they usually are at most.
+    pub usual: Vec<f64>,
+    /// Its settings in SI units.
+    pub settings: Vec<f64>,
+    /// What would be left of it beside each rival, in sigmas, the least first; those only beside which less than
+    /// half is left, or less than eight.
+    pub confusable: Vec<(String, f64)>,
+}
+
+/// A structure outside the catalogue that was hidden.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outside {
+    /// What it is, in words.
+    pub name: String,
+    /// The sensor that it is on.
+    pub channel: String,
+    /// How strong it is, in sigmas.
+    pub strength: f64,
+    /// How much of that is left beside the effect that is most like it; none for a matter of scatter.
+    pub remainder: Option<f64>,
+    /// The effect that is most like it.
+    pub nearest: String,
+}
+
+/// What is known of a laboratory's run before anything is hidden in it.
+pub(crate) struct Ground {
+    pub(crate) laboratory: Laboratory,
+    pub(crate) stand: Stand,
+    pub(crate) plain: Run,
+    duration: f64,
+}
+
+impl Ground {
+    pub(crate) fn of(laboratory: Laboratory) -> Result<Self, StandError> {
+        let stand = Stand::of(&laboratory.experiment, &laboratory.known);
+        let interval = laboratory.experiment.interval;
+        let plain = stand.run(&record(&quiet(&laboratory)), interval)?;
+        let duration = laboratory.experiment.drive.duration();
+        Ok(Self { laboratory, stand, plain, duration })
+    }
+
+    /// Any effect, `meant` times its bound strong in a random direction, if the run can show one so strong
+    /// that is not out of all proportion.
+    pub(crate) fn effect(
+        &self,
+        term: &'static Term,
+        meant: f64,
+        random: &mut Random,
+    ) -> Result<Option<(Chosen, Hidden)>, StandError> {
+        let mut chosen = self.shaped(term, random);
+        let told = self.stand.told(&self.plain, std::slice::from_ref(&chosen))?;
+        let Some((values, dof)) = sized(&told, meant, random) else { return Ok(None) };
+        chosen.values = values;
+        let mut strength = self.strength(&chosen)?;
+        if term.id == DEAD_ZONE {
+            // It grows with the square of its width.
+            let times = (meant / strength).sqrt();
+            chosen.values.iter_mut().for_each(|width| *width = width.abs() * times);
+            let usual = |(width, p): (&f64, &rins_terms::Parameter)| {
+                *width < LARGEST * p.range(&self.stand.imu).1
+            };
+            if !chosen.values.iter().zip(term.parameters).all(usual) {
+                return Ok(None);
+            }
+            strength = self.strength(&chosen)?;
+        }
+        let bounds = bounds(&told);
+        let confusable = self.confusable(&chosen, strength)?;
+        let record = Hidden {
+            id: term.id.into(),
+            meant,
+            strength,
+            dof,
+            parameters: chosen.values.clone(),
+            bounds,
+            usual: told.scale.clone(),
+            settings: chosen.settings.clone(),
+            confusable,
+        };
+        Ok(Some((chosen, record)))
+    }
+
+    /// The root of the squares that an effect adds to what the baseline leaves.
+    fn strength(&self, chosen: &Chosen) -> Result<f64, StandError> {
+        let mut quiet = quiet(&self.laboratory);
+        quiet.effects.push(hidden(chosen));
+        let run = self.stand.run(&record(&quiet), quiet.interval)?;
+        Ok(self.stand.told(&run, &[])?.square.max(0.0).sqrt())
+    }
+
+    /// An effect with random settings.
+    fn shaped(&self, term: &'static Term, random: &mut Random) -> Chosen {
+        let mut chosen = Chosen::new(term).estimated();
+        for setting in term.settings {
+            let value = match setting.name {
+                "time" => self.duration * (0.1 + 0.8 * random.random::<f64>()),
+                "time_constant" => self.duration * log_uniform(random, 0.02, 0.4),
+                "frequency" => log_uniform(random, 0.02, 10.0),
+                "axis" => f64::from(random.random_range(1..=3_u8)),
+                "exponent" => [0.5, 1.0, 2.0, 3.0][random.random_range(0..4)],
+                "order" if setting.within.0 < 0.0 => {
+                    [-4.0, -3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 12.0]
+                        [random.random_range(0..10)]
+                }
+                "order" => f64::from(random.random_range(2..=12_u8)),
+                _ => setting.default,
+            };
+            chosen = chosen.with_setting(setting.name, value);
+        }
+        if term.id == DEAD_ZONE {
+            // Its square counts: it is looked at where it is as wide as usual.
+            let wide = |p: &rins_terms::Parameter| p.range(&self.stand.imu).1;
+            chosen.values = term.parameters.iter().map(wide).collect();
+        }
+        chosen
+    }
+
+    /// What would be left of an effect beside each other one.
+    fn confusable(&self, chosen: &Chosen, strength: f64) -> Result<Vec<(String, f64)>, StandError> {
+        let mut all = vec![chosen.clone()];
+        let mut rivals = rivals(self.duration);
+        rivals.extend(alike(chosen));
+        all.extend(rivals.into_iter().filter(|rival| rival.term.id != chosen.term.id));
+        let told = self.stand.told(&self.plain, &all)?;
+        let own = told.places(0);
+        let along = DVector::from_iterator(
+            own.len(),
+            own.clone().map(|place| chosen.values[place] / told.scale[place]),
+        );
+        let mut least: Vec<(String, f64)> = Vec::new();
+        for (number, rival) in all.iter().enumerate().skip(1) {
+            let left = left_beside(&told, &along, number).max(0.0).sqrt();
+            match least.iter_mut().find(|(id, _)| id == rival.term.id) {
+                Some((_, known)) => *known = known.min(left),
+                None => least.push((rival.term.id.into(), left)),
+            }
+        }
+        least.retain(|(_, left)| *left < TOLD || *left < 0.5 * strength);
+        least.sort_by(|a, b| a.1.total_cmp(&b.1));
+        Ok(least)
+    }
+
+    /// A structure outside the catalogue of which `remainder` sigmas are left beside any effect.
+    pub(crate) fn outside(
+        &self,
+        remainder: f64,
+        random: &mut Random,
+    ) -> Result<(Unknown, Outside), StandError> {
+        let mut unknown = self.unknown(random);
+        let name = unknown.shape.name().to_owned();
+        let axes = ["x", "y", "z"];
+        let channel = match unknown.channel {
+            Channel::Gyro(axis) => format!("gyro.{}", axes[axis]),
+            Channel::Accel(axis) => format!("accel.{}", axes[axis]),
+        };
+        if !unknown.shape.is_signal() {
+            let nearest = String::new();
+            return Ok((
+                unknown,
+                Outside { name, channel, strength: 0.0, remainder: None, nearest },
+            ));
+        }
+        let mut quiet = quiet(&self.laboratory);
+        quiet.unknowns.push(unknown.clone());
+        let run = self.stand.run(&record(&quiet), quiet.interval)?;
+        let all = rivals(self.duration);
+        let told = self.stand.told(&run, &all)?;
+        let gains = (0..all.len()).map(|number| explained(&told, number));
+        let best =
+            gains.enumerate().fold(
+                (0, 0.0),
+                |best: (usize, f64), (number, gain)| {
+                    if gain > best.1 { (number, gain) } else { best }
+                },
+            );
+        let left = (told.square - best.1).max(0.0).sqrt();
+        let times = remainder / left;
+        unknown.size *= times;
+        let strength = times * told.square.sqrt();
+        let nearest = all[best.0].term.id.to_owned();
+        Ok((unknown, Outside { name, channel, strength, remainder: Some(remainder), nearest }))
+    }
+
+    fn unknown(&self, random: &mut Random) -> Unknown {
+        let duration = self.duration;
+        let axis = random.random_range(0..3);
+        let gyro = random.random_bool(0.5);
+        let channel = if gyro { Channel::Gyro(axis) } else { Channel::Accel(axis) };
+        let phase = TAU * random.random::<f64>();
+        let (shape, size) = match random.random_range(0..8_u8) {
+            0 => (Shape::Sawtooth { period: log_uniform(random, 0.04, 0.3) * duration }, 1.0),
+            1 => (Shape::Order { order: 1.37, phase }, 1.0),
+            2 => {
+                let from = log_uniform(random, 2.0, 10.0) / duration;
+                (Shape::Chirp { from, growth: 4.0 * from / duration }, 1.0)
+            }
+            3 => (Shape::telegraph(0.06 * duration, duration, random.random()), 1.0),
+            4 => (Shape::Modulated { period: 0.61 * duration, phase }, 1.0),
+            5 => (Shape::Bump { at: phase, width: 10.0 * PI / 180.0 }, 1.0),
+            6 => {
+                let from = 0.6 * random.random::<f64>() * duration;
+                (Shape::Burst { from, to: from + 0.15 * duration }, 3.0)
+            }
+            _ => (Shape::Tails, 1.0),
+        };
+        let known = if gyro { &self.laboratory.known.gyro } else { &self.laboratory.known.accel };
+        let unit = if shape.is_signal() { known.noise } else { 1.0 };
+        Unknown { channel, shape, size: size * unit }
+    }
+}
+
+/// The experiment without any noise and without the table's imperfections.
+fn quiet(laboratory: &Laboratory) -> rins_blind::Experiment {
+    let mut quiet = laboratory.experiment.clone();
+    for sensors in [&mut quiet.gyro, &mut quiet.accel] {
+        sensors.noise = rins_blind::Noise::default();
+        sensors.rounding = None;
+    }
+    quiet.encoder = rins_blind::Encoder { noise: 0.0, resolution: 0.0 };
+    quiet.effects.clear();
+    quiet
+}
+
+/// Parameters `meant` sigmas off zero in a random direction of those in which that is not out of all proportion,
+/// in SI units, and how many such directions there are.
+fn sized(told: &Told, meant: f64, random: &mut Random) -> Option<(Vec<f64>, usize)> {
+    let SymmetricEigen { eigenvalues, eigenvectors } =
+        SymmetricEigen::new(told.information.clone());
+    let shown: Vec<usize> = (0..eigenvalues.len())
+        .filter(|&place| eigenvalues[place] > (meant / LARGEST).powi(2))
+        .collect();
+    if shown.is_empty() {
+        return None;
+    }
+    let along: Vec<f64> = shown.iter().map(|_| StandardNormal.sample(random)).collect();
+    let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let mut values = DVector::zeros(eigenvalues.len());
+    for (&place, part) in shown.iter().zip(&along) {
+        let sigmas = meant * part / length;
+        values += eigenvectors.column(place) * (sigmas / eigenvalues[place].sqrt());
+    }
+    let values = values.iter().zip(&told.scale).map(|(value, scale)| value * scale).collect();
+    Some((values, shown.len()))
+}
+
+/// The 1σ of each parameter of the first term beyond the baseline, within its usual size.
+fn bounds(told: &Told) -> Vec<f64> {
+    let n = told.information.nrows();
+    let sum = &told.information + DMatrix::identity(n, n);
+    let Some(factor) = sum.cholesky() else { return told.scale.clone() };
+    let covariance = factor.inverse();
+    covariance.diagonal().iter().zip(&told.scale).map(|(v, scale)| v.sqrt() * scale).collect()
+}
+
+fn block(told: &Told, rows: usize, columns: usize) -> DMatrix<f64> {
+    let (rows, columns) = (told.places(rows), told.places(columns));
+    let size = (rows.len(), columns.len());
+    told.information.view((rows.start, columns.start), size).into_owned()
+}
+
+/// What of the information on the first term's direction is left where term `rival` is free.
+fn left_beside(told: &Told, along: &DVector<f64>, rival: usize) -> f64 {
+    let across = block(told, rival, 0) * along;
+    let own = along.dot(&(block(told, 0, 0) * along));
+    own - with_rival(told, rival, &across)
+}
+
+/// By how much the squares fall where term `rival` is free.
+fn explained(told: &Told, rival: usize) -> f64 {
+    let places = told.places(rival);
+    with_rival(told, rival, &told.score.rows(places.start, places.len()).into_owned())
+}
+
+fn with_rival(told: &Told, rival: usize, score: &DVector<f64>) -> f64 {
+    let mut information = block(told, rival, rival);
+    for place in 0..information.nrows() {
+        information[(place, place)] += RIVAL.powi(-2);
+    }
+    information.cholesky().map_or(0.0, |factor| score.dot(&factor.solve(score)))
+}
+
+/// The effects that may be hidden.
+pub(crate) fn hideable() -> Vec<&'static Term> {
+    catalogue::CATALOGUE.iter().copied().filter(|term| is_hideable(term)).collect()
+}

@@ -1,0 +1,185 @@
+//! Trials, one after the other, and what came of each, in a file that can be gone on with.
+
+use std::collections::BTreeSet;
+use std::fs::{self, OpenOptions};
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+
+use rins_blind::{record, write};
+use serde::{Deserialize, Serialize};
+
+use crate::answer::{Analyser, Answer};
+use crate::draw::{Kind, Trial};
+use crate::hide::{Hidden, Outside};
+use crate::laboratory::{Length, Level, Schedule};
+use crate::trouble::Trouble;
+
+/// A trial and its answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// The seed of all trials.
+    pub seed: u64,
+    /// Which trial.
+    pub index: u64,
+    /// Whether it was run to see how long it takes: alone, and as long as can be.
+    pub timed: bool,
+    /// What was hidden.
+    pub kind: Kind,
+    /// How the table turned.
+    pub schedule: Schedule,
+    /// How real it was.
+    pub level: Level,
+    /// The length of a sample \[s\].
+    pub interval: f64,
+    /// How long the run was \[s\].
+    pub duration: f64,
+    /// The effects that were hidden.
+    pub hidden: Vec<Hidden>,
+    /// What was hidden and in no catalogue.
+    pub outside: Option<Outside>,
+    /// Effects that were there because no table is perfect.
+    pub present: Vec<String>,
+    /// What the program said.
+    pub answer: Answer,
+}
+
+/// Which trials are to be run.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// The seed of all of them.
+    pub seed: u64,
+    /// How many there are.
+    pub trials: usize,
+    /// How many run at once.
+    pub threads: usize,
+}
+
+/// The records of a journal; a last line that was not finished is left out.
+///
+/// # Errors
+/// [`Trouble`] if it cannot be read.
+pub fn records(journal: &Path) -> Result<Vec<Record>, Trouble> {
+    if !journal.exists() {
+        return Ok(Vec::new());
+    }
+    let text = fs::read_to_string(journal)?;
+    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+    let mut records = Vec::new();
+    for line in whole.lines() {
+        records.push(serde_json::from_str(line)?);
+    }
+    Ok(records)
+}
+
+/// Makes a trial, asks the program, and leaves nothing behind.
+///
+/// # Errors
+/// [`Trouble`] if the trial cannot be made or the program not be asked.
+pub fn try_out(trial: &Trial, analyser: &Analyser) -> Result<Answer, Trouble> {
+    let folder = tempfile::tempdir()?;
+    write(folder.path(), &record(&trial.experiment), &trial.known, trial.experiment.interval)?;
+    analyser.ask(folder.path())
+}
+
+/// Runs what a plan holds and `journal` does not, each record appended when it is there.
+///
+/// # Errors
+/// The first [`Trouble`] of any trial; those that were finished are in the journal.
+pub fn run(
+    plan: &Plan,
+    analyser: &Analyser,
+    journal: &Path,
+    told: impl Fn(&Record) + Sync,
+) -> Result<(), Trouble> {
+    let before = records(journal)?;
+    mend(journal, &before)?;
+    let done: BTreeSet<u64> =
+        before.iter().filter(|r| r.seed == plan.seed && !r.timed).map(|r| r.index).collect();
+    let left: Vec<u64> = (0..plan.trials as u64).filter(|index| !done.contains(index)).collect();
+    let file = Mutex::new(OpenOptions::new().create(true).append(true).open(journal)?);
+    let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let work = || -> Result<(), Trouble> {
+        while !stopped.load(Ordering::Relaxed) {
+            let Some(&index) = left.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+            let record = one(plan.seed, index, Length::Drawn, analyser)?;
+            let line = serde_json::to_string(&record)? + "\n";
+            let mut file = file.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            file.write_all(line.as_bytes())?;
+            drop(file);
+            told(&record);
+        }
+        Ok(())
+    };
+    let stopping = || work().inspect_err(|_| stopped.store(true, Ordering::Relaxed));
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..plan.threads).map(|_| scope.spawn(stopping)).collect();
+        workers.into_iter().try_for_each(|worker| match worker.join() {
+            Ok(result) => result,
+            Err(panic) => std::panic::resume_unwind(panic),
+        })
+    })
+}
+
+/// Runs so many trials of the longest kind, one after the other, to see how long they take.
+///
+/// # Errors
+/// The first [`Trouble`] of any trial.
+pub fn time(
+    seed: u64,
+    trials: u64,
+    analyser: &Analyser,
+    journal: &Path,
+    told: impl Fn(&Record),
+) -> Result<(), Trouble> {
+    mend(journal, &records(journal)?)?;
+    let mut file = OpenOptions::new().create(true).append(true).open(journal)?;
+    for index in 0..trials {
+        let record = one(seed, index, Length::Longest, analyser)?;
+        file.write_all((serde_json::to_string(&record)? + "\n").as_bytes())?;
+        told(&record);
+    }
+    Ok(())
+}
+
+/// Drops a line that was not finished.
+fn mend(journal: &Path, whole: &[Record]) -> Result<(), Trouble> {
+    if !journal.exists() {
+        return Ok(());
+    }
+    let text = fs::read_to_string(journal)?;
+    if !text.is_empty() && !text.ends_with('\n') {
+        let mut mended = String::new();
+        for record in whole {
+            mended.push_str(&serde_json::to_string(record)?);
+            mended.push('\n');
+        }
+        fs::write(journal, mended)?;
+    }
+    Ok(())
+}
+
+/// One trial and its answer.
+///
+/// # Errors
+/// [`Trouble`] if it cannot be made or the program not be asked.
+pub fn one(seed: u64, index: u64, length: Length, analyser: &Analyser) -> Result<Record, Trouble> {
+    let trial = Trial::draw(seed, index, length)?;
+    let answer = try_out(&trial, analyser)?;
+    Ok(Record {
+        seed,
+        index,
+        timed: length == Length::Longest,
+        kind: trial.kind,
+        schedule: trial.schedule,
+        level: trial.level,
+        interval: trial.experiment.interval,
+        duration: trial.experiment.drive.duration(),
+        hidden: trial.hidden,
+        outside: trial.outside,
+        present: trial.present,
+        answer,
+    })
+}

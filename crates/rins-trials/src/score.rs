@@ -1,0 +1,148 @@
+//! What a record says of the program.
+
+use rins_terms::catalogue;
+
+use crate::answer::Named;
+use crate::draw::Kind;
+use crate::hide::Hidden;
+use crate::journal::Record;
+
+/// A rival beside which so many sigmas are left is separable.
+const SEPARABLE: f64 = 5.0;
+
+/// A parameter is shown if its bound is at most this part of its usual size.
+const SHOWN: f64 = 0.3;
+
+/// Of a normal number 95 % lie so many sigmas about its mean.
+const CENTRAL: f64 = 1.959964;
+
+impl Record {
+    /// Whether it gave an answer at all.
+    pub(crate) fn answered(&self) -> bool {
+        self.answer.failure.is_none()
+    }
+
+    /// Whether it said that something is not as the model has it.
+    pub(crate) fn detected(&self) -> bool {
+        !self.answer.causes.is_empty() || !self.answer.unexplained.is_empty()
+    }
+
+    /// What it named that is neither hidden nor an imperfection of the table.
+    pub(crate) fn false_names(&self) -> impl Iterator<Item = &Named> {
+        let there = |id: &str| {
+            self.hidden.iter().any(|one| one.id == id) || self.present.iter().any(|one| one == id)
+        };
+        self.answer.causes.iter().filter(move |cause| !cause.set().any(there))
+    }
+
+    /// What it named that may be this effect.
+    pub(crate) fn set_with(&self, id: &str) -> Option<&Named> {
+        self.answer.causes.iter().find(|cause| cause.may_be(id))
+    }
+
+    /// The one effect that was hidden.
+    pub(crate) fn one(&self) -> Option<&Hidden> {
+        (self.kind == Kind::One).then(|| self.hidden.first()).flatten()
+    }
+
+    /// The cause that it put first, the table's imperfections apart.
+    pub(crate) fn first(&self) -> Option<&Named> {
+        self.answer.causes.iter().find(|cause| !self.present.contains(&cause.effect))
+    }
+
+    /// Whether each amplitude that the run shows has the truth in its 95 % interval; nothing if the first name is
+    /// wrong.
+    pub(crate) fn covered(&self) -> Vec<bool> {
+        let (Some(hidden), Some(named)) = (self.one(), self.first()) else { return Vec::new() };
+        if hidden.id != named.effect {
+            return Vec::new();
+        }
+        let Some(term) = catalogue::term(&hidden.id) else { return Vec::new() };
+        term.parameters
+            .iter()
+            .enumerate()
+            .filter(|(place, _)| hidden.bounds[*place] < SHOWN * hidden.usual[*place])
+            .filter_map(|(place, parameter)| {
+                let found = named.parameters.iter().find(|(name, ..)| name == parameter.name)?;
+                Some((found.1 - hidden.parameters[place]).abs() < CENTRAL * found.2)
+            })
+            .collect()
+    }
+}
+
+impl Hidden {
+    /// Whether the schedule tells it from every rival.
+    pub(crate) fn is_separable(&self) -> bool {
+        self.strength >= SEPARABLE && self.confusable.iter().all(|(_, left)| *left >= SEPARABLE)
+    }
+}
+
+/// Effects that act alike; what is named within a class is nearly right.
+const CLASSES: [(&str, &[&str]); 11] = [
+    (
+        "gyro in time and temperature",
+        &["gyro_bias_step", "gyro_bias_ramp", "gyro_warmup", "gyro_thermal_bias", "gyro_shupe"],
+    ),
+    (
+        "gyro with the rate",
+        &[
+            "gyro_rate_dependent_bias",
+            "gyro_scale_asymmetry",
+            "gyro_scale_nonlinearity",
+            "gyro_hysteresis",
+            "gyro_thermal_scale",
+            "gyro_scale_ramp",
+        ],
+    ),
+    (
+        "gyro with the turn",
+        &[
+            "gyro_g_sensitivity",
+            "gyro_g2_sensitivity",
+            "gyro_magnetic",
+            "gyro_dead_zone",
+            "thermal_one_per_turn",
+        ],
+    ),
+    (
+        "accelerometer in time and temperature",
+        &["accel_bias_step", "accel_bias_ramp", "accel_warmup", "accel_thermal_bias"],
+    ),
+    (
+        "accelerometer with force",
+        &["accel_quadratic", "accel_cubic", "accel_asymmetry", "accel_cross_coupling"],
+    ),
+    (
+        "accelerometer with the rate",
+        &["accel_lever_arm", "accel_size_effect", "accel_vibration_rectification"],
+    ),
+    ("delays", &["gyro_lag", "accel_latency", "encoder_latency", "clock_drift", "dropped_samples"]),
+    ("encoder", &["encoder_eccentricity", "encoder_harmonic", "encoder_backlash", "encoder_slip"]),
+    ("axis and base", &["table_wobble", "cable_torque_tilt", "base_tilt_ramp", "base_tilt_step"]),
+    ("lines", &["base_sway", "interference_line"]),
+    ("place", &["base_rotation", "wrong_latitude", "wrong_gravity"]),
+];
+
+/// The names of all classes.
+pub(crate) fn classes() -> impl Iterator<Item = &'static str> {
+    CLASSES.iter().map(|(name, _)| *name)
+}
+
+/// The class of an effect.
+pub(crate) fn class(id: &str) -> &'static str {
+    CLASSES.iter().find(|(_, ids)| ids.contains(&id)).map_or("other", |(name, _)| *name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue::is_hideable;
+
+    #[test]
+    fn every_effect_has_one_class() {
+        for term in catalogue::CATALOGUE.iter().filter(|term| is_hideable(term)) {
+            let times = CLASSES.iter().filter(|(_, ids)| ids.contains(&term.id)).count();
+            assert_eq!(times, 1, "{}", term.id);
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! Why trials cannot go on.
+
+use crate::stand::StandError;
+
+/// Why trials cannot go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Trouble {
+    /// A file or the program.
+    #[error("a file or the program cannot be used")]
+    File(#[from] std::io::Error),
+    /// A record that is none.
+    #[error("a record cannot be read or written")]
+    Record(#[from] serde_json::Error),
+    /// A trial that cannot be made.
+    #[error("a trial cannot be made")]
+    Trial(#[from] StandError),
+}

@@ -1,0 +1,58 @@
+//! A journal that is broken off and gone on with, and the page of it.
+#![cfg(unix)]
+
+use std::fs;
+use std::os::unix::fs::PermissionsExt as _;
+use std::path::{Path, PathBuf};
+
+use rins_trials::{Analyser, Kind, Plan, card, records, run};
+
+/// A program that says this of every run, whatever it is.
+fn saying(answer: &str, folder: &Path) -> PathBuf {
+    let program = folder.join("program");
+    let text = format!("#!/bin/sh\ntest -f rig.toml && test -f run.csv && echo '{answer}'\n");
+    fs::write(&program, text).expect("the folder is writable");
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).expect("it is ours");
+    program
+}
+
+#[test]
+fn journal_is_gone_on_with_where_it_broke_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("journal.jsonl");
+    let named = r#"{"verdict": "ambiguous", "causes": [{"effect": "gyro_lag", "cannot_tell_from": ["encoder_latency"],
+        "ln_p": -9, "parameters": [{"id": "gyro_lag.delay", "value": 2, "sigma": 0.5, "unit": "ms"}]}]}"#;
+    let analyser = Analyser::new(saying(&named.replace('\n', " "), folder.path()), 1);
+    let plan = |trials| Plan { seed: 5, trials, threads: 2 };
+    run(&plan(3), &analyser, &journal, |_| ()).unwrap();
+    // Broken off in the middle of a line.
+    let whole = fs::read_to_string(&journal).unwrap();
+    fs::write(&journal, &whole[..whole.len() - 9]).unwrap();
+    assert_eq!(records(&journal).unwrap().len(), 2);
+    run(&plan(4), &analyser, &journal, |_| ()).unwrap();
+    let all = records(&journal).unwrap();
+    let mut indices: Vec<u64> = all.iter().map(|record| record.index).collect();
+    indices.sort_unstable();
+    assert_eq!(indices, [0, 1, 2, 3]);
+    for record in &all {
+        let cause = &record.answer.causes[0];
+        assert_eq!(cause.set().collect::<Vec<_>>(), ["gyro_lag", "encoder_latency"]);
+        assert_eq!(cause.parameters, [("delay".to_owned(), 2e-3, 5e-4)]);
+        assert_eq!(record.answer.failure, None);
+    }
+    let clean = all.iter().filter(|record| record.kind == Kind::Nothing).count();
+    let page = card(&all);
+    assert!(page.contains(&format!("({clean} of {clean};")) || clean == 0, "{page}");
+}
+
+#[test]
+fn program_that_fails_is_a_failure_and_no_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("journal.jsonl");
+    let analyser = Analyser::new(saying("", folder.path()).with_file_name("program"), 1);
+    fs::write(&analyser.program, "#!/bin/sh\necho 'no such thing' >&2\nexit 1\n").unwrap();
+    run(&Plan { seed: 5, trials: 1, threads: 1 }, &analyser, &journal, |_| ()).unwrap();
+    let all = records(&journal).unwrap();
+    assert!(all[0].answer.failure.as_ref().is_some_and(|why| why.contains("no such thing")));
+    assert!(card(&all).contains("1 trials; 1 ended without an answer"));
+}
