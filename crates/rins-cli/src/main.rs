@@ -8,6 +8,7 @@ use crate::outcome::Outcome;
 
 mod args;
 mod commands;
+mod number;
 mod outcome;
 mod progress;
 mod report;

@@ -8,6 +8,7 @@ use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
+use crate::unexplained::Unexplained;
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
 pub(crate) const FALSE_ALARMS: f64 = 0.01;
@@ -50,6 +51,8 @@ pub struct Cause {
 pub struct Diagnosis {
     /// What was found, strongest first; nothing is "adequate".
     pub causes: Vec<Cause>,
+    /// What is left that no effect explains, most significant first.
+    pub unexplained: Vec<Unexplained>,
     /// The model as it was given.
     pub before: Fit,
     /// The model with the causes in it.
@@ -113,7 +116,9 @@ pub fn diagnose(
         present = fitted;
     }
     let (after, causes) = case.settled(&before, present, found)?;
-    Ok(Diagnosis { causes, before, after, not_testable: not_testable.unwrap_or_default() })
+    let unexplained = case.unexplained(&after, &causes)?;
+    let not_testable = not_testable.unwrap_or_default();
+    Ok(Diagnosis { causes, unexplained, before, after, not_testable })
 }
 
 /// Terms of which no shape shows.

@@ -5,8 +5,7 @@
 //! that it is nothing, and the rivals that this run cannot tell from it; then it looks for the next.
 //!
 //! **What it does not do.** Gross errors (units, axes, lost samples) are found by `rins_motion::inspect`, and must be
-//! mended first. Lines of unknown frequency, unequal noise and what no catalogued effect explains are not looked
-//! for. Nothing is named by force: "nothing found" means that nothing of the catalogue is significant.
+//! mended first. Nothing is named by force: what no effect explains is [`Unexplained`].
 //!
 //! Numbers are in SI units and radians.
 mod candidates;
@@ -19,8 +18,14 @@ mod case;
 mod diagnosis;
 mod settling;
 
+mod disturbance;
+mod structure;
+mod unexplained;
+
 pub use candidates::{Candidate, candidates};
 pub use diagnosis::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
+pub use structure::{Along, Structure};
+pub use unexplained::Unexplained;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

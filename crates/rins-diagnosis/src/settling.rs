@@ -109,8 +109,8 @@ impl Case<'_> {
 fn cause(list: &[Candidate], tried: &[Trial], cause: &Chosen) -> Cause {
     let term = |trial: &Trial| list[trial.candidate].chosen.term;
     let own = tried.iter().find(|trial| term(trial).id == cause.term.id);
-    // In how many shapes an effect may come says nothing of whether it came.
-    let odds = |trial: &Trial| trial.evidence + trial.looks;
+    // In how many parts an effect may come says nothing of whether it came.
+    let odds = |trial: &Trial| trial.evidence + trial.choices;
     let top = tried.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);
     let mut rivals: Vec<Rival> = tried
         .iter()

@@ -2,9 +2,9 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{Evidence, Fit, Indefinite, Linear, Noise, Run, linearise};
+use rins_estimation::{Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise};
 use rins_imu::ImuSpec;
-use rins_terms::{Free, Owner};
+use rins_terms::Free;
 
 use crate::candidates::Candidate;
 
@@ -65,9 +65,9 @@ impl Survey {
             let columns: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
             linear.push(linearise(run, &model, &columns));
         }
-        let terms = fit.model().terms.len() + candidates.len();
         let known_free = free.iter().filter(|f| f.term < fit.model().terms.len()).count();
-        let layout = Layout::of(&free, known_free, runs.len(), terms);
+        let layout =
+            Places::of(&free, known_free, runs.len(), fit.model().terms.len() + candidates.len());
         let known = layout.known;
         let off = DVector::from_fn(known, |place, _| {
             let estimate = &fit.parameters[place];
@@ -159,6 +159,15 @@ impl Left {
 }
 
 impl Left {
+    /// The estimate of some of the places that are left, in units of the priors' sigmas, and by how much the
+    /// squares fall with it. None if they are not shown.
+    pub(crate) fn estimate(&self, places: &[usize]) -> Option<(DVector<f64>, f64)> {
+        let (information, score) = self.block(places);
+        let estimate = Cholesky::new(information)?.solve(&score);
+        let statistic = estimate.dot(&score);
+        Some((estimate, statistic))
+    }
+
     /// The candidates' places go on without gaps to the last; before them are those that were dropped.
     fn position(&self, place: usize) -> Option<usize> {
         let from_end = self.places.last()?.checked_sub(place)?;
@@ -173,56 +182,42 @@ fn chosen(matrix: &DMatrix<f64>, rows: &[usize], columns: &[usize]) -> DMatrix<f
     DMatrix::from_fn(rows.len(), columns.len(), |row, column| matrix[(rows[row], columns[column])])
 }
 
-/// Where the parameters of several runs stand: the model's as a fit has them, then the candidates'.
-struct Layout {
+/// Where all parameters stand: the model's as a fit has them, then the candidates'.
+struct Places {
     known: usize,
     of_runs: Vec<Vec<usize>>,
     of_terms: Vec<Vec<Vec<usize>>>,
     sigmas: Vec<f64>,
 }
 
-impl Layout {
+impl Places {
     fn of(free: &[Free], known_free: usize, runs: usize, terms: usize) -> Self {
-        let mut layout = Self {
-            known: 0,
-            of_runs: vec![vec![0; free.len()]; runs],
-            of_terms: vec![Vec::new(); terms],
-            sigmas: Vec::new(),
-        };
-        let several = runs > 1;
-        let shared = |parameter: &Free| !several || parameter.owner == Owner::Sensor;
-        for part in [0..known_free, known_free..free.len()] {
-            for index in part.clone().filter(|&index| shared(&free[index])) {
-                let place = layout.next(&free[index]);
-                for of_run in &mut layout.of_runs {
-                    of_run[index] = place;
-                }
-                layout.of_terms[free[index].term].push(vec![place]);
-            }
-            for run in 0..runs {
-                for index in part.clone().filter(|&index| !shared(&free[index])) {
-                    let place = layout.next(&free[index]);
-                    layout.of_runs[run][index] = place;
-                    let term = &mut layout.of_terms[free[index].term];
-                    if run == 0 {
-                        term.push(vec![place]);
-                    } else {
-                        let first = layout.of_runs[0][index];
-                        term.iter_mut()
-                            .filter(|own| own[0] == first)
-                            .for_each(|own| own.push(place));
-                    }
-                }
-            }
-            if part.start == 0 {
-                layout.known = layout.sigmas.len();
-            }
+        let (model, candidates) = free.split_at(known_free);
+        let (first, second) = (Layout::of(model, runs), Layout::of(candidates, runs));
+        let known = first.all.len();
+        let mut of_terms = vec![Vec::new(); terms];
+        for (index, parameter) in free.iter().enumerate() {
+            let mut places: Vec<usize> = (0..runs)
+                .map(|run| match index.checked_sub(known_free) {
+                    None => first.places[run][index],
+                    Some(index) => known + second.places[run][index],
+                })
+                .collect();
+            places.dedup();
+            of_terms[parameter.term].push(places);
         }
-        layout
-    }
-
-    fn next(&mut self, parameter: &Free) -> usize {
-        self.sigmas.push(parameter.sigma);
-        self.sigmas.len() - 1
+        let of_run = |run: usize| {
+            let beyond = second.places[run].iter().map(|place| known + place);
+            first.places[run].iter().copied().chain(beyond).collect()
+        };
+        let sigmas = |part: &[Free], layout: &Layout| -> Vec<f64> {
+            layout.all.iter().map(|&(index, _)| part[index].sigma).collect()
+        };
+        Self {
+            known,
+            of_runs: (0..runs).map(of_run).collect(),
+            of_terms,
+            sigmas: [sigmas(model, &first), sigmas(candidates, &second)].concat(),
+        }
     }
 }

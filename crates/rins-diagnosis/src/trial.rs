@@ -18,8 +18,10 @@ pub(crate) struct Trial {
     pub(crate) statistic: f64,
     /// How many directions are shown.
     pub(crate) dof: usize,
-    /// The logarithm of what the shapes and choices among which it was found are worth.
+    /// The logarithm of the number of shapes and choices among which it was found.
     pub(crate) looks: f64,
+    /// The same of the choices of parameters alone.
+    pub(crate) choices: f64,
     /// The logarithm of the odds for it, its shape and choice unknown.
     pub(crate) evidence: f64,
     /// The logarithm of the probability of so large a statistic by chance, over all shapes and choices of the effect.
@@ -46,7 +48,8 @@ impl Context {
     /// None if the runs show nothing of it.
     pub(crate) fn trial(&self, candidate: usize, shapes: f64, own: &[Vec<usize>]) -> Option<Trial> {
         let choices = choices(own.len());
-        let looks = (shapes * choices.len() as f64).ln();
+        let of_choices = (choices.len() as f64).ln();
+        let looks = shapes.ln() + of_choices;
         let mut best: Option<Trial> = None;
         let mut least_ln_p = 0.0_f64;
         for parameters in choices {
@@ -63,6 +66,7 @@ impl Context {
                     statistic,
                     dof,
                     looks,
+                    choices: of_choices,
                     evidence,
                     ln_p: 0.0,
                 });

@@ -36,7 +36,7 @@ impl Evidence {
             gram.add(whitened);
             log_determinant += log_det;
         })?;
-        let shown = if Space::new(linear, noise).shows_angle() { SHOWN } else { SHOWN - 1 };
+        let shown = if linear.shows_angle() { SHOWN } else { SHOWN - 1 };
         Ok(Self::from_products(&gram.finish(), linear.epochs.len() * shown, log_determinant))
     }
 }
@@ -78,13 +78,13 @@ fn pass(
         columns: DMatrix::zeros(columns, space.states()),
         whitened: DMatrix::zeros(columns, SHOWN),
         carried: DMatrix::zeros(columns, NAVIGATION),
-        shows_angle: space.shows_angle(),
+        shows_angle: linear.shows_angle(),
     };
     for (index, epoch) in linear.epochs.iter().enumerate() {
         let inputs = Inputs::of(epoch, combination);
         if epoch.fresh {
             space.forget_navigation(&mut filter.covariance);
-            let start = inputs.start(space.shows_angle());
+            let start = inputs.start(linear.shows_angle());
             filter.columns.columns_mut(0, NAVIGATION).tr_copy_from(&start);
         }
         let log_determinant =

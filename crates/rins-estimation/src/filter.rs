@@ -84,7 +84,7 @@ impl<'a> Filter<'a> {
 
     /// Attitude and velocity where the epoch's readings put them, with what the parameters do to these.
     fn start(&mut self, inputs: &Inputs) {
-        let start = inputs.start(self.space.shows_angle());
+        let start = inputs.start(self.linear.shows_angle());
         let by_parameters = start.columns(1, self.parameters.len());
         self.space.forget_navigation(&mut self.states);
         let state = start.column(0) + by_parameters * &self.parameters;
@@ -115,7 +115,7 @@ impl<'a> Filter<'a> {
         let mut offset = DVector::zeros(SHOWN);
         offset.rows_mut(0, 3).copy_from(&inputs.shown_attitude.column(0));
         offset.rows_mut(3, 3).copy_from(&inputs.navigation.column(0).rows(3, 3));
-        if !self.space.shows_angle() {
+        if !self.linear.shows_angle() {
             shown_input.row_mut(2).fill(0.0);
             offset[2] = 0.0;
         }

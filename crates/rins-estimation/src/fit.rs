@@ -1,10 +1,12 @@
 //! The batch solution: iterated least squares over one run or several.
 
-use nalgebra::{DMatrix, SVector};
+use nalgebra::{DMatrix, DVector, SVector};
 use rins_imu::ImuSpec;
-use rins_terms::{Free, Model, Owner};
+use rins_terms::{Free, Model};
 
 use crate::evidence::{Indefinite, innovations};
+use crate::identifiability::{Alias, Identifiability, Unknown};
+use crate::layout::Layout;
 use crate::likely::likely_noise;
 use crate::linear::{Linear, linearise};
 use crate::posterior::{Evidence, Posterior};
@@ -63,7 +65,7 @@ pub enum FitError {
 pub struct Estimate {
     /// What it is.
     pub parameter: Free,
-    /// The run that it belongs to, counted from zero; none if to the IMU and so to all.
+    /// The run that it belongs to, counted from zero; none if to the IMU and so to all, or if there is one only.
     pub run: Option<usize>,
     /// What it was expected to be.
     pub expected: f64,
@@ -131,50 +133,25 @@ pub fn fit(
     let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut iterations = Vec::new();
     let mut around = Vec::new();
-    loop {
-        let linear = problem.linear();
-        let (evidence, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
-        let step = problem.advance(&posterior);
-        let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
-        progress(&iteration);
-        iterations.push(iteration);
-        if find_noise {
-            calm(&mut noise, &evidence, &posterior);
-        }
-        // Noise is judged where the parameters no longer move by much.
-        if find_noise && step < 1.0 && iterations.len() > 1 {
-            break;
-        }
-        if step < CONVERGED {
-            break;
-        }
-        if iterations.len() == MOST_ITERATIONS || !step.is_finite() {
-            return Err(FitError::Diverged { iterations: iterations.len(), step });
-        }
-    }
     if find_noise {
-        let linear = problem.linear();
-        let likely = likely_noise(&linear, &noise, |linear, noise| {
+        problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
+        let likely = likely_noise(&problem.linear, &noise, |linear, noise| {
             let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
             Some(posterior.log_likelihood)
         });
         (noise, around) = (likely.noise, likely.around);
-        loop {
-            let linear = problem.linear();
-            let (_, posterior) = problem.posterior(&linear, &noise, iterations.len())?;
-            let step = problem.advance(&posterior);
-            let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
-            progress(&iteration);
-            iterations.push(iteration);
-            if step < CONVERGED {
-                break;
-            }
-            if iterations.len() >= 2 * MOST_ITERATIONS || !step.is_finite() {
-                return Err(FitError::Diverged { iterations: iterations.len(), step });
-            }
-        }
     }
+    problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
     problem.finish(noise, &around, iterations)
+}
+
+/// When an iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Until {
+    /// The parameters no longer move by much, so that noise can be judged.
+    NearEnough,
+    /// They do not move.
+    Converged,
 }
 
 /// Makes all noise as strong as the residuals, if these are stronger: a model that does not fit would chase them
@@ -203,41 +180,27 @@ struct Problem<'a> {
     places: Vec<Vec<usize>>,
     expected: Vec<f64>,
     values: Vec<f64>,
+    /// Each run, linear about these values.
+    linear: Vec<Linear>,
 }
 
 impl<'a> Problem<'a> {
     fn new(runs: &'a [Run], model: &Model, free: Vec<Free>) -> Self {
-        let shared = |parameter: &Free| parameter.owner == Owner::Sensor;
-        let several = runs.len() > 1;
-        let mut all = Vec::new();
-        let mut places = vec![vec![0; free.len()]; runs.len()];
-        // One run has its parameters in the model's order.
-        for (index, parameter) in free.iter().enumerate() {
-            if shared(parameter) || !several {
-                for of_run in &mut places {
-                    of_run[index] = all.len();
-                }
-                all.push((index, if shared(parameter) { None } else { Some(0) }));
-            }
-        }
-        if several {
-            for (run, of_run) in places.iter_mut().enumerate() {
-                for (index, _) in free.iter().enumerate().filter(|(_, p)| !shared(p)) {
-                    of_run[index] = all.len();
-                    all.push((index, Some(run)));
-                }
-            }
-        }
+        let Layout { all, places } = Layout::of(&free, runs.len());
         let value = |&(index, _): &(usize, Option<usize>)| {
             let Free { term, parameter, .. } = free[index];
             model.terms[term].values[parameter]
         };
         let expected: Vec<f64> = all.iter().map(value).collect();
         let models = vec![model.clone(); runs.len()];
-        Self { runs, models, values: expected.clone(), expected, free, all, places }
+        let values = expected.clone();
+        let mut problem =
+            Self { runs, models, values, expected, free, all, places, linear: Vec::new() };
+        problem.linear = problem.linearised();
+        problem
     }
 
-    fn linear(&self) -> Vec<Linear> {
+    fn linearised(&self) -> Vec<Linear> {
         let free: Vec<(usize, usize)> =
             self.free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
         self.runs
@@ -274,6 +237,39 @@ impl<'a> Problem<'a> {
         Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
     }
 
+    /// Goes from estimate to estimate.
+    fn settle(
+        &mut self,
+        until: Until,
+        noise: &mut [Noise],
+        iterations: &mut Vec<Iteration>,
+        progress: &mut impl FnMut(&Iteration),
+    ) -> Result<(), FitError> {
+        let most = match until {
+            Until::NearEnough => MOST_ITERATIONS,
+            Until::Converged => iterations.len() + MOST_ITERATIONS,
+        };
+        loop {
+            let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
+            let step = self.advance(&posterior);
+            let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
+            progress(&iteration);
+            iterations.push(iteration);
+            if until == Until::NearEnough {
+                calm(noise, &evidence, &posterior);
+                if step < 1.0 && iterations.len() > 1 {
+                    return Ok(());
+                }
+            }
+            if step < CONVERGED {
+                return Ok(());
+            }
+            if iterations.len() >= most || !step.is_finite() {
+                return Err(FitError::Diverged { iterations: iterations.len(), step });
+            }
+        }
+    }
+
     /// Goes to the estimate; the largest step in sigmas.
     fn advance(&mut self, posterior: &Posterior) -> f64 {
         let mut largest = 0.0_f64;
@@ -286,6 +282,7 @@ impl<'a> Problem<'a> {
                 model.terms[parameter.term].values[parameter.parameter] = self.values[place];
             }
         }
+        self.linear = self.linearised();
         largest
     }
 
@@ -295,13 +292,12 @@ impl<'a> Problem<'a> {
         around: &[[Vec<Noise>; 2]],
         iterations: Vec<Iteration>,
     ) -> Result<Fit, FitError> {
-        let linear = self.linear();
-        let (evidence, posterior) = self.posterior(&linear, &noise, iterations.len())?;
+        let (evidence, posterior) = self.posterior(&self.linear, &noise, iterations.len())?;
         // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
         // where the estimate would then be.
         let mut covariance = posterior.covariance.clone();
         for side in around.iter().flatten() {
-            let (_, other) = self.posterior(&linear, side, iterations.len())?;
+            let (_, other) = self.posterior(&self.linear, side, iterations.len())?;
             let moved = &other.step - &posterior.step;
             covariance +=
                 (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
@@ -320,7 +316,7 @@ impl<'a> Problem<'a> {
             log_likelihood: posterior.log_likelihood,
             models: self.models,
             noise,
-            linear,
+            linear: self.linear,
             iterations,
         })
     }
@@ -330,6 +326,31 @@ impl Fit {
     /// The parameter of this id, of the IMU or of the first run.
     pub fn parameter(&self, id: &str) -> Option<&Estimate> {
         self.parameters.iter().find(|estimate| estimate.parameter.id == id)
+    }
+
+    /// What the data tell of the parameters, the noise being what was found.
+    pub fn identifiability(&self) -> Identifiability {
+        let unknown = |estimate: &Estimate| Unknown {
+            id: estimate.parameter.id.clone(),
+            run: estimate.run,
+            unit: estimate.parameter.unit,
+            sigma: estimate.parameter.sigma,
+        };
+        let unknowns = self.parameters.iter().map(unknown).collect();
+        Identifiability::of(&self.evidence.information, unknowns)
+    }
+
+    /// The sum of the parameter at `place` and of others, each times its coefficient: value and 1σ, in SI units.
+    pub fn sum(&self, place: usize, others: &[Alias]) -> (f64, f64) {
+        let mut weights = DVector::zeros(self.parameters.len());
+        weights[place] = 1.0;
+        for alias in others {
+            weights[alias.unknown] += alias.coefficient;
+        }
+        let values = self.parameters.iter().map(|estimate| estimate.value);
+        let value = values.zip(&weights).map(|(value, weight)| value * weight).sum();
+        let variance = (weights.transpose() * &self.covariance * &weights)[(0, 0)];
+        (value, variance.max(0.0).sqrt())
     }
 
     /// The whitened innovations of a run: each N(0, I) if the model is right.

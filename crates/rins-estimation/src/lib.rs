@@ -16,6 +16,7 @@
 //! it. Which terms to choose is the caller's business, and files are read elsewhere.
 //!
 //! Numbers are in SI units and radians.
+mod layout;
 mod run;
 mod strengths;
 
@@ -45,6 +46,7 @@ pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
     Separation, Shown, Unknown, distance, gauge_of, joint, separation,
 };
+pub use layout::Layout;
 pub use linear::{Linear, linearise};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};

@@ -17,7 +17,8 @@ const COLUMNS_AT_ONCE: usize = 48;
 /// A stretch of samples, taken as one.
 ///
 /// Over it `φ`, the attitude error of the reference path, `C~ = (I - φ×) C`, and `v`, the velocity, both in the
-/// axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`; what is observed are
+/// axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`, but for the Earth's turning of `φ`,
+/// which every gain holds too; what is observed are
 /// the mean of `φ` over the readings within and the velocity at the end. Every gain has one
 /// column of what was read beyond the model, and one a parameter: the derivative by it.
 #[derive(Clone, Debug)]
@@ -175,10 +176,10 @@ impl<'a> Build<'a> {
         let accel = rates.specific_force.components() - moment.force - values(&predicted.accel);
         let reading = self.readings.map_or(0.0, |readings| readings[sample] - moment.end.angle);
         let of_axis = Vector3::z() * (predicted.angle.re - reading) - values(&predicted.tilt);
-        let force = &moment.surroundings.specific_force;
+        let around = &moment.surroundings;
         let rates =
             Rates { attitude: of_gyros * gyro, velocity: of_accels * accel, reading: of_axis };
-        epoch.add(0, &rates, force, interval);
+        epoch.add(0, &rates, around, interval);
         for (column, &(term, parameter)) in self.free.iter().enumerate() {
             let by: Signals = self.model.terms[term].signals(moment, Some(parameter));
             let rates = Rates {
@@ -186,7 +187,7 @@ impl<'a> Build<'a> {
                 velocity: -(of_accels * derivatives(&by.accel)),
                 reading: Vector3::z() * by.angle.eps - derivatives(&by.tilt),
             };
-            epoch.add(column + 1, &rates, force, interval);
+            epoch.add(column + 1, &rates, around, interval);
         }
         epoch.twice_turned += (epoch.turned + table_from_body * (0.5 * interval)) * interval;
         epoch.turned += table_from_body * interval;
@@ -235,12 +236,15 @@ impl Epoch {
     }
 
     /// One more sample of one column.
-    fn add(&mut self, column: usize, rates: &Rates, force: &Vector3<f64>, interval: f64) {
+    fn add(&mut self, column: usize, rates: &Rates, around: &Surroundings, interval: f64) {
         let mut attitude = self.attitude.column_mut(column);
-        let middle = attitude.clone_owned() + rates.attitude * (0.5 * interval);
-        attitude += rates.attitude * interval;
+        let before = attitude.clone_owned();
+        // φ' = -E × φ + rate, over a sample too short for the square of its turn to count.
+        let turning = around.earth_rate.cross(&(before + rates.attitude * (0.5 * interval)));
+        attitude += (rates.attitude - turning) * interval;
+        let middle = (before + attitude.clone_owned()) * 0.5;
         let mut velocity = self.velocity.column_mut(column);
-        velocity += (rates.velocity + middle.cross(force)) * interval;
+        velocity += (rates.velocity + middle.cross(&around.specific_force)) * interval;
         let mut reading = self.reading.column_mut(column);
         reading += rates.reading;
     }
@@ -267,8 +271,51 @@ impl Linear {
         self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
     }
 
+    /// Whether the readings show the angle about the axis.
+    pub(crate) fn shows_angle(&self) -> bool {
+        self.reference != Reference::Gravity
+    }
+
+    /// The table angle in the middle of each epoch \[rad\], and its mean rate over it \[rad/s\].
+    pub fn motion(&self) -> Vec<(f64, f64)> {
+        let angles = self.track.angles();
+        let of = |epoch: &Epoch| {
+            let (first, end) = (angles[epoch.samples.0], angles[epoch.samples.1]);
+            (0.5 * (first + end), (end - first) / epoch.duration)
+        };
+        self.epochs.iter().map(of).collect()
+    }
+
+    /// The same with parameters more: of each of `parameters`, one that acts in the epochs of group 1 only, and so on up
+    /// to group `last`.
+    ///
+    /// # Panics
+    /// If there is not a group for every epoch.
+    #[must_use]
+    pub fn in_groups(&self, parameters: &[usize], groups: &[usize], last: usize) -> Self {
+        assert_eq!(groups.len(), self.epochs.len(), "a group for every epoch");
+        let mut apart = self.clone();
+        for (epoch, &group) in apart.epochs.iter_mut().zip(groups) {
+            for matrix in [
+                &mut epoch.attitude,
+                &mut epoch.mean_attitude,
+                &mut epoch.velocity,
+                &mut epoch.reading,
+            ] {
+                for of in 1..=last {
+                    for parameter in parameters {
+                        let column = matrix.column(parameter + 1).into_owned();
+                        matrix.extend([if of == group { column } else { Vector3::zeros() }]);
+                    }
+                }
+            }
+        }
+        apart.parameters += parameters.len() * last;
+        apart
+    }
+
     /// The mean length of an epoch \[s\].
-    pub(crate) fn mean_epoch(&self) -> f64 {
+    pub fn mean_epoch(&self) -> f64 {
         let total: f64 = self.epochs.iter().map(|epoch| epoch.duration).sum();
         total / self.epochs.len() as f64
     }

@@ -114,11 +114,6 @@ impl<'a> Space<'a> {
         NAVIGATION + usize::from(self.servo.is_some())
     }
 
-    /// Whether the angle about the axis is shown.
-    pub(crate) fn shows_angle(&self) -> bool {
-        self.linear.reference != Reference::Gravity
-    }
-
     /// The covariance at the start of a run.
     pub(crate) fn start(&self) -> DMatrix<f64> {
         let mut covariance = DMatrix::zeros(self.states(), self.states());
@@ -136,7 +131,7 @@ impl<'a> Space<'a> {
     pub(crate) fn forget_navigation(&self, covariance: &mut DMatrix<f64>) {
         covariance.rows_mut(0, NAVIGATION).fill(0.0);
         covariance.columns_mut(0, NAVIGATION).fill(0.0);
-        let angle = if self.shows_angle() { START_ATTITUDE } else { START_ANGLE_BY_GRAVITY };
+        let angle = if self.linear.shows_angle() { START_ATTITUDE } else { START_ANGLE_BY_GRAVITY };
         let velocity = self.linear.velocity_noise;
         for (place, sigma) in
             [START_ATTITUDE, START_ATTITUDE, angle, velocity, velocity, velocity].iter().enumerate()
@@ -152,10 +147,13 @@ impl<'a> Space<'a> {
         let mut attitude = DMatrix::zeros(3, n);
         let identity = Matrix3::identity();
         let turning = cross_matrix(&self.linear.earth_rate);
+        // The mean over the readings, each at the end of a sample, and the integral.
+        let middle = 0.5 * t * (1.0 + epoch.count().recip());
+        let integral = identity * t - turning * (0.5 * t * t);
         set(&mut navigation, 0, 0, &(identity - turning * t));
-        set(&mut navigation, 3, 0, &(-self.force_cross * t));
+        set(&mut navigation, 3, 0, &(-self.force_cross * integral));
         set(&mut navigation, 3, 3, &identity);
-        set(&mut attitude, 0, 0, &(identity - turning * (0.5 * t)));
+        set(&mut attitude, 0, 0, &(identity - turning * middle));
         let mut step = Step {
             navigation,
             decay: vec![1.0; n - NAVIGATION],
@@ -180,7 +178,7 @@ impl<'a> Space<'a> {
             };
             self.add_colour(epoch, (*of, place), &passage, &mut step);
         }
-        if !self.shows_angle() {
+        if !self.linear.shows_angle() {
             // The row shows nothing: it is one of pure noise, of variance one.
             step.attitude.row_mut(2).fill(0.0);
             step.cross.column_mut(2).fill(0.0);

@@ -134,7 +134,8 @@ fn identifiability_page_is_what_the_schedules_tell() {
             let parameter = parameter.unwrap_or_else(|| panic!("{id}"));
             match &parameter["shown"] {
                 shown if shown == "alone" => format!(" {:.2e} |", number(parameter, "/data_sigma")),
-                _ => format!(" with {} |", parameter["aliases"][0].as_str().unwrap_or("?")),
+                shown if shown == "nothing" => " nothing |".to_string(),
+                _ => format!(" with `{}` |", parameter["aliases"][0].as_str().unwrap_or("?")),
             }
         });
         let _ = writeln!(page, "| `{id}` |{}", each.collect::<String>());
@@ -184,14 +185,16 @@ tilted by 25 deg at latitude 45 deg, gyros of 0.02 deg/h/√Hz, accelerometers o
 
 Everything is seen in units of what is known beforehand. The best seen parameter is kept first, then what is best
 seen beside it, as long as the data tell more of it than was known. What is then left over is a part of what was kept,
-exactly or but for something too faint to count. Exactly means that less than 10⁻¹² of its information is its
-own; rounding leaves 10⁻¹⁵. Of a parameter that is kept and has others in it, only the sum is told, such as
-`gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`. Where such a sum is a choice of axes, units or origins
-it is a gauge, which no schedule tells, and is named as one.
+exactly or but for something too faint to count. Exactly means that less than 10⁻¹¹ of its information is its
+own; that a sample's turn is taken at its middle leaves 10⁻¹². Of a parameter that is kept and has others in it, only the
+sum is told, such as `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`; of one that is left over, the sum in which
+it is told best. Where parameters make up a choice of axes, units or origins, a gauge, no schedule tells that, and
+it is named. A calibration says the same of its run in the same words, from the noise that it found.
 
-With `--json`, `schedules` holds for each `rank`, `rank_loss` and its `parameters`: `prior_sigma`, `data_sigma` (null if the data
-alone tell nothing), `sigma` with both, `identifiable`, `shown` (`alone`, `combination`, `part`, `nothing`), its `aliases`, the
-`combination` with coefficients, and its `gauge`; `separation` has `kappa` and `told_sigma` of a pair each way; `proposal` the
+With `--json`, `schedules` holds for each `rank`, `rank_loss`, the ids that are told `alone`, `in_combination` and
+`not_shown`, `gauges`, and its `parameters`: `prior_sigma`, `data_sigma` (of the sum, if one is told; null if the data
+alone tell nothing), `sigma` with both, `identifiable`, `shown` (`alone`, `combination`, `part` of another's, `nothing`), its
+`aliases`, the `combination` with coefficients, and its `gauge`; `separation` has `kappa` and `told_sigma` of a pair each way; `proposal` the
 schedule to run next, its `profile`, `attitude_deg` and what it is predicted to reach.
 
 ## How many combinations are exactly invisible

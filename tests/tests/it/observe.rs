@@ -24,7 +24,11 @@ fn one_rate_is_said_to_tell_combinations() {
     // A bias of 1 deg/h at 10 deg/s is a misalignment of 5.73 arcsec.
     assert!((number(misalignment, "/combination/0/coefficient") - 5.73).abs() < 0.01);
     assert!((number(misalignment, "/data_sigma") - 0.006).abs() < 0.0005);
-    assert_eq!(of(parameters, "gyro.bias.x")["data_sigma"], Value::Null);
+    let bias = of(parameters, "gyro.bias.x");
+    assert_eq!((&bias["shown"], &bias["aliases"][0]), (&"part".into(), &misalignment["id"]));
+    // The same sum, in which the bias counts once.
+    let ratio = number(misalignment, "/data_sigma") / number(bias, "/data_sigma");
+    assert!((ratio / number(misalignment, "/combination/0/coefficient") - 1.0).abs() < 1e-6);
     let finished = rins_in(&schedules(), "observe i-constant-rate.toml");
     let sentence = "only gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x";
     assert!(finished.out.contains(sentence), "{}", finished.out);

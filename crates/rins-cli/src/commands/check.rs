@@ -20,6 +20,7 @@ pub(crate) use self::words::suspicion_in_words;
 use crate::commands::align::table;
 use crate::commands::repairs::repairs;
 use crate::commands::setup::{load, shown};
+use crate::number::figure;
 use crate::outcome::Outcome;
 use crate::report::{Item, Plot, Report, Section, Series, Style, Tone};
 use crate::view::table::aligned;
@@ -186,20 +187,10 @@ fn longest(inspection: &Inspection) -> Option<&RestSeen> {
 
 fn step_in_words(channel: usize, step: f64) -> String {
     if channel < 3 {
-        format!("{} arcsec", significant(step / DEG * 3600.0))
+        format!("{} arcsec", figure(step / DEG * 3600.0, 4))
     } else {
-        format!("{} mm/s", significant(step * 1e3))
+        format!("{} mm/s", figure(step * 1e3, 4))
     }
-}
-
-/// A number with four significant digits.
-fn significant(value: f64) -> String {
-    let (mut digits, mut scaled) = (0, value.abs());
-    while scaled < 1000.0 && digits < 15 {
-        scaled *= 10.0;
-        digits += 1;
-    }
-    format!("{value:.digits$}")
 }
 
 fn table_in_words(loaded: &Loaded) -> String {

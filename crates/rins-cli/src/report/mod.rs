@@ -12,7 +12,6 @@ mod content;
 mod drawing;
 mod envelope;
 mod escape;
-mod number;
 mod page;
 mod plot;
 mod table;

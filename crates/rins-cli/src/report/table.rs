@@ -2,7 +2,7 @@
 
 use super::content::{Cell, Column, Kind, Matrix, Table, Tone};
 use super::escape::{each, html};
-use super::number::{estimate, fixed};
+use crate::number::{estimate, fixed};
 
 /// A coefficient below this is not worth the reader's eye.
 const SLIGHT: f64 = 0.1;

@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use nalgebra::Vector3;
-use rins_calibration::{AttitudeSource, Calibration, EstimatePoint, MEASUREMENTS, Parameter};
+use rins_calibration::{
+    AttitudeSource, Calibration, EstimatePoint, MEASUREMENTS, Parameter, Partner,
+};
 use rins_frames::units::{ARCSEC, DEG};
 
 use crate::report::{
@@ -12,6 +14,7 @@ use crate::report::{
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::table::aligned;
+use crate::view::told::{ITSELF, Summand, sum_in_words};
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
 pub(crate) const SYSTEMATIC_NOTE: &str = "Zero velocity also sees accelerometer biases, which this \
@@ -22,22 +25,17 @@ beyond sigma, of a larger one more.";
 const CHANNELS: [&str; MEASUREMENTS] =
     ["velocity east", "velocity north", "velocity up", "table x", "table y", "table z"];
 
-/// A parameter as a person reads it: `M_xz`, or the combination that the schedule shows.
+/// What the data tell of a parameter, as a person reads it.
 pub(crate) fn meaning(parameter: &Parameter) -> String {
     if parameter.identifiable() {
-        return "alone, by this schedule".into();
+        return ITSELF.into();
     }
-    let partners: Vec<String> = parameter
-        .partners
-        .iter()
-        .map(|partner| {
-            let share = partner.share * partner.kind.factor() / parameter.kind.factor();
-            let sign = if share < 0.0 { "-" } else { "+" };
-            let unit = parameter.kind.unit();
-            format!("{sign} {:.4} {unit}/({}) x {}", share.abs(), partner.kind.unit(), partner.id)
-        })
-        .collect();
-    format!("only the combination {} {}", parameter.id, partners.join(" "))
+    let summand = |partner: &Partner| Summand {
+        coefficient: partner.share * partner.kind.factor() / parameter.kind.factor(),
+        unit: partner.kind.unit(),
+        name: partner.id.into(),
+    };
+    sum_in_words(parameter.id, parameter.kind.unit(), parameter.partners.iter().map(summand))
 }
 
 /// The summary for a terminal.
@@ -47,8 +45,9 @@ pub(crate) fn calibration_text(calibration: &Calibration, title: &str) -> String
         let _ = writeln!(text, "  {sentence}");
     }
     text.push('\n');
-    let mut rows =
-        vec![["parameter", "value", "sigma", "unit", "what it is"].map(String::from).to_vec()];
+    let mut rows = vec![
+        ["parameter", "value", "sigma", "unit", "what the data tell"].map(String::from).to_vec(),
+    ];
     rows.extend(calibration.parameters.iter().map(|parameter| {
         let factor = parameter.kind.factor();
         vec![
@@ -151,7 +150,7 @@ fn parameters_section(calibration: &Calibration) -> Section {
                     Column::number("estimate"),
                     Column::text("unit"),
                     Column::text("under this schedule"),
-                    Column::text("what it is"),
+                    Column::text("what the data tell"),
                 ],
                 rows: rows.collect(),
             }),

@@ -7,12 +7,13 @@ use rins_estimation::{Reference, correlation};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 
 use crate::args::NoiseChoice;
-use crate::commands::calibrate::seen::{figure, words};
 use crate::commands::calibrate::{Certificate, CertifiedRun};
-use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
+use crate::number::figure;
+use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table};
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::table::aligned;
+use crate::view::told::{badge, gauge_sentences, meaning, rank_sentence};
 use crate::view::worth::{budget_section, compensation_section};
 
 /// What the rows of an innovation are.
@@ -35,19 +36,20 @@ pub(crate) fn certificate_text(certificate: &Certificate) -> String {
     text.push('\n');
     let several = certificate.runs.len() > 1;
     let mut rows = vec![
-        ["parameter", "run", "value", "sigma", "unit", "what it is"].map(String::from).to_vec(),
+        ["parameter", "run", "value", "sigma", "unit", "what the data tell"]
+            .map(String::from)
+            .to_vec(),
     ];
-    let parameters = &certificate.fit.parameters;
-    for (place, finding) in certificate.findings.iter().enumerate() {
-        let estimate = &parameters[place];
+    for (place, estimate) in certificate.fit.parameters.iter().enumerate() {
         let unit = estimate.parameter.unit;
+        let (value, sigma) = certificate.value(place);
         rows.push(vec![
             estimate.parameter.id.clone(),
             run_name(estimate.run),
-            figure(finding.value / unit.factor),
-            figure(finding.sigma / unit.factor),
+            figure(value / unit.factor, 4),
+            figure(sigma / unit.factor, 4),
             unit.symbol.into(),
-            words(parameters, &certificate.findings, place),
+            meaning_and_alone(certificate, place),
         ]);
     }
     if !several {
@@ -56,7 +58,27 @@ pub(crate) fn certificate_text(certificate: &Certificate) -> String {
         }
     }
     text.push_str(&aligned(&rows));
+    for sentence in gauge_sentences(&certificate.told) {
+        let _ = writeln!(text, "  {sentence}");
+    }
     text
+}
+
+/// What the data tell of a parameter; and where that is a sum, what is known of the parameter itself.
+fn meaning_and_alone(certificate: &Certificate, place: usize) -> String {
+    let meaning = meaning(&certificate.told, place);
+    if certificate.told.seen[place].aliases.is_empty() {
+        return meaning;
+    }
+    let estimate = &certificate.fit.parameters[place];
+    let unit = estimate.parameter.unit;
+    let shown = |value: f64| figure(value / unit.factor, 4);
+    format!(
+        "{meaning}; alone {} ± {} {}",
+        shown(estimate.value),
+        shown(estimate.sigma),
+        unit.symbol
+    )
 }
 
 fn run_name(run: Option<usize>) -> String {
@@ -74,32 +96,10 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         })
         .collect();
     sentences.push(consistency_sentence(&certificate.consistency));
-    sentences.push(identified(certificate));
+    sentences.push(rank_sentence(&certificate.told));
     sentences.push(noise(certificate));
     sentences.extend(certificate.remarks.iter().cloned());
     sentences
-}
-
-fn identified(certificate: &Certificate) -> String {
-    let findings = &certificate.findings;
-    let alone = findings.iter().filter(|finding| finding.identifiable).count();
-    let combined = findings.iter().filter(|f| !f.identifiable && !f.partners.is_empty()).count();
-    let hidden: Vec<&str> = findings
-        .iter()
-        .zip(&certificate.fit.parameters)
-        .filter(|(finding, _)| !finding.identifiable && finding.partners.is_empty())
-        .map(|(_, estimate)| estimate.parameter.id.as_str())
-        .collect();
-    let mut text = format!("Of {} parameters this schedule shows {alone} alone", findings.len());
-    if combined > 0 {
-        let _ = write!(text, ", {combined} only in combinations");
-    }
-    if hidden.is_empty() {
-        text.push('.');
-    } else {
-        let _ = write!(text, "; it does not show {}.", hidden.join(", "));
-    }
-    text
 }
 
 fn noise(certificate: &Certificate) -> String {
@@ -111,8 +111,8 @@ fn noise(certificate: &Certificate) -> String {
     let triad = |white: f64, flicker: f64, unit: f64, white_unit: &str, flicker_unit: &str| {
         format!(
             "{} {white_unit} and {} {flicker_unit} of flicker",
-            figure(white / unit),
-            figure(flicker / unit)
+            figure(white / unit, 4),
+            figure(flicker / unit, 4)
         )
     };
     format!(
@@ -159,7 +159,7 @@ pub(crate) fn certificate_report(certificate: &Certificate) -> Report {
         subtitle: format!(
             "rins calibrate, model {}: {} parameters from {samples} samples",
             certificate.model,
-            certificate.findings.len()
+            certificate.fit.parameters.len()
         ),
         summary: summary(certificate),
         sections,
@@ -167,36 +167,46 @@ pub(crate) fn certificate_report(certificate: &Certificate) -> Report {
 }
 
 fn parameters_section(certificate: &Certificate) -> Section {
-    let parameters = &certificate.fit.parameters;
-    let rows = certificate.findings.iter().enumerate().map(|(place, finding)| {
-        let estimate = &parameters[place];
+    let told = &certificate.told;
+    let several = certificate.runs.len() > 1;
+    let rows = certificate.fit.parameters.iter().enumerate().map(|(place, estimate)| {
         let unit = estimate.parameter.unit;
-        let badge = match (finding.identifiable, finding.partners.is_empty()) {
-            (true, _) => Cell::badge(Tone::Good, "identifiable"),
-            (false, false) => Cell::badge(Tone::Warning, "combination"),
-            (false, true) => Cell::badge(Tone::Neutral, "not shown"),
-        };
-        let meaning = if finding.identifiable {
-            String::new()
-        } else {
-            words(parameters, &certificate.findings, place)
-        };
-        vec![
+        let (value, sigma) = certificate.value(place);
+        // Of a sum the bar would mean nothing: it is the parameter's own.
+        let wide = 3.0 * estimate.parameter.sigma;
+        let mut row = vec![
             Cell::text(&estimate.parameter.id),
             Cell::text(run_name(estimate.run)),
-            Cell::Estimate {
-                value: finding.value / unit.factor,
-                sigma: finding.sigma / unit.factor,
-            },
+            Cell::Estimate { value: value / unit.factor, sigma: sigma / unit.factor },
             Cell::text(unit.symbol),
             Cell::Bar {
-                value: finding.value / (3.0 * finding.prior_sigma),
-                sigma: finding.sigma / (3.0 * finding.prior_sigma),
+                value: (estimate.value - estimate.expected) / wide,
+                sigma: estimate.sigma / wide,
             },
-            badge,
-            Cell::text(meaning),
-        ]
+            badge(told, place),
+            Cell::text(if told.seen[place].identifiable {
+                String::new()
+            } else {
+                meaning_and_alone(certificate, place)
+            }),
+        ];
+        if !several {
+            row.remove(1);
+        }
+        row
     });
+    let mut columns = vec![
+        Column::id("parameter"),
+        Column::number("run"),
+        Column::number("estimate"),
+        Column::text("unit"),
+        Column::text("within ±3 prior σ"),
+        Column::text("under this schedule"),
+        Column::text("what the data tell"),
+    ];
+    if !several {
+        columns.remove(1);
+    }
     let axes = certificate.runs.iter().map(|run| {
         let angles = run.nav_from_table.euler_angles();
         let mut row = vec![Cell::text(&run.prepared.name)];
@@ -214,15 +224,7 @@ fn parameters_section(certificate: &Certificate) -> Section {
         items: vec![
             Item::Table(Table {
                 caption: "Estimates, 1σ".into(),
-                columns: vec![
-                    Column::id("parameter"),
-                    Column::number("run"),
-                    Column::number("estimate"),
-                    Column::text("unit"),
-                    Column::text("within ±3 prior σ"),
-                    Column::text("under this schedule"),
-                    Column::text("what it is"),
-                ],
+                columns,
                 rows: rows.collect(),
             }),
             Item::Table(Table {
@@ -264,8 +266,8 @@ fn noise_section(certificate: &Certificate) -> Section {
     let row = |name: String, found: f64, given: Option<f64>, factor: f64, unit: &str| {
         vec![
             Cell::text(name),
-            Cell::text(figure(found / factor)),
-            Cell::text(given.map_or_else(|| "–".into(), |given| figure(given / factor))),
+            Cell::text(figure(found / factor, 4)),
+            Cell::text(given.map_or_else(|| "–".into(), |given| figure(given / factor, 4))),
             Cell::text(unit),
         ]
     };
@@ -316,7 +318,7 @@ fn noise_section(certificate: &Certificate) -> Section {
     let iterations = certificate.fit.iterations.iter().enumerate().map(|(place, iteration)| {
         vec![
             Cell::text((place + 1).to_string()),
-            Cell::text(figure(iteration.step)),
+            Cell::text(figure(iteration.step, 4)),
             Cell::Number { value: iteration.log_likelihood, decimals: 2 },
         ]
     });

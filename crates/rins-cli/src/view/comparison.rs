@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::commands::calibrate::seen::figure;
 use crate::commands::compare::{Comparison, Moved};
+use crate::number::figure;
 use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
 use crate::view::consistency::probability;
 use crate::view::table::aligned;
@@ -27,10 +27,10 @@ pub(crate) fn comparison_text(comparison: &Comparison) -> String {
     rows.extend(comparison.moved.iter().map(|moved| {
         vec![
             moved.id.clone(),
-            figure(moved.values[0]),
-            figure(moved.values[1]),
-            figure(moved.difference()),
-            figure(moved.sigma()),
+            figure(moved.values[0], 4),
+            figure(moved.values[1], 4),
+            figure(moved.difference(), 4),
+            figure(moved.sigma(), 4),
             format!("{:+.1}", moved.sigmas_moved()),
             moved.unit.into(),
         ]
@@ -63,7 +63,7 @@ fn summary(comparison: &Comparison) -> Vec<String> {
     if let Some(together) = comparison.together {
         sentences.push(format!(
             "Together, with all correlations: chi-square {} with {} degrees of freedom, p {}.",
-            figure(together.chi_square),
+            figure(together.chi_square, 4),
             together.dof,
             probability(together.p)
         ));

@@ -7,6 +7,7 @@ mod comparison;
 mod consistency;
 mod navigation;
 pub(crate) mod table;
+pub(crate) mod told;
 mod worth;
 
 pub(crate) use calibration::{SYSTEMATIC_NOTE, calibration_report, calibration_text, meaning};

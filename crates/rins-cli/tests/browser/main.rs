@@ -1,5 +1,7 @@
 //! The report page in a real browser, with the network cut.
 
+#[path = "../../src/number.rs"]
+mod number;
 #[path = "../../src/report/mod.rs"]
 mod report;
 

@@ -1,7 +1,8 @@
 //! One effect, two, and none.
 
-use rins_diagnosis::{Diagnosis, diagnose};
+use rins_diagnosis::{Along, Diagnosis, Structure, diagnose};
 use rins_estimation::{NoiseKnowledge, Run, Strengths};
+use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
 use rins_terms::{Chosen, Model, Term, catalogue};
 
@@ -98,4 +99,43 @@ fn what_a_schedule_confuses_is_a_set() {
     let set: Vec<&str> = diagnosis.causes[0].rivals.iter().map(|rival| rival.term.id).collect();
     assert!(names(&diagnosis, "encoder_eccentricity"), "{set:?}");
     assert!(!set.is_empty(), "{} alone", diagnosis.causes[0].term.id);
+}
+
+/// An order of the table angle that nothing in the catalogue has.
+#[test]
+fn what_no_effect_explains_is_described_and_not_named() {
+    const AMPLITUDE: f64 = 0.1 * DEG_PER_HOUR;
+    const ORDER: f64 = 1.37;
+    let mut run = run(&RATES, Model::default(), 0.0, 90);
+    let angles = run.recording.table_angle.clone().unwrap();
+    for (sample, angle) in run.recording.increments.iter_mut().zip(angles) {
+        let rate = AMPLITUDE * (ORDER * angle).cos();
+        sample.angle += InFrame::new(0.0, rate * sample.interval, 0.0);
+    }
+    let diagnosis = found(&run, NoiseKnowledge::Given);
+    let [one, ..] = &diagnosis.unexplained[..] else { panic!("{:?}", diagnosis.causes) };
+    let Structure::Order(order) = one.structure else { panic!("{one:?}") };
+    // On one axis both senses are one.
+    assert!((order.abs() - ORDER).abs() < 0.1, "{order}");
+    assert_eq!(one.channel, "gyro.y");
+    let (amplitude, unit) = one.amplitude.unwrap();
+    assert_eq!(unit.symbol, "deg/h");
+    assert!((amplitude / AMPLITUDE - 1.0).abs() < 0.2, "{}", amplitude / DEG_PER_HOUR);
+    assert!(one.worst.iter().all(|(_, worst)| *worst > 0.0) && one.worst.len() == 3);
+}
+
+/// An effect that is there for a part of the time is named, and said not to be what it seems.
+#[test]
+fn an_effect_that_comes_and_goes_is_inconstant() {
+    let effect = hiding(&[(&catalogue::ACCEL_LEVER_ARM, &[6e-3, -4e-3])]);
+    let with = run(&RATES, effect, 0.0, 91);
+    let mut sometimes = run(&RATES, Model::default(), 0.0, 91);
+    let half = sometimes.recording.increments.len() / 2;
+    sometimes.recording.increments[..half].copy_from_slice(&with.recording.increments[..half]);
+    let diagnosis = found(&sometimes, NoiseKnowledge::Given);
+    let inconstant =
+        diagnosis.unexplained.iter().any(|one| one.structure == Structure::Inconstant(Along::Time));
+    assert!(inconstant || names(&diagnosis, "accel_bias_step"), "{:?}", diagnosis.unexplained);
+    let whole = found(&with, NoiseKnowledge::Given);
+    assert!(whole.unexplained.is_empty(), "{:?}", whole.unexplained);
 }

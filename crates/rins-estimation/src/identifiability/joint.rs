@@ -2,10 +2,11 @@
 
 use nalgebra::DMatrix;
 use rins_imu::ImuSpec;
-use rins_terms::{Free, Model, Owner};
+use rins_terms::Model;
 
 use crate::evidence::Indefinite;
 use crate::identifiability::{Identifiability, Unknown, scaled};
+use crate::layout::Layout;
 use crate::linear::linearise;
 use crate::posterior::Evidence;
 use crate::run::Run;
@@ -62,7 +63,7 @@ pub fn joint(
     strengths: &Strengths,
 ) -> Result<Joint, JointError> {
     let free = model.free(imu);
-    let (all, places) = shared_out(&free, runs.len());
+    let Layout { all, places } = Layout::of(&free, runs.len());
     let columns: Vec<(usize, usize)> =
         free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
     let mut evidence = Evidence::none(all.len());
@@ -82,30 +83,4 @@ pub fn joint(
         })
         .collect();
     Ok(Joint { unknowns, parameters: all.iter().map(|&(index, _)| index).collect(), evidence })
-}
-
-/// A parameter of the model, and the run that it belongs to.
-type Owned = (usize, Option<usize>);
-
-/// All unknowns of so many runs, and for each run the place of each parameter among them.
-fn shared_out(free: &[Free], n_runs: usize) -> (Vec<Owned>, Vec<Vec<usize>>) {
-    if n_runs == 1 {
-        let all = (0..free.len()).map(|index| (index, None)).collect();
-        return (all, vec![(0..free.len()).collect()]);
-    }
-    let mut all = Vec::new();
-    let mut places = vec![vec![0; free.len()]; n_runs];
-    for (index, _) in free.iter().enumerate().filter(|(_, p)| p.owner == Owner::Sensor) {
-        for of_run in &mut places {
-            of_run[index] = all.len();
-        }
-        all.push((index, None));
-    }
-    for (run, of_run) in places.iter_mut().enumerate() {
-        for (index, _) in free.iter().enumerate().filter(|(_, p)| p.owner == Owner::Run) {
-            of_run[index] = all.len();
-            all.push((index, Some(run)));
-        }
-    }
-    (all, places)
 }

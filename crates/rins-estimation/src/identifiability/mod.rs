@@ -47,9 +47,10 @@ pub struct Alias {
 pub enum Shown {
     /// The parameter itself.
     Alone,
-    /// Only the sum of the parameter and of others, each times its coefficient.
-    Combination(Vec<Alias>),
-    /// Nothing of its own: it is part of what these unknowns stand for.
+    /// Only the sum of the parameter and of its aliases, each times its coefficient.
+    Combination,
+    /// Nothing that is not part of what these unknowns stand for; of the sums that it is in, that with its aliases is
+    /// told best.
     Part {
         /// The unknowns.
         of: Vec<usize>,
@@ -65,13 +66,15 @@ pub enum Shown {
 pub struct Seen {
     /// What of it the data tell.
     pub shown: Shown,
-    /// Its 1σ, or that of its combination, by the data alone, in SI units; infinite if they tell nothing.
+    /// What stands beside it in the sum that is told; none if it is told alone, or not at all.
+    pub aliases: Vec<Alias>,
+    /// Its 1σ, or that of the sum with its aliases, by the data alone, in SI units; infinite if they tell nothing.
     pub data_sigma: f64,
     /// The parameter's own 1σ when what is known beforehand is used too.
     pub sigma: f64,
-    /// The gauge that makes it a part of others under every schedule, if one does.
+    /// The gauge that it takes part in and that makes it a part of others under every schedule, if one does.
     pub gauge: Option<&'static Gauge>,
-    /// Whether the data tell the parameter itself, and better than it was known beforehand.
+    /// Whether the data tell the parameter itself, and twice better at least than it was known beforehand.
     pub identifiable: bool,
 }
 
@@ -87,9 +90,11 @@ pub struct Seen {
 /// let told = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
 /// assert_eq!(told.rank.rank(), 1);
 /// // They tell b + a/2 to 0.05, and neither alone.
-/// let Shown::Combination(aliases) = &told.seen[1].shown else { panic!() };
-/// assert!((aliases[0].coefficient - 0.5).abs() < 1e-12);
+/// assert_eq!(told.seen[1].shown, Shown::Combination);
+/// assert!((told.seen[1].aliases[0].coefficient - 0.5).abs() < 1e-12);
 /// assert!((told.seen[1].data_sigma - 0.05).abs() < 1e-12);
+/// assert!((told.seen[0].aliases[0].coefficient - 2.0).abs() < 1e-12);
+/// assert!((told.seen[0].data_sigma - 0.1).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
@@ -101,11 +106,15 @@ pub struct Identifiability {
     pub rank: Rank,
 }
 
-/// The part of the largest of several shares below which one is not mentioned.
+/// The part of the largest of several shifts below which one is not mentioned.
 const SLIGHT: f64 = 0.1;
 
-/// How many times its own sigma what is faintly told must be able to shift a parameter, to be named beside it.
-const DOMINANT: f64 = 3.0;
+/// How many times better a sum must be told than the parameter itself, what was known beforehand being used, for only
+/// the sum to count as told.
+const DOMINANT: f64 = 5.0;
+
+/// The part of what was known beforehand below which data must bring a parameter's sigma, for it to count as told.
+const SEEN: f64 = 0.5;
 
 impl Identifiability {
     /// What data with this Fisher information, in SI units, tell of `unknowns`.
@@ -119,6 +128,7 @@ impl Identifiability {
         let own = with_prior(&scaled);
         let nothing = |(own, sigma): (&f64, &f64)| Seen {
             shown: Shown::Nothing,
+            aliases: Vec::new(),
             data_sigma: f64::INFINITY,
             sigma: own * sigma,
             gauge: None,
@@ -128,6 +138,7 @@ impl Identifiability {
             Self { seen: own.iter().zip(&sigmas).map(nothing).collect(), unknowns, rank };
         (0..told.rank.kept.len()).for_each(|place| told.see_kept(place));
         (0..told.rank.lost.len()).for_each(|place| told.see_lost(place));
+        told.name_gauges();
         told
     }
 
@@ -140,28 +151,46 @@ impl Identifiability {
     fn see_kept(&mut self, place: usize) {
         let (kept, sigma) = (self.rank.kept[place], self.rank.sigmas[place]);
         let shares = self.rank.coefficients.row(place);
-        // What is lost may be anything within its prior: is that more than what the data leave open?
-        let hidden = shares.norm();
-        let least = SLIGHT * hidden.max(sigma);
-        let alias = |(lost, share): (&Lost, &f64)| Alias {
-            unknown: lost.unknown,
-            coefficient: share * self.unknowns[kept].sigma / self.unknowns[lost.unknown].sigma,
-            exactly: lost.exactly,
-        };
-        let aliases: Vec<Alias> = self
-            .rank
-            .lost
+        let unit = self.unknowns[kept].sigma;
+        let own = self.seen[kept].sigma / unit;
+        let mut beside: Vec<usize> =
+            if own > DOMINANT * sigma { (0..shares.len()).collect() } else { Vec::new() };
+        beside.sort_by(|&a, &b| shares[b].abs().total_cmp(&shares[a].abs()));
+        // What is lost may be anything within its prior: the least of it is left out, as long as that is less than
+        // what the data leave open.
+        let mut left_out = 0.0;
+        while let Some(&least) = beside.last() {
+            left_out = f64::hypot(left_out, shares[least]);
+            if left_out > sigma {
+                break;
+            }
+            beside.pop();
+        }
+        let aliases: Vec<Alias> = beside
             .iter()
-            .zip(&shares)
-            .filter(|(lost, share)| {
-                share.abs() > least && (lost.exactly || hidden > DOMINANT * sigma)
+            .map(|&lost| {
+                let Lost { unknown, exactly, .. } = self.rank.lost[lost];
+                let coefficient = shares[lost] * unit / self.unknowns[unknown].sigma;
+                Alias { unknown, coefficient, exactly }
             })
-            .map(alias)
             .collect();
         let seen = &mut self.seen[kept];
-        seen.data_sigma = sigma * self.unknowns[kept].sigma;
-        seen.identifiable = aliases.is_empty() && sigma < 1.0;
-        seen.shown = if aliases.is_empty() { Shown::Alone } else { Shown::Combination(aliases) };
+        seen.data_sigma = sigma * unit;
+        seen.identifiable = aliases.is_empty() && own < SEEN;
+        seen.shown = if aliases.is_empty() { Shown::Alone } else { Shown::Combination };
+        seen.aliases = aliases;
+    }
+
+    /// Names what no schedule would tell, of what the data show at all.
+    fn name_gauges(&mut self) {
+        let shown = self.unknowns.iter().zip(&self.seen).filter(|(_, s)| s.shown != Shown::Nothing);
+        let shown: Vec<&str> = shown.map(|(unknown, _)| unknown.id.as_str()).collect();
+        for gauge in GAUGES.iter().filter(|gauge| gauge.is_open(&shown)) {
+            let of_gauge = |lost: &&Lost| gauge.holds(&self.unknowns[lost.unknown].id);
+            for lost in self.rank.lost.iter().filter(of_gauge) {
+                self.seen[lost.unknown].gauge.get_or_insert(gauge);
+            }
+        }
     }
 
     /// Of an unknown that is lost: what stands for it.
@@ -175,14 +204,29 @@ impl Identifiability {
             self.rank.kept.len(),
             self.rank.coefficients.column(place).iter().zip(&self.rank.sigmas).map(|(c, s)| c / s),
         );
-        let largest = shifts.amax();
+        let best = shifts.icamax();
+        let largest = shifts[best].abs();
+        // A sum that is told hardly better than this part of it was known tells nothing of it.
+        if largest * SEEN < 1.0 {
+            return;
+        }
         let of: Vec<usize> = (0..shifts.len())
             .filter(|&row| shifts[row].abs() > SLIGHT * largest)
             .map(|row| self.rank.kept[row])
             .collect();
-        let ids = of.iter().chain([&unknown]).map(|&place| self.unknowns[place].id.as_str());
-        self.seen[unknown].gauge = gauge_of(&ids.collect::<Vec<_>>());
-        self.seen[unknown].shown = Shown::Part { of, exactly };
+        // The sum in which it is told best, put so that it counts once itself.
+        let kept = self.rank.kept[best];
+        let own = self.rank.coefficients[(best, place)] * self.unknowns[kept].sigma
+            / self.unknowns[unknown].sigma;
+        let beside = self.seen[kept].aliases.iter().filter(|alias| alias.unknown != unknown);
+        let rest = beside.map(|alias| Alias { coefficient: alias.coefficient / own, ..*alias });
+        let aliases = std::iter::once(Alias { unknown: kept, coefficient: 1.0 / own, exactly })
+            .chain(rest)
+            .collect();
+        let data_sigma = self.seen[kept].data_sigma / own.abs();
+        let seen = &mut self.seen[unknown];
+        (seen.aliases, seen.data_sigma) = (aliases, data_sigma);
+        seen.shown = Shown::Part { of, exactly };
     }
 }
 

@@ -5,9 +5,9 @@ use nalgebra::{Cholesky, DMatrix};
 /// The part of an unknown's information that must be its own for it not to be the same as others: the squared sine of
 /// the angle between its signature and theirs.
 ///
-/// Rounding leaves less than 1e-14 of it; the closest pair that physics tells apart at all, the encoder's delay
-/// and the gyros', has 1e-10.
-pub const EXACT: f64 = 1e-12;
+/// Taking a vector that turns with the table as constant over a sample leaves some 1e-12 of it, rounding less; the
+/// closest pair that physics tells apart at all, the encoder's delay and the gyros', has 1e-10.
+pub const EXACT: f64 = 1e-11;
 
 /// Information, in units of the prior, below which the data tell less than was known beforehand.
 const KNOWN: f64 = 1.0;

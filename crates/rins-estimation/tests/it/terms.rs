@@ -1,9 +1,9 @@
 //! Every effect of the catalogue: made by the simulator, found by the estimator.
 
 use rayon::prelude::*;
-use rins_estimation::{Evidence, Noise, NoiseKnowledge, Run, Strengths, fit, linearise};
+use rins_estimation::{NoiseKnowledge, Run, Strengths, fit, joint};
 use rins_imu::ImuError;
-use rins_terms::{Chosen, Model, Owner, Role, Term, catalogue};
+use rins_terms::{Chosen, Model, Role, Term, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -35,42 +35,16 @@ fn foreseen(chosen: &Chosen, runs: &[Run]) -> Vec<Option<f64>> {
     let imu = fibre();
     let strengths = Strengths::of(&imu);
     let model = Model::full().with(chosen.clone());
-    let free = model.free(&imu);
-    let places: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
-    // Sensors' parameters first in both runs, then each run's own.
-    let shared: Vec<usize> =
-        (0..free.len()).filter(|&place| free[place].owner == Owner::Sensor).collect();
-    let own: Vec<usize> = (0..free.len()).filter(|place| !shared.contains(place)).collect();
-    let total = shared.len() + runs.len() * own.len();
-    let mut evidence = Evidence::none(total);
-    let mut sigmas = vec![0.0; total];
-    let mut first_run = Vec::new();
-    for (index, run) in runs.iter().enumerate() {
-        let to: Vec<usize> = (0..free.len())
-            .map(|place| {
-                let in_shared = shared.iter().position(|&other| other == place);
-                in_shared.unwrap_or_else(|| {
-                    let in_own = own.iter().position(|&other| other == place).unwrap();
-                    shared.len() + index * own.len() + in_own
-                })
-            })
-            .collect();
-        for (place, &target) in to.iter().enumerate() {
-            sigmas[target] = free[place].sigma;
-        }
-        let linear = linearise(run, &model, &places);
-        evidence.add(&Evidence::of(&linear, &Noise::on(&run.rig, &strengths)).unwrap(), &to);
-        if index == 0 {
-            first_run = to;
-        }
-    }
-    let posterior = evidence.posterior(&sigmas, &vec![0.0; total]).unwrap();
-    let last = model.terms.len() - 1;
-    let places = free.iter().zip(&first_run).filter(|(of, _)| of.term == last);
-    places
-        .map(|(of, &place)| {
+    let joint = joint(runs, &model, &imu, &strengths).unwrap();
+    let sigmas: Vec<f64> = joint.unknowns.iter().map(|unknown| unknown.sigma).collect();
+    let posterior = joint.evidence.posterior(&sigmas, &vec![0.0; sigmas.len()]).unwrap();
+    let of_term = |id: &str| chosen.term.parameter_ids().any(|of_term| of_term == id);
+    let first = joint.unknowns.iter().enumerate().filter(|(_, unknown)| unknown.run != Some(1));
+    first
+        .filter(|(_, unknown)| of_term(&unknown.id))
+        .map(|(place, unknown)| {
             let sigma = posterior.sigma(place);
-            (sigma < 0.3 * of.sigma).then_some(sigma)
+            (sigma < 0.3 * unknown.sigma).then_some(sigma)
         })
         .collect()
 }

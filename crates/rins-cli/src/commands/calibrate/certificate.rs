@@ -3,7 +3,7 @@
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Fit, NoiseKnowledge, Reference, Run, Strengths, fit};
+use rins_estimation::{Fit, Identifiability, NoiseKnowledge, Reference, Run, Strengths, fit};
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
 use rins_motion::Recording;
@@ -11,7 +11,7 @@ use rins_terms::{Chosen, Model, Role, Surroundings, catalogue, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
-use crate::commands::calibrate::{Finding, NamedModel, Prepared, files, json, seen};
+use crate::commands::calibrate::{NamedModel, Prepared, files, json};
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{certificate_report, certificate_text};
@@ -27,8 +27,8 @@ pub(crate) struct Certificate {
     pub(crate) runs: Vec<CertifiedRun>,
     /// The estimates.
     pub(crate) fit: Fit,
-    /// What the data show of each.
-    pub(crate) findings: Vec<Finding>,
+    /// What the data tell of each.
+    pub(crate) told: Identifiability,
     /// Whether the innovations of all runs are what the model says.
     pub(crate) consistency: Consistency,
     /// Whether the noise was found, or given.
@@ -93,7 +93,7 @@ impl Certificate {
         spinner.finish_and_clear();
         let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
         let fit = found.with_context(|| names.join(", "))?;
-        let findings = seen::findings(&fit);
+        let told = fit.identifiability();
         let mut certified = Vec::with_capacity(runs.len());
         for (place, prepared) in runs.into_iter().enumerate() {
             certified.push(CertifiedRun::of(prepared, &fit, place)?);
@@ -102,7 +102,7 @@ impl Certificate {
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
         let model = named.name;
-        Ok(Self { model, runs: certified, fit, findings, consistency, noise, remarks })
+        Ok(Self { model, runs: certified, fit, told, consistency, noise, remarks })
     }
 
     /// What the command delivers.
@@ -117,7 +117,7 @@ impl Certificate {
                 (true, 1..) => format!("calibration-{}.toml", run + 1),
                 _ => "calibration.toml".into(),
             };
-            let file = files::calibration(&self.fit, &self.findings, run);
+            let file = files::calibration(&self.fit, &self.told, run);
             delivered.push((name, file.to_toml().into_bytes()));
         }
         Outcome {
@@ -128,6 +128,11 @@ impl Certificate {
             files: delivered,
             ..Outcome::default()
         }
+    }
+
+    /// The value and the 1σ of what the data tell of a parameter: of itself, or of the sum that it is in, in SI units.
+    pub(crate) fn value(&self, place: usize) -> (f64, f64) {
+        self.fit.sum(place, &self.told.seen[place].aliases)
     }
 
     /// What the calibration is called.

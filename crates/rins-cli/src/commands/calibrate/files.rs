@@ -1,11 +1,11 @@
 //! What a calibration leaves for other programs: the errors to undo, the model, and how to undo them.
 
 use nalgebra::DMatrix;
-use rins_estimation::{Estimate, Fit};
+use rins_estimation::{Estimate, Fit, Identifiability};
 use rins_io::{Covariance, Parameter};
 use rins_terms::{Model, Role};
 
-use crate::commands::calibrate::{Finding, seen};
+use crate::view::told::meaning;
 
 /// The compensation, in one line.
 pub(crate) const EQUATION: &str = "true = measured − (bias + [S, M] true + terms(true)); with no terms, true = (I + [S, M])⁻¹ (measured − bias)";
@@ -28,7 +28,7 @@ fn of_table_alone(id: &str) -> bool {
 }
 
 /// The calibration file of one run: what its sensors and its encoder get wrong.
-pub(super) fn calibration(fit: &Fit, findings: &[Finding], run: usize) -> rins_io::Calibration {
+pub(super) fn calibration(fit: &Fit, told: &Identifiability, run: usize) -> rins_io::Calibration {
     let (error, mut terms) = fit.models[run].split();
     terms.terms.retain(|chosen| !of_table_alone(chosen.term.id));
     let places: Vec<usize> = (0..fit.parameters.len())
@@ -63,7 +63,7 @@ pub(super) fn calibration(fit: &Fit, findings: &[Finding], run: usize) -> rins_i
     }
     rins_io::Calibration {
         sigmas,
-        notes: notes(fit, findings, &places),
+        notes: notes(told, &places),
         terms,
         covariance: covariance(fit, &places),
         ..rins_io::Calibration::of(error)
@@ -82,17 +82,9 @@ fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {
     })
 }
 
-fn notes(fit: &Fit, findings: &[Finding], places: &[usize]) -> Vec<String> {
-    let unseen = places.iter().filter(|&&place| !findings[place].identifiable);
-    unseen
-        .map(|&place| {
-            format!(
-                "{}: {}",
-                fit.parameters[place].parameter.id,
-                seen::words(&fit.parameters, findings, place)
-            )
-        })
-        .collect()
+fn notes(told: &Identifiability, places: &[usize]) -> Vec<String> {
+    let unseen = places.iter().filter(|&&place| !told.seen[place].identifiable);
+    unseen.map(|&place| format!("{}: {}", told.unknowns[place].id, meaning(told, place))).collect()
 }
 
 /// The model with the estimates in it, the sigma of each as what is known of it now.

@@ -8,8 +8,9 @@ use serde_json::{Value, json};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::prepared::across_axis;
-use crate::commands::calibrate::{Budget, Certificate, CertifiedRun, Drift, EQUATION, seen};
+use crate::commands::calibrate::{Budget, Certificate, CertifiedRun, Drift, EQUATION};
 use crate::view::euler_json;
+use crate::view::told::{self, coefficient, identifiability_json, meaning};
 
 /// Free inertial navigation as JSON: what it ended with.
 pub(crate) fn navigation_json(navigation: &FreeNavigation) -> Value {
@@ -72,7 +73,7 @@ pub(super) fn certificate(certificate: &Certificate) -> Value {
         "iterations": iterations,
         "log_likelihood": fit.log_likelihood,
         "noise": noise_json(certificate),
-        "identifiability": identifiability_json(certificate),
+        "identifiability": identifiability_json(&certificate.told),
         "error_budget": budget_json(&ids(certificate, first), &first.budget),
         "compensation": EQUATION,
         "runs": runs,
@@ -93,51 +94,21 @@ pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
 }
 
 fn parameter_json(certificate: &Certificate, place: usize) -> Value {
-    let fit = &certificate.fit;
-    let (estimate, finding) = (&fit.parameters[place], &certificate.findings[place]);
-    let unit = estimate.parameter.unit;
-    let aliases: Vec<&str> = finding
-        .partners
-        .iter()
-        .map(|&(other, _)| fit.parameters[other].parameter.id.as_str())
-        .collect();
-    let coefficients: Vec<f64> = finding
-        .partners
-        .iter()
-        .map(|&(other, share)| share * fit.parameters[other].parameter.unit.factor / unit.factor)
-        .collect();
-    json!({
-        "id": estimate.parameter.id,
-        "run": estimate.run.map(|run| run + 1),
-        "value": finding.value / unit.factor,
-        "sigma": finding.sigma / unit.factor,
-        "unit": unit.symbol,
-        "identifiable": finding.identifiable,
-        "aliases": aliases,
-        "alias_coefficients": coefficients,
-        "alone": {"value": estimate.value / unit.factor, "sigma": estimate.sigma / unit.factor},
-        "prior_sigma": finding.prior_sigma / unit.factor,
-        "meaning": seen::words(&fit.parameters, &certificate.findings, place),
-    })
-}
-
-fn identifiability_json(certificate: &Certificate) -> Value {
-    let of = |keep: &dyn Fn(usize) -> bool| -> Vec<&str> {
-        (0..certificate.findings.len())
-            .filter(|&place| keep(place))
-            .map(|place| certificate.fit.parameters[place].parameter.id.as_str())
-            .collect()
-    };
-    let findings = &certificate.findings;
-    json!({
-        "alone": of(&|place| findings[place].identifiable),
-        "in_combination": of(&|place| {
-            !findings[place].identifiable && !findings[place].partners.is_empty()
-        }),
-        "not_shown": of(&|place| {
-            !findings[place].identifiable && findings[place].partners.is_empty()
-        }),
-    })
+    let Certificate { fit, told, .. } = certificate;
+    let estimate = &fit.parameters[place];
+    let factor = estimate.parameter.unit.factor;
+    let (value, sigma) = certificate.value(place);
+    let mut parameter = told::parameter_json(told, place);
+    let aliases = &told.seen[place].aliases;
+    let coefficients: Vec<f64> =
+        aliases.iter().map(|alias| coefficient(told, place, alias)).collect();
+    parameter["value"] = json!(value / factor);
+    parameter["sigma"] = json!(sigma / factor);
+    parameter["alias_coefficients"] = json!(coefficients);
+    parameter["alone"] =
+        json!({"value": estimate.value / factor, "sigma": estimate.sigma / factor});
+    parameter["meaning"] = json!(meaning(told, place));
+    parameter
 }
 
 fn noise_json(certificate: &Certificate) -> Value {

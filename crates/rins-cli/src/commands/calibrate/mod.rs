@@ -7,7 +7,6 @@ mod gates;
 mod json;
 mod paper;
 mod prepared;
-pub(crate) mod seen;
 
 use rins_io::ModelFile;
 use rins_terms::Model;
@@ -18,7 +17,6 @@ pub(crate) use self::files::{EQUATION, STEPS};
 pub(crate) use self::json::navigation_json;
 pub(crate) use self::paper::{calibrated, outcome};
 pub(crate) use self::prepared::Prepared;
-pub(crate) use self::seen::Finding;
 use crate::args::{Calibrate, ModelChoice};
 use crate::commands::setup::load;
 use crate::outcome::Outcome;

@@ -191,19 +191,46 @@ fn json(calibration: &Calibration, rig: &Path) -> Value {
             "after": navigation_json(&calibration.after),
         },
         "consistency": consistency_json(&calibration.consistency),
+        "identifiability": identifiability_json(&calibration.parameters),
         "notes": [SYSTEMATIC_NOTE],
     })
 }
 
 fn parameter_json(parameter: &Parameter) -> Value {
     let factor = parameter.kind.factor();
+    let coefficients: Vec<f64> = parameter
+        .partners
+        .iter()
+        .map(|partner| partner.share * partner.kind.factor() / factor)
+        .collect();
+    let summands = parameter.partners.iter().zip(&coefficients);
+    let combination: Vec<Value> = summands
+        .map(|(partner, coefficient)| json!({"id": partner.id, "coefficient": coefficient}))
+        .collect();
     json!({
         "id": parameter.id,
         "value": parameter.value / factor,
         "sigma": parameter.sigma / factor,
         "unit": parameter.kind.unit(),
         "identifiable": parameter.identifiable(),
+        "shown": if parameter.identifiable() { "alone" } else { "combination" },
         "aliases": parameter.partners.iter().map(|partner| partner.id).collect::<Vec<_>>(),
+        "alias_coefficients": coefficients,
+        "combination": combination,
         "meaning": meaning(parameter),
+    })
+}
+
+fn identifiability_json(parameters: &[Parameter]) -> Value {
+    let ids = |alone: bool| -> Vec<&str> {
+        let chosen = parameters.iter().filter(|parameter| parameter.identifiable() == alone);
+        chosen.map(|parameter| parameter.id).collect()
+    };
+    json!({
+        "unknowns": parameters.len(),
+        "alone": ids(true),
+        "in_combination": ids(false),
+        "not_shown": [],
+        "gauges": [],
     })
 }

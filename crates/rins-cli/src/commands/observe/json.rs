@@ -1,11 +1,12 @@
 //! What was found of schedules, for a machine.
 
-use rins_estimation::{Alias, Identifiability, Separation, Shown};
+use rins_estimation::Separation;
 use rins_frames::units::DEG;
 use serde_json::{Value, json};
 
 use super::proposal::ENOUGH;
 use super::{Found, Observed, Pair, Proposal};
+use crate::view::told::{identifiability_json, parameter_json};
 
 pub(super) fn json(found: &Found) -> Value {
     let schedules: Vec<Value> =
@@ -30,71 +31,19 @@ fn schedule(observed: &Observed, found: &Found) -> Value {
     let paths: Vec<String> =
         schedule.runs.iter().map(|run| run.path.display().to_string()).collect();
     let parameters: Vec<Value> =
-        (0..told.unknowns.len()).map(|place| parameter(told, place)).collect();
-    json!({
-        "name": schedule.name,
-        "scenarios": paths,
-        "duration_s": schedule.duration(),
-        "unknowns": told.unknowns.len(),
-        "rank": told.rank.rank(),
-        "rank_loss": told.unknowns.len() - told.rank.rank(),
-        "told_better_than_known": told.rank.kept.len(),
-        "least_told": told.rank.least_told,
-        "most_null": told.rank.most_null,
-        "parameters": parameters,
-        "separation": pair.as_ref().map(|pair| separation(pair, found)),
-    })
+        (0..told.unknowns.len()).map(|place| parameter_json(told, place)).collect();
+    let mut value = identifiability_json(told);
+    value["name"] = json!(schedule.name);
+    value["scenarios"] = json!(paths);
+    value["duration_s"] = json!(schedule.duration());
+    value["parameters"] = json!(parameters);
+    value["separation"] = json!(pair.as_ref().map(|pair| separation(pair, found)));
+    value
 }
 
 /// A number, or null if it is infinite.
 fn finite(value: f64) -> Value {
     if value.is_finite() { json!(value) } else { Value::Null }
-}
-
-fn parameter(told: &Identifiability, place: usize) -> Value {
-    let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
-    let factor = unknown.unit.factor;
-    let id = |place: usize| told.unknowns[place].id.clone();
-    let (shown, exactly, aliases): (&str, bool, Vec<String>) = match &seen.shown {
-        Shown::Alone => ("alone", false, Vec::new()),
-        Shown::Combination(aliases) => (
-            "combination",
-            aliases.iter().any(|alias| alias.exactly),
-            aliases.iter().map(|alias| id(alias.unknown)).collect(),
-        ),
-        Shown::Part { of, exactly } => ("part", *exactly, of.iter().copied().map(id).collect()),
-        Shown::Nothing => ("nothing", false, Vec::new()),
-    };
-    let combination: Vec<Value> = match &seen.shown {
-        Shown::Combination(aliases) => {
-            aliases.iter().map(|alias| summand(told, alias, factor)).collect()
-        }
-        _ => Vec::new(),
-    };
-    json!({
-        "id": unknown.id,
-        "run": unknown.run.map(|run| run + 1),
-        "unit": unknown.unit.symbol,
-        "prior_sigma": unknown.sigma / factor,
-        "data_sigma": finite(seen.data_sigma / factor),
-        "sigma": seen.sigma / factor,
-        "identifiable": seen.identifiable,
-        "shown": shown,
-        "exactly": exactly,
-        "aliases": aliases,
-        "combination": combination,
-        "gauge": seen.gauge.map(|gauge| gauge.name),
-    })
-}
-
-fn summand(told: &Identifiability, alias: &Alias, factor: f64) -> Value {
-    let unknown = &told.unknowns[alias.unknown];
-    json!({
-        "id": unknown.id,
-        "run": unknown.run.map(|run| run + 1),
-        "coefficient": alias.coefficient * unknown.unit.factor / factor,
-        "exactly": alias.exactly,
-    })
 }
 
 fn separation(pair: &Pair, found: &Found) -> Value {

@@ -1,12 +1,9 @@
 //! What was found of schedules, as a report page.
 
-use rins_estimation::Shown;
-
-use super::words::{
-    comparison, gauges, list, pair_sentences, proposal_sentences, rank_sentence, row,
-};
+use super::words::{comparison, pair_sentences, proposal_sentences, row};
 use super::{Found, Observed};
 use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
+use crate::view::told::{badge, gauge_sentences, list, rank_sentence};
 
 pub(super) fn report(found: &Found) -> Report {
     let names: Vec<String> =
@@ -55,21 +52,13 @@ fn schedule_section(observed: &Observed) -> Section {
     let told = &observed.told;
     let rows = (0..told.unknowns.len()).map(|place| {
         let [id, unit, known, data, both, meaning] = row(told, place);
-        let seen = &told.seen[place];
-        let badge = match (&seen.shown, seen.identifiable) {
-            (_, true) => Cell::badge(Tone::Good, "identifiable"),
-            (Shown::Combination(_), _) => Cell::badge(Tone::Warning, "combination"),
-            (Shown::Part { .. }, _) if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
-            (Shown::Part { .. }, _) => Cell::badge(Tone::Warning, "part"),
-            _ => Cell::badge(Tone::Neutral, "not shown"),
-        };
         vec![
             Cell::text(id),
             Cell::text(known),
             Cell::text(data),
             Cell::text(both),
             Cell::text(unit),
-            badge,
+            badge(told, place),
             Cell::text(meaning),
         ]
     });
@@ -86,12 +75,8 @@ fn schedule_section(observed: &Observed) -> Section {
         ],
         rows: rows.collect(),
     })];
-    items.extend(gauges(told).into_iter().map(|gauge| {
-        Item::Note(
-            Tone::Neutral,
-            format!("Gauge, under every schedule: {}: {}.", gauge.name, gauge.why),
-        )
-    }));
+    let gauges = gauge_sentences(told).into_iter();
+    items.extend(gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: observed.schedule.name.clone(),
         intro: format!(

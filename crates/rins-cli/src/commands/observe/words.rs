@@ -2,106 +2,18 @@
 
 use std::fmt::Write as _;
 
-use rins_estimation::{Gauge, Identifiability, Shown, gauge_of};
+use rins_estimation::{Identifiability, gauge_of};
 use rins_frames::units::DEG;
 
 use super::proposal::ENOUGH;
 use super::{Found, Observed, Pair};
+use crate::number::figure;
 use crate::view::table::aligned;
+use crate::view::told::{gauge_sentences, meaning, name, rank_sentence};
 
-/// A number to three digits, as short as it can be.
+/// A number to three digits.
 fn short(value: f64) -> String {
-    if value.is_infinite() {
-        return "∞".into();
-    }
-    if value == 0.0 {
-        return "0".into();
-    }
-    let decimals = match value.abs() {
-        size if size < 1e-3 => return format!("{value:.2e}"),
-        size if size < 0.01 => 5,
-        size if size < 0.1 => 4,
-        size if size < 1.0 => 3,
-        size if size < 10.0 => 2,
-        size if size < 100.0 => 1,
-        size if size < 1e5 => 0,
-        _ => return format!("{value:.2e}"),
-    };
-    format!("{value:.decimals$}")
-}
-
-/// The name of an unknown, with its run if there are several.
-fn name(told: &Identifiability, place: usize) -> String {
-    let unknown = &told.unknowns[place];
-    match unknown.run {
-        Some(run) => format!("{} of run {}", unknown.id, run + 1),
-        None => unknown.id.clone(),
-    }
-}
-
-/// What of an unknown is told, such as `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`.
-fn meaning(told: &Identifiability, place: usize) -> String {
-    let unit = told.unknowns[place].unit;
-    match &told.seen[place].shown {
-        Shown::Alone => "itself".into(),
-        Shown::Nothing => "nothing".into(),
-        Shown::Part { of, .. } => {
-            let of: Vec<String> = of.iter().map(|&kept| name(told, kept)).collect();
-            format!("a part of what shows as {}", list(&of))
-        }
-        Shown::Combination(aliases) => {
-            let mut sum = format!("only {}", name(told, place));
-            for alias in aliases {
-                let other = told.unknowns[alias.unknown].unit;
-                let coefficient = alias.coefficient * other.factor / unit.factor;
-                let sign = if coefficient < 0.0 { '-' } else { '+' };
-                let size = short(coefficient.abs());
-                let _ = write!(sum, " {sign} ");
-                if other == unit {
-                    let _ = if size == "1.00" { Ok(()) } else { write!(sum, "{size} × ") };
-                } else {
-                    let _ = write!(sum, "{size} {}/({}) × ", unit.symbol, other.symbol);
-                }
-                sum.push_str(&name(told, alias.unknown));
-            }
-            sum
-        }
-    }
-}
-
-pub(super) fn list(words: &[String]) -> String {
-    match words {
-        [] => String::new(),
-        [one] => one.clone(),
-        [before @ .., last] => format!("{} and {last}", before.join(", ")),
-    }
-}
-
-/// The gauges met, each once.
-pub(super) fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
-    let mut met: Vec<&'static Gauge> = Vec::new();
-    for gauge in told.seen.iter().filter_map(|seen| seen.gauge) {
-        if !met.contains(&gauge) {
-            met.push(gauge);
-        }
-    }
-    met
-}
-
-/// How many there are of what, in a sentence.
-pub(super) fn rank_sentence(told: &Identifiability) -> String {
-    let (n, rank) = (told.unknowns.len(), told.rank.rank());
-    let better = told.rank.kept.len();
-    let identifiable = told.seen.iter().filter(|seen| seen.identifiable).count();
-    let lost = match n - rank {
-        0 => "no combination of them is invisible".to_string(),
-        1 => "one combination of them is exactly invisible".to_string(),
-        lost => format!("{lost} combinations of them are exactly invisible"),
-    };
-    format!(
-        "Of {n} unknowns {lost}; {better} combinations are told better than they were known, and {identifiable} \
-         parameters by themselves."
-    )
+    figure(value, 3)
 }
 
 /// What is to be said of two effects under a schedule.
@@ -228,8 +140,8 @@ pub(super) fn text(found: &Found) -> String {
     let mut rows = vec![heading.map(String::from).to_vec()];
     rows.extend((0..told.unknowns.len()).map(|place| row(told, place).to_vec()));
     text.push_str(&aligned(&rows));
-    for gauge in gauges(told) {
-        let _ = writeln!(text, "  Gauge: {}: {}.", gauge.name, gauge.why);
+    for sentence in gauge_sentences(told) {
+        let _ = writeln!(text, "  {sentence}");
     }
     let sentences: Vec<String> = observed
         .pair

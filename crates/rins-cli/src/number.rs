@@ -1,10 +1,29 @@
-//! Numbers as people read them, with a real minus sign.
+//! Numbers as people read them.
 
 /// What stands for a number that is none.
 const NONE: &str = "–";
 
-/// The number with that many decimals, or with a power of ten where they would make zero of it.
-pub(super) fn fixed(value: f64, decimals: usize) -> String {
+/// A number to so many digits, with a power of ten where it is very small or large.
+pub(crate) fn figure(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return unusual(value);
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    // Rounded first: 9.996 to three digits is 10.0.
+    let last = digits.saturating_sub(1);
+    let scientific = format!("{value:.last$e}");
+    let power = power_of(&scientific);
+    if !(-3..5).contains(&power) {
+        return scientific;
+    }
+    let decimals = last.saturating_add_signed(-power as isize);
+    format!("{value:.decimals$}")
+}
+
+/// The number with that many decimals, and a real minus sign, or with a power of ten where they would make zero of it.
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return unusual(value);
     }
@@ -15,16 +34,16 @@ pub(super) fn fixed(value: f64, decimals: usize) -> String {
     signed(&plain)
 }
 
-/// A value and its standard deviation, both to the second digit of the standard deviation.
+/// A value and its standard deviation, both to the second digit of the standard deviation, with a real minus sign.
 ///
 /// Without a usable standard deviation the value has six digits.
-pub(super) fn estimate(value: f64, sigma: f64) -> (String, String) {
+pub(crate) fn estimate(value: f64, sigma: f64) -> (String, String) {
     if !value.is_finite() {
         return (unusual(value), unusual_or(sigma, |sigma| format!("{sigma:.1e}")));
     }
     if !sigma.is_finite() || sigma <= 0.0 {
         let shown = if sigma == 0.0 { "0".to_owned() } else { unusual(sigma) };
-        return (significant(value, 6), shown);
+        return (signed(&figure(value, 6)), shown);
     }
     // Rounded first: 0.0996 has its second digit where 0.10 has it.
     let power = power_of(&format!("{sigma:.1e}"));
@@ -38,13 +57,6 @@ pub(super) fn estimate(value: f64, sigma: f64) -> (String, String) {
     }
     let decimals = usize::try_from(1 - power).unwrap_or_default();
     (signed(&format!("{value:.decimals$}")), format!("{sigma:.decimals$}"))
-}
-
-/// The number to that many significant digits, without zeros at its end.
-fn significant(value: f64, digits: usize) -> String {
-    let rounded: f64 = format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);
-    let plain = rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs());
-    signed(&if plain { rounded.to_string() } else { format!("{rounded:e}") })
 }
 
 /// The power of ten of a number written like `1.2e-3`.
@@ -88,15 +100,32 @@ mod tests {
             (1.23456e-9, 1.2e-11, "1.235e−9", "1.2e−11"),
             (0.0, 1.2e-11, "0", "1.2e−11"),
             (-0.001, 0.5, "0.00", "0.50"),
-            (1.5e12, f64::NAN, "1.5e12", "–"),
-            (2.5, 0.0, "2.5", "0"),
+            (1.5e12, f64::NAN, "1.50000e12", "–"),
+            (2.5, 0.0, "2.50000", "0"),
             (2.123456789, f64::NAN, "2.12346", "–"),
             (f64::NAN, 0.5, "–", "5.0e−1"),
-            (1.0, f64::INFINITY, "1", "∞"),
+            (1.0, f64::INFINITY, "1.00000", "∞"),
         ];
         for (value, sigma, shown, shown_sigma) in cases {
             let want = (shown.to_owned(), shown_sigma.to_owned());
             assert_eq!(estimate(value, sigma), want, "{value} ± {sigma}");
+        }
+    }
+
+    #[test]
+    fn figures_keep_their_digits() {
+        let cases = [
+            (5.7296, 3, "5.73"),
+            (9.9996, 4, "10.00"),
+            (-0.012345, 3, "-0.0123"),
+            (123456.0, 3, "1.23e5"),
+            (12345.6, 3, "12346"),
+            (0.00049996, 4, "5.000e-4"),
+            (0.0, 4, "0"),
+            (f64::INFINITY, 3, "∞"),
+        ];
+        for (value, digits, shown) in cases {
+            assert_eq!(figure(value, digits), shown, "{value} to {digits} digits");
         }
     }
 

@@ -1,0 +1,264 @@
+//! What whitened innovations still hold: lines, orders of the table angle, unequal spread, heavy tails.
+
+use nalgebra::SVector;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
+use crate::probability::ln_tail;
+
+/// The shown quantities of an epoch: three of attitude, three of velocity, in the axis frame.
+const CHANNELS: usize = 6;
+
+/// The spectrum is taken at so many times the frequencies that are independent, so that no line falls between two.
+const FINER: usize = 2;
+
+/// The highest order of the table angle that is looked for.
+const HIGHEST_ORDER: f64 = 24.0;
+
+/// A run is also looked at in so many parts, for what comes and goes.
+const PARTS: usize = 3;
+
+/// A shape that is left in the innovations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Structure {
+    /// A line of this frequency \[Hz\].
+    Line(f64),
+    /// This order of the table angle, in body axes; negative where it goes against the table.
+    Order(f64),
+    /// Something slower than three times in the run.
+    Drift,
+    /// A spread that is not the same all along.
+    Spread(Along),
+    /// More large innovations than normal ones have.
+    Tails,
+    /// An effect that was named, and is not the same all along.
+    Inconstant(Along),
+}
+
+/// What changes along a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// Thirds of the time.
+    Time,
+    /// The sense in which the table turns.
+    Sense,
+    /// The magnitude of its rate.
+    Rate,
+}
+
+/// Something that was found in one run's innovations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Find {
+    /// What.
+    pub(crate) structure: Structure,
+    /// The shown quantity in which it is strongest.
+    pub(crate) channel: usize,
+    /// The logarithm of the probability of anything like it by chance, over all that was looked at here.
+    pub(crate) ln_p: f64,
+}
+
+/// The innovations of a run, and where the table was.
+pub(crate) struct Left<'a> {
+    /// Whitened, an epoch each.
+    pub(crate) innovations: &'a [SVector<f64, CHANNELS>],
+    /// The table angle in the middle of each epoch \[rad\].
+    pub(crate) angles: &'a [f64],
+    /// The table's rate \[rad/s\].
+    pub(crate) rates: &'a [f64],
+    /// The length of an epoch \[s\].
+    pub(crate) epoch: f64,
+}
+
+impl Left<'_> {
+    /// Everything that is looked for, most significant first.
+    pub(crate) fn finds(&self) -> Vec<Find> {
+        let mut finds = vec![self.tails()];
+        finds.extend(self.line());
+        finds.extend(self.order());
+        finds.extend([Along::Time, Along::Sense, Along::Rate].map(|along| self.spread(along)));
+        let kinds = finds.len() as f64;
+        for find in &mut finds {
+            find.ln_p = (find.ln_p + kinds.ln()).min(0.0);
+        }
+        finds.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
+        finds
+    }
+
+    /// The strongest line of any frequency, all along or in a part of the run.
+    fn line(&self) -> Option<Find> {
+        let n = self.innovations.len();
+        let whole = [(0, n)];
+        let parts: Vec<(usize, usize)> =
+            (0..PARTS).map(|part| (part * n / PARTS, (part + 1) * n / PARTS)).collect();
+        let mut best: Option<Find> = None;
+        for spans in [&whole[..], &parts[..]] {
+            for &(first, end) in spans {
+                let length = end - first;
+                if length < 8 {
+                    continue;
+                }
+                let mut power = vec![[0.0; CHANNELS]; FINER * length / 2];
+                for channel in 0..CHANNELS {
+                    let series = self.innovations[first..end].iter().map(|nu| nu[channel]);
+                    for (bin, of_channel) in power.iter_mut().zip(periodogram(series.collect())) {
+                        bin[channel] = of_channel;
+                    }
+                }
+                let looks = (power.len() * spans.len()) as f64;
+                let longest = n as f64 * self.epoch;
+                for (bin, power) in power.iter().enumerate().skip(1) {
+                    let frequency = bin as f64 / ((FINER * length) as f64 * self.epoch);
+                    let slow = frequency * longest < 3.0;
+                    let structure =
+                        if slow { Structure::Drift } else { Structure::Line(frequency) };
+                    let find = of_bin(structure, looks, power);
+                    if best.is_none_or(|best| find.ln_p < best.ln_p) {
+                        best = Some(find);
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// The strongest order of the table angle.
+    fn order(&self) -> Option<Find> {
+        let first = self.angles.first()?;
+        let most = self.angles.iter().fold(0.0_f64, |most, angle| most.max((angle - first).abs()));
+        let turns = most / std::f64::consts::TAU;
+        if turns < 1.0 {
+            return None;
+        }
+        let step = 0.5 / turns.max(2.0);
+        let fastest = self.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let highest = HIGHEST_ORDER.min(std::f64::consts::PI / (fastest * self.epoch));
+        let count = (highest / step).floor();
+        let n = self.innovations.len() as f64;
+        let mut best: Option<Find> = None;
+        let mut place = 0.0;
+        while place < count {
+            place += 1.0;
+            for sense in [1.0, -1.0] {
+                // In the axis frame; a signal that stands still in the body has order one here.
+                let order = sense * step * place;
+                let mut sums = [Complex::new(0.0, 0.0); 4];
+                for (nu, angle) in self.innovations.iter().zip(self.angles) {
+                    let turned = Complex::from_polar(1.0, -order * angle);
+                    let pairs = [
+                        Complex::new(nu[0], nu[1]),
+                        Complex::new(nu[3], nu[4]),
+                        Complex::new(nu[2], 0.0),
+                        Complex::new(nu[5], 0.0),
+                    ];
+                    for (sum, pair) in sums.iter_mut().zip(pairs) {
+                        *sum += pair * turned;
+                    }
+                }
+                let power = [
+                    sums[0].norm_sqr() / (2.0 * n),
+                    sums[1].norm_sqr() / (2.0 * n),
+                    sums[2].norm_sqr() / n,
+                    sums[3].norm_sqr() / n,
+                ];
+                let looks = 2.0 * count;
+                for (which, power) in power.into_iter().enumerate() {
+                    let channel = [0, 3, 2, 5][which];
+                    let ln_p = (4.0 * looks).ln() - power;
+                    if best.is_none_or(|best| ln_p < best.ln_p) {
+                        let in_body = if which < 2 { order - 1.0 } else { order.abs() };
+                        best = Some(Find { structure: Structure::Order(in_body), channel, ln_p });
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether the spread is the same all along: the likelihood ratio of a variance for each group.
+    fn spread(&self, along: Along) -> Find {
+        let groups = groups(along, self.rates);
+        let mut best = Find { structure: Structure::Spread(along), channel: 0, ln_p: 0.0 };
+        for channel in 0..CHANNELS {
+            let mut sums = vec![(0.0, 0.0); groups.iter().max().map_or(0, |most| most + 1)];
+            for (nu, &group) in self.innovations.iter().zip(&groups) {
+                sums[group].0 += 1.0;
+                sums[group].1 += nu[channel] * nu[channel];
+            }
+            // A part of few epochs, such as a ramp, is left out.
+            sums.retain(|(count, _)| *count > 20.0);
+            let total = sums.iter().fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
+            if sums.len() < 2 || total.1 <= 0.0 {
+                continue;
+            }
+            let mean = total.1 / total.0;
+            let statistic: f64 =
+                sums.iter().map(|(count, sum)| count * (mean * count / sum).ln()).sum();
+            let ln_p = ln_tail(statistic.max(0.0), sums.len() - 1) + (CHANNELS as f64).ln();
+            if ln_p < best.ln_p {
+                best = Find { channel, ln_p, ..best };
+            }
+        }
+        best
+    }
+
+    /// Whether the largest innovation is larger than the largest of so many normal ones.
+    fn tails(&self) -> Find {
+        let mut best = Find { structure: Structure::Tails, channel: 0, ln_p: 0.0 };
+        let figures = (self.innovations.len() * CHANNELS) as f64;
+        for channel in 0..CHANNELS {
+            let largest =
+                self.innovations.iter().fold(0.0_f64, |most, nu| most.max(nu[channel].abs()));
+            let ln_p = ln_tail(largest * largest, 1) + figures.ln();
+            if ln_p < best.ln_p {
+                best = Find { channel, ln_p, ..best };
+            }
+        }
+        best
+    }
+}
+
+/// The group of each epoch.
+pub(crate) fn groups(along: Along, rates: &[f64]) -> Vec<usize> {
+    /// Rates that differ by less are one level \[rad/s\].
+    const LEVEL: f64 = 0.02;
+    let n = rates.len();
+    let mut levels: Vec<f64> = Vec::new();
+    rates
+        .iter()
+        .enumerate()
+        .map(|(place, rate)| match along {
+            Along::Time => PARTS * place / n,
+            Along::Sense => usize::from(*rate < -LEVEL),
+            Along::Rate => {
+                let rate = rate.abs();
+                levels.iter().position(|level| (level - rate).abs() < LEVEL).unwrap_or_else(|| {
+                    levels.push(rate);
+                    levels.len() - 1
+                })
+            }
+        })
+        .collect()
+}
+
+/// What a bin of the spectra shows, in one channel or in all.
+fn of_bin(structure: Structure, looks: f64, power: &[f64; CHANNELS]) -> Find {
+    let (channel, largest) = power
+        .iter()
+        .copied()
+        .enumerate()
+        .fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
+    let alone = (looks * CHANNELS as f64).ln() - largest;
+    let together = looks.ln() + ln_tail(2.0 * power.iter().sum::<f64>(), 2 * CHANNELS);
+    // Two ways of looking.
+    Find { structure, channel, ln_p: alone.min(together) + 2.0_f64.ln() }
+}
+
+/// The periodogram of white noise of variance one: exponential, with mean one.
+fn periodogram(series: Vec<f64>) -> Vec<f64> {
+    let n = series.len();
+    let mut spectrum: Vec<Complex<f64>> =
+        series.into_iter().map(|x| Complex::new(x, 0.0)).collect();
+    spectrum.resize(FINER * n, Complex::new(0.0, 0.0));
+    FftPlanner::new().plan_fft_forward(spectrum.len()).process(&mut spectrum);
+    spectrum[..spectrum.len() / 2].iter().map(|value| value.norm_sqr() / n as f64).collect()
+}

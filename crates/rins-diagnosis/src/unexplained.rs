@@ -1,0 +1,218 @@
+//! What no effect of the catalogue explains: found, described, and given no name.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
+use rins_terms::{Chosen, Unit};
+
+use crate::candidates::Candidate;
+use crate::case::Case;
+use crate::diagnosis::{Cause, FALSE_ALARMS};
+use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
+use crate::probability::ln_tail;
+use crate::score::scored;
+use crate::structure::{Along, Left, Structure, groups};
+use crate::survey::Survey;
+
+/// What the shown quantities of an epoch are called, in the axis frame.
+const SHOWN: [&str; 6] =
+    ["attitude.x", "attitude.y", "attitude.z", "velocity.x", "velocity.y", "velocity.z"];
+
+/// The figures that the paper is about.
+const OF_INTEREST: [&str; 3] = ["gyro.misalignment.xz", "gyro.misalignment.yz", "gyro.scale.z"];
+
+/// A part of a run of fewer epochs is none.
+const LEAST_PART: usize = 20;
+
+/// Something that no effect explains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unexplained {
+    /// In which run, from zero.
+    pub run: usize,
+    /// On what it shows: a sensor, the encoder, or a quantity of the axis frame.
+    pub channel: &'static str,
+    /// What it looks like.
+    pub structure: Structure,
+    /// The effect that is not the same all along, if that is what was found.
+    pub of: Option<&'static str>,
+    /// The logarithm of the probability of anything like it by chance.
+    pub ln_p: f64,
+    /// How large it is, in SI units, if it is a signal.
+    pub amplitude: Option<(f64, Unit)>,
+    /// By how much it may have put `M_xz`, `M_yz` and `S_z` off at worst, in SI units, of those that are estimated.
+    pub worst: Vec<(&'static str, f64)>,
+}
+
+impl Case<'_> {
+    /// What is left when all causes are in the model.
+    pub(crate) fn unexplained(
+        &self,
+        after: &Fit,
+        causes: &[Cause],
+    ) -> Result<Vec<Unexplained>, Indefinite> {
+        let threshold = FALSE_ALARMS.ln() - 2.0_f64.ln() - (self.runs.len() as f64).ln();
+        let mut found = Vec::new();
+        for run in 0..self.runs.len() {
+            let innovations = after.innovations(run);
+            let (angles, rates): (Vec<f64>, Vec<f64>) =
+                after.linear[run].motion().into_iter().unzip();
+            let epoch = after.linear[run].mean_epoch();
+            let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let finds = left.finds();
+            let is_signal = |structure| {
+                matches!(structure, Structure::Line(_) | Structure::Order(_) | Structure::Drift)
+            };
+            // The strongest signal, and the strongest of what is none: each is seen in many ways.
+            for signal in [true, false] {
+                let strongest = finds.iter().find(|find| is_signal(find.structure) == signal);
+                let Some(find) = strongest.filter(|find| find.ln_p < threshold) else { continue };
+                let mut one = Unexplained {
+                    run,
+                    channel: SHOWN[find.channel],
+                    structure: find.structure,
+                    of: None,
+                    ln_p: find.ln_p,
+                    amplitude: None,
+                    worst: Vec::new(),
+                };
+                if signal {
+                    self.measure(&mut one, after, epoch * innovations.len() as f64)?;
+                }
+                found.push(one);
+            }
+        }
+        found.extend(self.inconstant(after, causes)?);
+        found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
+        Ok(found)
+    }
+
+    /// On which channel a signal is, how large it is there, and what harm it may do.
+    fn measure(&self, one: &mut Unexplained, after: &Fit, duration: f64) -> Result<(), Indefinite> {
+        let (term, setting) = match one.structure {
+            Structure::Line(frequency) => (&IN_TIME, frequency),
+            Structure::Order(order) => (&IN_ANGLE, order),
+            _ => (&IN_TIME, 1.0 / duration),
+        };
+        let mut chosen = Chosen::new(term).estimated();
+        chosen.settings[0] = setting;
+        let list = [Candidate { chosen, looks: 1.0, step: None }];
+        let noises = std::slice::from_ref(&after.noise);
+        let survey = Survey::of(self.runs, after, self.imu, &list, noises)?;
+        let Some(left) = survey.left(0, &[]) else { return Ok(()) };
+        let own = survey.of_term(after.model().terms.len());
+        let mut strongest = 0.0;
+        for (channel, pair) in own.chunks_exact(2).enumerate() {
+            let of_run = |parameter: &Vec<usize>| parameter[one.run.min(parameter.len() - 1)];
+            let places: Vec<usize> = pair.iter().map(of_run).collect();
+            let Some((estimate, statistic)) = left.estimate(&places) else { continue };
+            if statistic > strongest {
+                strongest = statistic;
+                let parameter = &term.parameters[2 * channel];
+                one.channel = CHANNELS[channel];
+                one.amplitude = Some((estimate.norm() * parameter.sigma(self.imu), parameter.unit));
+            }
+        }
+        // A disturbance of so many sigmas moves no estimate by more than as many of its own.
+        let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * strongest.sqrt()));
+        one.worst = OF_INTEREST.iter().filter_map(of).collect();
+        Ok(())
+    }
+
+    /// The causes that are not the same all along.
+    fn inconstant(&self, after: &Fit, causes: &[Cause]) -> Result<Vec<Unexplained>, Indefinite> {
+        let ways = [Along::Time, Along::Sense, Along::Rate];
+        let tests = (causes.len() * self.runs.len() * ways.len()) as f64;
+        let mut found = Vec::new();
+        for cause in causes {
+            for run in 0..self.runs.len() {
+                for along in ways {
+                    let Some(ln_p) = self.change(after, cause, run, along)? else { continue };
+                    let ln_p = ln_p + tests.ln();
+                    if ln_p < FALSE_ALARMS.ln() {
+                        found.push(Unexplained {
+                            run,
+                            channel: "all",
+                            structure: Structure::Inconstant(along),
+                            of: Some(cause.term.id),
+                            ln_p,
+                            amplitude: None,
+                            worst: Vec::new(),
+                        });
+                    }
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// The logarithm of the chance that a cause differs as much from one part of a run to another.
+    fn change(
+        &self,
+        after: &Fit,
+        cause: &Cause,
+        run: usize,
+        along: Along,
+    ) -> Result<Option<f64>, Indefinite> {
+        let linear = &after.linear[run];
+        let rates: Vec<f64> = linear.motion().into_iter().map(|(_, rate)| rate).collect();
+        let mut groups = groups(along, &rates);
+        let last = compact(&mut groups);
+        let of_run = self.of_run(after, run);
+        let own: Vec<usize> = (0..of_run.len())
+            .filter(|&place| {
+                let parameter = &of_run[place].parameter;
+                after.models[run].terms[parameter.term].term.id == cause.term.id
+            })
+            .collect();
+        if last == 0 || own.is_empty() {
+            return Ok(None);
+        }
+        let apart = linear.in_groups(&own, &groups, last);
+        let evidence = Evidence::of(&apart, &after.noise[run])?;
+        let own_scale = |&place: &usize| of_run[place].value.abs() + 3.0 * of_run[place].sigma;
+        let scales: Vec<f64> = of_run
+            .iter()
+            .map(|estimate| estimate.parameter.sigma)
+            .chain((0..last).flat_map(|_| own.iter().map(own_scale)))
+            .collect();
+        Ok(beyond(&evidence, of_run.len(), &scales))
+    }
+
+    /// The estimates that hold for a run, in the order of its model.
+    fn of_run<'a>(&self, fit: &'a Fit, run: usize) -> Vec<&'a Estimate> {
+        let holds = |estimate: &&Estimate| estimate.run.is_none_or(|own| own == run);
+        let free = fit.models[run].free(self.imu);
+        let of = |id: &str| fit.parameters.iter().filter(holds).find(|e| e.parameter.id == id);
+        free.iter().filter_map(|parameter| of(&parameter.id)).collect()
+    }
+}
+
+/// The logarithm of the chance that what comes after the `known` parameters, which are estimated, is nothing.
+fn beyond(evidence: &Evidence, known: usize, scales: &[f64]) -> Option<f64> {
+    let all = scales.len();
+    let scaled = DMatrix::from_fn(all, all, |row, column| {
+        evidence.information[(row, column)] * scales[row] * scales[column]
+    });
+    let corner = scaled.view((0, 0), (known, known)) + DMatrix::identity(known, known);
+    let across = scaled.view((0, known), (known, all - known)).into_owned();
+    let solved = Cholesky::new(corner)?.solve(&across);
+    let rest = scaled.view((known, known), (all - known, all - known)) - across.tr_mul(&solved);
+    // At the estimate nothing pulls at the known ones.
+    let scale = DVector::from_column_slice(&scales[known..]);
+    let score = evidence.score.rows(known, all - known).component_mul(&scale);
+    let scored = scored(&rest, &score);
+    (scored.dof > 0).then(|| ln_tail(scored.statistic, scored.dof))
+}
+
+/// Leaves out groups of few epochs, and numbers the others from zero; the last number.
+fn compact(groups: &mut [usize]) -> usize {
+    let most = groups.iter().max().map_or(0, |most| most + 1);
+    let mut counts = vec![0; most];
+    for &group in &*groups {
+        counts[group] += 1;
+    }
+    let large: Vec<usize> = (0..most).filter(|&group| counts[group] >= LEAST_PART).collect();
+    for group in &mut *groups {
+        *group = large.iter().position(|one| one == group).unwrap_or(0);
+    }
+    large.len().saturating_sub(1)
+}
