@@ -116,11 +116,10 @@ impl Candidate {
 
     /// The same effect where another one happens, if both are events.
     pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
-        let (place, _) = self.step?;
         let time = |term: &Term| term.settings.iter().position(|setting| setting.name == "time");
-        let value = other.settings[time(other.term)?];
+        let place = time(self.chosen.term)?;
         let mut moved = self.clone();
-        moved.chosen.settings[place] = value;
+        moved.chosen.settings[place] = other.settings[time(other.term)?];
         Some(moved)
     }
 }

@@ -90,10 +90,19 @@ pub fn diagnose(
     let case = Case { runs, given: model, imu, knowledge };
     let before = case.fit(&[])?;
     let mut present = before.clone();
+    // Lines that are faster than an epoch would come back as slow ones.
+    let fast = case.fast_lines(&before);
+    let mut given = model.clone();
+    given.terms.extend(fast.iter().map(|(line, _)| line.clone()));
+    let case = Case { given: &given, ..case };
+    if !fast.is_empty() {
+        present = case.fit(&[])?;
+    }
     let mut found: Vec<Chosen> = Vec::new();
     let mut not_testable = None;
     while found.len() < MOST_CAUSES {
-        let list = candidates(runs, present.model());
+        let mut list = candidates(runs, present.model());
+        list.extend(case.slow_lines(&present));
         let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
         let Some(context) = Context::of(&survey, &[]) else { break };
         let tried = trials(&survey, &context, &list, present.model().terms.len());
@@ -115,8 +124,10 @@ pub fn diagnose(
         progress(candidate.chosen.term.id);
         present = fitted;
     }
-    let (after, causes) = case.settled(&before, present, found)?;
+    let (after, mut causes) = case.settled(&before, present, found)?;
     let unexplained = case.unexplained(&after, &causes)?;
+    causes.extend(fast.into_iter().map(|(_, cause)| cause));
+    causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let not_testable = not_testable.unwrap_or_default();
     Ok(Diagnosis { causes, unexplained, before, after, not_testable })
 }

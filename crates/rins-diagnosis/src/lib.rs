@@ -19,6 +19,7 @@ mod diagnosis;
 mod settling;
 
 mod disturbance;
+mod lines;
 mod structure;
 mod unexplained;
 

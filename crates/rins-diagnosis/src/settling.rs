@@ -6,6 +6,7 @@ use rins_terms::Chosen;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
+use crate::lines::at_frequency;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 
@@ -73,7 +74,7 @@ impl Case<'_> {
         Ok((present, Vec::new()))
     }
 
-    /// All candidates, and every event at the times of those that were found too.
+    /// All candidates, and every event at the times of those that were found, every line at their frequencies.
     fn with_events(&self, found: &[Chosen]) -> Vec<Candidate> {
         let mut list = candidates(self.runs, self.given);
         for cause in found {
@@ -83,6 +84,12 @@ impl Case<'_> {
                 if !list.iter().any(|other| other.chosen == candidate.chosen) {
                     list.push(candidate);
                 }
+            }
+            let of_frequency = cause.term.settings.first().filter(|s| s.name == "frequency");
+            if of_frequency.is_some() {
+                // That there is a line is known by now: what it is, is asked.
+                let at = at_frequency(cause.settings[0]).into_iter();
+                list.extend(at.map(|chosen| Candidate { chosen, looks: 1.0, step: None }));
             }
         }
         list

@@ -7,7 +7,7 @@ use rustfft::num_complex::Complex;
 use crate::probability::ln_tail;
 
 /// The shown quantities of an epoch: three of attitude, three of velocity, in the axis frame.
-const CHANNELS: usize = 6;
+pub(crate) const CHANNELS: usize = 6;
 
 /// The spectrum is taken at so many times the frequencies that are independent, so that no line falls between two.
 const FINER: usize = 2;
@@ -73,7 +73,10 @@ impl Left<'_> {
     /// Everything that is looked for, most significant first.
     pub(crate) fn finds(&self) -> Vec<Find> {
         let mut finds = vec![self.tails()];
+        let in_body = self.in_body();
+        let body = Left { innovations: &in_body, ..*self };
         finds.extend(self.line());
+        finds.extend(body.line());
         finds.extend(self.order());
         finds.extend([Along::Time, Along::Sense, Along::Rate].map(|along| self.spread(along)));
         let kinds = finds.len() as f64;
@@ -82,6 +85,20 @@ impl Left<'_> {
         }
         finds.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         finds
+    }
+
+    /// The innovations turned into body axes.
+    pub(crate) fn in_body(&self) -> Vec<SVector<f64, CHANNELS>> {
+        let turned = |(nu, angle): (&SVector<f64, CHANNELS>, &f64)| {
+            let (sin, cos) = angle.sin_cos();
+            let mut turned = *nu;
+            for x in [0, 3] {
+                turned[x] = nu[x] * cos + nu[x + 1] * sin;
+                turned[x + 1] = nu[x + 1] * cos - nu[x] * sin;
+            }
+            turned
+        };
+        self.innovations.iter().zip(self.angles).map(turned).collect()
     }
 
     /// The strongest line of any frequency, all along or in a part of the run.
@@ -97,17 +114,11 @@ impl Left<'_> {
                 if length < 8 {
                     continue;
                 }
-                let mut power = vec![[0.0; CHANNELS]; FINER * length / 2];
-                for channel in 0..CHANNELS {
-                    let series = self.innovations[first..end].iter().map(|nu| nu[channel]);
-                    for (bin, of_channel) in power.iter_mut().zip(periodogram(series.collect())) {
-                        bin[channel] = of_channel;
-                    }
-                }
+                let power = self.spectrum(first, end);
                 let looks = (power.len() * spans.len()) as f64;
                 let longest = n as f64 * self.epoch;
                 for (bin, power) in power.iter().enumerate().skip(1) {
-                    let frequency = bin as f64 / ((FINER * length) as f64 * self.epoch);
+                    let frequency = self.frequency(bin, length);
                     let slow = frequency * longest < 3.0;
                     let structure =
                         if slow { Structure::Drift } else { Structure::Line(frequency) };
@@ -119,6 +130,23 @@ impl Left<'_> {
             }
         }
         best
+    }
+
+    /// The periodograms of all quantities over some epochs, bin by bin.
+    pub(crate) fn spectrum(&self, first: usize, end: usize) -> Vec<[f64; CHANNELS]> {
+        let mut power = vec![[0.0; CHANNELS]; FINER * (end - first) / 2];
+        for channel in 0..CHANNELS {
+            let series = self.innovations[first..end].iter().map(|nu| nu[channel]);
+            for (bin, of_channel) in power.iter_mut().zip(periodogram(series.collect())) {
+                bin[channel] = of_channel;
+            }
+        }
+        power
+    }
+
+    /// The frequency of a bin of a spectrum over so many epochs \[Hz\].
+    pub(crate) fn frequency(&self, bin: usize, length: usize) -> f64 {
+        bin as f64 / ((FINER * length) as f64 * self.epoch)
     }
 
     /// The strongest order of the table angle.

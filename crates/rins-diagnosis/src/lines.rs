@@ -1,0 +1,208 @@
+//! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones may be.
+
+use nalgebra::Vector3;
+use rins_estimation::{Estimate, Fit, Run};
+use rins_terms::{Chosen, Free, Owner, Term, catalogue, values};
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
+use crate::candidates::Candidate;
+use crate::case::Case;
+use crate::diagnosis::{Cause, FALSE_ALARMS};
+use crate::structure::{CHANNELS, Left};
+
+/// How many slow lines are tried at once.
+const SLOW: usize = 2;
+
+/// The noise under a line is the median of so many frequencies on each side.
+const AROUND: usize = 150;
+
+/// The most fast lines that are looked for in a run.
+const MOST: usize = 4;
+
+impl Case<'_> {
+    /// The terms that have a frequency, where the innovations are strongest.
+    pub(crate) fn slow_lines(&self, present: &Fit) -> Vec<Candidate> {
+        let mut list = Vec::new();
+        for run in 0..self.runs.len() {
+            let innovations = present.innovations(run);
+            let (angles, rates): (Vec<f64>, Vec<f64>) =
+                present.linear[run].motion().into_iter().unzip();
+            let epoch = present.linear[run].mean_epoch();
+            let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let count = innovations.len() as f64;
+            // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
+            let in_body = left.in_body();
+            let body = Left { innovations: &in_body, ..left };
+            let frequencies =
+                left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
+            for frequency in frequencies {
+                for chosen in at_frequency(frequency) {
+                    // Half an independent frequency is the distance of those that were looked at.
+                    let step = Some((0, 0.5 / (count * epoch)));
+                    list.push(Candidate { chosen, looks: count, step });
+                }
+            }
+        }
+        list
+    }
+
+    /// Lines that are faster than an epoch shows, with their amplitudes.
+    pub(crate) fn fast_lines(&self, fit: &Fit) -> Vec<(Chosen, Cause)> {
+        let mut found: Vec<(Chosen, Cause)> = Vec::new();
+        for (run, recording) in self.runs.iter().enumerate() {
+            for (channel, residuals) in residuals(recording, fit, run).iter().enumerate() {
+                let slowest = 0.5 / fit.linear[run].mean_epoch();
+                if let Some(line) = strongest(residuals, recording, slowest) {
+                    let ln_p = line.ln_p + (CHANNELS as f64 * self.runs.len() as f64).ln();
+                    if ln_p < FALSE_ALARMS.ln() {
+                        found.push(cause(channel, &line, ln_p, run));
+                    }
+                }
+            }
+        }
+        found.sort_by(|a, b| a.1.ln_p.total_cmp(&b.1.ln_p));
+        found.truncate(MOST);
+        found
+    }
+}
+
+/// Every term that has a frequency, at this one.
+pub(crate) fn at_frequency(frequency: f64) -> Vec<Chosen> {
+    let with =
+        |term: &'static Term| Chosen::new(term).estimated().with_setting("frequency", frequency);
+    let line = || with(&catalogue::INTERFERENCE_LINE);
+    let axes = [1.0, 2.0, 3.0].map(|axis| line().with_setting("axis", axis));
+    axes.into_iter().chain([with(&catalogue::BASE_SWAY)]).collect()
+}
+
+/// A line in the residuals of one sensor.
+struct Line {
+    frequency: f64,
+    cos: f64,
+    sin: f64,
+    sigma: f64,
+    ln_p: f64,
+}
+
+/// What the sensors read beyond what the model says, sample by sample: rates \[rad/s\] and forces \[m/s²\].
+///
+/// About the spin axis it is what the gyro reads: it is the gyro that tells the table's fast motion.
+fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS] {
+    let mut all: [Vec<f64>; CHANNELS] = Default::default();
+    let samples = &run.recording.increments;
+    for (moment, sample) in fit.linear[of].track().moments().zip(samples) {
+        let predicted = fit.models[of].signals(&moment);
+        let rates = sample.rates();
+        let mut gyro: Vector3<f64> =
+            rates.angular_rate.components() - moment.rate - values(&predicted.gyro);
+        gyro.z = rates.angular_rate.components().z;
+        let accel = rates.specific_force.components() - moment.force - values(&predicted.accel);
+        for axis in 0..3 {
+            all[axis].push(gyro[axis]);
+            all[3 + axis].push(accel[axis]);
+        }
+    }
+    all
+}
+
+/// The strongest line above `slowest` \[Hz\], if there is any.
+fn strongest(residuals: &[f64], run: &Run, slowest: f64) -> Option<Line> {
+    let n = residuals.len();
+    let times = &run.recording.times;
+    let interval = (times[n - 1] - times[0]) / (n as f64 - 1.0);
+    // From one sample to the next: what is slow, a bias or a ramp, leaks into no other frequency.
+    let differences = residuals.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut spectrum: Vec<Complex<f64>> = differences.map(|x| Complex::new(x, 0.0)).collect();
+    spectrum.resize(2 * n, Complex::new(0.0, 0.0));
+    FftPlanner::new().plan_fft_forward(2 * n).process(&mut spectrum);
+    let power: Vec<f64> = spectrum[..n].iter().map(Complex::norm_sqr).collect();
+    let frequency = |bin: usize| bin as f64 / (2.0 * n as f64 * interval);
+    let first = (0..n).find(|&bin| frequency(bin) > slowest)?;
+    let mut best: Option<(usize, f64)> = None;
+    for bin in first..n.saturating_sub(1) {
+        // Only a peak can be a line, and the median is dear.
+        let peak = power[bin] >= power[bin - 1] && power[bin] >= power[bin + 1];
+        if !peak || best.is_some_and(|(at, _)| power[bin] * 4.0 < power[at]) {
+            continue;
+        }
+        let ratio = power[bin] / noise_around(&power, bin, first);
+        if best.is_none_or(|(_, most)| ratio > most) {
+            best = Some((bin, ratio));
+        }
+    }
+    let (bin, ratio) = best?;
+    let frequency = frequency(bin);
+    let phase = |time: f64| std::f64::consts::TAU * frequency * time;
+    let start = times[0] - run.recording.increments[0].interval;
+    let mut sums = (0.0, 0.0);
+    let mean = residuals.iter().sum::<f64>() / n as f64;
+    for ((residual, time), sample) in residuals.iter().zip(times).zip(&run.recording.increments) {
+        let (sin, cos) = phase(time - 0.5 * sample.interval - start).sin_cos();
+        sums.0 += (residual - mean) * cos;
+        sums.1 += (residual - mean) * sin;
+    }
+    let half_turn = std::f64::consts::PI * frequency * interval;
+    let gain = half_turn.sin() / half_turn * 0.5 * n as f64;
+    let (cos, sin) = (sums.0 / gain, sums.1 / gain);
+    // A line of this power over the noise is so many sigmas high.
+    let sigma = cos.hypot(sin) / (2.0 * ratio).sqrt();
+    let looks = (n - first) as f64;
+    Some(Line { frequency, cos, sin, sigma, ln_p: looks.ln() - ratio })
+}
+
+/// The mean power of the noise about a bin.
+fn noise_around(power: &[f64], bin: usize, first: usize) -> f64 {
+    let low = bin.saturating_sub(AROUND).max(first);
+    let mut around = power[low..(bin + AROUND).min(power.len())].to_vec();
+    let middle = around.len() / 2;
+    let (_, median, _) = around.select_nth_unstable_by(middle, f64::total_cmp);
+    // The median of an exponential distribution is ln 2 of its mean.
+    (*median / std::f64::consts::LN_2).max(f64::MIN_POSITIVE)
+}
+
+fn cause(channel: usize, line: &Line, ln_p: f64, run: usize) -> (Chosen, Cause) {
+    let term = &catalogue::INTERFERENCE_LINE;
+    let axis = [1.0, 2.0, 3.0][channel % 3];
+    let mut chosen =
+        Chosen::new(term).with_setting("frequency", line.frequency).with_setting("axis", axis);
+    let first = if channel < 3 { 0 } else { 2 };
+    let parameters = [(first, line.cos), (first + 1, line.sin)].map(|(place, value)| {
+        chosen.values[place] = value;
+        let parameter = &term.parameters[place];
+        let free = Free {
+            id: format!("{}.{}", term.id, parameter.name),
+            unit: parameter.unit,
+            owner: Owner::Run,
+            term: 0,
+            parameter: place,
+            sigma: f64::INFINITY,
+        };
+        Estimate { parameter: free, run: Some(run), expected: 0.0, value, sigma: line.sigma }
+    });
+    let cause = Cause {
+        term,
+        settings: chosen.settings.clone(),
+        parameters: parameters.to_vec(),
+        ln_p,
+        dof: 2,
+        gain: 0.5 * (line.cos.powi(2) + line.sin.powi(2)) / line.sigma.powi(2),
+        rivals: Vec::new(),
+    };
+    (chosen, cause)
+}
+
+impl Left<'_> {
+    /// The frequencies at which most is left \[Hz\], strongest first.
+    fn strongest_lines(&self, count: usize) -> Vec<f64> {
+        let spectrum = self.spectrum(0, self.innovations.len());
+        let total = |bin: usize| spectrum[bin].iter().sum::<f64>();
+        let mut peaks: Vec<usize> = (1..spectrum.len().saturating_sub(1))
+            .filter(|&bin| total(bin) >= total(bin - 1) && total(bin) >= total(bin + 1))
+            .collect();
+        peaks.sort_by(|a, b| total(*b).total_cmp(&total(*a)));
+        peaks.truncate(count);
+        let lines = peaks.into_iter().map(|bin| self.frequency(bin, self.innovations.len()));
+        lines.collect()
+    }
+}
