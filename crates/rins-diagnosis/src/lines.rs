@@ -15,7 +15,13 @@ use crate::structure::{CHANNELS, Left};
 const SLOW: usize = 2;
 
 /// The noise under a line is the median of so many frequencies on each side.
-const AROUND: usize = 150;
+const AROUND: usize = 600;
+
+/// What a median of exponential figures says of their mean, against what all of them would say: (ln 2)².
+const MEDIAN: f64 = 0.48;
+
+/// The part of the false alarms that fast lines may cause: they are one effect of many.
+const SHARE: f64 = 0.1;
 
 /// The most fast lines that are looked for in a run.
 const MOST: usize = 4;
@@ -55,7 +61,7 @@ impl Case<'_> {
                 let slowest = 0.5 / fit.linear[run].mean_epoch();
                 if let Some(line) = strongest(residuals, recording, slowest) {
                     let ln_p = line.ln_p + (CHANNELS as f64 * self.runs.len() as f64).ln();
-                    if ln_p < FALSE_ALARMS.ln() {
+                    if ln_p < (SHARE * FALSE_ALARMS).ln() {
                         found.push(cause(channel, &line, ln_p, run));
                     }
                 }
@@ -147,8 +153,11 @@ fn strongest(residuals: &[f64], run: &Run, slowest: f64) -> Option<Line> {
     let (cos, sin) = (sums.0 / gain, sums.1 / gain);
     // A line of this power over the noise is so many sigmas high.
     let sigma = cos.hypot(sin) / (2.0 * ratio).sqrt();
+    // Twice as many frequencies as are independent; and the median of so many is not quite the noise's.
     let looks = (n - first) as f64;
-    Some(Line { frequency, cos, sin, sigma, ln_p: looks.ln() - ratio })
+    let known = MEDIAN * AROUND.min(n - first) as f64;
+    let ln_p = looks.ln() + 2.0_f64.ln() - known * (ratio / known).ln_1p();
+    Some(Line { frequency, cos, sin, sigma, ln_p })
 }
 
 /// The mean power of the noise about a bin.

@@ -11,8 +11,8 @@ use crate::run::{Reference, Run};
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (0.1, 0.5);
 
-/// As many columns are made by one thread.
-const COLUMNS_AT_ONCE: usize = 48;
+/// A thread makes at least as many columns.
+const FEWEST_COLUMNS: usize = 32;
 
 /// A stretch of samples, taken as one.
 ///
@@ -98,7 +98,8 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
         }
         build.epochs
     };
-    let parts: Vec<Vec<Epoch>> = free.par_chunks(COLUMNS_AT_ONCE).map(build).collect();
+    let columns = free.len().div_ceil(rayon::current_num_threads()).max(FEWEST_COLUMNS);
+    let parts: Vec<Vec<Epoch>> = free.par_chunks(columns).map(build).collect();
     let epochs = parts.into_iter().reduce(beside).unwrap_or_else(|| build(&[]));
     Linear {
         epochs,
@@ -130,6 +131,8 @@ fn beside(mut one: Vec<Epoch>, other: Vec<Epoch>) -> Vec<Epoch> {
 struct Build<'a> {
     run: &'a Run,
     model: &'a Model,
+    /// The terms that do anything: hundreds may stand by to be tried.
+    present: Model,
     free: &'a [(usize, usize)],
     readings: Option<&'a [f64]>,
     block: usize,
@@ -150,7 +153,19 @@ impl<'a> Build<'a> {
         let triads = model.split().0;
         let inverse_gains = [triads.gyro.matrix, triads.accel.matrix]
             .map(|matrix| (Matrix3::identity() + matrix).try_inverse().unwrap_or_default());
-        Self { run, model, free, readings, block, inverse_gains, epochs: Vec::new(), now: None }
+        let mut present = model.clone();
+        present.terms.retain(|chosen| chosen.values.iter().any(|value| *value != 0.0));
+        Self {
+            run,
+            model,
+            present,
+            free,
+            readings,
+            block,
+            inverse_gains,
+            epochs: Vec::new(),
+            now: None,
+        }
     }
 
     fn sample(&mut self, sample: usize, moment: &rins_terms::Moment) {
@@ -169,7 +184,7 @@ impl<'a> Build<'a> {
 
         let (sin, cos) = moment.mean.angle.sin_cos();
         let table_from_body = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-        let predicted = self.model.signals(moment);
+        let predicted = self.present.signals(moment);
         let rates = measured.rates();
         let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| table_from_body * inverse);
         let gyro = rates.angular_rate.components() - moment.rate - values(&predicted.gyro);
