@@ -184,5 +184,9 @@ fn mixed(one: &Noise, other: &Noise, part: f64) -> Noise {
     }
     mixed.wobble = mix(one.wobble, other.wobble);
     mixed.encoder = mix(one.encoder, other.encoder);
+    mixed.velocity = mix(one.velocity, other.velocity);
+    for (to, from) in mixed.sway.iter_mut().zip(other.sway) {
+        *to = mix(*to, from);
+    }
     mixed
 }

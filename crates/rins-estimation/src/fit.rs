@@ -134,8 +134,9 @@ pub fn fit(
     let mut iterations = Vec::new();
     let mut around = Vec::new();
     if find_noise {
+        let sheet = noise.clone();
         problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
-        let likely = likely_noise(&problem.linear, &noise, |linear, noise| {
+        let likely = likely_noise(&problem.linear, &sheet, &noise, |linear, noise| {
             let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
             Some(posterior.log_likelihood)
         });
@@ -162,7 +163,7 @@ fn calm(noise: &mut [Noise], evidence: &Evidence, posterior: &Posterior) {
         return;
     }
     for noise in noise {
-        let Noise { imu, wobble, encoder } = noise;
+        let Noise { imu, wobble, encoder, .. } = noise;
         for strength in [&mut imu.gyro.white, &mut imu.accel.white, wobble, encoder] {
             *strength *= factor;
         }

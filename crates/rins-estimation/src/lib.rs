@@ -22,6 +22,7 @@ mod strengths;
 
 mod gravity;
 mod path;
+mod sway;
 
 mod linear;
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use rins_frames::units::ARCSEC;
 
 use crate::linear::Linear;
 use crate::run::Reference;
@@ -19,11 +20,24 @@ const SHOWING: f64 = 0.25;
 /// The same that is expected where nothing is said of it: without effect within an hour.
 const UNSEEN: f64 = 0.01;
 
+/// The velocity noise of a base that is not firm, where the search starts \[m/s\]: also what a velocity that is read in
+/// steps of a millimetre a second leaves.
+const UNSTEADY: f64 = 3e-4;
+
+/// The root density with which the attitude of such a base strays, where the search starts \[rad/√s\]: one second of arc.
+const SWAYING: f64 = ARCSEC;
+
+/// The same of a base that is firm: a second of arc in three hours.
+const FIRM: f64 = 0.01 * ARCSEC;
+
+/// How far, in logarithms, what holds a base may be off, 1σ: from rock to a boat.
+const ANYTHING: f64 = 5.0;
+
 /// The least curvature that is believed.
 const LEAST_CURVATURE: f64 = 0.1;
 
 /// The most steps of the search.
-const MOST_STEPS: usize = 15;
+const MOST_STEPS: usize = 40;
 
 /// The gain of log-likelihood below which the search ends.
 const LEAST_GAIN: f64 = 0.02;
@@ -54,6 +68,8 @@ enum Which {
     AccelWalk,
     Wobble(usize),
     Encoder(usize),
+    Velocity,
+    Sway(usize),
 }
 
 impl Which {
@@ -67,6 +83,8 @@ impl Which {
             Self::AccelWalk => noise.iter_mut().map(|n| &mut n.imu.accel.walk).collect(),
             Self::Wobble(run) => vec![&mut noise[run].wobble],
             Self::Encoder(run) => vec![&mut noise[run].encoder],
+            Self::Velocity => noise.iter_mut().map(|n| &mut n.velocity).collect(),
+            Self::Sway(axis) => noise.iter_mut().map(|n| &mut n.sway[axis]).collect(),
         }
     }
 }
@@ -89,14 +107,16 @@ const MOST_UNCERTAIN: f64 = 0.6;
 
 /// The noise that makes the data most likely, the parameters integrated out.
 ///
-/// White noise of the sensors is known to a factor of e, everything else to a factor of twenty, as a
-/// log-normal prior; a strength that the data do not show stays where it does no harm.
+/// White noise of the sensors is known to a factor of e about what is expected, everything else to a factor of twenty,
+/// as a log-normal prior; a strength that the data do not show stays where it does no harm. The search starts from
+/// `first`.
 pub(crate) fn likely_noise(
     linear: &[Linear],
+    expected: &[Noise],
     first: &[Noise],
     log_likelihood: impl Fn(&[Linear], &[Noise]) -> Option<f64> + Sync,
 ) -> Likely {
-    let unknown = unknowns(linear, first);
+    let unknown = unknowns(linear, expected, first);
     let noise_at = |x: &DVector<f64>| {
         let mut noise = first.to_vec();
         for (unknown, x) in unknown.iter().zip(x.iter()) {
@@ -116,7 +136,7 @@ pub(crate) fn likely_noise(
         let value = log_likelihood(linear, &noise_at(x)).filter(|value| value.is_finite());
         value.map_or(f64::INFINITY, |value| prior - value)
     };
-    let best = minimum(unknown.len(), cost);
+    let best = minimum(start(&unknown, cost), cost);
     let least = cost(&best);
     let flickers = (0..unknown.len())
         .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker));
@@ -134,42 +154,79 @@ pub(crate) fn likely_noise(
     Likely { noise: noise_at(&best), around: around.collect() }
 }
 
-fn unknowns(linear: &[Linear], first: &[Noise]) -> Vec<Unknown> {
-    let imu = first[0].imu;
+fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unknown> {
     let mut unknown = Vec::new();
-    let mut add = |which, start, centre, sigma| {
-        unknown.push(Unknown { which, start, centre, sigma });
+    let mut add = |which, start: f64, expected: f64, sigma| {
+        unknown.push(Unknown { which, start, centre: (expected / start).ln(), sigma });
     };
+    // No pier holds what nothing reads: what that does is no noise of the sensors.
+    let unread = |linear: &Linear| matches!(linear.reference, Reference::Gravity | Reference::Rest);
+    let free = linear.iter().all(unread);
+    let first = if free { expected } else { first };
+    let (imu, sheet) = (first[0].imu, expected[0].imu);
     // Where nothing is said of flicker, little is expected, but the search starts where it would show.
     let flicker = |given: f64, white: f64| {
-        if given > 0.0 { (given, 0.0) } else { (SHOWING * white, (UNSEEN / SHOWING).ln()) }
+        if given > 0.0 { (given, given) } else { (SHOWING * white, UNSEEN * white) }
     };
-    add(Which::GyroWhite, imu.gyro.white, 0.0, WHITE);
-    let (start, centre) = flicker(imu.gyro.flicker, imu.gyro.white);
-    add(Which::GyroFlicker, start, centre, UNKNOWN);
-    add(Which::AccelWhite, imu.accel.white, 0.0, WHITE);
-    let (start, centre) = flicker(imu.accel.flicker, imu.accel.white);
-    add(Which::AccelFlicker, start, centre, UNKNOWN);
-    if imu.gyro.walk > 0.0 {
-        add(Which::GyroWalk, imu.gyro.walk, 0.0, UNKNOWN);
+    add(Which::GyroWhite, imu.gyro.white, sheet.gyro.white, WHITE);
+    let (start, expect) = flicker(sheet.gyro.flicker, sheet.gyro.white);
+    add(Which::GyroFlicker, start, expect, UNKNOWN);
+    add(Which::AccelWhite, imu.accel.white, sheet.accel.white, WHITE);
+    let (start, expect) = flicker(sheet.accel.flicker, sheet.accel.white);
+    add(Which::AccelFlicker, start, expect, UNKNOWN);
+    if sheet.gyro.walk > 0.0 {
+        add(Which::GyroWalk, sheet.gyro.walk, sheet.gyro.walk, UNKNOWN);
     }
-    if imu.accel.walk > 0.0 {
-        add(Which::AccelWalk, imu.accel.walk, 0.0, UNKNOWN);
+    if sheet.accel.walk > 0.0 {
+        add(Which::AccelWalk, sheet.accel.walk, sheet.accel.walk, UNKNOWN);
     }
-    for (run, (linear, noise)) in linear.iter().zip(first).enumerate() {
-        add(Which::Wobble(run), noise.wobble, 0.0, UNKNOWN);
+    for (run, linear) in linear.iter().enumerate() {
+        add(Which::Wobble(run), first[run].wobble, expected[run].wobble, UNKNOWN);
         if matches!(linear.reference, Reference::Encoder { .. }) {
-            add(Which::Encoder(run), noise.encoder, 0.0, WHITE);
+            add(Which::Encoder(run), first[run].encoder, expected[run].encoder, WHITE);
+        }
+    }
+    if free {
+        add(Which::Velocity, UNSTEADY, expected[0].velocity, ANYTHING);
+        let axes = if linear.iter().all(Linear::shows_angle) { 3 } else { 2 };
+        for axis in 0..axes {
+            add(Which::Sway(axis), SWAYING, FIRM, ANYTHING);
         }
     }
     unknown
 }
 
-/// Where `cost` is least: quasi-Newton steps from zero (BFGS), derivatives by differences.
+/// Where the search starts: where nothing holds the base, at the best of some bases, from rock to a boat.
+///
+/// From the wrong one it would end where the sensors' noise stands for the base's, or the other way round.
+fn start(unknown: &[Unknown], cost: impl Fn(&DVector<f64>) -> f64 + Sync + Send) -> DVector<f64> {
+    let steps = [0.0, 2.5, 5.0, 7.5];
+    let on = |velocity: f64, sway: f64| {
+        let of = |unknown: &Unknown| match unknown.which {
+            Which::Velocity => unknown.centre + velocity,
+            Which::Sway(_) => unknown.centre + sway,
+            _ => 0.0,
+        };
+        DVector::from_iterator(unknown.len(), unknown.iter().map(of))
+    };
+    if unknown.iter().all(|unknown| unknown.which != Which::Velocity) {
+        return DVector::zeros(unknown.len());
+    }
+    let bases: Vec<DVector<f64>> = steps
+        .iter()
+        .flat_map(|&velocity| steps.iter().map(move |&sway| on(velocity, sway)))
+        .collect();
+    let costs: Vec<f64> = bases.par_iter().map(cost).collect();
+    let best = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |best| best.0);
+    bases[best].clone()
+}
+
+/// Where `cost` is least: quasi-Newton steps (BFGS), derivatives by differences.
 ///
 /// The first step knows the curvature along every axis: strengths that thousands of figures show and such
 /// that a few do differ a thousandfold in it.
-fn minimum(n: usize, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> DVector<f64> {
+fn minimum(start: DVector<f64>, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> DVector<f64> {
+    let n = start.len();
     let unit = |axis| DVector::from_fn(n, |row, _| if row == axis { DIFFERENCE } else { 0.0 });
     let ahead = |x: &DVector<f64>| -> Vec<f64> {
         (0..n).into_par_iter().map(|axis| cost(&(x + unit(axis)))).collect()
@@ -177,7 +234,7 @@ fn minimum(n: usize, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> DVector<f64>
     let gradient = |x: &DVector<f64>, here: f64| {
         DVector::from_vec(ahead(x).into_iter().map(|value| (value - here) / DIFFERENCE).collect())
     };
-    let mut x = DVector::zeros(n);
+    let mut x = start;
     let mut value = cost(&x);
     let (after, before): (Vec<f64>, Vec<f64>) = {
         let sides: Vec<f64> = (0..2 * n)

@@ -7,6 +7,7 @@ use rins_terms::{Model, Signals, Surroundings, Track, derivatives, values};
 
 use crate::path;
 use crate::run::{Reference, Run};
+use crate::sway::Sway;
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (0.1, 0.5);
@@ -52,7 +53,6 @@ pub struct Linear {
     /// How many parameters are estimated.
     pub(crate) parameters: usize,
     pub(crate) reference: Reference,
-    pub(crate) velocity_noise: f64,
     /// The way of the table about which it is linear.
     pub(crate) track: Track,
 }
@@ -107,7 +107,6 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
         earth_rate: surroundings.earth_rate,
         parameters: free.len(),
         reference: run.rig.reference,
-        velocity_noise: run.rig.velocity,
         track,
     }
 }
@@ -135,6 +134,7 @@ struct Build<'a> {
     present: Model,
     free: &'a [(usize, usize)],
     readings: Option<&'a [f64]>,
+    sway: Option<Sway>,
     block: usize,
     /// What turns a difference in readings into one in what was true, `(I + [S, M])⁻¹`, of gyros and accelerometers.
     inverse_gains: [Matrix3<f64>; 2],
@@ -155,12 +155,14 @@ impl<'a> Build<'a> {
             .map(|matrix| (Matrix3::identity() + matrix).try_inverse().unwrap_or_default());
         let mut present = model.clone();
         present.terms.retain(|chosen| chosen.values.iter().any(|value| *value != 0.0));
+        let sway = Sway::of(run);
         Self {
             run,
             model,
             present,
             free,
             readings,
+            sway,
             block,
             inverse_gains,
             epochs: Vec::new(),
@@ -183,15 +185,24 @@ impl<'a> Build<'a> {
             self.now.get_or_insert_with(|| Epoch::empty(sample, gap || sample == 0, columns));
 
         let (sin, cos) = moment.mean.angle.sin_cos();
-        let table_from_body = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+        let mut table_from_body = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         let predicted = self.present.signals(moment);
-        let rates = measured.rates();
-        let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| table_from_body * inverse);
-        let gyro = rates.angular_rate.components() - moment.rate - values(&predicted.gyro);
-        let accel = rates.specific_force.components() - moment.force - values(&predicted.accel);
-        let reading = self.readings.map_or(0.0, |readings| readings[sample] - moment.end.angle);
-        let of_axis = Vector3::z() * (predicted.angle.re - reading) - values(&predicted.tilt);
         let around = &moment.surroundings;
+        let rates = measured.rates();
+        let mut gyro = rates.angular_rate.components() - moment.rate;
+        let mut accel = rates.specific_force.components() - moment.force;
+        let reading = self.readings.map_or(0.0, |readings| readings[sample] - moment.end.angle);
+        let mut of_axis = Vector3::z() * (predicted.angle.re - reading) - values(&predicted.tilt);
+        if let Some(sway) = &self.sway {
+            let [middle, end] = &sway.attitudes[sample];
+            gyro = sway.mean_rate - middle.inverse() * around.earth_rate;
+            accel = rates.specific_force.components() - middle.inverse() * around.specific_force;
+            of_axis += end.scaled_axis();
+            table_from_body = *middle.matrix();
+        }
+        let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| table_from_body * inverse);
+        gyro -= values(&predicted.gyro);
+        accel -= values(&predicted.accel);
         let rates =
             Rates { attitude: of_gyros * gyro, velocity: of_accels * accel, reading: of_axis };
         epoch.add(0, &rates, around, interval);

@@ -1,7 +1,7 @@
 //! The states beside the parameters, and how an epoch carries and shows them.
 //!
-//! First attitude and velocity, then the servo's angle where a rate is commanded, then the processes of
-//! coloured noise, three numbers each.
+//! First attitude and velocity, then the angles by which a servo or a base strays, then the processes of coloured
+//! noise, three numbers each.
 
 use nalgebra::{DMatrix, Matrix3, SMatrix};
 use rins_frames::cross_matrix;
@@ -37,13 +37,15 @@ enum Of {
 pub(crate) struct Space<'a> {
     linear: &'a Linear,
     white: [f64; 2],
-    servo: Option<f64>,
+    /// Angles that walk away from what the readings take for fixed: about which axis, and the root density \[rad/√s\].
+    astray: Vec<(usize, f64)>,
     colours: Vec<(Of, crate::colour::Process)>,
     /// What each process does over an epoch of the usual length, which is nearly every one's \[s\].
     usual: (f64, Vec<Passage>),
     force_cross: Matrix3<f64>,
     wobble: f64,
     encoder: f64,
+    velocity: f64,
 }
 
 /// One epoch as a linear system: `x⁺ = Φ x + w`, `y = H x + e`.
@@ -81,10 +83,13 @@ impl<'a> Space<'a> {
         let (epoch, duration) = (linear.mean_epoch(), linear.duration());
         let gyro = Colours::of(&strengths.gyro, epoch, duration);
         let accel = Colours::of(&strengths.accel, epoch, duration);
-        let servo = match linear.reference {
-            Reference::Command { noise } if noise > 0.0 => Some(noise),
-            _ => None,
+        let mut astray: Vec<(usize, f64)> = match linear.reference {
+            Reference::Command { noise } => vec![(2, noise)],
+            Reference::Encoder { .. } => Vec::new(),
+            Reference::Gravity => noise.sway.into_iter().enumerate().take(2).collect(),
+            Reference::Rest => noise.sway.into_iter().enumerate().collect(),
         };
+        astray.retain(|(_, density)| *density > 0.0);
         let white = [
             strengths.gyro.white.powi(2) + gyro.white,
             strengths.accel.white.powi(2) + accel.white,
@@ -96,12 +101,13 @@ impl<'a> Space<'a> {
         Self {
             linear,
             white,
-            servo,
+            astray,
             colours,
             usual: (usual, passages),
             force_cross: cross_matrix(&linear.force),
             wobble: noise.wobble,
             encoder: noise.encoder,
+            velocity: noise.velocity,
         }
     }
 
@@ -111,7 +117,7 @@ impl<'a> Space<'a> {
     }
 
     fn first_colour(&self) -> usize {
-        NAVIGATION + usize::from(self.servo.is_some())
+        NAVIGATION + self.astray.len()
     }
 
     /// The covariance at the start of a run.
@@ -132,7 +138,7 @@ impl<'a> Space<'a> {
         covariance.rows_mut(0, NAVIGATION).fill(0.0);
         covariance.columns_mut(0, NAVIGATION).fill(0.0);
         let angle = if self.linear.shows_angle() { START_ATTITUDE } else { START_ANGLE_BY_GRAVITY };
-        let velocity = self.linear.velocity_noise;
+        let velocity = self.velocity;
         for (place, sigma) in
             [START_ATTITUDE, START_ATTITUDE, angle, velocity, velocity, velocity].iter().enumerate()
         {
@@ -164,9 +170,14 @@ impl<'a> Space<'a> {
             colour_noise: vec![0.0; n - NAVIGATION],
         };
         self.add_white(epoch, &mut step);
-        if let Some(noise) = self.servo {
-            step.attitude[(2, NAVIGATION)] = -1.0;
-            step.colour_noise[0] = noise * noise * t;
+        for (index, &(axis, density)) in self.astray.iter().enumerate() {
+            let variance = density * density * t;
+            let (of_mean, with_end) = mean_of_walk(epoch.count());
+            step.attitude[(axis, NAVIGATION + index)] = -1.0;
+            step.colour_noise[index] = variance;
+            // Readings are means over the epoch, in which it strays already.
+            step.shown[(axis, axis)] += variance * of_mean;
+            step.cross[(NAVIGATION + index, axis)] = -variance * with_end;
         }
         for (index, (of, process)) in self.colours.iter().enumerate() {
             let place = self.first_colour() + 3 * index;
@@ -194,9 +205,8 @@ impl<'a> Space<'a> {
         let (t, m) = (epoch.duration, epoch.count());
         let [gyro, accel] = self.white;
         let identity = Matrix3::identity();
-        // Of a random walk of m equal steps, its mean over the steps' ends: variance, and covariance with the end.
-        let mean_variance = gyro * t * (m + 1.0) * (2.0 * m + 1.0) / (6.0 * m * m);
-        let mean_covariance = gyro * t * (m + 1.0) / (2.0 * m);
+        let (of_mean, with_end) = mean_of_walk(m);
+        let (mean_variance, mean_covariance) = (gyro * t * of_mean, gyro * t * with_end);
         let f = &self.force_cross;
         // φ gains W, v gains -F × ∫W dt besides its own noise.
         let velocity = identity * (accel * t) + f * f.transpose() * (gyro * t * t * t / 3.0);
@@ -225,7 +235,7 @@ impl<'a> Space<'a> {
                 shown[(3 + other, axis)] = -mean_across[(axis, other)];
                 shown[(3 + axis, 3 + other)] = velocity[(axis, other)];
             }
-            shown[(3 + axis, 3 + axis)] += self.linear.velocity_noise.powi(2);
+            shown[(3 + axis, 3 + axis)] += self.velocity.powi(2);
         }
     }
 
@@ -271,6 +281,12 @@ impl<'a> Space<'a> {
             }
         }
     }
+}
+
+/// Of a random walk of `m` equal steps, its mean over the steps' ends: variance, and covariance with the end, as parts of
+/// the end's variance.
+fn mean_of_walk(m: f64) -> (f64, f64) {
+    ((m + 1.0) * (2.0 * m + 1.0) / (6.0 * m * m), (m + 1.0) / (2.0 * m))
 }
 
 fn set(to: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {

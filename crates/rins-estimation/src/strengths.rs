@@ -49,15 +49,20 @@ pub struct Noise {
     pub wobble: f64,
     /// 1σ of a reading of the encoder \[rad\]; unused where there is none.
     pub encoder: f64,
+    /// How far the velocity of the base may be from zero at a reading, 1σ \[m/s\].
+    pub velocity: f64,
+    /// The root density with which the attitude of a base that nothing reads strays about each axis \[rad/√s\]; zero if
+    /// it is firm.
+    pub sway: [f64; 3],
 }
 
 impl Noise {
-    /// That of the sensors' strengths on a rig.
+    /// That of the sensors' strengths on a rig, whose base is firm.
     pub fn on(rig: &crate::run::Rig, imu: &Strengths) -> Self {
         let encoder = match rig.reference {
             crate::run::Reference::Encoder { noise } => noise,
             _ => rig.wobble,
         };
-        Self { imu: *imu, wobble: rig.wobble, encoder }
+        Self { imu: *imu, wobble: rig.wobble, encoder, velocity: rig.velocity, sway: [0.0; 3] }
     }
 }

@@ -214,6 +214,35 @@ fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
     assert!(texts(&result, "/notes").iter().any(|note| note.contains("lever arm")), "{result}");
 }
 
+/// The vehicle that it stands in rocks by hundreds of seconds of arc: that is not the gyros' noise.
+#[test]
+fn laser_gyro_is_quiet_on_a_base_that_sways() {
+    let Some(folder) = rig("psins_lasergyro") else { return };
+    let result = result_in(folder.path(), "calibrate rig.toml");
+    assert_eq!(result["runs"][0]["reference"], "rest");
+    let white = number(&result, "/noise/gyro/white_deg_h_sqrt_hz");
+    // That of laser gyros of navigation grade: a thousandth to some hundredths of a degree per root hour.
+    assert!((0.003..0.3).contains(&white), "{white} deg/h/√Hz");
+    let sway = numbers(&result, "/runs/0/base_sway_arcsec_sqrt_s");
+    assert!(sway[..2].iter().all(|sway| (5.0..200.0).contains(sway)), "{sway:?}");
+    // Velocities are read in steps of 2.4 mm/s.
+    let velocity = number(&result, "/runs/0/base_velocity_m_s");
+    assert!((0.5e-3..3e-3).contains(&velocity), "{velocity} m/s");
+    assert_close!(number(&result, "/consistency/nis_mean"), 6.0, 0.3);
+    // How the vehicle rocks changes all the time.
+    assert_eq!(result["consistency"]["verdict"], "misfit");
+    let after = magnitude(&result, "/navigation/after/velocity_m_s");
+    assert!(after < 0.5, "{after} m/s after half an hour");
+    let hidden = texts(&result, "/identifiability/not_shown");
+    for id in ["gyro.scale.x", "gyro.scale.z", "gyro.misalignment.xy", "accel.misalignment.xy"] {
+        assert!(hidden.contains(&id), "{id} is not named: {hidden:?}");
+    }
+    // Along the vertical a bias and a scale error are one number, told to a few micro-g.
+    let up = calibrated(&result, "accel.scale.z");
+    assert_eq!(texts(up, "/aliases")[0], "accel.bias.z");
+    assert!(number(up, "/sigma") < 10.0, "{up}");
+}
+
 #[test]
 fn xsens_at_rest_shows_its_gyro_biases_and_names_what_does_not_show() {
     let Some(folder) = rig("imu_tk_xsens") else { return };

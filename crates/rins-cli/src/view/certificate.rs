@@ -3,15 +3,15 @@
 use std::fmt::Write as _;
 
 use rins_calibration::MEASUREMENTS;
-use rins_estimation::{Reference, correlation};
-use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
+use rins_estimation::correlation;
+use rins_frames::units::DEG;
 
-use crate::args::NoiseChoice;
 use crate::commands::calibrate::{Certificate, CertifiedRun};
 use crate::number::figure;
 use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table};
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
+use crate::view::noise::{noise_section, noise_sentence};
 use crate::view::table::aligned;
 use crate::view::told::{badge, gauge_sentences, meaning, rank_sentence};
 use crate::view::worth::{budget_section, compensation_section};
@@ -97,29 +97,9 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         .collect();
     sentences.push(consistency_sentence(&certificate.consistency));
     sentences.push(rank_sentence(&certificate.told));
-    sentences.push(noise(certificate));
+    sentences.push(noise_sentence(certificate));
     sentences.extend(certificate.remarks.iter().cloned());
     sentences
-}
-
-fn noise(certificate: &Certificate) -> String {
-    let imu = certificate.fit.noise[0].imu;
-    let how = match certificate.noise {
-        NoiseChoice::Likely => "Most likely noise",
-        NoiseChoice::Given => "Noise as given",
-    };
-    let triad = |white: f64, flicker: f64, unit: f64, white_unit: &str, flicker_unit: &str| {
-        format!(
-            "{} {white_unit} and {} {flicker_unit} of flicker",
-            figure(white / unit, 4),
-            figure(flicker / unit, 4)
-        )
-    };
-    format!(
-        "{how}: gyros {}, accelerometers {}.",
-        triad(imu.gyro.white, imu.gyro.flicker, DEG_PER_HOUR, "deg/h/√Hz", "deg/h"),
-        triad(imu.accel.white, imu.accel.flicker, MICRO_G, "µg/√Hz", "µg")
-    )
 }
 
 /// The report page.
@@ -257,101 +237,5 @@ fn correlation_section(certificate: &Certificate) -> Section {
             labels: labels.collect(),
             values: correlation.row_iter().map(|row| row.iter().copied().collect()).collect(),
         })],
-    }
-}
-
-fn noise_section(certificate: &Certificate) -> Section {
-    let imu = certificate.fit.noise[0].imu;
-    let sheet = &certificate.runs[0].prepared.imu;
-    let row = |name: String, found: f64, given: Option<f64>, factor: f64, unit: &str| {
-        vec![
-            Cell::text(name),
-            Cell::text(figure(found / factor, 4)),
-            Cell::text(given.map_or_else(|| "–".into(), |given| figure(given / factor, 4))),
-            Cell::text(unit),
-        ]
-    };
-    let mut rows = Vec::new();
-    let triads = [
-        ("gyro", imu.gyro, &sheet.gyro, DEG_PER_HOUR, "deg/h"),
-        ("accelerometer", imu.accel, &sheet.accel, MICRO_G, "µg"),
-    ];
-    for (name, found, spec, factor, unit) in triads {
-        let given = Some(spec.noise_density);
-        rows.push(row(
-            format!("{name}, white"),
-            found.white,
-            given,
-            factor,
-            &format!("{unit}/√Hz"),
-        ));
-        rows.push(row(
-            format!("{name}, bias instability"),
-            found.flicker,
-            spec.bias_instability,
-            factor,
-            unit,
-        ));
-        let walk_unit = format!("{unit}/√h");
-        rows.push(row(
-            format!("{name}, random walk"),
-            found.walk,
-            spec.random_walk,
-            factor / 60.0,
-            &walk_unit,
-        ));
-    }
-    for (run, noise) in certificate.runs.iter().zip(&certificate.fit.noise) {
-        let rig = &run.prepared.run.rig;
-        let name = |what: &str| format!("{what}, {}", run.prepared.name);
-        rows.push(row(
-            name("wobble of the axis"),
-            noise.wobble,
-            Some(rig.wobble),
-            ARCSEC,
-            "arcsec",
-        ));
-        if let Reference::Encoder { noise: given } = rig.reference {
-            rows.push(row(name("encoder"), noise.encoder, Some(given), ARCSEC, "arcsec"));
-        }
-    }
-    let iterations = certificate.fit.iterations.iter().enumerate().map(|(place, iteration)| {
-        vec![
-            Cell::text((place + 1).to_string()),
-            Cell::text(figure(iteration.step, 4)),
-            Cell::Number { value: iteration.log_likelihood, decimals: 2 },
-        ]
-    });
-    let intro = match certificate.noise {
-        NoiseChoice::Likely => {
-            "The strengths under which the data are most probable, all parameters left open; the data sheet was the first \
-             guess."
-        }
-        NoiseChoice::Given => "The strengths of the data sheet, taken as they are.",
-    };
-    Section {
-        heading: "Noise and iteration".into(),
-        intro: intro.into(),
-        items: vec![
-            Item::Table(Table {
-                caption: "Strength of the noise".into(),
-                columns: vec![
-                    Column::text("noise"),
-                    Column::number("used"),
-                    Column::number("given"),
-                    Column::text("unit"),
-                ],
-                rows,
-            }),
-            Item::Table(Table {
-                caption: "Steps of the estimate, the largest in sigmas".into(),
-                columns: vec![
-                    Column::number("step"),
-                    Column::number("size"),
-                    Column::number("log-likelihood"),
-                ],
-                rows: iterations.collect(),
-            }),
-        ],
     }
 }

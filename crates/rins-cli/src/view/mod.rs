@@ -6,6 +6,7 @@ mod certificate;
 mod comparison;
 mod consistency;
 mod navigation;
+mod noise;
 pub(crate) mod table;
 pub(crate) mod told;
 mod worth;

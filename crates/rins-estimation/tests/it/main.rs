@@ -7,4 +7,5 @@ mod gravity;
 mod refusals;
 mod several_runs;
 mod support;
+mod sway;
 mod terms;

@@ -1,0 +1,66 @@
+//! A rest on a base that sways: what sways is not taken for noise of the sensors.
+
+use nalgebra::{Rotation3, Vector3};
+use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, fit};
+use rins_frames::InFrame;
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
+use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadSpec};
+use rins_terms::{Model, Surroundings};
+
+use crate::support::{fibre, profile, run, scenario, tilted, white};
+
+/// How far the base strays about each axis, as a root density \[rad/√s\].
+const SWAY: [f64; 3] = [30.0 * ARCSEC, 10.0 * ARCSEC, 2.0 * ARCSEC];
+
+/// What a gyro of this run has for a bias along x \[rad/s\].
+const BIAS: f64 = 4.0 * DEG_PER_HOUR;
+
+/// Gyros that drift by more than gravity leaves open.
+fn coarse() -> ImuSpec {
+    let fine = fibre();
+    let (noise_density, bias_sigma) = (1.0 * DEG_PER_HOUR, 5.0 * DEG_PER_HOUR);
+    ImuSpec { gyro: TriadSpec { noise_density, bias_sigma, ..fine.gyro }, ..fine }
+}
+
+/// Five minutes of rest whose attitude walks by `SWAY`, with the noise of the data sheet.
+fn swaying() -> Run {
+    let truth = (ImuError::default(), Model::default());
+    let still = profile(&[(0.0, 300.0)]);
+    let still = scenario(tilted(3.0, 40.0), still, truth, Some(white(&coarse())), 5);
+    let mut run = run(&still);
+    let around = Surroundings::new(run.rig.station, run.rig.nav_from_table);
+    let mut deviates = Seed::new(7).stream(Sensor::Encoder);
+    let mut attitude = Rotation3::<f64>::identity();
+    for sample in &mut run.recording.increments {
+        let t = sample.interval;
+        let turn = Vector3::from(SWAY.map(|density| density * t.sqrt() * deviates.sample()));
+        let middle = attitude * Rotation3::new(turn * 0.5);
+        attitude *= Rotation3::new(turn);
+        let moved = |of: Vector3<f64>| (middle.inverse() * of - of) * t;
+        let bias = Vector3::new(BIAS * t, 0.0, 0.0);
+        sample.angle += InFrame::from_components(turn + moved(around.earth_rate) + bias);
+        sample.velocity += InFrame::from_components(moved(around.specific_force));
+    }
+    run.rig.reference = Reference::Rest;
+    run.rig.wobble = ARCSEC;
+    run
+}
+
+#[test]
+fn base_that_sways_is_told_from_noise() {
+    let imu = coarse();
+    let run = swaying();
+    let likely = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let found = fit(&[run], &Model::full(), &imu, likely, |_| ()).unwrap();
+    let noise = &found.noise[0];
+    let white = noise.imu.gyro.white / imu.gyro.noise_density;
+    // Gravity shows level some fifty times over: that is how often the gyros' walk from it is seen.
+    assert!((0.5..2.0).contains(&white), "gyro white noise in ratio {white}");
+    for (found, true_one) in noise.sway.into_iter().zip(SWAY) {
+        assert!((0.8..1.25).contains(&(found / true_one)), "{found} of {true_one}");
+    }
+    // Level is told by gravity however the base sways, and so how a gyro drifts from it.
+    let bias = found.parameter("gyro.bias.x").unwrap();
+    assert!(bias.sigma < 0.5 * imu.gyro.bias_sigma, "{}", bias.sigma);
+    assert!((bias.value - BIAS).abs() < 4.0 * bias.sigma, "{} ± {}", bias.value, bias.sigma);
+}
