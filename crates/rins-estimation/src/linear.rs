@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
 use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Table};
-use rins_terms::{Model, Signals, Surroundings, Track, derivatives, values};
+use rins_terms::{Chosen, Dual64, Model, Signals, Surroundings, Track, derivatives, values};
 
 use crate::path;
 use crate::run::{Reference, Run};
@@ -129,10 +129,10 @@ fn beside(mut one: Vec<Epoch>, other: Vec<Epoch>) -> Vec<Epoch> {
 /// Epochs in the making.
 struct Build<'a> {
     run: &'a Run,
-    model: &'a Model,
     /// The terms that do anything: hundreds may stand by to be tried.
     present: Model,
-    free: &'a [(usize, usize)],
+    /// Of each column the term, and its parameters with a derivative by one of them.
+    columns: Vec<(&'a Chosen, Vec<Dual64>)>,
     readings: Option<&'a [f64]>,
     sway: Option<Sway>,
     block: usize,
@@ -156,11 +156,17 @@ impl<'a> Build<'a> {
         let mut present = model.clone();
         present.terms.retain(|chosen| chosen.values.iter().any(|value| *value != 0.0));
         let sway = Sway::of(run);
+        let column = |&(term, parameter): &(usize, usize)| {
+            let chosen = &model.terms[term];
+            let mut duals: Vec<Dual64> =
+                chosen.values.iter().map(|&value| Dual64::from_re(value)).collect();
+            duals[parameter].eps = 1.0;
+            (chosen, duals)
+        };
         Self {
             run,
-            model,
             present,
-            free,
+            columns: free.iter().map(column).collect(),
             readings,
             sway,
             block,
@@ -180,7 +186,7 @@ impl<'a> Build<'a> {
         if gap {
             self.close(sample);
         }
-        let columns = self.free.len() + 1;
+        let columns = self.columns.len() + 1;
         let epoch =
             self.now.get_or_insert_with(|| Epoch::empty(sample, gap || sample == 0, columns));
 
@@ -206,8 +212,9 @@ impl<'a> Build<'a> {
         let rates =
             Rates { attitude: of_gyros * gyro, velocity: of_accels * accel, reading: of_axis };
         epoch.add(0, &rates, around, interval);
-        for (column, &(term, parameter)) in self.free.iter().enumerate() {
-            let by: Signals = self.model.terms[term].signals(moment, Some(parameter));
+        for (column, (chosen, duals)) in self.columns.iter().enumerate() {
+            let mut by = Signals::default();
+            chosen.term.act(duals, &chosen.settings, moment, &mut by);
             let rates = Rates {
                 attitude: -(of_gyros * derivatives(&by.gyro)),
                 velocity: -(of_accels * derivatives(&by.accel)),
