@@ -66,31 +66,145 @@ const ROWS: [Row; 12] = [
 /// A figure of the prototype's is of another arrangement of the same rates and rests: within this factor.
 const FACTOR: f64 = 2.1;
 
-/// A sigma that theory sets: a parameter, its usual size, one of its unit in the unit shown, and what the prototype
-/// finds with reversal.
+/// The schedules under which sigmas are compared.
+const OF_LIMITS: &str = "i-constant-rate.toml ii-reversal.toml iii-three-rates.toml \
+                         v-two-tilts-a.toml+v-two-tilts-b.toml";
+
+/// A sigma by the data alone beside the prototype's, where it has one.
 struct Limit {
-    pair: &'static str,
-    size: f64,
+    id: &'static str,
+    /// How many of the unit shown one of the parameter's own is.
+    scale: f64,
     unit: &'static str,
-    prototype: f64,
+    prototype: [Option<f64>; 4],
+    /// Up to which factor they agree.
+    within: f64,
 }
 
-const LIMITS: [Limit; 4] = [
-    Limit {
-        pair: "gyro_g_sensitivity.zx,encoder_eccentricity",
-        size: 0.1,
-        unit: "deg/h/g",
-        prototype: 0.0056,
-    },
-    Limit {
-        pair: "gyro_scale_asymmetry,encoder_eccentricity",
-        size: 50.0,
-        unit: "ppm",
-        prototype: 1.1,
-    },
-    Limit { pair: "accel_latency,encoder_eccentricity", size: 1e4, unit: "us", prototype: 21.5 },
-    Limit { pair: "accel_quadratic.x,encoder_slip", size: 50.0, unit: "ug/g^2", prototype: 25.0 },
+const fn limit(
+    id: &'static str,
+    (scale, unit): (f64, &'static str),
+    prototype: [Option<f64>; 4],
+    within: f64,
+) -> Limit {
+    Limit { id, scale, unit, prototype, within }
+}
+
+/// A second of arc in parts per million.
+const PPM_OF_ARCSEC: f64 = 4.848;
+
+/// An alike setting: within a tenth.
+const SAME: f64 = 1.1;
+
+/// What a run of half the length, or an axis tilted to another side, makes of it: a factor of two at most.
+const ALIKE: f64 = 2.15;
+
+/// What differs by more is told below the table.
+const APART: f64 = 8.0;
+
+const LIMITS: [Limit; 17] = [
+    limit(
+        "gyro_g_sensitivity.zx",
+        (1.0, "deg/h/g"),
+        [Some(0.0057), Some(0.0056), Some(0.0057), Some(0.0078)],
+        1.2,
+    ),
+    limit(
+        "gyro_g_sensitivity.xy",
+        (1.0, "deg/h/g"),
+        [Some(0.0035), Some(0.0035), Some(0.0035), Some(0.005)],
+        ALIKE,
+    ),
+    limit("gyro.scale.z", (1.0, "ppm"), [None, Some(0.031), Some(0.024), Some(0.032)], 1.4),
+    limit(
+        "gyro.misalignment.xz",
+        (PPM_OF_ARCSEC, "ppm"),
+        [None, Some(5.3), Some(5.3), Some(7.2)],
+        SAME,
+    ),
+    limit("gyro_scale_asymmetry.z", (1.0, "ppm"), [None, Some(1.1), Some(0.052), Some(0.83)], 1.3),
+    limit("encoder_latency.delay", (1e3, "us"), [None, Some(1.2), Some(0.57), Some(0.85)], ALIKE),
+    limit(
+        "accel_latency.delay",
+        (1e3, "us"),
+        [Some(1340.0), Some(21.5), Some(16.5), Some(30.0)],
+        APART,
+    ),
+    limit(
+        "encoder_eccentricity.cos",
+        (1.0, "arcsec"),
+        [Some(0.014), Some(0.014), Some(0.014), Some(0.014)],
+        ALIKE,
+    ),
+    limit(
+        "table_wobble.cos",
+        (1.0, "arcsec"),
+        [Some(0.006), Some(0.006), Some(0.005), Some(0.006)],
+        ALIKE,
+    ),
+    limit(
+        "base_tilt_ramp.x",
+        (0.1, "arcsec in 360 s"),
+        [Some(1.25), Some(1.25), Some(1.25), Some(0.42)],
+        APART,
+    ),
+    limit(
+        "accel_quadratic.x",
+        (1.0, "ug/g^2"),
+        [Some(25.0), Some(25.0), Some(25.0), Some(26.0)],
+        ALIKE,
+    ),
+    limit("accel.scale.x", (1.0, "ppm"), [Some(7.5), Some(7.5), Some(7.5), Some(10.0)], SAME),
+    limit(
+        "accel.misalignment.xy",
+        (PPM_OF_ARCSEC, "ppm"),
+        [Some(7.5), Some(7.5), Some(7.5), Some(10.0)],
+        SAME,
+    ),
+    limit("accel_bias_step.x", (1.0, "ug"), [Some(3.2), Some(3.2), Some(3.2), None], ALIKE),
+    limit(
+        "wrong_latitude.latitude",
+        (1.0, "arcmin"),
+        [Some(0.34), Some(0.34), Some(0.34), Some(0.33)],
+        APART,
+    ),
+    limit("accel_lever_arm.r_x", (1.0, "mm"), [None, Some(6.7), Some(0.32), Some(4.8)], APART),
+    limit(
+        "accel_vibration_rectification.x",
+        (1.0, "ug"),
+        [None, Some(21.0), Some(1.0), Some(15.0)],
+        APART,
+    ),
 ];
+
+/// Sigmas by the data alone under each schedule, beside the effects of `baseline` and one that does not matter.
+fn sigmas(limit: &Limit) -> Vec<f64> {
+    let other =
+        if limit.id.starts_with("encoder") { "accel_quadratic.x" } else { "encoder_eccentricity" };
+    let (term, name) = limit.id.rsplit_once('.').unwrap_or_default();
+    // Of what has one parameter alone, of a pair that goes together both.
+    let asked = if name == "cos" || term == "base_tilt_ramp" { term } else { limit.id };
+    let told = compared(&format!("{OF_LIMITS} --separate {asked},{other}"));
+    let sigma = |schedule: &Value| {
+        let parameters = list(schedule, "/parameters");
+        let parameter = parameters.iter().find(|parameter| parameter["id"] == limit.id);
+        let parameter = parameter.unwrap_or_else(|| panic!("{}", limit.id));
+        parameter["data_sigma"].as_f64().map_or(INFINITE, |sigma| sigma * limit.scale)
+    };
+    list(&told, "/schedules").iter().map(sigma).collect()
+}
+
+/// A number to two digits.
+fn two_digits(value: f64) -> String {
+    let decimals = match value {
+        value if value < 0.01 => 4,
+        value if value < 0.1 => 3,
+        value if value < 1.0 => 2,
+        value if value < 10.0 => 1,
+        _ => 0,
+    };
+    format!("{value:.decimals$}")
+}
 
 fn compared(arguments: &str) -> Value {
     let folder = rins_tests::workspace().join("scenarios/schedules");
@@ -158,14 +272,21 @@ fn identifiability_page_is_what_the_schedules_tell() {
         let _ = writeln!(page, "| `{names}` |{cells}");
     }
     page.push_str(FIGURES);
-    for Limit { pair, size, unit, prototype } in &LIMITS {
-        let told = compared(&format!("ii-reversal.toml --separate {pair}"));
-        let sigma = size / number(&told, "/schedules/0/separation/each/0/directions/0/seen_sigma");
-        assert!((sigma / prototype - 1.0).abs() < 0.1, "{pair}: {sigma}, {prototype}");
-        let name = pair.split(',').next().unwrap_or_default();
-        let digits = if sigma < 0.1 { 4 } else { 2 };
-        let _ = writeln!(page, "| `{name}` | {sigma:.digits$} {unit} | {prototype} {unit} |");
+    for limit in &LIMITS {
+        let mut cells = String::new();
+        for (found, prototype) in sigmas(limit).into_iter().zip(limit.prototype) {
+            let Some(expected) = prototype else {
+                cells.push_str(" |");
+                continue;
+            };
+            let ratio = found / expected;
+            let agrees = (1.0 / limit.within..limit.within).contains(&ratio);
+            assert!(agrees, "{}: {found}, and the prototype has {expected}", limit.id);
+            let _ = write!(cells, " {} ({expected}) |", two_digits(found));
+        }
+        let _ = writeln!(page, "| `{}` | {} |{cells}", limit.id, limit.unit);
     }
+    page.push_str(REASONS);
     let path = rins_tests::workspace().join("docs/src/identifiability.md");
     if std::env::var_os("RINS_RENEW").is_some() {
         std::fs::write(&path, &page).unwrap();
@@ -233,19 +354,36 @@ figure: under (i) it leaves the first effect of the pairs with a delay or a cube
 nothing is known beforehand there. `accel_latency` and `wrong_latitude`, one signature there under (i), are told apart
 here since the first attitude of a run is known to 2 mrad. Further pairs of its list come out otherwise:
 
-| effects | schedule | here | prototype | likely why |
+| effects | schedule | here | prototype | why |
 | --- | --- | --- | --- | --- |
-| `encoder_latency`, `clock_drift` | ii | 4.8 | 64 | the ramp from rest is a second change of rate |
-| `gyro_scale_asymmetry`, `gyro_rate_dependent_bias.square_z` | ii | 11 | 41 | the bias is known beforehand to 0.1 deg/h |
-| `gyro_scale_asymmetry`, `encoder_latency` | ii | 1.9 | 9 | the same |
-| `accel_lever_arm`, `accel_vibration_rectification` | ii | 1.1 | 2.6 | the latter goes with the rate here, with its square there |
-| `dropped_samples`, `encoder_slip` | ii | ∞ | 1.2 | they happen at 300 s, after the last change of rate |
-| `base_tilt_ramp`, `clock_drift` | i | 1.5 | 24 | not found |
+| `encoder_latency`, `clock_drift` | ii | 4.8 | 64 | the ramp from rest is a second change of rate: without ramps it is 70 |
+| `gyro_scale_asymmetry`, `gyro_rate_dependent_bias.square_z` | ii | 11 | 41 | the bias is known beforehand to 0.1 deg/h: with 1000 deg/h it is 31 |
+| `gyro_scale_asymmetry`, `encoder_latency` | ii | 1.9 | 9 | unexplained: with a bias that is not known it is 2.6 |
+| `accel_lever_arm`, `accel_vibration_rectification` | ii | 1.1 | 2.6 | the latter goes with the rate here, with its square there; not tried |
+| `dropped_samples`, `encoder_slip` | ii | ∞ | 1.2 | they happen at 300 s, after the last change of rate, where both are one constant |
+| `base_tilt_ramp`, `clock_drift` | i | 1.0 | 24 | unexplained: on an axis tilted to the east it is 5.0 |
 
 ## What is seen at all
 
-1σ with reversal (ii), beside the prototype's:
+1σ by the data alone, and in brackets the prototype's:
 
-| parameter | here | prototype |
-| --- | --- | --- |
+| parameter | unit | i | ii | iii | v |
+| --- | --- | --- | --- | --- | --- |
+";
+
+const REASONS: &str = "
+They differ
+
+- by 1.4 in `gyro_g_sensitivity.xy` and by 2 in `wrong_latitude`, since the axis is tilted to the south here: tilted to the
+  east they are 0.0035 deg/h/g and 0.34 arcmin, those of the prototype;
+- by 1.3 in `accel_bias_step.x`, which happens at 300 s here and at 150 s there: the sigma of a step of white noise
+  goes with `√(T / t (T - t))`;
+- by 1.4 under (v) in what belongs to each run here, such as encoder, wobble and latitude: either run holds half of the data;
+- in `accel_lever_arm` under (ii) and (v), which shows by changes of rate alone: with 2.5, with 5 deg/s² and at once it is 1.8,
+  1.4 and 0.72 mm; how hard the prototype's table is accelerated is not known;
+- likely in `accel_latency` under (i) since the first attitude, known to 2 mrad, limits it here;
+- likely in `accel_vibration_rectification` since it goes with the rate here, and with its square there;
+- likely in `base_tilt_ramp` under (v) since a tilt goes on through both runs there, and is each run's own here;
+- likely in `gyro.scale.z` and `encoder_latency` under (iii) since rates are held for other times;
+- in `accel_quadratic.x` under (v), for no known reason.
 ";
