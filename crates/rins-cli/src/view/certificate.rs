@@ -8,7 +8,7 @@ use rins_frames::units::DEG;
 
 use crate::commands::calibrate::{Certificate, CertifiedRun};
 use crate::number::figure;
-use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table};
+use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::noise::{noise_section, noise_sentence};
@@ -196,28 +196,27 @@ fn parameters_section(certificate: &Certificate) -> Section {
         );
         row
     });
+    let mut items = vec![
+        Item::Table(Table { caption: "Estimates, 1σ".into(), columns, rows: rows.collect() }),
+        Item::Table(Table {
+            caption: "Attitude of the axis frame".into(),
+            columns: vec![
+                Column::text("run"),
+                Column::number("roll [deg]"),
+                Column::number("pitch [deg]"),
+                Column::number("yaw [deg]"),
+            ],
+            rows: axes.collect(),
+        }),
+    ];
+    let gauges = gauge_sentences(told).into_iter();
+    items.splice(1..1, gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: "Parameters".into(),
         intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. A combination \
                 has the value and the sigma of the whole. A run's number stands where a parameter is that run's own."
             .into(),
-        items: vec![
-            Item::Table(Table {
-                caption: "Estimates, 1σ".into(),
-                columns,
-                rows: rows.collect(),
-            }),
-            Item::Table(Table {
-                caption: "Attitude of the axis frame".into(),
-                columns: vec![
-                    Column::text("run"),
-                    Column::number("roll [deg]"),
-                    Column::number("pitch [deg]"),
-                    Column::number("yaw [deg]"),
-                ],
-                rows: axes.collect(),
-            }),
-        ],
+        items,
     }
 }
 

@@ -92,6 +92,10 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
             candidate.words
         )]
     };
+    if proposal.enough {
+        sentences
+            .push(format!("It is the shortest of the library {within}; -o writes its scenario."));
+    }
     if let Some([first, second]) = &found.effects {
         let ids: Vec<&str> = first.ids.iter().chain(&second.ids).map(String::as_str).collect();
         if let Some(gauge) = gauge_of(&ids).filter(|_| !proposal.enough) {
@@ -108,10 +112,6 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
                 ));
             }
         }
-    }
-    if proposal.enough {
-        sentences
-            .push(format!("It is the shortest of the library {within}; -o writes its scenario."));
     }
     sentences
 }

@@ -89,9 +89,8 @@ pub(crate) fn badge(told: &Identifiability, place: usize) -> Cell {
     let seen = &told.seen[place];
     match seen.shown {
         _ if seen.identifiable => Cell::badge(Tone::Good, "identifiable"),
-        Shown::Combination => Cell::badge(Tone::Warning, "combination"),
         Shown::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
-        Shown::Part { .. } => Cell::badge(Tone::Warning, "part"),
+        Shown::Combination | Shown::Part { .. } => Cell::badge(Tone::Warning, "combination"),
         Shown::Alone | Shown::Nothing => Cell::badge(Tone::Neutral, "not shown"),
     }
 }
