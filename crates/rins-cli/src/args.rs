@@ -4,8 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use rins_io::quantity::kinds;
 use rins_io::{LogFile, Overwrite};
+
+mod observe;
+
+pub(crate) use self::observe::Observe;
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
 ///
@@ -30,6 +33,7 @@ impl Arguments {
         let arguments = Self::parse();
         let refusal = match &arguments.command {
             Command::Calibrate(calibrate) => calibrate.refusal().map(|why| ("calibrate", why)),
+            Command::Diagnose(diagnose) => twice(&diagnose.rigs).map(|why| ("diagnose", why)),
             _ => None,
         };
         if let Some((name, (kind, message))) = refusal {
@@ -64,6 +68,13 @@ pub(crate) enum Command {
     Navigate(Navigate),
     /// Estimate sensor errors from runs on the table, and show what compensating them gains
     Calibrate(Calibrate),
+    /// Say what a model leaves unexplained in a run, and which physical effect explains it
+    ///
+    /// The model is estimated; then every effect of the catalogue is tried on what is left, at any time and of any order, and
+    /// the one that explains it best joins the model, with the odds that it is nothing and the effects that this run cannot
+    /// tell from it; then the next, until nothing significant is left. Nothing is named by force. Mistakes of units, signs and
+    /// axes are refused first, with what would mend them.
+    Diagnose(Diagnose),
     /// Say what a rotation schedule tells apart before it is run, and which one to run next
     ///
     /// The information that a run would hold on the parameters of a model is reckoned from the scenario's motion, site
@@ -195,6 +206,22 @@ pub(crate) struct Calibrate {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct Diagnose {
+    /// The rig files: one, or several runs of one IMU
+    #[arg(required = true, value_name = "RIG")]
+    pub(crate) rigs: Vec<PathBuf>,
+    /// Folder for result.json, report.html, model.toml (the extended model) and calibration.toml
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// What the run is taken to hold: full (biases, scale errors, misalignments, the axis' attitude), or a model file
+    #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
+    pub(crate) model: ModelChoice,
+    /// Whether the data sheet's noise is found anew from the data or trusted
+    #[arg(long, value_enum, default_value_t = NoiseChoice::Likely)]
+    pub(crate) noise: NoiseChoice,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct MonteCarlo {
     /// The scenario file, with a grid or without
     pub(crate) scenario: PathBuf,
@@ -245,13 +272,14 @@ impl Calibrate {
             let message = "--model paper12 takes one rig; full takes several";
             return Some((ErrorKind::ArgumentConflict, message.into()));
         }
-        let again =
-            (1..self.rigs.len()).find(|&place| self.rigs[..place].contains(&self.rigs[place]));
-        again.map(|place| {
-            let message = format!("{} is given twice", self.rigs[place].display());
-            (ErrorKind::ValueValidation, message)
-        })
+        twice(&self.rigs)
     }
+}
+
+/// Why rigs cannot be meant if one of them is given twice.
+fn twice(rigs: &[PathBuf]) -> Option<(ErrorKind, String)> {
+    let again = (1..rigs.len()).find(|&place| rigs[..place].contains(&rigs[place]))?;
+    Some((ErrorKind::ValueValidation, format!("{} is given twice", rigs[again].display())))
 }
 
 /// The error model to be estimated.
@@ -274,6 +302,14 @@ impl ModelChoice {
                 Ok(Self::File(path.into()))
             }
             _ => Err("expected paper12, full or a model file such as model.toml".into()),
+        }
+    }
+
+    /// A model for the estimator that takes any: the paper's filter is none.
+    fn parse_estimated(text: &str) -> Result<Self, String> {
+        match Self::parse(text) {
+            Ok(choice) if choice != Self::Paper12 => Ok(choice),
+            _ => Err("expected full or a model file such as model.toml".into()),
         }
     }
 }
@@ -313,70 +349,6 @@ pub(crate) struct Compare {
     pub(crate) output: Option<PathBuf>,
 }
 
-#[derive(Debug, Args)]
-pub(crate) struct Observe {
-    /// The scenario files
-    #[arg(required = true, value_name = "SCENARIO")]
-    pub(crate) scenarios: Vec<PathBuf>,
-    /// What is estimated: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default
-    /// full, but with --separate baseline: biases, attitude, mounting and the gyro errors tied to the spin axis
-    #[arg(long, value_name = "MODEL")]
-    pub(crate) model: Option<String>,
-    /// Look at each scenario for itself, side by side; A+B are two runs of one schedule
-    #[arg(long)]
-    pub(crate) compare: bool,
-    /// Two effects to be told apart, and the shortest schedule that does
-    #[arg(long, value_name = "A,B", value_parser = pair)]
-    pub(crate) separate: Option<[String; 2]>,
-    /// A parameter and the 1σ wanted of it, such as gyro.scale.z=0.1ppm, and the shortest schedule
-    #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate")]
-    pub(crate) want: Option<String>,
-    /// The table's fastest rate; by default the scenario's fastest, or 10 deg/s if it rests
-    #[arg(long, value_name = "RATE", value_parser = table_rate)]
-    pub(crate) max_rate: Option<f64>,
-    /// The table's acceleration; by default the scenario's, or 5 deg/s^2
-    #[arg(long, value_name = "ACCELERATION", value_parser = table_acceleration)]
-    pub(crate) max_acceleration: Option<f64>,
-    /// The longest that the runs of a schedule may take together
-    #[arg(long, value_name = "DURATION", default_value = "3600 s", value_parser = duration)]
-    pub(crate) max_duration: f64,
-    /// Into how many directions the axis may be brought, at most 3
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = directions)]
-    pub(crate) directions: usize,
-    /// Folder for result.json, report.html and the proposed scenarios, next-1.toml and on
-    #[arg(short, long, value_name = "DIR")]
-    pub(crate) output: Option<PathBuf>,
-}
-
-fn pair(text: &str) -> Result<[String; 2], String> {
-    match text.split(',').map(str::trim).collect::<Vec<_>>()[..] {
-        [first, second] if !first.is_empty() && !second.is_empty() => {
-            Ok([first.into(), second.into()])
-        }
-        _ => Err("expected two ids, such as gyro_g_sensitivity,encoder_eccentricity".into()),
-    }
-}
-
-fn table_rate(text: &str) -> Result<f64, String> {
-    let rate = kinds::TABLE_RATE.parse(text).map_err(|error| error.to_string())?;
-    if rate > 0.0 { Ok(rate) } else { Err("a fastest rate is more than zero".into()) }
-}
-
-fn table_acceleration(text: &str) -> Result<f64, String> {
-    kinds::TABLE_ACCELERATION.parse(text).map_err(|error| error.to_string())
-}
-
-fn duration(text: &str) -> Result<f64, String> {
-    kinds::DURATION.parse(text).map_err(|error| error.to_string())
-}
-
-fn directions(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(n @ 1..=3) => Ok(n),
-        _ => Err("expected 1, 2 or 3".into()),
-    }
-}
-
 impl Command {
     /// Where results go, if anywhere.
     pub(crate) fn destination(&self) -> Option<&Path> {
@@ -390,6 +362,7 @@ impl Command {
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.output.as_deref(),
+            Self::Diagnose(diagnose) => diagnose.output.as_deref(),
             Self::Compare(compare) => compare.output.as_deref(),
         }
     }

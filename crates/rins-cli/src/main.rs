@@ -40,6 +40,7 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Command::Merge(merge) => commands::merge::run(merge, arguments.overwrite()),
         Command::Navigate(navigate) => commands::navigate::run(navigate),
         Command::Calibrate(calibrate) => commands::calibrate::run(calibrate),
+        Command::Diagnose(diagnose) => commands::diagnose::run(diagnose),
         Command::Observe(observe) => commands::observe::run(observe),
         Command::Apply(apply) => commands::apply::run(apply, arguments.overwrite()),
         Command::Compare(compare) => commands::compare::run(compare),

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "",
     "demo",
     "init",
@@ -18,6 +18,7 @@ const COMMANDS: [&str; 14] = [
     "align",
     "navigate",
     "calibrate",
+    "diagnose",
     "observe",
     "monte-carlo",
     "merge",

@@ -5,6 +5,7 @@ mod bad_input;
 mod certificate;
 mod convert;
 mod demo;
+mod diagnose;
 mod effects;
 mod help;
 mod hostile;

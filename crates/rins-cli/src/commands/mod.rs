@@ -7,6 +7,7 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod demo;
+pub(crate) mod diagnose;
 pub(crate) mod init;
 pub(crate) mod merge;
 pub(crate) mod monte_carlo;

@@ -5,6 +5,7 @@ pub(crate) mod campaign;
 mod certificate;
 mod comparison;
 mod consistency;
+mod diagnosis;
 mod navigation;
 mod noise;
 pub(crate) mod table;
@@ -14,8 +15,9 @@ mod worth;
 pub(crate) use calibration::{SYSTEMATIC_NOTE, calibration_report, calibration_text, meaning};
 pub(crate) use certificate::{certificate_report, certificate_text};
 pub(crate) use comparison::{comparison_report, comparison_text};
+pub(crate) use diagnosis::{diagnosis_report, diagnosis_text, size_in_words, structure_in_words};
 pub(crate) use navigation::{attitude_plot, position_plot, velocity_plot};
-pub(crate) use worth::{budget_section, compensation_section};
+pub(crate) use worth::{budget_section, compensation_section, settings_in_words};
 
 use rins_frames::EulerAngles;
 use rins_frames::units::DEG;

@@ -1,10 +1,32 @@
 //! How a calibration is used: the compensation in words, and what each error is worth in navigation.
 
 use rins_frames::units::{ARCSEC, DEG};
-use rins_terms::Model;
+use rins_terms::{Model, Term};
 
 use crate::commands::calibrate::{Budget, EQUATION, STEPS};
+use crate::number::figure;
 use crate::report::{Cell, Column, Item, Section, Table};
+
+/// The settings of a term, such as "order = 2".
+pub(crate) fn settings_in_words(term: &Term, values: &[f64]) -> String {
+    let words: Vec<String> = term
+        .settings
+        .iter()
+        .zip(values)
+        .map(|(setting, value)| {
+            let unit = setting.unit;
+            let value = figure(value / unit.factor, 5);
+            let value = if value.contains('.') {
+                value.trim_end_matches('0').trim_end_matches('.')
+            } else {
+                &value
+            };
+            let symbol = if unit.symbol == "1" { "" } else { unit.symbol };
+            format!("{} = {value} {symbol}", setting.name).trim_end().to_owned()
+        })
+        .collect();
+    words.join(", ")
+}
 
 /// The compensation equation, its steps, and the terms of the model.
 pub(crate) fn compensation_section(model: &Model) -> Section {
@@ -12,20 +34,6 @@ pub(crate) fn compensation_section(model: &Model) -> Section {
     items.extend(STEPS.iter().map(|step| Item::Text((*step).into())));
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     for (place, chosen) in model.terms.iter().enumerate() {
-        let settings: Vec<String> = chosen
-            .term
-            .settings
-            .iter()
-            .zip(&chosen.settings)
-            .map(|(setting, value)| {
-                format!(
-                    "{} = {} {}",
-                    setting.name,
-                    value / setting.unit.factor,
-                    setting.unit.symbol
-                )
-            })
-            .collect();
         let of_table = chosen.term.id == "axis.attitude";
         rows.push(vec![
             Cell::text((place + 1).to_string()),
@@ -34,7 +42,7 @@ pub(crate) fn compensation_section(model: &Model) -> Section {
             Cell::text(if of_table {
                 "not undone: it is the table's".into()
             } else {
-                settings.join(", ")
+                settings_in_words(chosen.term, &chosen.settings)
             }),
         ]);
     }

@@ -43,6 +43,30 @@ const MODELS: &[Row] = &[
         &["rig.toml: the model leaves no parameter to be estimated"],
     ),
     (
+        "a diagnosis with no model file",
+        "diagnose rig.toml --model model.toml",
+        Nothing,
+        &["cannot read model.toml", "No such file"],
+    ),
+    (
+        "a diagnosis of a model of nothing",
+        "diagnose rig.toml --model model.toml",
+        Content("model.toml", b"schema = 1\nbase = \"none\"\n"),
+        &["rig.toml: ", "the model leaves no parameter to be estimated"],
+    ),
+    (
+        "a diagnosis of two IMUs",
+        "diagnose rig.toml other.toml",
+        All(&[Content("other.toml", OTHER)]),
+        &["rig.toml and other.toml have different data sheets"],
+    ),
+    (
+        "a diagnosis of exchanged gyros",
+        "diagnose rig.toml",
+        Replace("rig.toml", "unit = \"rad\"", "unit = \"rad\", axes = [\"z\", \"x\", \"y\"]"),
+        &["rig.toml: ", "the axes are exchanged"],
+    ),
+    (
         "two IMUs",
         "calibrate rig.toml other.toml --model full",
         All(&[Content("other.toml", OTHER)]),

@@ -29,6 +29,18 @@ const USAGES: &[Row] = &[
         Nothing,
         &["invalid value 'paper13' for '--model <MODEL>'", "paper12"],
     ),
+    (
+        "a diagnosis by the paper's filter",
+        "diagnose rig.toml --model paper12",
+        Nothing,
+        &["invalid value 'paper12' for '--model <MODEL>'", "expected full or a model file"],
+    ),
+    (
+        "one run diagnosed twice",
+        "diagnose rig.toml rig.toml",
+        Nothing,
+        &["rig.toml is given twice", "Usage: rins diagnose"],
+    ),
     ("no rig", "check", Nothing, &["required arguments were not provided", "<RIG>"]),
     ("a rig too many", "align rig.toml rig.toml", Nothing, &["unexpected argument 'rig.toml'"]),
     (

@@ -3,15 +3,15 @@
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Fit, Identifiability, NoiseKnowledge, Reference, Run, Strengths, fit};
+use rins_estimation::{Fit, Identifiability, fit};
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, Role, Surroundings, catalogue, compensated};
+use rins_terms::{Model, Surroundings, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
-use crate::commands::calibrate::{NamedModel, Prepared, files, json};
+use crate::commands::calibrate::{Case, Prepared, files, json};
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{certificate_report, certificate_text};
@@ -57,56 +57,45 @@ pub(crate) struct CertifiedRun {
 }
 
 impl Certificate {
-    /// Estimates a model from runs of one IMU.
-    pub(crate) fn of(
-        runs: Vec<Prepared>,
-        named: NamedModel,
-        noise: NoiseChoice,
-    ) -> anyhow::Result<Self> {
-        let imu = runs[0].imu;
-        if let Some(other) = runs.iter().find(|run| run.imu != imu) {
-            anyhow::bail!(
-                "{} and {} have different data sheets: several runs must be of one IMU",
-                runs[0].name,
-                other.name
-            );
-        }
-        let mut remarks: Vec<String> = match &runs[..] {
-            [only] => only.remarks.clone(),
-            several => several
-                .iter()
-                .flat_map(|run| run.remarks.iter().map(|told| format!("{}: {told}", run.name)))
-                .collect(),
-        };
-        let preset = named.name == "full";
-        let model = on_these_runs(named.model, &runs, preset, &mut remarks);
+    /// Estimates the model of a case from its runs.
+    pub(crate) fn of(case: Case) -> anyhow::Result<Self> {
         let spinner = progress::spinner("calibrating");
-        let given: Vec<Run> = runs.iter().map(|run| run.run.clone()).collect();
-        let sheet = Strengths::of(&imu);
-        let knowledge = match noise {
-            NoiseChoice::Likely => NoiseKnowledge::Likely(sheet),
-            NoiseChoice::Given => NoiseKnowledge::Given(sheet),
-        };
-        let found = fit(&given, &model, &imu, knowledge, |iteration| {
+        let found = fit(&case.given(), &case.model, case.imu(), case.knowledge(), |iteration| {
             spinner.set_message(format!("calibrating, last step {:.3} sigma", iteration.step));
         });
         spinner.finish_and_clear();
-        let names: Vec<&str> = runs.iter().map(|run| run.name.as_str()).collect();
-        let fit = found.with_context(|| names.join(", "))?;
+        let fit = found.with_context(|| case.names())?;
+        Self::with(case, fit)
+    }
+
+    /// What follows from a case and what was estimated from it.
+    pub(crate) fn with(case: Case, fit: Fit) -> anyhow::Result<Self> {
         let told = fit.identifiability();
-        let mut certified = Vec::with_capacity(runs.len());
-        for (place, prepared) in runs.into_iter().enumerate() {
+        let mut certified = Vec::with_capacity(case.runs.len());
+        for (place, prepared) in case.runs.into_iter().enumerate() {
             certified.push(CertifiedRun::of(prepared, &fit, place)?);
         }
         let innovations: Vec<_> =
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
-        let model = named.name;
+        let Case { name: model, noise, remarks, .. } = case;
         Ok(Self { model, runs: certified, fit, told, consistency, noise, remarks })
     }
 
     /// What the command delivers.
     pub(crate) fn outcome(&self) -> Outcome {
+        Outcome {
+            json: json::certificate(self),
+            text: certificate_text(self),
+            failure: self.absurd(),
+            report: Some(certificate_report(self)),
+            files: self.files(),
+            ..Outcome::default()
+        }
+    }
+
+    /// The model with the estimates in it, and a calibration file for each run.
+    pub(crate) fn files(&self) -> Vec<(String, Vec<u8>)> {
         let several = self.runs.len() > 1;
         let mut delivered = vec![(
             "model.toml".into(),
@@ -120,14 +109,7 @@ impl Certificate {
             let file = files::calibration(&self.fit, &self.told, run);
             delivered.push((name, file.to_toml().into_bytes()));
         }
-        Outcome {
-            json: json::certificate(self),
-            text: certificate_text(self),
-            failure: self.absurd(),
-            report: Some(certificate_report(self)),
-            files: delivered,
-            ..Outcome::default()
-        }
+        delivered
     }
 
     /// The value and the 1σ of what the data tell of a parameter: of itself, or of the sum that it is in, in SI units.
@@ -142,7 +124,7 @@ impl Certificate {
     }
 
     /// Why estimates mean nothing, if the innovations are beyond what any sensor error explains.
-    fn absurd(&self) -> Option<String> {
+    pub(crate) fn absurd(&self) -> Option<String> {
         let nis = self.consistency.nis_mean;
         (nis > ABSURD_NIS).then(|| {
             format!(
@@ -152,37 +134,6 @@ impl Certificate {
             )
         })
     }
-}
-
-/// The model with what is known of these runs: how their axes stand, and where gravity is the angle
-/// reference, a lever arm.
-fn on_these_runs(
-    mut model: Model,
-    runs: &[Prepared],
-    preset: bool,
-    remarks: &mut Vec<String>,
-) -> Model {
-    let by_gravity = runs.iter().any(|run| run.run.rig.reference == Reference::Gravity);
-    let arm = &catalogue::ACCEL_LEVER_ARM;
-    if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.id == arm.id) {
-        model = model.with(Chosen::new(arm).estimated());
-        remarks.push(
-            "The accelerometers' lever arm is estimated too: without it gravity's turning would not tell the angle."
-                .into(),
-        );
-    }
-    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == "axis.attitude");
-    for (axis, role) in chosen.flat_map(|chosen| chosen.roles.iter_mut().enumerate()) {
-        if *role != Role::Free {
-            continue;
-        }
-        // One prior for all runs: the widest.
-        let sigmas = runs.iter().map(|run| run.attitude.sigma[axis]);
-        *role = sigmas
-            .collect::<Option<Vec<f64>>>()
-            .map_or(Role::Held, |all| Role::Within(all.into_iter().fold(0.0, f64::max)));
-    }
-    model
 }
 
 impl CertifiedRun {

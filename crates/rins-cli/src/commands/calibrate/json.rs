@@ -111,7 +111,7 @@ fn parameter_json(certificate: &Certificate, place: usize) -> Value {
     parameter
 }
 
-fn noise_json(certificate: &Certificate) -> Value {
+pub(crate) fn noise_json(certificate: &Certificate) -> Value {
     let imu = certificate.fit.noise[0].imu;
     json!({
         "found": certificate.noise == NoiseChoice::Likely,

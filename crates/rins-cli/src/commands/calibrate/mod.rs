@@ -1,6 +1,7 @@
 //! `rins calibrate`: from runs to sensor errors, with the certificate of what was found.
 
 mod budget;
+mod case;
 mod certificate;
 mod files;
 mod gates;
@@ -12,9 +13,10 @@ use rins_io::ModelFile;
 use rins_terms::Model;
 
 pub(crate) use self::budget::{Budget, Drift};
+pub(crate) use self::case::Case;
 pub(crate) use self::certificate::{Certificate, CertifiedRun};
 pub(crate) use self::files::{EQUATION, STEPS};
-pub(crate) use self::json::navigation_json;
+pub(crate) use self::json::{consistency_json, navigation_json, noise_json};
 pub(crate) use self::paper::{calibrated, outcome};
 pub(crate) use self::prepared::Prepared;
 use crate::args::{Calibrate, ModelChoice};
@@ -25,6 +27,18 @@ use crate::outcome::Outcome;
 pub(crate) struct NamedModel {
     pub(crate) name: String,
     pub(crate) model: Model,
+}
+
+impl NamedModel {
+    /// The model that was chosen, read if it is a file.
+    pub(crate) fn of(choice: &ModelChoice) -> anyhow::Result<Self> {
+        let (name, model) = match choice {
+            ModelChoice::Paper12 => ("paper12".into(), Model::paper12()),
+            ModelChoice::Full => ("full".into(), Model::full()),
+            ModelChoice::File(path) => (path.display().to_string(), ModelFile::read(path)?.model),
+        };
+        Ok(Self { name, model })
+    }
 }
 
 pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
@@ -42,16 +56,13 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
             let outcome = outcome(&calibration, &loaded[0], &arguments.rigs[0])?;
             return Ok(outcome.of_log(&loaded[0]));
         }
-        ModelChoice::Full => NamedModel { name: "full".into(), model: Model::full() },
-        ModelChoice::File(path) => {
-            NamedModel { name: path.display().to_string(), model: ModelFile::read(path)?.model }
-        }
+        choice => NamedModel::of(choice)?,
     };
     let runs = arguments.rigs.iter().zip(loaded);
     let runs = runs
         .map(|(rig, loaded)| Prepared::of(rig, loaded, arguments.noise))
         .collect::<anyhow::Result<Vec<_>>>()?;
-    let certificate = Certificate::of(runs, named, arguments.noise)?;
+    let certificate = Certificate::of(Case::of(runs, named, arguments.noise)?)?;
     let mut outcome = certificate.outcome();
     for run in &certificate.runs {
         outcome = outcome.of_log(&run.prepared.loaded);

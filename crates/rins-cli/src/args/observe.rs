@@ -1,0 +1,70 @@
+//! The command line of `rins observe`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use rins_io::quantity::kinds;
+
+#[derive(Debug, Args)]
+pub(crate) struct Observe {
+    /// The scenario files
+    #[arg(required = true, value_name = "SCENARIO")]
+    pub(crate) scenarios: Vec<PathBuf>,
+    /// What is estimated: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default
+    /// full, but with --separate baseline: biases, attitude, mounting and the gyro errors tied to the spin axis
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) model: Option<String>,
+    /// Look at each scenario for itself, side by side; A+B are two runs of one schedule
+    #[arg(long)]
+    pub(crate) compare: bool,
+    /// Two effects to be told apart, and the shortest schedule that does
+    #[arg(long, value_name = "A,B", value_parser = pair)]
+    pub(crate) separate: Option<[String; 2]>,
+    /// A parameter and the 1σ wanted of it, such as gyro.scale.z=0.1ppm, and the shortest schedule
+    #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate")]
+    pub(crate) want: Option<String>,
+    /// The table's fastest rate; by default the scenario's fastest, or 10 deg/s if it rests
+    #[arg(long, value_name = "RATE", value_parser = table_rate)]
+    pub(crate) max_rate: Option<f64>,
+    /// The table's acceleration; by default the scenario's, or 5 deg/s^2
+    #[arg(long, value_name = "ACCELERATION", value_parser = table_acceleration)]
+    pub(crate) max_acceleration: Option<f64>,
+    /// The longest that the runs of a schedule may take together
+    #[arg(long, value_name = "DURATION", default_value = "3600 s", value_parser = duration)]
+    pub(crate) max_duration: f64,
+    /// Into how many directions the axis may be brought, at most 3
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = directions)]
+    pub(crate) directions: usize,
+    /// Folder for result.json, report.html and the proposed scenarios, next-1.toml and on
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+fn pair(text: &str) -> Result<[String; 2], String> {
+    match text.split(',').map(str::trim).collect::<Vec<_>>()[..] {
+        [first, second] if !first.is_empty() && !second.is_empty() => {
+            Ok([first.into(), second.into()])
+        }
+        _ => Err("expected two ids, such as gyro_g_sensitivity,encoder_eccentricity".into()),
+    }
+}
+
+fn table_rate(text: &str) -> Result<f64, String> {
+    let rate = kinds::TABLE_RATE.parse(text).map_err(|error| error.to_string())?;
+    if rate > 0.0 { Ok(rate) } else { Err("a fastest rate is more than zero".into()) }
+}
+
+fn table_acceleration(text: &str) -> Result<f64, String> {
+    kinds::TABLE_ACCELERATION.parse(text).map_err(|error| error.to_string())
+}
+
+fn duration(text: &str) -> Result<f64, String> {
+    kinds::DURATION.parse(text).map_err(|error| error.to_string())
+}
+
+fn directions(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=3) => Ok(n),
+        _ => Err("expected 1, 2 or 3".into()),
+    }
+}

@@ -1,0 +1,104 @@
+//! Runs of one IMU, and the model that is to be estimated from them.
+
+use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths};
+use rins_imu::ImuSpec;
+use rins_terms::{Chosen, Model, Role, catalogue};
+
+use crate::args::NoiseChoice;
+use crate::commands::calibrate::{NamedModel, Prepared};
+
+/// What is estimated, from what, and what is known beforehand.
+pub(crate) struct Case {
+    /// The runs, in the order in which they were given.
+    pub(crate) runs: Vec<Prepared>,
+    /// What the model is called.
+    pub(crate) name: String,
+    /// The model, with what is known of these runs.
+    pub(crate) model: Model,
+    /// Whether the noise is found, or given.
+    pub(crate) noise: NoiseChoice,
+    /// What else a reader must know.
+    pub(crate) remarks: Vec<String>,
+}
+
+impl Case {
+    /// A model on runs, if these are of one IMU.
+    pub(crate) fn of(
+        runs: Vec<Prepared>,
+        named: NamedModel,
+        noise: NoiseChoice,
+    ) -> anyhow::Result<Self> {
+        if let Some(other) = runs.iter().find(|run| run.imu != runs[0].imu) {
+            anyhow::bail!(
+                "{} and {} have different data sheets: several runs must be of one IMU",
+                runs[0].name,
+                other.name
+            );
+        }
+        let mut remarks: Vec<String> = match &runs[..] {
+            [only] => only.remarks.clone(),
+            several => several
+                .iter()
+                .flat_map(|run| run.remarks.iter().map(|told| format!("{}: {told}", run.name)))
+                .collect(),
+        };
+        let preset = named.name == "full";
+        let model = on_these_runs(named.model, &runs, preset, &mut remarks);
+        Ok(Self { runs, name: named.name, model, noise, remarks })
+    }
+
+    /// What the data sheet says.
+    pub(crate) fn imu(&self) -> &ImuSpec {
+        &self.runs[0].imu
+    }
+
+    /// The runs as the estimator takes them.
+    pub(crate) fn given(&self) -> Vec<Run> {
+        self.runs.iter().map(|run| run.run.clone()).collect()
+    }
+
+    /// What is known of the random errors.
+    pub(crate) fn knowledge(&self) -> NoiseKnowledge {
+        let sheet = Strengths::of(self.imu());
+        match self.noise {
+            NoiseChoice::Likely => NoiseKnowledge::Likely(sheet),
+            NoiseChoice::Given => NoiseKnowledge::Given(sheet),
+        }
+    }
+
+    /// The names of the runs, in a row.
+    pub(crate) fn names(&self) -> String {
+        self.runs.iter().map(|run| run.name.as_str()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The model with what is known of these runs: how their axes stand, and where gravity is the angle
+/// reference, a lever arm.
+fn on_these_runs(
+    mut model: Model,
+    runs: &[Prepared],
+    preset: bool,
+    remarks: &mut Vec<String>,
+) -> Model {
+    let by_gravity = runs.iter().any(|run| run.run.rig.reference == Reference::Gravity);
+    let arm = &catalogue::ACCEL_LEVER_ARM;
+    if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.id == arm.id) {
+        model = model.with(Chosen::new(arm).estimated());
+        remarks.push(
+            "The accelerometers' lever arm is estimated too: without it gravity's turning would not tell the angle."
+                .into(),
+        );
+    }
+    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == "axis.attitude");
+    for (axis, role) in chosen.flat_map(|chosen| chosen.roles.iter_mut().enumerate()) {
+        if *role != Role::Free {
+            continue;
+        }
+        // One prior for all runs: the widest.
+        let sigmas = runs.iter().map(|run| run.attitude.sigma[axis]);
+        *role = sigmas
+            .collect::<Option<Vec<f64>>>()
+            .map_or(Role::Held, |all| Role::Within(all.into_iter().fold(0.0, f64::max)));
+    }
+    model
+}

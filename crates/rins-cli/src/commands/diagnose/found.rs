@@ -1,0 +1,176 @@
+//! What a diagnosis found, and what follows from it.
+
+use std::time::Instant;
+
+use anyhow::Context;
+use nalgebra::{DMatrix, DVector};
+use rins_diagnosis::{Cause, Unexplained, diagnose};
+use rins_estimation::{Estimate, Fit};
+use rins_imu::ImuSpec;
+
+use crate::commands::calibrate::{Case, Certificate};
+use crate::commands::diagnose::json;
+use crate::commands::diagnose::testable::{Untestable, untestable};
+use crate::outcome::Outcome;
+use crate::progress;
+use crate::view::{diagnosis_report, diagnosis_text};
+
+/// An amplitude beyond the largest usual one by more than this many of its sigmas is not plausible.
+const BEYOND: f64 = 2.0;
+
+/// An estimate that moves by so many of its sigmas has been wrong before.
+const MOVED: f64 = 3.0;
+
+/// What is said of a run on the whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// Nothing significant is left over.
+    Adequate,
+    /// Each cause is told apart from every other effect of the catalogue.
+    Named,
+    /// There are causes that this run cannot tell from others.
+    Ambiguous,
+    /// There is something that no effect of the catalogue explains.
+    Unexplained,
+}
+
+/// A finished diagnosis with all that a reader is told of it.
+pub(crate) struct Found {
+    pub(crate) verdict: Verdict,
+    /// The causes, by the weight of their evidence.
+    pub(crate) causes: Vec<Named>,
+    /// What no effect explains, most significant first.
+    pub(crate) unexplained: Vec<Unexplained>,
+    /// The estimates that were wrong without the causes, the most wrong first.
+    pub(crate) shifts: Vec<Shift>,
+    /// The effects of which the run could not have shown anything.
+    pub(crate) untestable: Vec<Untestable>,
+    /// The calibration with the extended model.
+    pub(crate) certificate: Certificate,
+    /// How long it took \[s\].
+    pub(crate) seconds: f64,
+}
+
+/// A cause, and what its amplitude is worth.
+pub(crate) struct Named {
+    pub(crate) cause: Cause,
+    /// How many sigmas its parameters are from zero, all together.
+    pub(crate) sigmas: f64,
+    /// Whether an IMU, a table or a place like this may have it so large.
+    pub(crate) plausible: bool,
+}
+
+/// An estimate that moved when the causes joined the model.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shift {
+    /// Without the causes.
+    pub(crate) before: Estimate,
+    /// With them.
+    pub(crate) after: Estimate,
+}
+
+impl Shift {
+    /// By how many of the sigmas that it had claimed.
+    pub(crate) fn sigmas(&self) -> f64 {
+        (self.after.value - self.before.value) / self.before.sigma
+    }
+}
+
+impl Found {
+    /// Diagnoses the runs of a case.
+    pub(crate) fn of(case: Case) -> anyhow::Result<Self> {
+        let started = Instant::now();
+        let runs = case.given();
+        let spinner = progress::spinner("estimating the model");
+        let mut named: Vec<&str> = Vec::new();
+        let diagnosed = diagnose(&runs, &case.model, case.imu(), case.knowledge(), |id| {
+            named.push(id);
+            spinner.set_message(format!("found: {}", named.join(", ")));
+        });
+        spinner.finish_and_clear();
+        let diagnosis = diagnosed.with_context(|| case.names())?;
+        let imu = *case.imu();
+        let causes: Vec<Named> = diagnosis
+            .causes
+            .into_iter()
+            .map(|cause| Named::of(cause, &diagnosis.after, &imu))
+            .collect();
+        let verdict = if !diagnosis.unexplained.is_empty() {
+            Verdict::Unexplained
+        } else if causes.is_empty() {
+            Verdict::Adequate
+        } else if causes.iter().all(|named| named.cause.rivals.is_empty()) {
+            Verdict::Named
+        } else {
+            Verdict::Ambiguous
+        };
+        let shifts = shifts(&diagnosis.before, &diagnosis.after);
+        let untestable = untestable(&runs, &case.model, &diagnosis.not_testable);
+        let certificate = Certificate::with(case, diagnosis.after)?;
+        let seconds = started.elapsed().as_secs_f64();
+        let unexplained = diagnosis.unexplained;
+        Ok(Self { verdict, causes, unexplained, shifts, untestable, certificate, seconds })
+    }
+
+    /// What the command delivers.
+    pub(crate) fn outcome(&self) -> Outcome {
+        Outcome {
+            json: json::diagnosis(self),
+            text: diagnosis_text(self),
+            failure: self.certificate.absurd(),
+            report: Some(diagnosis_report(self)),
+            files: self.certificate.files(),
+            ..Outcome::default()
+        }
+    }
+
+    /// What the diagnosis is called.
+    pub(crate) fn title(&self) -> String {
+        let runs = &self.certificate.runs;
+        let names: Vec<&str> = runs.iter().map(|run| run.prepared.name.as_str()).collect();
+        format!("Diagnosis of {}", names.join(", "))
+    }
+}
+
+impl Named {
+    fn of(cause: Cause, after: &Fit, imu: &ImuSpec) -> Self {
+        let sigmas = distance(&cause.parameters, after);
+        let plausible = cause.parameters.iter().all(|estimate| {
+            let parameter = &cause.term.parameters[estimate.parameter.parameter];
+            estimate.value.abs() - BEYOND * estimate.sigma <= parameter.range(imu).1
+        });
+        Self { cause, sigmas, plausible }
+    }
+}
+
+/// How many sigmas these of a fit's parameters are from zero, all together.
+fn distance(parameters: &[Estimate], fit: &Fit) -> f64 {
+    let places: Vec<usize> = parameters
+        .iter()
+        .filter_map(|own| fit.parameters.iter().position(|estimate| same(own, estimate)))
+        .collect();
+    let n = places.len();
+    let covariance =
+        DMatrix::from_fn(n, n, |row, column| fit.covariance[(places[row], places[column])]);
+    let values = DVector::from_iterator(n, places.iter().map(|&p| fit.parameters[p].value));
+    covariance.cholesky().map_or(0.0, |factor| values.dot(&factor.solve(&values)).max(0.0).sqrt())
+}
+
+fn same(a: &Estimate, b: &Estimate) -> bool {
+    a.parameter.id == b.parameter.id && a.run == b.run
+}
+
+/// The estimates that moved by more than their sigmas allow, most of these first.
+fn shifts(before: &Fit, after: &Fit) -> Vec<Shift> {
+    let mut shifts: Vec<Shift> = before
+        .parameters
+        .iter()
+        .filter_map(|before| {
+            let after = after.parameters.iter().find(|after| same(before, after))?;
+            Some(Shift { before: before.clone(), after: after.clone() })
+        })
+        .filter(|shift| shift.sigmas().abs() > MOVED)
+        .collect();
+    shifts.sort_by(|a, b| b.sigmas().abs().total_cmp(&a.sigmas().abs()));
+    shifts
+}

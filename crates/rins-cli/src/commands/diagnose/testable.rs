@@ -1,0 +1,77 @@
+//! Which effects a run could not have shown, and why.
+
+use rins_estimation::Run;
+use rins_terms::{Model, Need, Term, catalogue};
+
+/// An effect of which a run shows nothing.
+#[derive(Clone, Debug)]
+pub(crate) struct Untestable {
+    pub(crate) term: &'static Term,
+    /// What the run would have to offer, in words.
+    pub(crate) why: String,
+}
+
+/// The effects that could not be tried on these runs, or of which they show nothing beyond `model`.
+pub(crate) fn untestable(runs: &[Run], model: &Model, unseen: &[&str]) -> Vec<Untestable> {
+    let tried = rins_diagnosis::candidates(runs, model);
+    let left_out = |term: &Term| {
+        term.is_signal()
+            && !model.terms.iter().any(|chosen| chosen.term.id == term.id)
+            && !tried.iter().any(|candidate| candidate.chosen.term.id == term.id)
+    };
+    let terms = catalogue::CATALOGUE.iter().copied();
+    terms
+        .filter_map(|term| {
+            let why = if unseen.contains(&term.id) {
+                unseen_for(term)
+            } else if left_out(term) {
+                missing(runs, term)
+            } else {
+                return None;
+            };
+            Some(Untestable { term, why })
+        })
+        .collect()
+}
+
+/// Why an effect that was tried does not show.
+fn unseen_for(term: &Term) -> String {
+    let needs: Vec<&str> = term.needs.iter().map(|need| in_words(*need)).collect();
+    if needs.is_empty() {
+        format!(
+            "under this schedule it is what the model already holds; to see it: {}",
+            term.told_apart_by
+        )
+    } else {
+        format!("it would take {}", needs.join(" and "))
+    }
+}
+
+/// Why an effect was not tried.
+fn missing(runs: &[Run], term: &Term) -> String {
+    let lacks = |need: &&Need| match need {
+        Need::Temperature => runs.iter().all(|run| run.recording.temperature.is_none()),
+        Need::TableAngle => runs.iter().all(|run| run.recording.table_angle.is_none()),
+        _ => false,
+    };
+    match term.needs.iter().find(lacks) {
+        Some(need) => format!("it would take {}", in_words(*need)),
+        None if term.needs.contains(&Need::Temperature) => "the temperature did not change".into(),
+        None if term.settings.iter().any(|setting| setting.name == "frequency") => {
+            "its frequency is not known, and is not searched for".into()
+        }
+        None => term.told_apart_by.into(),
+    }
+}
+
+const fn in_words(need: Need) -> &'static str {
+    match need {
+        Need::Temperature => "a temperature channel",
+        Need::TableAngle => "a table angle that is read",
+        Need::SeveralRates => "more than one rate of the table",
+        Need::Reversal => "turning both ways",
+        Need::Tilt => "an axis that is not vertical",
+        Need::SeveralTilts => "more than one direction of the axis",
+        Need::MagneticField => "a magnetic field that is known",
+    }
+}

@@ -1,0 +1,60 @@
+//! A diagnosis, for a terminal and for a browser.
+
+mod report;
+mod structure;
+mod words;
+
+use std::fmt::Write as _;
+
+pub(crate) use self::report::diagnosis_report;
+pub(crate) use self::structure::{size_in_words, structure_in_words};
+use self::words::{next_steps, probability, summary};
+use crate::commands::diagnose::{Found, Named};
+use crate::number::estimate;
+use crate::view::settings_in_words;
+use crate::view::table::aligned;
+
+/// The summary for a terminal: what was found in plain words, then the figures.
+pub(crate) fn diagnosis_text(found: &Found) -> String {
+    let mut text = format!("{}\n", found.title());
+    for sentence in summary(found) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {sentence}");
+    }
+    if found.causes.is_empty() {
+        return text;
+    }
+    let mut rows =
+        vec![["parameter", "value", "sigma", "unit", "size", "p"].map(String::from).to_vec()];
+    for named in &found.causes {
+        rows.extend(cause_rows(named));
+    }
+    let _ = write!(text, "\n{}", aligned(&rows));
+    for step in next_steps(found) {
+        let _ = writeln!(text, "  > {step}");
+    }
+    text
+}
+
+fn cause_rows(named: &Named) -> Vec<Vec<String>> {
+    let cause = &named.cause;
+    let settings = settings_in_words(cause.term, &cause.settings);
+    let mut rows: Vec<Vec<String>> = cause
+        .parameters
+        .iter()
+        .enumerate()
+        .map(|(place, own)| {
+            let unit = own.parameter.unit;
+            let (size, p) = match place {
+                0 => (format!("{:.1}σ", named.sigmas), probability(cause.ln_p)),
+                _ => (String::new(), String::new()),
+            };
+            let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
+            vec![own.parameter.id.clone(), value, sigma, unit.symbol.into(), size, p]
+        })
+        .collect();
+    if let (Some(row), false) = (rows.first_mut(), settings.is_empty()) {
+        row[5] = format!("{}  ({settings})", row[5]);
+    }
+    rows
+}

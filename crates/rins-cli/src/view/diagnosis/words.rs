@@ -1,0 +1,217 @@
+//! What a diagnosis found, in plain words.
+
+use rins_diagnosis::Unexplained;
+
+use super::structure::{size_in_words, structure_in_words};
+use crate::commands::diagnose::{Found, Named, Verdict};
+use crate::number::{estimate, figure};
+use crate::view::settings_in_words;
+
+/// How many of the estimates that moved are told in words.
+const SHIFTS_TOLD: usize = 3;
+
+/// The result: what was wrong, by how much, how sure, and what it did.
+pub(super) fn summary(found: &Found) -> Vec<String> {
+    let mut sentences = vec![headline(found)];
+    sentences.extend(found.causes.iter().filter_map(doubt));
+    sentences.extend(found.unexplained.iter().map(|one| remainder(found, one)));
+    if !found.causes.is_empty() {
+        sentences.push(damage(found));
+    }
+    sentences.extend(found.causes.iter().filter(|named| !named.plausible).map(|named| {
+        format!(
+            "The {} is larger than such an instrument should have: look for another cause that resembles it.",
+            named.cause.term.name
+        )
+    }));
+    if !found.untestable.is_empty() {
+        sentences.push(format!(
+            "{} effects of the catalogue could not have been seen in this run: that they are not named does not mean that \
+             they are not there.",
+            found.untestable.len()
+        ));
+    }
+    sentences.extend(found.certificate.remarks.iter().cloned());
+    sentences
+}
+
+fn headline(found: &Found) -> String {
+    if found.verdict == Verdict::Adequate {
+        return format!(
+            "The model ({}) is adequate: no effect of the catalogue explains more of this run than chance would, and what is \
+             left looks like noise.",
+            found.certificate.model
+        );
+    }
+    if found.causes.is_empty() {
+        return format!(
+            "Something is missing from the model ({}), and no effect of the catalogue explains it.",
+            found.certificate.model
+        );
+    }
+
+    let effects: Vec<String> = found
+        .causes
+        .iter()
+        .map(|named| {
+            format!(
+                "{} ({}), {}, {:.0} sigma, odds of chance {}",
+                named.cause.term.name,
+                named.cause.term.cause,
+                amplitude(named),
+                named.sigmas,
+                probability(named.cause.ln_p)
+            )
+        })
+        .collect();
+    match &effects[..] {
+        [only] => format!("One effect is missing from the model: {only}."),
+        several => {
+            format!("{} effects are missing from the model: {}.", several.len(), several.join("; "))
+        }
+    }
+}
+
+/// What no effect explains, and what harm it may do.
+fn remainder(found: &Found, one: &Unexplained) -> String {
+    let size = size_in_words(one).map_or_else(String::new, |size| format!(", {size}"));
+    let fit = &found.certificate.fit;
+    let worst: Vec<String> = one
+        .worst
+        .iter()
+        .filter_map(|(id, value)| {
+            let unit = fit.parameter(id)?.parameter.unit;
+            Some(format!("{id} by {} {}", figure(value / unit.factor, 2), unit.symbol))
+        })
+        .collect();
+    let harm = if worst.is_empty() {
+        String::new()
+    } else {
+        format!("; at worst it puts off {}", worst.join(", "))
+    };
+    format!(
+        "Unexplained, on {}: {}{size}, odds of chance {}{harm}.",
+        one.channel,
+        structure_in_words(one),
+        probability(one.ln_p)
+    )
+}
+
+/// A cause's amplitude: its parameters that are not zero, with their sigma.
+fn amplitude(named: &Named) -> String {
+    let cause = &named.cause;
+    let largest = cause
+        .parameters
+        .iter()
+        .map(|estimate| (estimate.value / estimate.sigma).abs())
+        .fold(0.0, f64::max);
+    // What is not seen at all would only hide what is.
+    let told = cause.parameters.iter().filter(|estimate| {
+        let size = (estimate.value / estimate.sigma).abs();
+        size > 2.0_f64.min(largest) || size >= largest
+    });
+    let mut parts: Vec<String> = told
+        .map(|own| {
+            let (unit, name) = (own.parameter.unit, &own.parameter.id);
+            let name = name.rsplit('.').next().unwrap_or(name);
+            let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
+            format!("{name} = {value} ± {sigma} {}", unit.symbol)
+        })
+        .collect();
+    let settings = settings_in_words(cause.term, &cause.settings);
+    if !settings.is_empty() {
+        parts.push(settings);
+    }
+    parts.join(", ")
+}
+
+/// What a cause cannot be told from.
+fn doubt(named: &Named) -> Option<String> {
+    let rivals = rivals(named);
+    (!rivals.is_empty())
+        .then(|| format!("This run cannot tell the {} from: {rivals}.", named.cause.term.name))
+}
+
+/// The other effects of a cause's set, in words.
+pub(super) fn rivals(named: &Named) -> String {
+    let rivals = named.cause.rivals.iter().map(|rival| {
+        let odds = (-rival.odds).exp();
+        format!("{} ({} times less likely)", rival.term.name, figure_of_odds(odds))
+    });
+    rivals.collect::<Vec<_>>().join(", ")
+}
+
+fn figure_of_odds(odds: f64) -> String {
+    if odds < 9.5 { format!("{odds:.1}") } else { format!("{odds:.0}") }
+}
+
+/// What the causes did to the estimates as long as they were not in the model.
+fn damage(found: &Found) -> String {
+    if found.shifts.is_empty() {
+        return "No estimate of the model was off by more than 3 of its sigmas for want of it."
+            .into();
+    }
+    let told: Vec<String> = found
+        .shifts
+        .iter()
+        .take(SHIFTS_TOLD)
+        .map(|shift| {
+            let unit = shift.before.parameter.unit;
+            format!(
+                "{} off by {} {} ({:.0} of its sigmas)",
+                shift.before.parameter.id,
+                figure((shift.before.value - shift.after.value) / unit.factor, 3),
+                unit.symbol,
+                shift.sigmas().abs()
+            )
+        })
+        .collect();
+    let more = found.shifts.len() - told.len();
+    let more = if more == 0 { String::new() } else { format!(", and {more} more") };
+    format!("Left out, it put {}{more}.", told.join(", "))
+}
+
+/// What to do next.
+pub(super) fn next_steps(found: &Found) -> Vec<String> {
+    let mut steps: Vec<String> = found
+        .causes
+        .iter()
+        .filter(|named| !named.cause.rivals.is_empty())
+        .map(|named| {
+            format!(
+                "To tell the {} apart: {}.",
+                named.cause.term.name, named.cause.term.told_apart_by
+            )
+        })
+        .collect();
+    if !found.causes.is_empty() {
+        steps.push(
+            "With -o DIR the extended model is in DIR/model.toml, for rins calibrate --model, and what it estimates in \
+             DIR/calibration.toml, for rins navigate and rins apply."
+                .into(),
+        );
+    }
+    steps
+}
+
+/// A probability, from its logarithm, which may be of any size.
+pub(super) fn probability(ln_p: f64) -> String {
+    let power = ln_p / std::f64::consts::LN_10;
+    if power > -3.0 {
+        return format!("{:.3}", ln_p.exp());
+    }
+    let whole = power.floor();
+    format!("{:.0}e{whole:.0}", 10.0_f64.powf(power - whole).floor().max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probability_beyond_all_numbers_is_still_told() {
+        assert_eq!(probability((0.25_f64).ln()), "0.250");
+        assert_eq!(probability((3.2e-7_f64).ln()), "3e-7");
+        assert_eq!(probability(-1204.0), "1e-523");
+    }
+}

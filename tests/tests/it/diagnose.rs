@@ -1,0 +1,150 @@
+//! `rins diagnose`: what was hidden is named with its size, and nothing where nothing is.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use rins_frames::units::{DEG_PER_HOUR, PPM};
+use rins_tests::{outside_data, workspace};
+use serde_json::Value;
+
+use crate::support::{list, magnitude, number, result_in, rins_in, texts};
+
+/// Three amplitudes in a thousand lie further from the truth than that; the runs hold a dozen.
+const WITHIN: f64 = 3.0;
+
+/// A shipped schedule, with these lines of truth more.
+fn scenario(truth: &str) -> String {
+    let schedule = workspace().join("scenarios/schedules/iii-three-rates.toml");
+    fs::read_to_string(schedule).unwrap() + truth
+}
+
+/// The effects of a sample run, each parameter in the unit of results.
+fn hidden(run: &Path) -> BTreeMap<String, f64> {
+    let truth = fs::read_to_string(run.join("truth.json")).unwrap();
+    let truth: Value = serde_json::from_str(&truth).unwrap();
+    let mut values = BTreeMap::new();
+    for effect in list(&truth, "/effects") {
+        let id = effect[0].as_str().unwrap();
+        let of = |pointer: &str| number(&effect[1], pointer);
+        let mut is = |name: &str, value: f64| {
+            values.insert(format!("{id}.{name}"), value);
+        };
+        match id {
+            "accel_lever_arm" => {
+                is("r_x", of("/r/0") / 1e-3);
+                is("r_y", of("/r/1") / 1e-3);
+            }
+            "encoder_latency" => is("delay", of("/tau") / 1e-3),
+            "gyro_scale_asymmetry" => is("z", of("/k/2") / PPM),
+            "gyro_thermal_bias" => {
+                for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+                    is(name, of(&format!("/c/{axis}")) / DEG_PER_HOUR);
+                }
+            }
+            "gyro_g_sensitivity" => {
+                for (row, name) in ["x", "y", "z"].iter().enumerate() {
+                    for (column, other) in ["x", "y", "z"].iter().enumerate() {
+                        // The truth is in rad/s per m/s².
+                        let value = of(&format!("/G/{row}/{column}")) * 9.80665 / DEG_PER_HOUR;
+                        is(&format!("{name}{other}"), value);
+                    }
+                }
+            }
+            _ => panic!("{id} is not expected here"),
+        }
+    }
+    values
+}
+
+#[test]
+fn nothing_is_named_where_nothing_is_hidden() {
+    for (name, noise) in [("clean_multirate", "given"), ("paper_constant_rate", "likely")] {
+        let Some(run) = outside_data(&format!("synthetic/{name}")) else { return };
+        let result = result_in(&run, &format!("diagnose rig.toml --noise {noise}"));
+        assert_eq!(result["verdict"], "adequate", "{name}: {}", result["causes"]);
+        assert_eq!(list(&result, "/causes").len(), 0);
+    }
+}
+
+#[test]
+fn what_one_rate_cannot_show_is_said_not_to_be_testable() {
+    let Some(run) = outside_data("synthetic/paper_constant_rate") else { return };
+    let result = result_in(&run, "diagnose rig.toml --noise given");
+    let effects = list(&result, "/not_testable");
+    let asymmetry = effects.iter().find(|one| one["effect"] == "gyro_scale_asymmetry");
+    let why = asymmetry.expect("the scale shows at one rate only")["why"].as_str().unwrap();
+    assert!(why.contains("turning both ways"), "{why}");
+}
+
+#[test]
+fn hidden_effects_are_named_with_their_size() {
+    for name in [
+        "lever_arm_multirate",
+        "encoder_latency_reversal",
+        "g_sensitivity_dwell",
+        "thermal_and_asymmetry",
+    ] {
+        let Some(run) = outside_data(&format!("synthetic/{name}")) else { return };
+        let truth = hidden(&run);
+        let result = result_in(&run, "diagnose rig.toml --noise given");
+        let causes = list(&result, "/causes");
+        let rivals = causes.iter().any(|cause| !texts(cause, "/cannot_tell_from").is_empty());
+        assert_eq!(result["verdict"], if rivals { "ambiguous" } else { "named" }, "{name}");
+        let mut hidden: Vec<&str> =
+            truth.keys().filter_map(|id| Some(id.rsplit_once('.')?.0)).collect();
+        hidden.dedup();
+        for effect in hidden {
+            let cause = causes.iter().find(|cause| cause["effect"] == effect);
+            let cause = cause.unwrap_or_else(|| panic!("{name}: no {effect} in {causes:#?}"));
+            assert!(number(cause, "/ln_p") < (0.01_f64).ln(), "{name}: {cause:#}");
+            assert_eq!(cause["plausible"], true, "{name}: {cause:#}");
+            for parameter in list(cause, "/parameters") {
+                let truth = truth[parameter["id"].as_str().unwrap()];
+                let off = (number(parameter, "/value") - truth) / number(parameter, "/sigma");
+                assert!(off.abs() < WITHIN, "{name}: {truth} found {off} sigma off: {parameter}");
+            }
+        }
+    }
+}
+
+/// What is written is what the other commands take, on another run of the same IMU too.
+#[test]
+fn extended_model_calibrates_and_navigates_another_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let hidden = scenario(
+        r#"
+        gyro = { scale = ["0 ppm", "0 ppm", "300 ppm"] }
+        effects = [{ id = "gyro_scale_asymmetry", z = "6 ppm" }]
+        "#,
+    );
+    fs::write(here.join("scenario.toml"), hidden).unwrap();
+    for (arguments, to) in [("", "one"), (" --seed 8", "two")] {
+        let made = rins_in(here, &format!("simulate scenario.toml{arguments} -o {to}"));
+        assert_eq!(made.code, Some(0), "{}", made.err);
+    }
+    let result = result_in(here, "diagnose one/rig.toml --noise given -o found");
+    assert_eq!(result["verdict"], "named", "{}", result["causes"]);
+    let cause = &result["causes"][0];
+    assert_eq!(cause["effect"], "gyro_scale_asymmetry");
+    let (value, sigma) =
+        (number(cause, "/parameters/0/value"), number(cause, "/parameters/0/sigma"));
+    assert!(
+        (value - 6.0).abs() < WITHIN * sigma && sigma < 0.6,
+        "6 ppm found as {value} ± {sigma}"
+    );
+    let page = fs::read_to_string(here.join("found/report.html")).unwrap();
+    assert!(page.contains("asymmetry of the gyro scale"));
+
+    let nis = |model: &str| {
+        let arguments = format!("calibrate two/rig.toml --noise given --model {model}");
+        number(&result_in(here, &arguments), "/consistency/nis_mean")
+    };
+    // Of six figures each; without the effect they are twice as large.
+    let (with, without) = (nis("found/model.toml"), nis("full"));
+    assert!((5.5..6.5).contains(&with) && without > 9.0, "NIS {with} with, {without} without");
+    let result = result_in(here, "navigate two/rig.toml --calibration found/calibration.toml");
+    let [raw, undone] = [0, 1].map(|run| magnitude(&result, &format!("/runs/{run}/velocity_m_s")));
+    assert!(raw > 20.0 * undone, "{raw} and {undone}");
+}
