@@ -6,9 +6,10 @@ use rins_terms::{Chosen, Model, Term};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
+use crate::disturbance;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
-use crate::unexplained::Unexplained;
+use crate::unexplained::{Unexplained, described};
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
 pub(crate) const FALSE_ALARMS: f64 = 0.01;
@@ -61,6 +62,15 @@ pub struct Diagnosis {
     pub not_testable: Vec<&'static str>,
 }
 
+impl Diagnosis {
+    /// The model with the causes in it, without what has no name.
+    pub fn extended(&self) -> Model {
+        let mut model = self.after.model().clone();
+        model.terms.retain(|chosen| chosen.term.id != disturbance::ID);
+        model
+    }
+}
+
 /// Why runs could not be diagnosed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -102,7 +112,7 @@ pub fn diagnose(
     let mut not_testable = None;
     while found.len() < MOST_CAUSES {
         let mut list = candidates(runs, present.model());
-        list.extend(case.slow_lines(&present));
+        list.extend(case.spectral(&present));
         let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
         let Some(context) = Context::of(&survey, &[]) else { break };
         let tried = trials(&survey, &context, &list, present.model().terms.len());
@@ -124,8 +134,12 @@ pub fn diagnose(
         progress(candidate.chosen.term.id);
         present = fitted;
     }
-    let (after, mut causes) = case.settled(&before, present, found)?;
-    let unexplained = case.unexplained(&after, &causes)?;
+    let (after, causes) = case.settled(&before, present, found)?;
+    let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
+        causes.into_iter().partition(|cause| cause.term.id == disturbance::ID);
+    let mut unexplained: Vec<Unexplained> =
+        unknown.iter().map(|cause| described(cause, &after)).collect();
+    unexplained.extend(case.unexplained(&after, &causes)?);
     causes.extend(fast.into_iter().map(|(_, cause)| cause));
     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let not_testable = not_testable.unwrap_or_default();

@@ -2,6 +2,9 @@
 
 use rins_terms::{Action, Dual64, Moment, Owner, Parameter, Prior, Setting, Signals, Term, Unit};
 
+/// What a disturbance is called where only a name will do.
+pub(crate) const ID: &str = "disturbance";
+
 /// The channels on which a disturbance may be, each with a cosine and a sine.
 pub(crate) const CHANNELS: [&str; 7] =
     ["gyro.x", "gyro.y", "gyro.z", "accel.x", "accel.y", "accel.z", "encoder"];
@@ -37,7 +40,7 @@ const fn disturbance(
     act: fn(&[Dual64], &[f64], &Moment, &mut Signals),
 ) -> Term {
     Term {
-        id: "disturbance",
+        id: ID,
         also: &[],
         name,
         cause: "unknown",

@@ -1,6 +1,6 @@
 //! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones may be.
 
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 use rins_estimation::{Estimate, Fit, Run};
 use rins_terms::{Chosen, Free, Owner, Term, catalogue, values};
 use rustfft::FftPlanner;
@@ -9,7 +9,8 @@ use rustfft::num_complex::Complex;
 use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
-use crate::structure::{CHANNELS, Left};
+use crate::disturbance::IN_ANGLE;
+use crate::structure::{CHANNELS, Left, Structure};
 
 /// How many slow lines are tried at once.
 const SLOW: usize = 2;
@@ -27,8 +28,8 @@ const SHARE: f64 = 0.1;
 const MOST: usize = 4;
 
 impl Case<'_> {
-    /// The terms that have a frequency, where the innovations are strongest.
-    pub(crate) fn slow_lines(&self, present: &Fit) -> Vec<Candidate> {
+    /// The terms that have a frequency, and an order of no known cause, where the innovations are strongest.
+    pub(crate) fn spectral(&self, present: &Fit) -> Vec<Candidate> {
         let mut list = Vec::new();
         for run in 0..self.runs.len() {
             let innovations = present.innovations(run);
@@ -40,6 +41,11 @@ impl Case<'_> {
             // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
             let in_body = left.in_body();
             let body = Left { innovations: &in_body, ..left };
+            list.extend(left.strongest_order(&in_body).map(|(order, step, looks)| {
+                let mut chosen = Chosen::new(&IN_ANGLE).estimated();
+                chosen.settings[0] = order;
+                Candidate { chosen, looks, step: Some((0, step)) }
+            }));
             let frequencies =
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
@@ -202,6 +208,14 @@ fn cause(channel: usize, line: &Line, ln_p: f64, run: usize) -> (Chosen, Cause) 
 }
 
 impl Left<'_> {
+    /// The order at which most is left on a sensor, the step to the next that was looked at, and how many there were.
+    fn strongest_order(&self, in_body: &[SVector<f64, CHANNELS>]) -> Option<(f64, f64, f64)> {
+        let (step, count) = self.orders()?;
+        let find = self.order(in_body)?;
+        let Structure::Order(order) = find.structure else { return None };
+        Some((order.abs(), step, 2.0 * count))
+    }
+
     /// The frequencies at which most is left \[Hz\], strongest first.
     fn strongest_lines(&self, count: usize) -> Vec<f64> {
         let spectrum = self.spectrum(0, self.innovations.len());

@@ -6,6 +6,7 @@ use rins_terms::Chosen;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
+use crate::disturbance;
 use crate::lines::at_frequency;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
@@ -84,6 +85,10 @@ impl Case<'_> {
                 if !list.iter().any(|other| other.chosen == candidate.chosen) {
                     list.push(candidate);
                 }
+            }
+            if cause.term.id == disturbance::ID {
+                let chosen = cause.clone().with_values(&vec![0.0; cause.values.len()]).estimated();
+                list.push(Candidate { chosen, looks: 1.0, step: None });
             }
             let of_frequency = cause.term.settings.first().filter(|s| s.name == "frequency");
             if of_frequency.is_some() {

@@ -77,7 +77,7 @@ impl Left<'_> {
         let body = Left { innovations: &in_body, ..*self };
         finds.extend(self.line());
         finds.extend(body.line());
-        finds.extend(self.order());
+        finds.extend(self.order(&in_body));
         finds.extend([Along::Time, Along::Sense, Along::Rate].map(|along| self.spread(along)));
         let kinds = finds.len() as f64;
         for find in &mut finds {
@@ -149,8 +149,29 @@ impl Left<'_> {
         bin as f64 / ((FINER * length) as f64 * self.epoch)
     }
 
-    /// The strongest order of the table angle.
-    fn order(&self) -> Option<Find> {
+    /// The strongest order of the table angle: on a sensor, where both senses are one, or of a vector that turns.
+    pub(crate) fn order(&self, in_body: &[SVector<f64, CHANNELS>]) -> Option<Find> {
+        let (step, count) = self.orders()?;
+        // On sensors, and of vectors in two senses.
+        let looks = 3.0 * count;
+        let mut best: Option<Find> = None;
+        let mut place = 0.0;
+        while place < count {
+            place += 1.0;
+            let order = step * place;
+            let sensors = of_bin(Structure::Order(order), looks, &self.turning(in_body, order));
+            let vectors = [order, -order].map(|order| self.vector(order, looks));
+            for find in [sensors].into_iter().chain(vectors) {
+                if best.is_none_or(|best| find.ln_p < best.ln_p) {
+                    best = Some(find);
+                }
+            }
+        }
+        best
+    }
+
+    /// The step between the orders that are looked at, and how many there are; none if the table does not turn.
+    pub(crate) fn orders(&self) -> Option<(f64, f64)> {
         let first = self.angles.first()?;
         let most = self.angles.iter().fold(0.0_f64, |most, angle| most.max((angle - first).abs()));
         let turns = most / std::f64::consts::TAU;
@@ -161,45 +182,35 @@ impl Left<'_> {
         let fastest = self.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let highest = HIGHEST_ORDER.min(std::f64::consts::PI / (fastest * self.epoch));
         let count = (highest / step).floor();
-        let n = self.innovations.len() as f64;
-        let mut best: Option<Find> = None;
-        let mut place = 0.0;
-        while place < count {
-            place += 1.0;
-            for sense in [1.0, -1.0] {
-                // In the axis frame; a signal that stands still in the body has order one here.
-                let order = sense * step * place;
-                let mut sums = [Complex::new(0.0, 0.0); 4];
-                for (nu, angle) in self.innovations.iter().zip(self.angles) {
-                    let turned = Complex::from_polar(1.0, -order * angle);
-                    let pairs = [
-                        Complex::new(nu[0], nu[1]),
-                        Complex::new(nu[3], nu[4]),
-                        Complex::new(nu[2], 0.0),
-                        Complex::new(nu[5], 0.0),
-                    ];
-                    for (sum, pair) in sums.iter_mut().zip(pairs) {
-                        *sum += pair * turned;
-                    }
-                }
-                let power = [
-                    sums[0].norm_sqr() / (2.0 * n),
-                    sums[1].norm_sqr() / (2.0 * n),
-                    sums[2].norm_sqr() / n,
-                    sums[3].norm_sqr() / n,
-                ];
-                let looks = 2.0 * count;
-                for (which, power) in power.into_iter().enumerate() {
-                    let channel = [0, 3, 2, 5][which];
-                    let ln_p = (4.0 * looks).ln() - power;
-                    if best.is_none_or(|best| ln_p < best.ln_p) {
-                        let in_body = if which < 2 { order - 1.0 } else { order.abs() };
-                        best = Some(Find { structure: Structure::Order(in_body), channel, ln_p });
-                    }
-                }
+        Some((step, count))
+    }
+
+    /// The power of an order of the table angle in each quantity.
+    fn turning(&self, series: &[SVector<f64, CHANNELS>], order: f64) -> [f64; CHANNELS] {
+        let mut sums = [Complex::new(0.0, 0.0); CHANNELS];
+        for (nu, angle) in series.iter().zip(self.angles) {
+            let turned = Complex::from_polar(1.0, -order * angle);
+            for (sum, part) in sums.iter_mut().zip(nu.iter()) {
+                *sum += turned * *part;
             }
         }
-        best
+        sums.map(|sum| sum.norm_sqr() / series.len() as f64)
+    }
+
+    /// The power of a vector across the axis that turns with an order of the table angle: of attitude or of velocity.
+    fn vector(&self, order: f64, looks: f64) -> Find {
+        let mut sums = [Complex::new(0.0, 0.0); 2];
+        for (nu, angle) in self.innovations.iter().zip(self.angles) {
+            let turned = Complex::from_polar(1.0, -order * angle);
+            sums[0] += Complex::new(nu[0], nu[1]) * turned;
+            sums[1] += Complex::new(nu[3], nu[4]) * turned;
+        }
+        let n = self.innovations.len() as f64;
+        let [attitude, velocity] = sums.map(|sum| sum.norm_sqr() / (2.0 * n));
+        let (channel, power) = if attitude > velocity { (0, attitude) } else { (3, velocity) };
+        // What stands still in the body has order one in the axis frame.
+        let structure = Structure::Order(order - 1.0);
+        Find { structure, channel, ln_p: (2.0 * looks).ln() - power }
     }
 
     /// Whether the spread is the same all along: the likelihood ratio of a variance for each group.

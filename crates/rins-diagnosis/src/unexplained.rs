@@ -111,9 +111,7 @@ impl Case<'_> {
                 one.amplitude = Some((estimate.norm() * parameter.sigma(self.imu), parameter.unit));
             }
         }
-        // A disturbance of so many sigmas moves no estimate by more than as many of its own.
-        let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * strongest.sqrt()));
-        one.worst = OF_INTEREST.iter().filter_map(of).collect();
+        one.worst = worst(after, strongest);
         Ok(())
     }
 
@@ -184,6 +182,44 @@ impl Case<'_> {
         let of = |id: &str| fit.parameters.iter().filter(holds).find(|e| e.parameter.id == id);
         free.iter().filter_map(|parameter| of(&parameter.id)).collect()
     }
+}
+
+/// A disturbance that had to be put into the model beside the causes, for want of one.
+pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
+    let of = |channel: usize, estimate: &Estimate| estimate.parameter.parameter / 2 == channel;
+    let mut one = Unexplained {
+        run: 0,
+        channel: CHANNELS[0],
+        structure: Structure::Order(cause.settings[0]),
+        of: None,
+        ln_p: cause.ln_p,
+        amplitude: None,
+        worst: worst(after, 2.0 * cause.gain),
+    };
+    let mut strongest = 0.0;
+    for (channel, name) in CHANNELS.iter().enumerate() {
+        let own = cause.parameters.iter().filter(|estimate| of(channel, estimate));
+        let (mut square, mut sigmas, mut unit) = (0.0, 0.0_f64, None);
+        for estimate in own {
+            square += estimate.value.powi(2);
+            sigmas += (estimate.value / estimate.sigma).powi(2);
+            unit = Some(estimate.parameter.unit);
+            one.run = estimate.run.unwrap_or_default();
+        }
+        if sigmas > strongest {
+            strongest = sigmas;
+            one.channel = name;
+            one.amplitude = unit.map(|unit| (square.sqrt(), unit));
+        }
+    }
+    one
+}
+
+/// How far a disturbance of this square may have put off what is of interest: no estimate by more of its own sigmas
+/// than the disturbance has.
+fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
+    let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * statistic.sqrt()));
+    OF_INTEREST.iter().filter_map(of).collect()
 }
 
 /// The logarithm of the chance that what comes after the `known` parameters, which are estimated, is nothing.

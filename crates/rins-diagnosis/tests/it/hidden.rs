@@ -151,7 +151,8 @@ fn what_no_effect_explains_is_described_and_not_named() {
         sample.angle += InFrame::new(0.0, rate * sample.interval, 0.0);
     }
     let diagnosis = found(&run, NoiseKnowledge::Given);
-    let [one, ..] = &diagnosis.unexplained[..] else { panic!("{:?}", diagnosis.causes) };
+    assert!(diagnosis.causes.is_empty(), "{:?}", diagnosis.causes);
+    let [one, ..] = &diagnosis.unexplained[..] else { panic!("nothing is found") };
     let Structure::Order(order) = one.structure else { panic!("{one:?}") };
     // On one axis both senses are one.
     assert!((order.abs() - ORDER).abs() < 0.1, "{order}");
