@@ -36,14 +36,40 @@ impl Evidence {
             gram.add(whitened);
             log_determinant += log_det;
         })?;
-        let shown = if linear.shows_angle() { SHOWN } else { SHOWN - 1 };
-        Ok(Self::from_products(&gram.finish(), linear.epochs.len() * shown, log_determinant))
+        let epochs = linear.epochs.iter().filter(|epoch| !epoch.left_out).count();
+        Ok(Self::from_products(&gram.finish(), epochs * linear.shown(), log_determinant))
     }
+}
+
+/// What an epoch shows, against what all before it foretold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foretold {
+    /// The whitened innovation, N(0, I) if the model is right.
+    pub innovation: SVector<f64, SHOWN>,
+    /// The logarithm of the probability density of what was shown \[nats\].
+    pub log_density: f64,
+}
+
+/// How well each epoch of a run was foretold where it is linear.
+///
+/// # Errors
+/// [`Indefinite`] if the noise makes no covariance.
+pub fn foretold(linear: &Linear, noise: &Noise) -> Result<Vec<Foretold>, Indefinite> {
+    let mut none = vec![0.0; linear.parameters + 1];
+    none[0] = 1.0;
+    let constant = 0.5 * linear.shown() as f64 * std::f64::consts::TAU.ln();
+    let mut all = Vec::with_capacity(linear.epochs.len());
+    pass(linear, noise, &none, |whitened, log_determinant| {
+        let innovation = -SVector::<f64, SHOWN>::from_column_slice(whitened.as_slice());
+        let log_density = -0.5 * innovation.norm_squared() - log_determinant - constant;
+        all.push(Foretold { innovation, log_density });
+    })?;
+    Ok(all)
 }
 
 /// The whitened innovations of a linear run where the parameters are `delta` from where it is linear.
 ///
-/// Each is N(0, I) if the model is right.
+/// Each is N(0, I) if the model is right. Epochs that play no part have none.
 ///
 /// # Errors
 /// [`Indefinite`] if the noise makes no covariance.
@@ -81,6 +107,10 @@ fn pass(
         shows_angle: linear.shows_angle(),
     };
     for (index, epoch) in linear.epochs.iter().enumerate() {
+        if epoch.left_out {
+            filter.pass_over(&space.step(epoch));
+            continue;
+        }
         let inputs = Inputs::of(epoch, combination);
         if epoch.fresh {
             space.forget_navigation(&mut filter.covariance);
@@ -167,6 +197,18 @@ impl Pass {
         self.carry_columns(step, inputs, &l, &gain);
         self.carry_covariance(step, &of_navigation, &gain);
         Some(l.diagonal().iter().map(|x| x.ln()).sum())
+    }
+
+    /// Lets time go by for what has a memory; navigation starts anew afterwards.
+    fn pass_over(&mut self, step: &Step) {
+        for (index, decay) in step.decay.iter().enumerate() {
+            let state = NAVIGATION + index;
+            self.columns.column_mut(state).scale_mut(*decay);
+            for (other, other_decay) in step.decay.iter().enumerate() {
+                self.covariance[(NAVIGATION + other, state)] *= decay * other_decay;
+            }
+            self.covariance[(state, state)] += step.colour_noise[index];
+        }
     }
 
     /// What of the columns is shown, whitened, and what is carried on.

@@ -66,11 +66,15 @@ impl<'a> Filter<'a> {
         &self.covariance
     }
 
-    /// Takes the next epoch; its whitened innovation, or nothing after the last.
+    /// Takes the next epoch that plays a part; its whitened innovation, or nothing after the last.
     ///
     /// # Errors
     /// [`Indefinite`] if the innovation has no covariance; the filter must not be used further.
     pub fn step(&mut self) -> Result<Option<SVector<f64, SHOWN>>, Indefinite> {
+        while let Some(epoch) = self.linear.epochs.get(self.epoch).filter(|epoch| epoch.left_out) {
+            self.pass_over(&self.space.step(epoch));
+            self.epoch += 1;
+        }
         let Some(epoch) = self.linear.epochs.get(self.epoch) else { return Ok(None) };
         let inputs = Inputs::of(epoch, &[]);
         if epoch.fresh {
@@ -80,6 +84,19 @@ impl<'a> Filter<'a> {
         let innovation = self.go(&step, &inputs).ok_or(Indefinite { epoch: self.epoch })?;
         self.epoch += 1;
         Ok(Some(innovation))
+    }
+
+    /// Lets time go by for what has a memory; navigation starts anew afterwards.
+    fn pass_over(&mut self, step: &Step) {
+        for (index, &decay) in step.decay.iter().enumerate() {
+            let place = NAVIGATION + index;
+            self.state[place] *= decay;
+            self.across.row_mut(place).scale_mut(decay);
+            for (other, &other_decay) in step.decay.iter().enumerate() {
+                self.states[(NAVIGATION + other, place)] *= decay * other_decay;
+            }
+            self.states[(place, place)] += step.colour_noise[index];
+        }
     }
 
     /// Attitude and velocity where the epoch's readings put them, with what the parameters do to these.

@@ -39,7 +39,7 @@ mod likely;
 
 mod identifiability;
 
-pub use evidence::{Indefinite, innovations};
+pub use evidence::{Foretold, Indefinite, foretold, innovations};
 pub use filter::Filter;
 pub use fit::{Estimate, Fit, FitError, Iteration, NoiseKnowledge, fit};
 pub use gravity::{axis_from_gravity, turning_span};

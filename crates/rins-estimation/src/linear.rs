@@ -1,5 +1,7 @@
 //! A run made linear: how each epoch's readings follow from attitude, velocity and the parameters.
 
+use std::ops::Range;
+
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
 use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Table};
@@ -7,6 +9,7 @@ use rins_terms::{Chosen, Dual64, Model, Signals, Surroundings, Track, derivative
 
 use crate::path;
 use crate::run::{Reference, Run};
+use crate::space::SHOWN;
 use crate::sway::Sway;
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
@@ -30,6 +33,8 @@ pub(crate) struct Epoch {
     pub(crate) duration: f64,
     /// Whether samples are missing before it, so that nothing is known of φ and v.
     pub(crate) fresh: bool,
+    /// Whether it plays no part: time goes by, and nothing is shown.
+    pub(crate) left_out: bool,
     /// What φ gains over the epoch, and to the mean of its readings; what v gains.
     pub(crate) attitude: Matrix3xX<f64>,
     pub(crate) mean_attitude: Matrix3xX<f64>,
@@ -100,7 +105,8 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
     };
     let columns = free.len().div_ceil(rayon::current_num_threads()).max(FEWEST_COLUMNS);
     let parts: Vec<Vec<Epoch>> = free.par_chunks(columns).map(build).collect();
-    let epochs = parts.into_iter().reduce(beside).unwrap_or_else(|| build(&[]));
+    let mut epochs = parts.into_iter().reduce(beside).unwrap_or_else(|| build(&[]));
+    leave_out(&mut epochs, &run.left_out);
     Linear {
         epochs,
         force: surroundings.specific_force,
@@ -108,6 +114,17 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
         parameters: free.len(),
         reference: run.rig.reference,
         track,
+    }
+}
+
+/// Marks the epochs that hold any of these samples, and those that follow them.
+fn leave_out(epochs: &mut [Epoch], spans: &[Range<usize>]) {
+    let mut before = false;
+    for epoch in epochs {
+        let (first, end) = epoch.samples;
+        epoch.left_out = spans.iter().any(|span| span.start < end && first < span.end);
+        epoch.fresh |= before;
+        before = epoch.left_out;
     }
 }
 
@@ -258,6 +275,7 @@ impl Epoch {
             samples: (first, first),
             duration: 0.0,
             fresh,
+            left_out: false,
             attitude: none.clone(),
             mean_attitude: none.clone(),
             velocity: none.clone(),
@@ -299,6 +317,11 @@ impl Linear {
         &self.track
     }
 
+    /// The samples of each epoch.
+    pub fn samples(&self) -> impl Iterator<Item = Range<usize>> {
+        self.epochs.iter().map(|epoch| epoch.samples.0..epoch.samples.1)
+    }
+
     /// When each epoch ends \[s\], for a recording with these times.
     pub fn ends(&self, times: &[f64]) -> Vec<f64> {
         self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
@@ -307,6 +330,11 @@ impl Linear {
     /// Whether the readings show the angle about the axis.
     pub(crate) fn shows_angle(&self) -> bool {
         self.reference != Reference::Gravity
+    }
+
+    /// How many figures an epoch shows.
+    pub(crate) fn shown(&self) -> usize {
+        if self.shows_angle() { SHOWN } else { SHOWN - 1 }
     }
 
     /// The table angle in the middle of each epoch \[rad\], and its mean rate over it \[rad/s\].

@@ -1,5 +1,7 @@
 //! A run to be explained: a recording, and what its readings are compared with.
 
+use std::ops::Range;
+
 use rins_frames::{Dcm, Nav, Table};
 use rins_motion::{Recording, Station};
 
@@ -44,6 +46,8 @@ pub struct Run {
     pub rig: Rig,
     /// The samples.
     pub recording: Recording,
+    /// The samples that play no part in an estimate, apart and in order.
+    pub left_out: Vec<Range<usize>>,
 }
 
 /// The fewest samples that a run may have.
@@ -122,6 +126,16 @@ impl Run {
             }
             Reference::Rest => {}
         }
-        Ok(Self { rig, recording })
+        Ok(Self { rig, recording, left_out: Vec::new() })
+    }
+
+    /// The same with these samples left out of what is estimated from: apart and in order.
+    ///
+    /// The recording keeps them, so that time goes on: an effect that depends on it is the same. An epoch with any
+    /// sample left out is left out, and nothing is known of attitude and velocity where the next begins.
+    #[must_use]
+    pub fn leaving_out(mut self, spans: Vec<Range<usize>>) -> Self {
+        self.left_out = spans;
+        self
     }
 }

@@ -23,7 +23,7 @@ fn filter_ends_where_the_batch_does() {
     let model = Model::full();
     let free = model.free(&imu);
     let places: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
-    let linear = linearise(&run, &model, &places);
+    let parted = run.clone().leaving_out(vec![400..700, 1500..1600]);
     let sigmas: Vec<f64> = free.iter().map(|f| f.sigma).collect();
     let nothing = vec![0.0; sigmas.len()];
     let sheet = Strengths::of(&imu);
@@ -31,7 +31,8 @@ fn filter_ends_where_the_batch_does() {
         gyro: TriadStrengths { flicker: 0.02 * DEG_PER_HOUR, walk: 1e-10, ..sheet.gyro },
         accel: TriadStrengths { flicker: 10.0 * MICRO_G, ..sheet.accel },
     };
-    for strengths in [sheet, coloured] {
+    for (strengths, run) in [(sheet, &run), (coloured, &run), (coloured, &parted)] {
+        let linear = linearise(run, &model, &places);
         let noise = Noise::on(&run.rig, &strengths);
         let batch = Evidence::of(&linear, &noise).unwrap().posterior(&sigmas, &nothing).unwrap();
         let mut filter = Filter::new(&linear, &noise, &sigmas, &nothing);

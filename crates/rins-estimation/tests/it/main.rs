@@ -4,6 +4,7 @@
 mod batch_and_filter;
 mod colour;
 mod gravity;
+mod left_out;
 mod refusals;
 mod several_runs;
 mod support;

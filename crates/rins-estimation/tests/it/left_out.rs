@@ -1,0 +1,99 @@
+//! What is left out of a run plays no part, and is foretold from what is not.
+
+use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit, foretold, linearise};
+use rins_frames::InFrame;
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
+use rins_imu::{Axis, ImuError, TriadError};
+use rins_terms::Model;
+
+use crate::support::{fibre, profile, run, scenario, tilted, white};
+
+/// Samples of the second turn.
+const SPAN: std::ops::Range<usize> = 1900..2200;
+
+fn turned() -> Run {
+    let gyro = TriadError::default().with_scale(Axis::Z, 200.0 * PPM).with_bias(Axis::X, 1e-7);
+    let turns = profile(&[(0.0, 10.0), (10.0, 40.0), (-20.0, 40.0), (0.0, 10.0)]);
+    let error = ImuError { gyro, ..ImuError::default() };
+    let truth = (error, Model::default());
+    run(&scenario(tilted(25.0, 40.0), turns, truth, Some(white(&fibre())), 3))
+}
+
+fn fitted(run: &Run) -> Fit {
+    let imu = fibre();
+    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    fit(std::slice::from_ref(run), &Model::full(), &imu, known, |_| ()).unwrap()
+}
+
+/// The largest difference of two fits in sigmas of the first.
+fn apart(one: &Fit, other: &Fit) -> f64 {
+    let pairs = one.parameters.iter().zip(&other.parameters);
+    pairs.map(|(a, b)| ((b.value - a.value) / a.sigma).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn what_is_left_out_may_be_anything() {
+    let run = turned();
+    let mut spoiled = run.clone();
+    for sample in SPAN {
+        let increments = &mut spoiled.recording.increments[sample];
+        let interval = increments.interval;
+        increments.angle += InFrame::new(3.0, -2.0, 4.0) * (DEG_PER_HOUR * interval);
+        increments.velocity += InFrame::new(0.0, 500.0, 300.0) * (MICRO_G * interval);
+        spoiled.recording.table_angle.as_mut().unwrap()[sample] += 20.0 * ARCSEC;
+    }
+    let without = |run: &Run| fitted(&run.clone().leaving_out(vec![SPAN]));
+    let (honest, harmless) = (without(&run), without(&spoiled));
+    let moved = apart(&honest, &harmless);
+    assert!(moved < 0.02, "{moved} sigma");
+    // Where it plays a part it spoils everything.
+    let harmed = apart(&honest, &fitted(&spoiled));
+    assert!(harmed > 10.0, "{harmed} sigma");
+}
+
+#[test]
+fn what_is_left_out_tells_nothing() {
+    let run = turned();
+    let whole = fitted(&run);
+    let most = fitted(&run.clone().leaving_out(vec![SPAN]));
+    assert!(most.evidence.figures < whole.evidence.figures);
+    for (more, less) in whole.parameters.iter().zip(&most.parameters) {
+        assert!(less.sigma > more.sigma * (1.0 - 1e-9), "{}", more.parameter.id);
+    }
+}
+
+/// The densities of all epochs, one after the other, are that of all data.
+#[test]
+fn what_is_foretold_is_as_likely_as_the_whole() {
+    let fit = fitted(&turned());
+    let all = foretold(&fit.linear[0], &fit.noise[0]).unwrap();
+    let sum: f64 = all.iter().map(|epoch| epoch.log_density).sum();
+    let figures = fit.evidence.figures as f64;
+    let whole = -0.5 * fit.evidence.square
+        - fit.evidence.log_determinant
+        - 0.5 * figures * std::f64::consts::TAU.ln();
+    assert!((sum - whole).abs() < 1e-6 * whole.abs(), "{sum} and {whole}");
+}
+
+/// A wrong parameter foretells what it has not seen worse than the right one does.
+#[test]
+fn right_parameters_foretell_best() {
+    let run = turned();
+    let fit = fitted(&run.clone().leaving_out(vec![SPAN]));
+    let density = |model: &Model| {
+        let linear = linearise(&run, model, &[]);
+        let held =
+            linear.samples().map(|samples| samples.start >= SPAN.start && samples.end <= SPAN.end);
+        let foretold = foretold(&linear, &fit.noise[0]).unwrap();
+        foretold
+            .iter()
+            .zip(held)
+            .filter(|(_, held)| *held)
+            .map(|(one, _)| one.log_density)
+            .sum::<f64>()
+    };
+    let right = density(&fit.models[0]);
+    let scale = fit.models[0].value("gyro.scale.z").unwrap();
+    let wrong = density(&fit.models[0].clone().with_value("gyro.scale.z", scale + 5.0 * PPM));
+    assert!(right > wrong + 10.0, "{right} against {wrong}");
+}
