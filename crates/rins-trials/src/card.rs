@@ -52,7 +52,7 @@ and this page is what became of it: `cargo xtask blind` runs trials, `cargo xtas
 those that were run.
 
 A trial draws a place, the axis' tilt (15 to 35 deg), an IMU (gyro noise 0.005 to 0.05 deg/h/√Hz, its constant errors over
-decades), an encoder, a temperature, a schedule of 360 to 720 s at 50 or 100 Hz, and what is hidden: nothing (35 %), one effect
+decades), an encoder, a temperature, a schedule of 360 to 540 s at 50 or 100 Hz, and what is hidden: nothing (35 %), one effect
 of the catalogue (40 %), two (10 %), or something outside it (15 %). An effect is so many times its Cramér-Rao bound
 strong, in a random direction of what the run shows of it; sigmas below are those.
 

@@ -73,17 +73,7 @@ impl Trial {
         };
         let own = random.random();
         let laboratory = Laboratory::draw((schedule, length), level, own, &mut random);
-        let present = laboratory.experiment.effects.iter().map(|effect| effect.id.clone());
-        let mut trial = Self {
-            kind,
-            schedule,
-            level,
-            present: present.collect(),
-            experiment: laboratory.experiment.clone(),
-            known: laboratory.known.clone(),
-            hidden: Vec::new(),
-            outside: None,
-        };
+        let mut trial = Self::clean(kind, schedule, level, &laboratory);
         match kind {
             Kind::Nothing => {}
             Kind::One => {
@@ -99,6 +89,75 @@ impl Trial {
             }
         }
         Ok(trial)
+    }
+
+    /// A short run in which these effects are hidden, each so many times its bound strong.
+    ///
+    /// Effects that the schedule does not show so strong are left out.
+    ///
+    /// # Errors
+    /// [`StandError`] if the run cannot be looked at.
+    pub fn hiding(
+        effects: &[(&str, f64)],
+        schedule: Schedule,
+        level: Level,
+        seed: u64,
+    ) -> Result<Self, StandError> {
+        let mut random = random(seed, 0);
+        let own = random.random();
+        let laboratory = Laboratory::draw((schedule, Length::Short), level, own, &mut random);
+        let kind = match effects.len() {
+            0 => Kind::Nothing,
+            1 => Kind::One,
+            _ => Kind::Two,
+        };
+        let mut trial = Self::clean(kind, schedule, level, &laboratory);
+        if !effects.is_empty() {
+            let ground = Ground::of(laboratory)?;
+            for (id, meant) in effects {
+                let term = hideable().into_iter().find(|term| term.id == *id);
+                let made = term.map(|term| ground.effect(term, *meant, &mut random)).transpose()?;
+                if let Some((chosen, record)) = made.flatten() {
+                    trial.experiment.effects.push(hidden(&chosen));
+                    trial.hidden.push(record);
+                }
+            }
+        }
+        Ok(trial)
+    }
+
+    /// A short run with a structure outside the catalogue, so many sigmas of it left beside any effect.
+    ///
+    /// # Errors
+    /// [`StandError`] if the run cannot be looked at.
+    pub fn outside(
+        remainder: f64,
+        schedule: Schedule,
+        level: Level,
+        seed: u64,
+    ) -> Result<Self, StandError> {
+        let mut random = random(seed, 0);
+        let own = random.random();
+        let laboratory = Laboratory::draw((schedule, Length::Short), level, own, &mut random);
+        let mut trial = Self::clean(Kind::Outside, schedule, level, &laboratory);
+        let (unknown, outside) = Ground::of(laboratory)?.outside(remainder, &mut random)?;
+        trial.experiment.unknowns.push(unknown);
+        trial.outside = Some(outside);
+        Ok(trial)
+    }
+
+    fn clean(kind: Kind, schedule: Schedule, level: Level, laboratory: &Laboratory) -> Self {
+        let present = laboratory.experiment.effects.iter().map(|effect| effect.id.clone());
+        Self {
+            kind,
+            schedule,
+            level,
+            present: present.collect(),
+            experiment: laboratory.experiment.clone(),
+            known: laboratory.known.clone(),
+            hidden: Vec::new(),
+            outside: None,
+        }
     }
 
     /// What is hidden in trial number `index` of those under `seed`.

@@ -75,10 +75,12 @@ impl Level {
 /// How long a run is, and how often a second it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
-    /// As it is drawn: 360 to 720 s, 50 or 100 Hz.
+    /// As it is drawn: 360 to 540 s, mostly at 50 Hz, or at 100 Hz.
     Drawn,
     /// 720 s at 100 Hz.
     Longest,
+    /// 240 s at 50 Hz.
+    Short,
 }
 
 /// A laboratory: what is true there before anything is hidden, and what it knows.
@@ -139,6 +141,7 @@ impl Laboratory {
             wobble: random.random_bool(0.5).then_some(5e-9),
         };
         let smallest = gyro.misalignment.min(accel.misalignment);
+        let seldom = random.random_bool(0.2) && length == Length::Drawn;
         let experiment = Experiment {
             place,
             base_rate: 0.0,
@@ -149,7 +152,7 @@ impl Laboratory {
             accel: sensors(&accel, level, 2.0 * MICRO_G, random),
             encoder: Encoder { noise: encoder, resolution: 0.0 },
             temperature: temperature(random),
-            interval: if random.random_bool(0.7) && length == Length::Drawn { 0.02 } else { 0.01 },
+            interval: if length == Length::Longest || seldom { 0.01 } else { 0.02 },
             substeps: 20,
             effects: Vec::new(),
             unknowns: Vec::new(),
@@ -193,8 +196,12 @@ impl Laboratory {
 
 fn drive(schedule: Schedule, length: Length, random: &mut Random) -> Drive {
     let rate = uniform(random, 6.0, 15.0) * DEGREE;
-    let drawn = uniform(random, 360.0, 720.0).round();
-    let duration = if length == Length::Drawn { drawn } else { 720.0 };
+    let drawn = uniform(random, 360.0, 540.0).round();
+    let duration = match length {
+        Length::Drawn => drawn,
+        Length::Longest => 720.0,
+        Length::Short => 240.0,
+    };
     let mut rates = match schedule {
         Schedule::Constant => vec![rate],
         Schedule::Reversal => vec![rate, -rate],

@@ -1,0 +1,59 @@
+//! A few of the blind trials, frozen: short runs of a generator that shares nothing with the analyser.
+
+use rins_tests::rins;
+use rins_trials::{Analyser, Answer, Level, Schedule, Trial, try_out};
+
+fn asked(trial: &Trial) -> Answer {
+    let answer = try_out(trial, &Analyser::new(rins().get_program(), 2)).expect("rins starts");
+    assert_eq!(answer.failure, None);
+    answer
+}
+
+#[test]
+fn nothing_is_named_where_nothing_is_hidden() {
+    for (seed, schedule, level) in [
+        (1, Schedule::Constant, Level::White),
+        (2, Schedule::Reversal, Level::Flicker),
+        (3, Schedule::ThreeRates, Level::White),
+    ] {
+        let answer = asked(&Trial::hiding(&[], schedule, level, seed).unwrap());
+        assert_eq!(answer.verdict, "adequate", "{schedule:?}: {answer:?}");
+        assert!(answer.causes.is_empty() && answer.unexplained.is_empty(), "{answer:?}");
+    }
+}
+
+#[test]
+fn hidden_effect_is_in_the_set() {
+    for (seed, id, schedule, level) in [
+        (11, "accel_lever_arm", Schedule::ThreeRates, Level::White),
+        (12, "encoder_latency", Schedule::ThreeRates, Level::Flicker),
+        (13, "gyro_scale_asymmetry", Schedule::ThreeRates, Level::White),
+        (14, "accel_bias_step", Schedule::Constant, Level::White),
+        (15, "base_tilt_ramp", Schedule::Constant, Level::White),
+        (16, "encoder_eccentricity", Schedule::Reversal, Level::Flicker),
+        (17, "table_wobble", Schedule::Reversal, Level::White),
+    ] {
+        let trial = Trial::hiding(&[(id, 20.0)], schedule, level, seed).unwrap();
+        assert_eq!(trial.hidden.len(), 1, "the schedule shows {id}");
+        let answer = asked(&trial);
+        let first = answer.causes.first().unwrap_or_else(|| panic!("{id} is not seen: {answer:?}"));
+        assert!(first.may_be(id), "{id}: {answer:?}");
+    }
+}
+
+#[test]
+fn two_hidden_effects_are_both_in_sets() {
+    let effects = [("gyro_bias_step", 20.0), ("encoder_harmonic", 20.0)];
+    let trial = Trial::hiding(&effects, Schedule::ThreeRates, Level::White, 21).unwrap();
+    let answer = asked(&trial);
+    for (id, _) in effects {
+        assert!(answer.causes.iter().any(|cause| cause.may_be(id)), "{id}: {answer:?}");
+    }
+}
+
+#[test]
+fn what_no_effect_explains_is_not_taken_for_adequate() {
+    let trial = Trial::outside(30.0, Schedule::ThreeRates, Level::White, 31).unwrap();
+    let answer = asked(&trial);
+    assert!(!answer.unexplained.is_empty(), "{:?}: {answer:?}", trial.outside);
+}
