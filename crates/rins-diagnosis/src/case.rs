@@ -117,13 +117,12 @@ impl Case<'_> {
         trial: &Trial,
     ) -> Result<(Candidate, Trial), Indefinite> {
         let mut best = (candidate.clone(), trial.clone());
-        let known = present.model().terms.len();
         for part in FINER {
             let list = best.0.neighbours(part);
             let noises = std::slice::from_ref(&present.noise);
             let survey = Survey::of(self.runs, present, self.imu, &list, noises)?;
-            let Some(context) = Context::of(&survey, &[]) else { break };
-            for found in trials(&survey, &context, &list, known) {
+            let Some(context) = Context::of(&survey, &[], &[]) else { break };
+            for found in trials(&survey, &context, &list) {
                 if found.evidence > best.1.evidence {
                     best = (list[found.candidate].clone(), found);
                 }

@@ -14,8 +14,11 @@ use crate::unexplained::{Unexplained, described};
 /// The chance of naming anything where there is nothing, over the whole catalogue.
 pub(crate) const FALSE_ALARMS: f64 = 0.01;
 
-/// The most effects that are looked for, one after the other.
-const MOST_CAUSES: usize = 5;
+/// The most effects that are looked for.
+const MOST_CAUSES: usize = 8;
+
+/// How many effects are accepted before the noise is found anew and the model made linear about them.
+const AT_ONCE: usize = 3;
 
 /// An effect that might be what is wrong.
 #[derive(Clone, Debug)]
@@ -114,24 +117,35 @@ pub fn diagnose(
         let mut list = candidates(runs, present.model());
         list.extend(case.spectral(&present));
         let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
-        let Some(context) = Context::of(&survey, &[]) else { break };
-        let tried = trials(&survey, &context, &list, present.model().terms.len());
+        let Some(context) = Context::of(&survey, &[], &[]) else { break };
+        let tried = trials(&survey, &context, &list);
         not_testable.get_or_insert_with(|| unseen(&list, &tried));
         let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
         let Some((candidate, trial)) = case.best(&present, &list, &tried, threshold)? else {
             break;
         };
-        let next = candidate.expecting(&trial, imu);
-        found.push(next);
+        let as_listed = list[trial.candidate].chosen == candidate.chosen;
+        let mut accepted = vec![(candidate, trial)];
+        // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.
+        if as_listed && accepted[0].1.ln_p < threshold {
+            let most = AT_ONCE.min(MOST_CAUSES - found.len());
+            beside(&survey, &list, &mut accepted, threshold, most);
+        }
+        let earlier = found.len();
+        found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
         let Ok(fitted) = case.fit(&found) else {
-            found.pop();
+            found.truncate(earlier);
             break;
         };
-        if case.ln_p(&present, &fitted, &trial) > threshold {
-            found.pop();
+        if let [(_, trial)] = &accepted[..]
+            && case.ln_p(&present, &fitted, trial) > threshold
+        {
+            found.truncate(earlier);
             break;
         }
-        progress(candidate.chosen.term.id);
+        for (candidate, _) in &accepted {
+            progress(candidate.chosen.term.id);
+        }
         present = fitted;
     }
     let (after, causes) = case.settled(&before, present, found)?;
@@ -144,6 +158,31 @@ pub fn diagnose(
     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let not_testable = not_testable.unwrap_or_default();
     Ok(Diagnosis { causes, unexplained, before, after, not_testable })
+}
+
+/// Adds what is significant beside the effects that have been accepted, as long as nothing has to be sought.
+fn beside(
+    survey: &Survey,
+    list: &[Candidate],
+    accepted: &mut Vec<(Candidate, Trial)>,
+    threshold: f64,
+    most: usize,
+) {
+    while accepted.len() < most {
+        let of = |(_, trial): &(Candidate, Trial)| survey.of_candidate(trial.candidate).concat();
+        let taken: Vec<usize> = accepted.iter().flat_map(of).collect();
+        let Some(context) = Context::of(survey, &[], &taken) else { return };
+        let tried = trials(survey, &context, list);
+        let other = |trial: &&Trial| {
+            let id = list[trial.candidate].chosen.term.id;
+            accepted.iter().all(|(candidate, _)| candidate.chosen.term.id != id)
+        };
+        let Some(next) = tried.iter().find(other) else { return };
+        if next.ln_p > threshold || next.evidence < 0.0 || list[next.candidate].step.is_some() {
+            return;
+        }
+        accepted.push((list[next.candidate].clone(), next.clone()));
+    }
 }
 
 /// Terms of which no shape shows.

@@ -1,7 +1,7 @@
 //! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones may be.
 
 use nalgebra::{SVector, Vector3};
-use rins_estimation::{Estimate, Fit, Run};
+use rins_estimation::{Estimate, Fit, Reference, Run};
 use rins_terms::{Chosen, Free, Owner, Term, catalogue, values};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
@@ -99,16 +99,30 @@ struct Line {
 
 /// What the sensors read beyond what the model says, sample by sample: rates \[rad/s\] and forces \[m/s²\].
 ///
-/// About the spin axis it is what the gyro reads: it is the gyro that tells the table's fast motion.
+/// About the spin axis it is what the gyro reads beyond the encoder: a table that turns unevenly moves both. Without an
+/// encoder nothing tells them apart, and nothing is there.
 fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS] {
     let mut all: [Vec<f64>; CHANNELS] = Default::default();
+    let encoder = match run.rig.reference {
+        Reference::Encoder { .. } => run.recording.table_angle.as_deref(),
+        _ => None,
+    };
+    let mut before: Option<f64> = None;
     let samples = &run.recording.increments;
-    for (moment, sample) in fit.linear[of].track().moments().zip(samples) {
+    for (index, (moment, sample)) in fit.linear[of].track().moments().zip(samples).enumerate() {
         let predicted = fit.models[of].signals(&moment);
         let rates = sample.rates();
         let mut gyro: Vector3<f64> =
             rates.angular_rate.components() - moment.rate - values(&predicted.gyro);
-        gyro.z = rates.angular_rate.components().z;
+        gyro.z = 0.0;
+        if let Some(angle) = encoder.map(|readings| readings[index] - predicted.angle.re) {
+            if let Some(before) = before {
+                let gain = 1.0 + fit.models[of].value("gyro.scale.z").unwrap_or_default();
+                gyro.z =
+                    rates.angular_rate.components().z - gain * (angle - before) / sample.interval;
+            }
+            before = Some(angle);
+        }
         let accel = rates.specific_force.components() - moment.force - values(&predicted.accel);
         for axis in 0..3 {
             all[axis].push(gyro[axis]);
@@ -128,7 +142,10 @@ fn strongest(residuals: &[f64], run: &Run, slowest: f64) -> Option<Line> {
     let mut spectrum: Vec<Complex<f64>> = differences.map(|x| Complex::new(x, 0.0)).collect();
     spectrum.resize(2 * n, Complex::new(0.0, 0.0));
     FftPlanner::new().plan_fft_forward(2 * n).process(&mut spectrum);
-    let power: Vec<f64> = spectrum[..n].iter().map(Complex::norm_sqr).collect();
+    // And back, so that white noise is white.
+    let differenced = |bin: usize| (std::f64::consts::PI * bin as f64 / (2.0 * n as f64)).sin();
+    let power: Vec<f64> =
+        (0..n).map(|bin| spectrum[bin].norm_sqr() / differenced(bin.max(1)).powi(2)).collect();
     let frequency = |bin: usize| bin as f64 / (2.0 * n as f64 * interval);
     let first = (0..n).find(|&bin| frequency(bin) > slowest)?;
     let mut best: Option<(usize, f64)> = None;
@@ -138,7 +155,11 @@ fn strongest(residuals: &[f64], run: &Run, slowest: f64) -> Option<Line> {
         if !peak || best.is_some_and(|(at, _)| power[bin] * 4.0 < power[at]) {
             continue;
         }
-        let ratio = power[bin] / noise_around(&power, bin, first);
+        let noise = noise_around(&power, bin, first);
+        if noise == 0.0 {
+            continue;
+        }
+        let ratio = power[bin] / noise;
         if best.is_none_or(|(_, most)| ratio > most) {
             best = Some((bin, ratio));
         }
@@ -173,7 +194,7 @@ fn noise_around(power: &[f64], bin: usize, first: usize) -> f64 {
     let middle = around.len() / 2;
     let (_, median, _) = around.select_nth_unstable_by(middle, f64::total_cmp);
     // The median of an exponential distribution is ln 2 of its mean.
-    (*median / std::f64::consts::LN_2).max(f64::MIN_POSITIVE)
+    *median / std::f64::consts::LN_2
 }
 
 fn cause(channel: usize, line: &Line, ln_p: f64, run: usize) -> (Chosen, Cause) {

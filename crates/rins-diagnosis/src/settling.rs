@@ -46,8 +46,8 @@ impl Case<'_> {
             let mut change = None;
             for index in 0..found.len() {
                 let dropped: Vec<usize> = survey.of_term(given + index).concat();
-                let Some(context) = Context::of(&survey, &dropped) else { continue };
-                let tried = trials(&survey, &context, &list, given + found.len());
+                let Some(context) = Context::of(&survey, &dropped, &[]) else { continue };
+                let tried = trials(&survey, &context, &list);
                 match self.look(&list, &tried, &found, index) {
                     Look::Keep(cause) => causes.push(cause),
                     other if changes < MOST_CHANGES => {

@@ -8,6 +8,9 @@ use rins_terms::Free;
 
 use crate::candidates::Candidate;
 
+/// The prior's information on an effect that has been found, in units of what is usual of it.
+const FREE: f64 = 1e-4;
+
 /// The noise of every run.
 pub(crate) type RunNoise = Vec<Noise>;
 
@@ -15,6 +18,8 @@ pub(crate) type RunNoise = Vec<Noise>;
 pub(crate) struct Survey {
     /// How many parameters are the model's; the candidates' come after them.
     known: usize,
+    /// How many terms are the model's.
+    terms: usize,
     /// Of every term, first the model's and then the candidates', the places of its parameters: a list for each of the
     /// term's own, since several runs may each have one.
     places: Vec<Vec<Vec<usize>>>,
@@ -83,7 +88,7 @@ impl Survey {
                 Ok(Said::of(&sum, &layout.sigmas))
             })
             .collect::<Result<Vec<Said>, Indefinite>>()?;
-        Ok(Self { known, places: layout.of_terms, said, off })
+        Ok(Self { known, terms: fit.model().terms.len(), places: layout.of_terms, said, off })
     }
 
     /// How many strengths of the noise there are.
@@ -91,18 +96,26 @@ impl Survey {
         self.said.len()
     }
 
-    /// The places of a term's parameters, the model's terms first.
+    /// The places of the parameters of one of the model's terms.
     pub(crate) fn of_term(&self, term: usize) -> &[Vec<usize>] {
         &self.places[term]
     }
 
+    /// The places of a candidate's parameters.
+    pub(crate) fn of_candidate(&self, candidate: usize) -> &[Vec<usize>] {
+        &self.places[self.terms + candidate]
+    }
+
     /// What is left to say of the candidates and of `dropped`, parameters of the model that are set to what was
-    /// expected of them, when all others of the model have been estimated.
+    /// expected of them, when all others of the model have been estimated, and the candidates' parameters `taken` too.
     ///
     /// None if the information on these is not finite.
-    pub(crate) fn left(&self, noise: usize, dropped: &[usize]) -> Option<Left> {
+    pub(crate) fn left(&self, noise: usize, dropped: &[usize], taken: &[usize]) -> Option<Left> {
         let Said { information, score, square, log_determinant } = &self.said[noise];
-        let kept: Vec<usize> = (0..self.known).filter(|place| !dropped.contains(place)).collect();
+        let kept: Vec<usize> = (0..self.known)
+            .filter(|place| !dropped.contains(place))
+            .chain(taken.iter().copied())
+            .collect();
         let all = information.ncols();
         let places: Vec<usize> = dropped.iter().copied().chain(self.known..all).collect();
         // To the point where the dropped are what was expected.
@@ -114,10 +127,13 @@ impl Survey {
         let square = square - 2.0 * score.dot(&shift) + shift.dot(&moved);
         let score = score - moved;
         let mut corner = chosen(information, &kept, &kept);
-        for place in 0..kept.len() {
-            corner[(place, place)] += 1.0;
+        let candidate = |place: usize| place >= self.known;
+        for (index, &place) in kept.iter().enumerate() {
+            // Nothing holds back an effect that has been found.
+            corner[(index, index)] += if candidate(place) { FREE } else { 1.0 };
         }
-        let off = DVector::from_iterator(kept.len(), kept.iter().map(|&place| self.off[place]));
+        let off = |&place: &usize| if candidate(place) { 0.0 } else { self.off[place] };
+        let off = DVector::from_iterator(kept.len(), kept.iter().map(off));
         let pulled = DVector::from_iterator(kept.len(), kept.iter().map(|&p| score[p])) - &off;
         let factor = Cholesky::new(corner)?;
         let across = chosen(information, &kept, &places);

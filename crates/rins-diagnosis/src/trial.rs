@@ -35,10 +35,11 @@ pub(crate) struct Context {
 }
 
 impl Context {
-    /// With these of the model's parameters dropped.
-    pub(crate) fn of(survey: &Survey, dropped: &[usize]) -> Option<Self> {
-        let left: Vec<Left> =
-            (0..survey.noises()).map(|noise| survey.left(noise, dropped)).collect::<Option<_>>()?;
+    /// With these of the model's parameters dropped, and these of the candidates' taken into it.
+    pub(crate) fn of(survey: &Survey, dropped: &[usize], taken: &[usize]) -> Option<Self> {
+        let left: Vec<Left> = (0..survey.noises())
+            .map(|noise| survey.left(noise, dropped, taken))
+            .collect::<Option<_>>()?;
         let most = left.iter().map(|left| left.log_likelihood).fold(f64::NEG_INFINITY, f64::max);
         Some(Self { left, most })
     }
@@ -97,18 +98,11 @@ impl Context {
     }
 }
 
-/// The best shape of every term that the runs show anything of, most likely first; the candidates' terms come
-/// after `model` terms of the survey.
-pub(crate) fn trials(
-    survey: &Survey,
-    context: &Context,
-    list: &[Candidate],
-    model: usize,
-) -> Vec<Trial> {
+/// The best shape of every term that the runs show anything of, most likely first.
+pub(crate) fn trials(survey: &Survey, context: &Context, list: &[Candidate]) -> Vec<Trial> {
     let mut best: Vec<Trial> = Vec::new();
     for (index, candidate) in list.iter().enumerate() {
-        let Some(trial) = context.trial(index, candidate.looks, survey.of_term(model + index))
-        else {
+        let Some(trial) = context.trial(index, candidate.looks, survey.of_candidate(index)) else {
             continue;
         };
         let id = candidate.chosen.term.id;

@@ -97,8 +97,8 @@ impl Case<'_> {
         let list = [Candidate { chosen, looks: 1.0, step: None }];
         let noises = std::slice::from_ref(&after.noise);
         let survey = Survey::of(self.runs, after, self.imu, &list, noises)?;
-        let Some(left) = survey.left(0, &[]) else { return Ok(()) };
-        let own = survey.of_term(after.model().terms.len());
+        let Some(left) = survey.left(0, &[], &[]) else { return Ok(()) };
+        let own = survey.of_candidate(0);
         let mut strongest = 0.0;
         for (channel, pair) in own.chunks_exact(2).enumerate() {
             let of_run = |parameter: &Vec<usize>| parameter[one.run.min(parameter.len() - 1)];
