@@ -155,6 +155,7 @@ pub fn diagnose(
         unknown.iter().map(|cause| described(cause, &after)).collect();
     unexplained.extend(case.unexplained(&after, &causes)?);
     causes.extend(fast.into_iter().map(|(_, cause)| cause));
+    causes.extend(case.noise_causes(&after)?);
     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let not_testable = not_testable.unwrap_or_default();
     Ok(Diagnosis { causes, unexplained, before, after, not_testable })

@@ -20,6 +20,7 @@ mod settling;
 
 mod disturbance;
 mod lines;
+mod noise;
 mod structure;
 mod unexplained;
 

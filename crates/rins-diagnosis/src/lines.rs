@@ -1,8 +1,8 @@
 //! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones may be.
 
 use nalgebra::{SVector, Vector3};
-use rins_estimation::{Estimate, Fit, Reference, Run};
-use rins_terms::{Chosen, Free, Owner, Term, catalogue, values};
+use rins_estimation::{Fit, Reference, Run};
+use rins_terms::{Chosen, Term, catalogue, values};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
@@ -10,6 +10,7 @@ use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
 use crate::disturbance::IN_ANGLE;
+use crate::noise::estimate;
 use crate::structure::{CHANNELS, Left, Structure};
 
 /// How many slow lines are tried at once.
@@ -205,16 +206,7 @@ fn cause(channel: usize, line: &Line, ln_p: f64, run: usize) -> (Chosen, Cause) 
     let first = if channel < 3 { 0 } else { 2 };
     let parameters = [(first, line.cos), (first + 1, line.sin)].map(|(place, value)| {
         chosen.values[place] = value;
-        let parameter = &term.parameters[place];
-        let free = Free {
-            id: format!("{}.{}", term.id, parameter.name),
-            unit: parameter.unit,
-            owner: Owner::Run,
-            term: 0,
-            parameter: place,
-            sigma: f64::INFINITY,
-        };
-        Estimate { parameter: free, run: Some(run), expected: 0.0, value, sigma: line.sigma }
+        estimate(term, place, Some(run), value, line.sigma)
     });
     let cause = Cause {
         term,

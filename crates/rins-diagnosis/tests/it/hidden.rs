@@ -128,6 +128,18 @@ fn flicker_is_not_named_as_an_effect() {
     assert!(!naive.causes.is_empty());
 }
 
+/// Noise that is not as the sheet says is named as such, and with its size.
+#[test]
+fn stronger_noise_than_the_sheet_says_is_named() {
+    let louder = hiding(&[(&catalogue::ACCEL_NOISE_LEVEL, &[0.6])]);
+    let diagnosis = found(&run(&RATES, louder, 0.0, 72), NoiseKnowledge::Likely);
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_eq!(cause.term.id, "accel_noise_level");
+    let excess = &cause.parameters[0];
+    assert!((excess.value - 0.6).abs() < 4.0 * excess.sigma, "{excess:?}");
+    assert!(excess.sigma < 0.05, "{excess:?}");
+}
+
 /// At one constant rate an eccentric encoder and a gyro that feels gravity are one signal.
 #[test]
 fn what_a_schedule_confuses_is_a_set() {

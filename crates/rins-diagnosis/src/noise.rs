@@ -1,0 +1,139 @@
+//! Random errors that are not as the data sheet says.
+
+use rins_estimation::{
+    Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths, TriadStrengths,
+};
+use rins_terms::{Free, Term, catalogue};
+
+use crate::case::Case;
+use crate::diagnosis::{Cause, FALSE_ALARMS};
+use crate::probability::ln_tail;
+use crate::survey::{RunNoise, Survey};
+
+/// White noise that differs from the sheet's by less than this factor is as the sheet says.
+const WHITE: f64 = 1.25;
+
+/// Flicker that a sheet states is as it says up to this factor.
+const FLICKER: f64 = 2.0;
+
+/// The step, as a logarithm, by which the likelihood's curvature is found.
+const STEP: f64 = 0.1;
+
+/// A strength of one triad: how it is reached, and what the sheet says of it.
+struct Strength {
+    term: &'static Term,
+    of: fn(&mut Strengths) -> &mut TriadStrengths,
+    is_white: bool,
+}
+
+const STRENGTHS: [Strength; 4] = [
+    Strength { term: &catalogue::GYRO_NOISE_LEVEL, of: |s| &mut s.gyro, is_white: true },
+    Strength { term: &catalogue::GYRO_BIAS_INSTABILITY, of: |s| &mut s.gyro, is_white: false },
+    Strength { term: &catalogue::ACCEL_NOISE_LEVEL, of: |s| &mut s.accel, is_white: true },
+    Strength { term: &catalogue::ACCEL_BIAS_INSTABILITY, of: |s| &mut s.accel, is_white: false },
+];
+
+impl Strength {
+    fn slot<'a>(&self, strengths: &'a mut Strengths) -> &'a mut f64 {
+        let triad = (self.of)(strengths);
+        if self.is_white { &mut triad.white } else { &mut triad.flicker }
+    }
+
+    fn value(&self, strengths: &Strengths) -> f64 {
+        *self.slot(&mut { *strengths })
+    }
+
+    /// All runs' noise with another strength.
+    fn with(&self, noise: &[Noise], value: f64) -> RunNoise {
+        let mut other = noise.to_vec();
+        for noise in &mut other {
+            *self.slot(&mut noise.imu) = value;
+        }
+        other
+    }
+}
+
+impl Case<'_> {
+    /// The strengths that were found where the sheet says otherwise, or where it says nothing and they are beyond what
+    /// is usual.
+    pub(crate) fn noise_causes(&self, after: &Fit) -> Result<Vec<Cause>, Indefinite> {
+        let NoiseKnowledge::Likely(sheet) = self.knowledge else { return Ok(Vec::new()) };
+        let mut causes = Vec::new();
+        for strength in &STRENGTHS {
+            let (said, found) = (strength.value(&sheet), strength.value(&after.noise[0].imu));
+            let usual = strength.term.parameters[0].range(self.imu).1;
+            let (as_said, limit) = match (strength.is_white, said > 0.0) {
+                (true, _) => (said, WHITE),
+                (false, true) => (said, FLICKER),
+                (false, false) => (usual, 1.0),
+            };
+            let ratio = (found / as_said).ln();
+            let strange = if strength.is_white { ratio.abs() } else { ratio } > limit.ln();
+            if !strange || !ratio.is_finite() {
+                continue;
+            }
+            let [here, there, above, below] = self.likelihoods(
+                after,
+                strength,
+                [found, as_said, found * STEP.exp(), found * (-STEP).exp()],
+            )?;
+            let statistic = 2.0 * (here - there);
+            let ln_p = ln_tail(statistic.max(0.0), 1) + (STRENGTHS.len() as f64).ln();
+            if ln_p > FALSE_ALARMS.ln() {
+                continue;
+            }
+            let curvature = (2.0 * here - above - below) / (STEP * STEP);
+            let sigma = found * curvature.max(1e-6).sqrt().recip();
+            // White noise is told as an excess over the sheet's, flicker as what comes to the sheet's.
+            let (value, sigma) = if strength.is_white {
+                (found / said - 1.0, sigma / said)
+            } else {
+                ((found * found - said * said).sqrt(), sigma)
+            };
+            causes.push(Cause {
+                term: strength.term,
+                settings: Vec::new(),
+                parameters: vec![estimate(strength.term, 0, None, value, sigma)],
+                ln_p,
+                dof: 1,
+                gain: 0.5 * statistic,
+                rivals: Vec::new(),
+            });
+        }
+        Ok(causes)
+    }
+
+    /// The logarithm of the data's probability with each of four strengths.
+    fn likelihoods(
+        &self,
+        after: &Fit,
+        strength: &Strength,
+        values: [f64; 4],
+    ) -> Result<[f64; 4], Indefinite> {
+        let noises = values.map(|value| strength.with(&after.noise, value));
+        let survey = Survey::of(self.runs, after, self.imu, &[], &noises)?;
+        let of =
+            |noise| survey.left(noise, &[], &[]).map_or(f64::NEG_INFINITY, |l| l.log_likelihood);
+        Ok([0, 1, 2, 3].map(of))
+    }
+}
+
+/// A figure that was found beside the fit.
+pub(crate) fn estimate(
+    term: &'static Term,
+    place: usize,
+    run: Option<usize>,
+    value: f64,
+    sigma: f64,
+) -> Estimate {
+    let parameter = &term.parameters[place];
+    let free = Free {
+        id: format!("{}.{}", term.id, parameter.name),
+        unit: parameter.unit,
+        owner: term.owner,
+        term: 0,
+        parameter: place,
+        sigma: f64::INFINITY,
+    };
+    Estimate { parameter: free, run, expected: 0.0, value, sigma }
+}
