@@ -19,6 +19,7 @@ mod diagnosis;
 mod settling;
 
 mod disturbance;
+mod limits;
 mod lines;
 mod noise;
 mod structure;
@@ -26,6 +27,7 @@ mod unexplained;
 
 pub use candidates::{Candidate, candidates};
 pub use diagnosis::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
+pub use limits::{Limit, chance, limits};
 pub use structure::{Along, Structure};
 pub use unexplained::Unexplained;
 

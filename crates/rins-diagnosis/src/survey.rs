@@ -166,6 +166,16 @@ impl Said {
 }
 
 impl Left {
+    /// The same of other data.
+    pub(crate) fn with_score(&self, score: DVector<f64>) -> Self {
+        Self {
+            information: self.information.clone(),
+            score,
+            places: self.places.clone(),
+            log_likelihood: 0.0,
+        }
+    }
+
     /// Information and score of some of the places that are left.
     pub(crate) fn block(&self, places: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
         let own: Vec<usize> = places.iter().filter_map(|&place| self.position(place)).collect();

@@ -44,6 +44,11 @@ impl Context {
         Some(Self { left, most })
     }
 
+    /// Of one strength of the noise.
+    pub(crate) fn drawn(left: Left) -> Self {
+        Self { most: left.log_likelihood, left: vec![left] }
+    }
+
     /// The best choice of a candidate's parameters; `own` lists the places of each of them.
     ///
     /// None if the runs show nothing of it.

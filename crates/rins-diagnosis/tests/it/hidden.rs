@@ -1,9 +1,10 @@
 //! One effect, two, and none.
 
-use rins_diagnosis::{Along, Diagnosis, Structure, diagnose};
+use rins_diagnosis::{Along, Diagnosis, Structure, chance, diagnose, limits};
 use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
+use rins_imu::Seed;
 use rins_terms::{Chosen, Model, Term, catalogue};
 
 use crate::support::{fibre, run};
@@ -126,6 +127,41 @@ fn flicker_is_not_named_as_an_effect() {
     assert!(honest.causes.is_empty(), "{:?}", honest.causes);
     let naive = found(&run, NoiseKnowledge::Given);
     assert!(!naive.causes.is_empty());
+}
+
+/// What is detectable is detected, and a third of it is not.
+#[test]
+fn limits_are_where_detection_begins() {
+    let term = &catalogue::ACCEL_LEVER_ARM;
+    let clean = run(&RATES, Model::default(), 0.0, 73);
+    let imu = fibre();
+    let before = found(&clean, NoiseKnowledge::Given).before;
+    let limits = limits(&[clean], &before, &imu).unwrap();
+    let limit = limits.iter().find(|l| l.term.id == term.id && l.parameter == 0).unwrap();
+    assert!(limit.detectable > 4.0 * limit.sigma && limit.detectable < 9.0 * limit.sigma);
+    let named = |part: f64| -> usize {
+        (0..6)
+            .filter(|seed| {
+                let effects = hiding(&[(term, &[part * limit.detectable, 0.0])]);
+                let diagnosis =
+                    found(&run(&RATES, effects, 0.0, 200 + seed), NoiseKnowledge::Given);
+                names(&diagnosis, term.id)
+            })
+            .count()
+    };
+    // 95 % are expected of the whole, and next to none of a third.
+    assert!(named(1.0) >= 5);
+    assert!(named(1.0 / 3.0) <= 1);
+}
+
+/// Drawn from the information alone, chance names no more than it may, and not much less: the thresholds bind.
+#[test]
+fn chance_names_as_often_as_it_may() {
+    let clean = run(&RATES, Model::default(), 0.0, 74);
+    let before = found(&clean, NoiseKnowledge::Given).before;
+    let named = chance(&[clean], &before, &fibre(), 2000, Seed::new(5)).unwrap();
+    assert!(named < 0.02, "{named}");
+    assert!(named > 0.0005, "{named}");
 }
 
 /// Noise that is not as the sheet says is named as such, and with its size.
