@@ -42,10 +42,16 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
         .iter()
         .copied()
         .filter(|term| term.is_signal() && !GAUGES.contains(&term.id))
-        .filter(|term| !model.terms.iter().any(|chosen| chosen.term.id == term.id))
         .filter(|term| term.needs.iter().all(|need| runs.iter().any(|run| offers(run, *need))))
         .flat_map(|term| shapes(duration(runs), term))
+        .filter(|candidate| !model.terms.iter().any(|own| stands_for(own, &candidate.chosen)))
         .collect()
+}
+
+/// Whether a term of a model leaves no room for another shape of it: two orders are two effects.
+fn stands_for(own: &Chosen, other: &Chosen) -> bool {
+    let has_order = own.term.settings.iter().any(|setting| setting.name == "order");
+    own.term.id == other.term.id && (!has_order || own.settings == other.settings)
 }
 
 /// How long the longest run is \[s\].

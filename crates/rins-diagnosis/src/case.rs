@@ -24,7 +24,7 @@ const SWALLOWED: f64 = 4.0;
 const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
 
 /// A term of at most so many parameters is estimated whole.
-const WHOLE: usize = 3;
+pub(crate) const WHOLE: usize = 3;
 
 /// What stays the same from one effect to the next.
 #[derive(Clone, Copy)]

@@ -1,10 +1,10 @@
 //! A last look at every cause beside the others.
 
 use rins_estimation::Fit;
-use rins_terms::Chosen;
+use rins_terms::{Chosen, Role};
 
 use crate::candidates::{Candidate, candidates};
-use crate::case::Case;
+use crate::case::{Case, WHOLE};
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
 use crate::lines::at_frequency;
@@ -20,11 +20,30 @@ const BETTER: f64 = 0.5;
 /// How often a cause may be exchanged or dropped.
 const MOST_CHANGES: usize = 4;
 
+/// A cause of fewer directions is not exchanged for two.
+const FEWEST_FOR_TWO: usize = 3;
+
+/// How many effects are tried as the first of two.
+const FIRST_OF_TWO: usize = 4;
+
 /// What the last look at a cause says.
 enum Look {
     Keep(Cause),
     Drop,
-    Exchange(Chosen),
+    Exchange(Vec<Chosen>),
+}
+
+/// All that is asked of one cause.
+struct Question<'a> {
+    survey: &'a Survey,
+    list: &'a [Candidate],
+    found: &'a [Chosen],
+    /// Which of those that were found.
+    index: usize,
+    /// Where its parameters are: a list for each.
+    places: &'a [Vec<usize>],
+    /// Every effect in its place.
+    tried: Vec<Trial>,
 }
 
 impl Case<'_> {
@@ -45,21 +64,23 @@ impl Case<'_> {
             let mut causes = Vec::new();
             let mut change = None;
             for index in 0..found.len() {
-                let dropped: Vec<usize> = survey.of_term(given + index).concat();
-                let Some(context) = Context::of(&survey, &dropped, &[]) else { continue };
+                let places = survey.of_term(given + index);
+                let Some(context) = Context::of(&survey, &places.concat(), &[]) else { continue };
                 let tried = trials(&survey, &context, &list);
-                match self.look(&list, &tried, &found, index) {
+                let question =
+                    Question { survey: &survey, list: &list, found: &found, index, places, tried };
+                match self.look(&question) {
                     Look::Keep(cause) => causes.push(cause),
                     other if changes < MOST_CHANGES => {
                         change = Some((index, other));
                         break;
                     }
-                    _ => causes.push(cause(&list, &tried, &found[index])),
+                    _ => causes.push(question.cause()),
                 }
             }
             changes += 1;
             match change {
-                Some((index, Look::Exchange(better))) => found[index] = better,
+                Some((index, Look::Exchange(better))) => _ = found.splice(index..=index, better),
                 Some((index, _)) => _ = found.remove(index),
                 None => {
                     for (index, cause) in causes.iter_mut().enumerate() {
@@ -100,48 +121,134 @@ impl Case<'_> {
         list
     }
 
-    fn look(&self, list: &[Candidate], tried: &[Trial], found: &[Chosen], index: usize) -> Look {
-        let id = |trial: &Trial| list[trial.candidate].chosen.term.id;
-        let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
-        let own = tried.iter().find(|trial| id(trial) == found[index].term.id);
-        if tried.iter().all(|trial| trial.ln_p > threshold) {
+    fn look(&self, question: &Question<'_>) -> Look {
+        let Question { list, tried, .. } = question;
+        if tried.iter().all(|trial| trial.ln_p > question.threshold()) {
             return Look::Drop;
         }
-        let taken = |id: &str| found.iter().any(|other| other.term.id == id);
-        let better = tried.iter().find(|trial| !taken(id(trial)));
+        let own = question.own().map_or(f64::NEG_INFINITY, |own| own.evidence) + BETTER;
+        let expecting = |trial: &Trial| list[trial.candidate].expecting(trial, self.imu);
+        let better = tried.iter().find(|trial| question.is_new(trial));
         if let Some(better) = better
-            && own.is_none_or(|own| better.evidence > own.evidence + BETTER)
+            && better.evidence > own
         {
-            return Look::Exchange(list[better.candidate].expecting(better, self.imu));
+            return Look::Exchange(vec![expecting(better)]);
         }
-        Look::Keep(cause(list, tried, &found[index]))
+        match question.pair() {
+            Some((pair, evidence)) if evidence > own => {
+                Look::Exchange(pair.iter().map(expecting).collect())
+            }
+            _ => Look::Keep(question.cause()),
+        }
     }
 }
 
-fn cause(list: &[Candidate], tried: &[Trial], cause: &Chosen) -> Cause {
-    let term = |trial: &Trial| list[trial.candidate].chosen.term;
-    let own = tried.iter().find(|trial| term(trial).id == cause.term.id);
-    // In how many parts an effect may come says nothing of whether it came.
-    let odds = |trial: &Trial| trial.evidence + trial.choices;
-    let top = tried.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);
-    let mut rivals: Vec<Rival> = tried
-        .iter()
-        .filter(|trial| term(trial).id != cause.term.id && odds(trial) > top - RIVALS)
-        .map(|trial| Rival {
-            term: term(trial),
-            settings: list[trial.candidate].chosen.settings.clone(),
-            odds: odds(trial) - top,
-        })
-        .collect();
-    rivals.sort_by(|a, b| b.odds.total_cmp(&a.odds));
-    let families = (tried.len() as f64).ln();
-    Cause {
-        term: cause.term,
-        settings: cause.settings.clone(),
-        parameters: Vec::new(),
-        ln_p: own.map_or(0.0, |own| (own.ln_p + families).min(0.0)),
-        dof: own.map_or(0, |own| own.dof),
-        gain: own.map_or(0.0, |own| 0.5 * own.statistic),
-        rivals,
+impl Question<'_> {
+    fn id(&self, trial: &Trial) -> &'static str {
+        self.list[trial.candidate].chosen.term.id
+    }
+
+    fn threshold(&self) -> f64 {
+        FALSE_ALARMS.ln() - (self.tried.len() as f64).ln()
+    }
+
+    /// The cause itself among those that are tried in its place.
+    fn own(&self) -> Option<&Trial> {
+        self.tried.iter().find(|trial| self.id(trial) == self.found[self.index].term.id)
+    }
+
+    /// Whether an effect is none of those that were found.
+    fn is_new(&self, trial: &Trial) -> bool {
+        self.found.iter().all(|found| found.term.id != self.id(trial))
+    }
+
+    /// Two effects that together explain what this one does, and the odds for both: the first pick of a search
+    /// may be one that has parameters enough for two.
+    fn pair(&self) -> Option<([Trial; 2], f64)> {
+        if self.own().is_some_and(|own| own.dof < FEWEST_FOR_TWO) {
+            return None;
+        }
+        let mut best: Option<([Trial; 2], f64)> = None;
+        for first in self.tried.iter().filter(|trial| self.is_new(trial)).take(FIRST_OF_TWO) {
+            let taken = self.survey.of_candidate(first.candidate).concat();
+            let context = Context::of(self.survey, &self.places.concat(), &taken)?;
+            let second = trials(self.survey, &context, self.list).into_iter().find(|trial| {
+                self.is_new(trial)
+                    && self.id(trial) != self.id(first)
+                    && trial.ln_p < self.threshold()
+            });
+            let Some(second) = second else { continue };
+            let evidence = first.evidence + second.evidence;
+            if best.as_ref().is_none_or(|(_, most)| evidence > *most) {
+                best = Some(([first.clone(), second], evidence));
+            }
+        }
+        best
+    }
+
+    fn cause(&self) -> Cause {
+        let found = &self.found[self.index];
+        let own = self.own();
+        let families = (self.tried.len() as f64).ln();
+        Cause {
+            term: found.term,
+            settings: found.settings.clone(),
+            parameters: Vec::new(),
+            ln_p: own.map_or(0.0, |own| (own.ln_p + families).min(0.0)),
+            dof: own.map_or(0, |own| own.dof),
+            gain: own.map_or(0.0, |own| 0.5 * own.statistic),
+            rivals: self.rivals(),
+        }
+    }
+
+    /// What explains the cause, or what one sensor shows of it, as well.
+    fn rivals(&self) -> Vec<Rival> {
+        let mut rivals = self.rivals_among(&self.tried);
+        for part in self.rows() {
+            let Some(context) = Context::of(self.survey, &part, &[]) else { continue };
+            let tried = trials(self.survey, &context, self.list);
+            if tried.first().is_none_or(|trial| trial.ln_p > self.threshold()) {
+                continue;
+            }
+            for rival in self.rivals_among(&tried) {
+                if rivals.iter().all(|other| other.term.id != rival.term.id) {
+                    rivals.push(rival);
+                }
+            }
+        }
+        rivals.sort_by(|a, b| b.odds.total_cmp(&a.odds));
+        rivals
+    }
+
+    /// The places of what each sensor shows of the cause, if it is a matrix and more than one does.
+    fn rows(&self) -> Vec<Vec<usize>> {
+        let found = &self.found[self.index];
+        let n = found.values.len();
+        if n <= WHOLE || !n.is_multiple_of(3) {
+            return Vec::new();
+        }
+        let mut rows = vec![Vec::new(); 3];
+        let estimated = (0..n).filter(|&parameter| found.roles[parameter] != Role::Held);
+        for (parameter, places) in estimated.zip(self.places) {
+            rows[parameter / (n / 3)].extend(places);
+        }
+        rows.retain(|row| !row.is_empty());
+        if rows.len() > 1 { rows } else { Vec::new() }
+    }
+
+    fn rivals_among(&self, tried: &[Trial]) -> Vec<Rival> {
+        // In how many parts an effect may come says nothing of whether it came.
+        let odds = |trial: &Trial| trial.evidence + trial.choices;
+        let top = tried.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);
+        let own = self.found[self.index].term.id;
+        tried
+            .iter()
+            .filter(|trial| self.id(trial) != own && odds(trial) > top - RIVALS)
+            .map(|trial| Rival {
+                term: self.list[trial.candidate].chosen.term,
+                settings: self.list[trial.candidate].chosen.settings.clone(),
+                odds: odds(trial) - top,
+            })
+            .collect()
     }
 }
