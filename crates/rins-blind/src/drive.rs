@@ -113,7 +113,7 @@ impl Drive {
             angle += step * driven * self.cogging(middle);
             let last = way.angles.len() - 1;
             way.angles.push(angle);
-            way.senses.push(if told.abs() > STILL { told.signum() } else { way.senses[last] });
+            way.senses.push(if turning { rate.signum() } else { way.senses[last] });
             way.rises.push(if change.abs() > STILL { change.signum() } else { way.rises[last] });
         }
         way

@@ -5,8 +5,9 @@ use rins_blind::{Experiment, Known, Random, random};
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::hidden;
-use crate::hide::{Ground, Hidden, Outside, hideable};
+use crate::hide::{Ground, Hidden, hideable};
 use crate::laboratory::{Laboratory, Length, Level, Schedule};
+use crate::outside::Outside;
 use crate::stand::StandError;
 
 /// How many times its bound an effect is strong.
@@ -52,7 +53,7 @@ pub struct Trial {
     pub hidden: Vec<Hidden>,
     /// What is hidden and in no catalogue.
     pub outside: Option<Outside>,
-    /// Effects that are there because no table is perfect.
+    /// Effects that are there because no table and no data sheet is perfect.
     pub present: Vec<String>,
 }
 
@@ -147,12 +148,13 @@ impl Trial {
     }
 
     fn clean(kind: Kind, schedule: Schedule, level: Level, laboratory: &Laboratory) -> Self {
-        let present = laboratory.experiment.effects.iter().map(|effect| effect.id.clone());
+        let worn = laboratory.experiment.effects.iter().map(|effect| effect.id.clone());
+        let scatter = level.scatter().iter().map(|id| (*id).to_owned());
         Self {
             kind,
             schedule,
             level,
-            present: present.collect(),
+            present: worn.chain(scatter).collect(),
             experiment: laboratory.experiment.clone(),
             known: laboratory.known.clone(),
             hidden: Vec::new(),

@@ -1,11 +1,9 @@
 //! How strong a hidden effect is, and which rivals the schedule tells from it.
 
-use std::f64::consts::{PI, TAU};
-
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
-use rins_blind::{Channel, Random, Shape, Unknown, record};
+use rins_blind::{Random, record};
 use rins_estimation::Run;
 use rins_terms::{Chosen, Term, catalogue};
 use serde::{Deserialize, Serialize};
@@ -50,27 +48,12 @@ pub struct Hidden {
     pub confusable: Vec<(String, f64)>,
 }
 
-/// A structure outside the catalogue that was hidden.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outside {
-    /// What it is, in words.
-    pub name: String,
-    /// The sensor that it is on.
-    pub channel: String,
-    /// How strong it is, in sigmas.
-    pub strength: f64,
-    /// How much of that is left beside the effect that is most like it; none for a matter of scatter.
-    pub remainder: Option<f64>,
-    /// The effect that is most like it.
-    pub nearest: String,
-}
-
 /// What is known of a laboratory's run before anything is hidden in it.
 pub(crate) struct Ground {
     pub(crate) laboratory: Laboratory,
     pub(crate) stand: Stand,
     pub(crate) plain: Run,
-    duration: f64,
+    pub(crate) duration: f64,
 }
 
 impl Ground {
@@ -182,78 +165,10 @@ impl Ground {
         least.sort_by(|a, b| a.1.total_cmp(&b.1));
         Ok(least)
     }
-
-    /// A structure outside the catalogue of which `remainder` sigmas are left beside any effect.
-    pub(crate) fn outside(
-        &self,
-        remainder: f64,
-        random: &mut Random,
-    ) -> Result<(Unknown, Outside), StandError> {
-        let mut unknown = self.unknown(random);
-        let name = unknown.shape.name().to_owned();
-        let axes = ["x", "y", "z"];
-        let channel = match unknown.channel {
-            Channel::Gyro(axis) => format!("gyro.{}", axes[axis]),
-            Channel::Accel(axis) => format!("accel.{}", axes[axis]),
-        };
-        if !unknown.shape.is_signal() {
-            let nearest = String::new();
-            return Ok((
-                unknown,
-                Outside { name, channel, strength: 0.0, remainder: None, nearest },
-            ));
-        }
-        let mut quiet = quiet(&self.laboratory);
-        quiet.unknowns.push(unknown.clone());
-        let run = self.stand.run(&record(&quiet), quiet.interval)?;
-        let all = rivals(self.duration);
-        let told = self.stand.told(&run, &all)?;
-        let gains = (0..all.len()).map(|number| explained(&told, number));
-        let best =
-            gains.enumerate().fold(
-                (0, 0.0),
-                |best: (usize, f64), (number, gain)| {
-                    if gain > best.1 { (number, gain) } else { best }
-                },
-            );
-        let left = (told.square - best.1).max(0.0).sqrt();
-        let times = remainder / left;
-        unknown.size *= times;
-        let strength = times * told.square.sqrt();
-        let nearest = all[best.0].term.id.to_owned();
-        Ok((unknown, Outside { name, channel, strength, remainder: Some(remainder), nearest }))
-    }
-
-    fn unknown(&self, random: &mut Random) -> Unknown {
-        let duration = self.duration;
-        let axis = random.random_range(0..3);
-        let gyro = random.random_bool(0.5);
-        let channel = if gyro { Channel::Gyro(axis) } else { Channel::Accel(axis) };
-        let phase = TAU * random.random::<f64>();
-        let (shape, size) = match random.random_range(0..8_u8) {
-            0 => (Shape::Sawtooth { period: log_uniform(random, 0.04, 0.3) * duration }, 1.0),
-            1 => (Shape::Order { order: 1.37, phase }, 1.0),
-            2 => {
-                let from = log_uniform(random, 2.0, 10.0) / duration;
-                (Shape::Chirp { from, growth: 4.0 * from / duration }, 1.0)
-            }
-            3 => (Shape::telegraph(0.06 * duration, duration, random.random()), 1.0),
-            4 => (Shape::Modulated { period: 0.61 * duration, phase }, 1.0),
-            5 => (Shape::Bump { at: phase, width: 10.0 * PI / 180.0 }, 1.0),
-            6 => {
-                let from = 0.6 * random.random::<f64>() * duration;
-                (Shape::Burst { from, to: from + 0.15 * duration }, 3.0)
-            }
-            _ => (Shape::Tails, 1.0),
-        };
-        let known = if gyro { &self.laboratory.known.gyro } else { &self.laboratory.known.accel };
-        let unit = if shape.is_signal() { known.noise } else { 1.0 };
-        Unknown { channel, shape, size: size * unit }
-    }
 }
 
 /// The experiment without any noise and without the table's imperfections.
-fn quiet(laboratory: &Laboratory) -> rins_blind::Experiment {
+pub(crate) fn quiet(laboratory: &Laboratory) -> rins_blind::Experiment {
     let mut quiet = laboratory.experiment.clone();
     for sensors in [&mut quiet.gyro, &mut quiet.accel] {
         sensors.noise = rins_blind::Noise::default();
@@ -308,13 +223,8 @@ fn left_beside(told: &Told, along: &DVector<f64>, rival: usize) -> f64 {
     own - with_rival(told, rival, &across)
 }
 
-/// By how much the squares fall where term `rival` is free.
-fn explained(told: &Told, rival: usize) -> f64 {
-    let places = told.places(rival);
-    with_rival(told, rival, &told.score.rows(places.start, places.len()).into_owned())
-}
-
-fn with_rival(told: &Told, rival: usize, score: &DVector<f64>) -> f64 {
+/// By how much a score of term `rival` lets the squares fall.
+pub(crate) fn with_rival(told: &Told, rival: usize, score: &DVector<f64>) -> f64 {
     let mut information = block(told, rival, rival);
     for place in 0..information.nrows() {
         information[(place, place)] += RIVAL.powi(-2);

@@ -13,8 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::answer::{Analyser, Answer};
 use crate::draw::{Kind, Trial};
-use crate::hide::{Hidden, Outside};
+use crate::hide::Hidden;
 use crate::laboratory::{Length, Level, Schedule};
+use crate::outside::Outside;
 use crate::trouble::Trouble;
 
 /// A trial and its answer.

@@ -58,6 +58,20 @@ impl Schedule {
 }
 
 impl Level {
+    /// What the data sheet does not say of the noise, by the catalogue's ids.
+    pub(crate) const fn scatter(self) -> &'static [&'static str] {
+        match self {
+            Self::White => &[],
+            Self::Flicker | Self::Table => &["gyro_bias_instability", "accel_bias_instability"],
+            Self::Coarse => &[
+                "gyro_bias_instability",
+                "accel_bias_instability",
+                "gyro_quantisation",
+                "accel_quantisation",
+            ],
+        }
+    }
+
     /// All of them.
     pub const ALL: [Self; 4] = [Self::White, Self::Flicker, Self::Table, Self::Coarse];
 

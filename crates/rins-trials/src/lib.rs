@@ -16,6 +16,7 @@ mod stand;
 mod laboratory;
 
 mod hide;
+mod outside;
 
 mod draw;
 
@@ -30,8 +31,9 @@ pub use answer::{Analyser, Answer, Named};
 pub use card::card;
 pub use catalogue::{hidden, is_hideable};
 pub use draw::{Kind, Trial};
-pub use hide::{Hidden, Outside};
+pub use hide::Hidden;
 pub use journal::{Plan, Record, one, records, run, time, try_out};
 pub use laboratory::{Laboratory, Length, Level, Schedule};
+pub use outside::Outside;
 pub use stand::{Stand, StandError, Told, recording};
 pub use trouble::Trouble;
