@@ -7,6 +7,7 @@ use rins_terms::{Chosen, Model, Term};
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::disturbance;
+use crate::structure::Structure;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 use crate::unexplained::{Unexplained, described};
@@ -115,7 +116,7 @@ pub fn diagnose(
     let mut not_testable = None;
     while found.len() < MOST_CAUSES {
         let mut list = candidates(runs, present.model());
-        list.extend(case.spectral(&present));
+        list.extend(case.suggested(&present));
         let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
         let Some(context) = Context::of(&survey, &[], &[]) else { break };
         let tried = trials(&survey, &context, &list);
@@ -155,7 +156,12 @@ pub fn diagnose(
         unknown.iter().map(|cause| described(cause, &after)).collect();
     unexplained.extend(case.unexplained(&after, &causes)?);
     causes.extend(fast.into_iter().map(|(_, cause)| cause));
-    causes.extend(case.noise_causes(&after)?);
+    // Of noise that is not the same all along, or has tails, no level can be told.
+    let uneven =
+        |one: &Unexplained| matches!(one.structure, Structure::Tails | Structure::Spread(_));
+    if !unexplained.iter().any(uneven) {
+        causes.extend(case.noise_causes(&after)?);
+    }
     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let not_testable = not_testable.unwrap_or_default();
     Ok(Diagnosis { causes, unexplained, before, after, not_testable })

@@ -1,4 +1,5 @@
-//! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones may be.
+//! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones, and
+//! events, may be.
 
 use nalgebra::{SVector, Vector3};
 use rins_estimation::{Fit, Reference, Run};
@@ -16,6 +17,12 @@ use crate::structure::{CHANNELS, Left, Structure};
 /// How many slow lines are tried at once.
 const SLOW: usize = 2;
 
+/// How many outliers are taken for the time of an event.
+const OUTLIERS: usize = 2;
+
+/// An innovation of so many sigmas is an outlier.
+const OUTLIER: f64 = 4.5;
+
 /// The noise under a line is the median of so many frequencies on each side.
 const AROUND: usize = 600;
 
@@ -29,8 +36,8 @@ const SHARE: f64 = 0.1;
 const MOST: usize = 4;
 
 impl Case<'_> {
-    /// The terms that have a frequency, and an order of no known cause, where the innovations are strongest.
-    pub(crate) fn spectral(&self, present: &Fit) -> Vec<Candidate> {
+    /// The terms that have a frequency, an order of no known cause, and events, where the innovations are strongest.
+    pub(crate) fn suggested(&self, present: &Fit) -> Vec<Candidate> {
         let mut list = Vec::new();
         for run in 0..self.runs.len() {
             let innovations = present.innovations(run);
@@ -47,6 +54,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
+            list.extend(self.events(&innovations, present, run));
             let frequencies =
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
@@ -55,6 +63,35 @@ impl Case<'_> {
                     let step = Some((0, 0.5 / (count * epoch)));
                     list.push(Candidate { chosen, looks: count, step });
                 }
+            }
+        }
+        list
+    }
+
+    /// Every event at the epochs whose innovations are largest: what is over in an instant shows in one of them only.
+    fn events(
+        &self,
+        innovations: &[SVector<f64, CHANNELS>],
+        present: &Fit,
+        run: usize,
+    ) -> Vec<Candidate> {
+        let linear = &present.linear[run];
+        let ends = linear.ends(&self.runs[run].recording.times);
+        let begin = linear.track().start();
+        let mut order: Vec<usize> = (0..innovations.len()).collect();
+        order.sort_by(|&a, &b| innovations[b].amax().total_cmp(&innovations[a].amax()));
+        let outliers = order.into_iter().take(OUTLIERS);
+        let outliers: Vec<usize> =
+            outliers.filter(|&epoch| innovations[epoch].amax() > OUTLIER).collect();
+        let epoch = linear.mean_epoch();
+        let mut list = Vec::new();
+        for term in catalogue::CATALOGUE.iter().filter(|term| term.is_signal()) {
+            let Some(place) = term.settings.iter().position(|s| s.name == "time") else { continue };
+            for &outlier in &outliers {
+                let mut chosen = Chosen::new(term).estimated();
+                chosen.settings[place] = ends[outlier] - begin - 0.5 * epoch;
+                let looks = innovations.len() as f64;
+                list.push(Candidate { chosen, looks, step: Some((place, epoch)) });
             }
         }
         list

@@ -164,6 +164,20 @@ fn chance_names_as_often_as_it_may() {
     assert!(named > 0.0005, "{named}");
 }
 
+/// A step of the base is over within an epoch, and no grid of times would meet it.
+#[test]
+fn a_step_is_found_at_its_instant() {
+    let mut step = Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 137.31);
+    step.values[0] = 0.3 * ARCSEC;
+    let hidden = Model { terms: vec![step] };
+    let diagnosis = found(&run(&RATES, hidden, 0.0, 75), NoiseKnowledge::Likely);
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_eq!(cause.term.id, "base_tilt_step");
+    assert!((cause.settings[0] - 137.31).abs() < 0.5, "{:?}", cause.settings);
+    let off = (cause.parameters[0].value - 0.3 * ARCSEC) / cause.parameters[0].sigma;
+    assert!(off.abs() < 4.0, "{off}");
+}
+
 /// Noise that is not as the sheet says is named as such, and with its size.
 #[test]
 fn stronger_noise_than_the_sheet_says_is_named() {
