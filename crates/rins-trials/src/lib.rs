@@ -23,6 +23,7 @@ mod draw;
 mod answer;
 mod journal;
 
+mod breakdown;
 mod card;
 mod score;
 mod statistics;

@@ -135,8 +135,72 @@ pub(crate) fn class(id: &str) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::{Value, json};
+
     use super::*;
     use crate::catalogue::is_hideable;
+
+    /// A record of 5 mm and -3 mm of lever arm, bounds 1 mm, and of a table with an eccentric encoder.
+    fn record(causes: &Value) -> Record {
+        let lever = json!({
+            "id": "accel_lever_arm", "meant": 8.0, "strength": 8.0, "dof": 2, "settings": [],
+            "parameters": [5e-3, -3e-3], "bounds": [1e-3, 1e-3], "usual": [0.3, 0.3],
+            "confusable": [["accel_size_effect", 1.2], ["accel_quadratic", 6.0]],
+        });
+        let answer = json!({
+            "verdict": "named", "causes": causes, "unexplained": [], "gain": null, "seconds": 1.0,
+            "failure": null,
+        });
+        let record = json!({
+            "seed": 1, "index": 2, "timed": false, "kind": "one", "schedule": "three_rates",
+            "level": "white", "interval": 0.02, "duration": 360.0, "hidden": [lever], "outside": null,
+            "present": ["encoder_eccentricity"], "answer": answer,
+        });
+        serde_json::from_value(record).expect("it is a record")
+    }
+
+    fn named(effect: &str, others: &[&str], parameters: &Value) -> Value {
+        json!({
+            "effect": effect, "cannot_tell_from": others, "ln_p": -20.0, "parameters": parameters,
+            "settings": {},
+        })
+    }
+
+    #[test]
+    fn name_is_false_if_nothing_of_its_set_is_there() {
+        let set = named("accel_size_effect", &["accel_lever_arm"], &json!([]));
+        let table = named("encoder_eccentricity", &[], &json!([]));
+        let wrong = named("gyro_lag", &["accel_latency"], &json!([]));
+        let record = record(&json!([table, set, wrong]));
+        let names: Vec<&str> = record.false_names().map(|cause| cause.effect.as_str()).collect();
+        assert_eq!(names, ["gyro_lag"]);
+        // The table's own imperfection comes first and does not count.
+        assert_eq!(record.first().map(|cause| cause.effect.as_str()), Some("accel_size_effect"));
+        assert!(record.set_with("accel_lever_arm").is_some_and(|set| set.set().count() == 2));
+        assert!(record.set_with("base_sway").is_none());
+        assert!(record.detected());
+    }
+
+    #[test]
+    fn interval_covers_within_two_sigmas_of_the_truth() {
+        let lever = |x: f64, y: f64| {
+            named("accel_lever_arm", &[], &json!([["r_x", x, 1e-3], ["r_y", y, 1e-3]]))
+        };
+        assert_eq!(record(&json!([lever(6.9e-3, -5.1e-3)])).covered(), [true, false]);
+        // Only where the first name is right.
+        assert!(record(&json!([named("gyro_lag", &[], &json!([]))])).covered().is_empty());
+        assert!(record(&json!([])).covered().is_empty());
+    }
+
+    #[test]
+    fn schedule_separates_what_leaves_five_sigmas() {
+        let mut hidden = record(&json!([])).hidden.remove(0);
+        assert!(!hidden.is_separable());
+        hidden.confusable.remove(0);
+        assert!(hidden.is_separable());
+        hidden.strength = 4.0;
+        assert!(!hidden.is_separable());
+    }
 
     #[test]
     fn every_effect_has_one_class() {
