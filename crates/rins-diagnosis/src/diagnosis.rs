@@ -7,7 +7,6 @@ use rins_terms::{Chosen, Model, Term};
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::disturbance;
-use crate::structure::Structure;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 use crate::unexplained::{Unexplained, described};
@@ -156,10 +155,8 @@ pub fn diagnose(
         unknown.iter().map(|cause| described(cause, &after)).collect();
     unexplained.extend(case.unexplained(&after, &causes)?);
     causes.extend(fast.into_iter().map(|(_, cause)| cause));
-    // Of noise that is not the same all along, or has tails, no level can be told.
-    let uneven =
-        |one: &Unexplained| matches!(one.structure, Structure::Tails | Structure::Spread(_));
-    if !unexplained.iter().any(uneven) {
+    // What is left unexplained is in the noise that was found: no level can be told then.
+    if unexplained.is_empty() {
         causes.extend(case.noise_causes(&after)?);
     }
     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));

@@ -69,13 +69,18 @@ impl Case<'_> {
                 let tried = trials(&survey, &context, &list);
                 let question =
                     Question { survey: &survey, list: &list, found: &found, index, places, tried };
-                match self.look(&question) {
+                let mut look = self.look(&question);
+                // Exchanges may go round in circles: what is significant stays then, and what is not goes.
+                if changes >= MOST_CHANGES && matches!(look, Look::Exchange(_)) {
+                    let stays = question.own().is_some_and(|own| own.ln_p < question.threshold());
+                    look = if stays { Look::Keep(question.cause()) } else { Look::Drop };
+                }
+                match look {
                     Look::Keep(cause) => causes.push(cause),
-                    other if changes < MOST_CHANGES => {
+                    other => {
                         change = Some((index, other));
                         break;
                     }
-                    _ => causes.push(question.cause()),
                 }
             }
             changes += 1;
@@ -123,15 +128,17 @@ impl Case<'_> {
 
     fn look(&self, question: &Question<'_>) -> Look {
         let Question { list, tried, .. } = question;
-        if tried.iter().all(|trial| trial.ln_p > question.threshold()) {
-            return Look::Drop;
-        }
-        let own = question.own().map_or(f64::NEG_INFINITY, |own| own.evidence) + BETTER;
         let expecting = |trial: &Trial| list[trial.candidate].expecting(trial, self.imu);
-        let better = tried.iter().find(|trial| question.is_new(trial));
-        if let Some(better) = better
-            && better.evidence > own
-        {
+        let significant = |trial: &&Trial| trial.ln_p < question.threshold();
+        let better = tried.iter().find(|trial| question.is_new(trial)).filter(significant);
+        let Some(own) = question.own().filter(significant) else {
+            return match better.filter(|better| better.evidence > 0.0) {
+                Some(better) => Look::Exchange(vec![expecting(better)]),
+                None => Look::Drop,
+            };
+        };
+        let own = own.evidence + BETTER;
+        if let Some(better) = better.filter(|better| better.evidence > own) {
             return Look::Exchange(vec![expecting(better)]);
         }
         match question.pair() {
