@@ -121,7 +121,8 @@ impl Ground {
             let value = match setting.name {
                 "time" => self.duration * (0.1 + 0.8 * random.random::<f64>()),
                 "time_constant" => self.duration * log_uniform(random, 0.02, 0.4),
-                "frequency" => log_uniform(random, 0.02, 10.0),
+                // Slow enough for an epoch of the estimator to show it: its strength is told by that.
+                "frequency" => log_uniform(random, 0.02, 0.8),
                 "axis" => f64::from(random.random_range(1..=3_u8)),
                 "exponent" => [0.5, 1.0, 2.0, 3.0][random.random_range(0..4)],
                 "order" if setting.within.0 < 0.0 => {
