@@ -45,7 +45,8 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
     let mut limits: Vec<Limit> = Vec::new();
     for (index, candidate) in list.iter().enumerate() {
         let own = survey.of_candidate(index);
-        let looks = families.len() as f64 * candidate.looks * choices(own.len()).len() as f64;
+        let looks =
+            families.len() as f64 * candidate.looks * choices(candidate.chosen.term).len() as f64;
         let reach =
             normal.inverse_cdf(1.0 - 0.5 * FALSE_ALARMS / looks) + normal.inverse_cdf(POWER);
         for (parameter, places) in own.iter().enumerate() {

@@ -59,9 +59,9 @@ impl Case<'_> {
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
                 for chosen in at_frequency(frequency) {
-                    // Half an independent frequency is the distance of those that were looked at.
+                    // Half an independent frequency is the distance of those that were looked at, in two frames.
                     let step = Some((0, 0.5 / (count * epoch)));
-                    list.push(Candidate { chosen, looks: count, step });
+                    list.push(Candidate { chosen, looks: 2.0 * count, step });
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! How well a block of parameters explains what is left, and at what price.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rins_terms::Term;
 
 /// A direction of an effect's parameters counts as shown if its amplitude is found to this part of what is usual at least.
 const LEAST_SHOWN: f64 = 1.0;
@@ -53,9 +54,30 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
     sum
 }
 
-/// Which parameters of an effect of `n` may be there alone: every choice of up to three; of a matrix, elements, pairs
-/// within a row, rows, the first two rows, and all.
-pub(crate) fn choices(n: usize) -> Vec<Vec<usize>> {
+/// Which parameters of an effect may be there alone: every choice of up to three; of a matrix, elements, pairs
+/// within a row, rows, the first two rows, and all. Of a cosine and a sine there are both: the phase is anyone's guess.
+pub(crate) fn choices(term: &Term) -> Vec<Vec<usize>> {
+    let units = units(term);
+    let flat =
+        |choice: Vec<usize>| choice.into_iter().flat_map(|unit| units[unit].clone()).collect();
+    choices_of(units.len()).into_iter().map(flat).collect()
+}
+
+/// The parameters of an effect, a cosine and its sine together.
+fn units(term: &Term) -> Vec<Vec<usize>> {
+    let mut units: Vec<Vec<usize>> = Vec::new();
+    for (place, parameter) in term.parameters.iter().enumerate() {
+        let sine = parameter.name.ends_with("sin");
+        match units.last_mut() {
+            Some(unit) if sine => unit.push(place),
+            _ => units.push(vec![place]),
+        }
+    }
+    units
+}
+
+/// The choices among `n`.
+fn choices_of(n: usize) -> Vec<Vec<usize>> {
     if n <= 3 {
         return (1..1_usize << n)
             .map(|bits| (0..n).filter(|place| bits >> place & 1 == 1).collect())
@@ -83,6 +105,7 @@ pub(crate) fn choices(n: usize) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rins_terms::catalogue;
     use rins_testing::assert_close;
 
     /// One parameter: the statistic is the square of the estimate over its sigma.
@@ -121,9 +144,16 @@ mod tests {
     }
 
     #[test]
+    fn a_cosine_is_not_there_without_its_sine() {
+        assert_eq!(choices(&catalogue::ENCODER_ECCENTRICITY), [[0, 1]]);
+        assert_eq!(choices(&catalogue::BASE_SWAY), [vec![0, 1], vec![2, 3], vec![0, 1, 2, 3]]);
+        assert_eq!(choices(&catalogue::ACCEL_LEVER_ARM).len(), 3);
+    }
+
+    #[test]
     fn choices_are_distinct_and_within_the_term() {
         for n in [1, 2, 3, 4, 6, 9, 18] {
-            let all = choices(n);
+            let all = choices_of(n);
             for (place, choice) in all.iter().enumerate() {
                 assert!(choice.iter().all(|&parameter| parameter < n));
                 assert!(choice.is_sorted());

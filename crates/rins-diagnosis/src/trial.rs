@@ -52,10 +52,15 @@ impl Context {
     /// The best choice of a candidate's parameters; `own` lists the places of each of them.
     ///
     /// None if the runs show nothing of it.
-    pub(crate) fn trial(&self, candidate: usize, shapes: f64, own: &[Vec<usize>]) -> Option<Trial> {
-        let choices = choices(own.len());
+    pub(crate) fn trial(
+        &self,
+        candidate: usize,
+        shape: &Candidate,
+        own: &[Vec<usize>],
+    ) -> Option<Trial> {
+        let choices = choices(shape.chosen.term);
         let of_choices = (choices.len() as f64).ln();
-        let looks = shapes.ln() + of_choices;
+        let looks = shape.looks.ln() + of_choices;
         let mut best: Option<Trial> = None;
         let mut least_ln_p = 0.0_f64;
         for parameters in choices {
@@ -107,7 +112,7 @@ impl Context {
 pub(crate) fn trials(survey: &Survey, context: &Context, list: &[Candidate]) -> Vec<Trial> {
     let mut best: Vec<Trial> = Vec::new();
     for (index, candidate) in list.iter().enumerate() {
-        let Some(trial) = context.trial(index, candidate.looks, survey.of_candidate(index)) else {
+        let Some(trial) = context.trial(index, candidate, survey.of_candidate(index)) else {
             continue;
         };
         let id = candidate.chosen.term.id;
