@@ -33,7 +33,9 @@ impl Arguments {
         let arguments = Self::parse();
         let refusal = match &arguments.command {
             Command::Calibrate(calibrate) => calibrate.refusal().map(|why| ("calibrate", why)),
-            Command::Diagnose(diagnose) => twice(&diagnose.rigs).map(|why| ("diagnose", why)),
+            Command::Diagnose(diagnose) => {
+                twice(diagnose.rigs.iter().chain(&diagnose.held_out)).map(|why| ("diagnose", why))
+            }
             _ => None,
         };
         if let Some((name, (kind, message))) = refusal {
@@ -213,6 +215,10 @@ pub(crate) struct Diagnose {
     /// Folder for result.json, report.html, model.toml (the extended model) and calibration.toml
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+    /// Measure the gain on this run, which plays no part otherwise; by default on the last 30 % of every stretch of
+    /// constant rate
+    #[arg(long, value_name = "RIG")]
+    pub(crate) held_out: Option<PathBuf>,
     /// What the run is taken to hold: full (biases, scale errors, misalignments, the axis' attitude), or a model file
     #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
     pub(crate) model: ModelChoice,
@@ -272,14 +278,20 @@ impl Calibrate {
             let message = "--model paper12 takes one rig; full takes several";
             return Some((ErrorKind::ArgumentConflict, message.into()));
         }
-        twice(&self.rigs)
+        twice(self.rigs.iter())
     }
 }
 
 /// Why rigs cannot be meant if one of them is given twice.
-fn twice(rigs: &[PathBuf]) -> Option<(ErrorKind, String)> {
-    let again = (1..rigs.len()).find(|&place| rigs[..place].contains(&rigs[place]))?;
-    Some((ErrorKind::ValueValidation, format!("{} is given twice", rigs[again].display())))
+fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, String)> {
+    let mut seen = Vec::new();
+    for rig in rigs {
+        if seen.contains(&rig) {
+            return Some((ErrorKind::ValueValidation, format!("{} is given twice", rig.display())));
+        }
+        seen.push(rig);
+    }
+    None
 }
 
 /// The error model to be estimated.

@@ -25,8 +25,14 @@ mod noise;
 mod structure;
 mod unexplained;
 
+mod gain;
+mod gain_drift;
+mod gain_spans;
+
 pub use candidates::{Candidate, candidates};
 pub use diagnosis::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
+pub use gain::{Foresight, Gain, GainError, GainVerdict};
+pub use gain_drift::Drift;
 pub use limits::{Limit, chance, limits};
 pub use structure::{Along, Structure};
 pub use unexplained::Unexplained;

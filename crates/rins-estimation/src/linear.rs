@@ -333,7 +333,7 @@ impl Linear {
     }
 
     /// How many figures an epoch shows.
-    pub(crate) fn shown(&self) -> usize {
+    pub fn shown(&self) -> usize {
         if self.shows_angle() { SHOWN } else { SHOWN - 1 }
     }
 

@@ -64,6 +64,7 @@ fn nothing_is_named_where_nothing_is_hidden() {
         let result = result_in(&run, &format!("diagnose rig.toml --noise {noise}"));
         assert_eq!(result["verdict"], "adequate", "{name}: {}", result["causes"]);
         assert_eq!(list(&result, "/causes").len(), 0);
+        assert_eq!(result["gain"]["verdict"], "no_improvement", "{name}: {}", result["gain"]);
     }
 }
 
@@ -134,6 +135,13 @@ fn extended_model_calibrates_and_navigates_another_run() {
         (value - 6.0).abs() < WITHIN * sigma && sigma < 0.6,
         "6 ppm found as {value} ± {sigma}"
     );
+    assert_eq!(result["gain"]["verdict"], "improved", "{}", result["gain"]);
+    let elsewhere = result_in(here, "diagnose one/rig.toml --noise given --held-out two/rig.toml");
+    let gain = &elsewhere["gain"];
+    assert_eq!((&gain["verdict"], &gain["rig"]), (&"improved".into(), &"two/rig.toml".into()));
+    assert!(number(gain, "/log_score_rise") > 20.0, "{gain}");
+    let drift = |when: &str| number(gain, &format!("/attitude_drift_deg/{when}"));
+    assert!(drift("before") > 2.0 * drift("after"), "{gain}");
     let page = fs::read_to_string(here.join("found/report.html")).unwrap();
     assert!(page.contains("asymmetry of the gyro scale"));
 

@@ -1,5 +1,6 @@
 //! Effects hidden in simulated runs are found, and nothing is found where there is nothing.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
+mod gain;
 mod hidden;
 mod support;

@@ -61,6 +61,18 @@ const MODELS: &[Row] = &[
         &["rig.toml and other.toml have different data sheets"],
     ),
     (
+        "a gain on another IMU",
+        "diagnose rig.toml --held-out other.toml",
+        All(&[Content("other.toml", OTHER)]),
+        &["rig.toml and other.toml have different data sheets"],
+    ),
+    (
+        "a gain on a run that is not there",
+        "diagnose rig.toml --held-out no.toml",
+        Nothing,
+        &["cannot read no.toml"],
+    ),
+    (
         "a diagnosis of exchanged gyros",
         "diagnose rig.toml",
         Replace("rig.toml", "unit = \"rad\"", "unit = \"rad\", axes = [\"z\", \"x\", \"y\"]"),

@@ -41,6 +41,12 @@ const USAGES: &[Row] = &[
         Nothing,
         &["rig.toml is given twice", "Usage: rins diagnose"],
     ),
+    (
+        "a run held out of itself",
+        "diagnose rig.toml --held-out rig.toml",
+        Nothing,
+        &["rig.toml is given twice", "Usage: rins diagnose"],
+    ),
     ("no rig", "check", Nothing, &["required arguments were not provided", "<RIG>"]),
     ("a rig too many", "align rig.toml rig.toml", Nothing, &["unexpected argument 'rig.toml'"]),
     (

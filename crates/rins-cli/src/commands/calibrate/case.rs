@@ -28,13 +28,6 @@ impl Case {
         named: NamedModel,
         noise: NoiseChoice,
     ) -> anyhow::Result<Self> {
-        if let Some(other) = runs.iter().find(|run| run.imu != runs[0].imu) {
-            anyhow::bail!(
-                "{} and {} have different data sheets: several runs must be of one IMU",
-                runs[0].name,
-                other.name
-            );
-        }
         let mut remarks: Vec<String> = match &runs[..] {
             [only] => only.remarks.clone(),
             several => several
@@ -44,7 +37,20 @@ impl Case {
         };
         let preset = named.name == "full";
         let model = on_these_runs(named.model, &runs, preset, &mut remarks);
-        Ok(Self { runs, name: named.name, model, noise, remarks })
+        let case = Self { runs, name: named.name, model, noise, remarks };
+        case.runs.iter().try_for_each(|run| case.ensure_same_imu(run))?;
+        Ok(case)
+    }
+
+    /// Refuses a run of another IMU.
+    pub(crate) fn ensure_same_imu(&self, other: &Prepared) -> anyhow::Result<()> {
+        anyhow::ensure!(
+            other.imu == *self.imu(),
+            "{} and {} have different data sheets: several runs must be of one IMU",
+            self.runs[0].name,
+            other.name
+        );
+        Ok(())
     }
 
     /// What the data sheet says.

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use rins_estimation::{Estimate, Fit, Identifiability};
 use rins_io::{Covariance, Parameter};
-use rins_terms::{Model, Role};
+use rins_terms::{Model, Role, catalogue};
 
 use crate::view::told::meaning;
 
@@ -22,20 +22,21 @@ pub(crate) const STEPS: [&str; 5] = [
     "5. Go back to 3 until nothing changes, three rounds or so; then multiply by the interval. Noise is left as it is.",
 ];
 
-/// Whether a term of the model describes the run's table alone, so that there is nothing to undo in another run.
-fn of_table_alone(id: &str) -> bool {
-    id == "axis.attitude"
+/// Whether a term of the model describes the run's table alone or has no name, so that there is nothing to undo in
+/// another run.
+fn of_run_alone(id: &str) -> bool {
+    id == "axis.attitude" || catalogue::term(id).is_none()
 }
 
 /// The calibration file of one run: what its sensors and its encoder get wrong.
 pub(super) fn calibration(fit: &Fit, told: &Identifiability, run: usize) -> rins_io::Calibration {
     let (error, mut terms) = fit.models[run].split();
-    terms.terms.retain(|chosen| !of_table_alone(chosen.term.id));
+    terms.terms.retain(|chosen| !of_run_alone(chosen.term.id));
     let places: Vec<usize> = (0..fit.parameters.len())
         .filter(|&place| {
             let estimate = &fit.parameters[place];
             let term = fit.models[run].terms[estimate.parameter.term].term;
-            estimate.run.is_none_or(|of| of == run) && !of_table_alone(term.id)
+            estimate.run.is_none_or(|of| of == run) && !of_run_alone(term.id)
         })
         .collect();
     let mut sigmas = Vec::new();
@@ -95,5 +96,7 @@ pub(super) fn model(fit: &Fit) -> Model {
         let parameter = &estimate.parameter;
         model.terms[parameter.term].roles[parameter.parameter] = Role::Within(estimate.sigma);
     }
+    // What was found without a name is no model of another run.
+    model.terms.retain(|chosen| catalogue::term(chosen.term.id).is_some());
     model
 }

@@ -8,8 +8,9 @@ use rins_diagnosis::{Cause, Unexplained, diagnose};
 use rins_estimation::{Estimate, Fit};
 use rins_imu::ImuSpec;
 
-use crate::commands::calibrate::{Case, Certificate};
+use crate::commands::calibrate::{Case, Certificate, Prepared};
 use crate::commands::diagnose::json;
+use crate::commands::diagnose::measured::Measured;
 use crate::commands::diagnose::testable::{Untestable, untestable};
 use crate::outcome::Outcome;
 use crate::progress;
@@ -41,6 +42,8 @@ pub(crate) struct Found {
     pub(crate) causes: Vec<Named>,
     /// What no effect explains, most significant first.
     pub(crate) unexplained: Vec<Unexplained>,
+    /// What the causes gain on data that played no part.
+    pub(crate) gain: Measured,
     /// The estimates that were wrong without the causes, the most wrong first.
     pub(crate) shifts: Vec<Shift>,
     /// The effects of which the run could not have shown anything.
@@ -78,7 +81,7 @@ impl Shift {
 
 impl Found {
     /// Diagnoses the runs of a case.
-    pub(crate) fn of(case: Case) -> anyhow::Result<Self> {
+    pub(crate) fn of(case: Case, held_out: Option<&Prepared>) -> anyhow::Result<Self> {
         let started = Instant::now();
         let runs = case.given();
         let spinner = progress::spinner("estimating the model");
@@ -87,8 +90,10 @@ impl Found {
             named.push(id);
             spinner.set_message(format!("found: {}", named.join(", ")));
         });
-        spinner.finish_and_clear();
         let diagnosis = diagnosed.with_context(|| case.names())?;
+        spinner.set_message("measuring the gain");
+        let gain = Measured::of(&case, held_out, (&diagnosis.before, &diagnosis.after));
+        spinner.finish_and_clear();
         let imu = *case.imu();
         let causes: Vec<Named> = diagnosis
             .causes
@@ -109,7 +114,7 @@ impl Found {
         let certificate = Certificate::with(case, diagnosis.after)?;
         let seconds = started.elapsed().as_secs_f64();
         let unexplained = diagnosis.unexplained;
-        Ok(Self { verdict, causes, unexplained, shifts, untestable, certificate, seconds })
+        Ok(Self { verdict, causes, unexplained, gain, shifts, untestable, certificate, seconds })
     }
 
     /// What the command delivers.
@@ -150,6 +155,10 @@ fn distance(parameters: &[Estimate], fit: &Fit) -> f64 {
         .filter_map(|own| fit.parameters.iter().position(|estimate| same(own, estimate)))
         .collect();
     let n = places.len();
+    if n < parameters.len() {
+        // The strength of a noise is found beside the fit.
+        return parameters.iter().map(|own| (own.value / own.sigma).powi(2)).sum::<f64>().sqrt();
+    }
     let covariance =
         DMatrix::from_fn(n, n, |row, column| fit.covariance[(places[row], places[column])]);
     let values = DVector::from_iterator(n, places.iter().map(|&p| fit.parameters[p].value));

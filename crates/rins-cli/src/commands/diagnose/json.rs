@@ -47,6 +47,7 @@ pub(super) fn diagnosis(found: &Found) -> Value {
         },
         "causes": causes,
         "unexplained": found.unexplained.iter().map(|one| unexplained(found, one)).collect::<Vec<_>>(),
+        "gain": found.gain.json(),
         "shifts": shifts,
         "not_testable": untestable,
         "noise": noise_json(certificate),

@@ -2,9 +2,11 @@
 
 mod found;
 mod json;
+mod measured;
 mod testable;
 
 pub(crate) use self::found::{Found, Named, Verdict};
+pub(crate) use self::measured::Measured;
 use crate::args::Diagnose;
 use crate::commands::calibrate::{Case, NamedModel, Prepared};
 use crate::commands::setup::load;
@@ -14,7 +16,13 @@ pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     let named = NamedModel::of(&arguments.model)?;
     let runs = arguments.rigs.iter().map(|rig| Prepared::of(rig, load(rig)?, arguments.noise));
     let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
-    let found = Found::of(Case::of(runs, named, arguments.noise)?)?;
+    let other = arguments.held_out.as_deref();
+    let other = other.map(|rig| Prepared::of(rig, load(rig)?, arguments.noise)).transpose()?;
+    let case = Case::of(runs, named, arguments.noise)?;
+    if let Some(other) = &other {
+        case.ensure_same_imu(other)?;
+    }
+    let found = Found::of(case, other.as_ref())?;
     let mut outcome = found.outcome();
     for run in &found.certificate.runs {
         outcome = outcome.of_log(&run.prepared.loaded);

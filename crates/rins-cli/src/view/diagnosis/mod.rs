@@ -1,5 +1,6 @@
 //! A diagnosis, for a terminal and for a browser.
 
+mod gain;
 mod report;
 mod structure;
 mod words;

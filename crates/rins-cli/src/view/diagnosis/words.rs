@@ -2,6 +2,7 @@
 
 use rins_diagnosis::Unexplained;
 
+use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
 use crate::commands::diagnose::{Found, Named, Verdict};
 use crate::number::{estimate, figure};
@@ -17,6 +18,7 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     sentences.extend(found.unexplained.iter().map(|one| remainder(found, one)));
     if !found.causes.is_empty() {
         sentences.push(damage(found));
+        sentences.push(gain_sentence(&found.gain));
     }
     sentences.extend(found.causes.iter().filter(|named| !named.plausible).map(|named| {
         format!(

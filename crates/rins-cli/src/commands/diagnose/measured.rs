@@ -1,0 +1,79 @@
+//! What the causes gain on data that played no part.
+
+use rins_diagnosis::{Drift, Gain, GainError, GainVerdict};
+use rins_estimation::Fit;
+use rins_frames::units::DEG;
+use serde_json::{Value, json};
+
+use crate::commands::calibrate::{Case, Prepared};
+
+/// A gain, or why there is none to be told.
+pub(crate) struct Measured {
+    /// The run on which it was measured, if it is not one of those that were diagnosed.
+    pub(crate) on: Option<String>,
+    pub(crate) gain: Result<Gain, GainError>,
+}
+
+impl Measured {
+    /// What `after` gains over `before` on a part of the runs of a case, or on another run.
+    pub(crate) fn of(case: &Case, held_out: Option<&Prepared>, fits: (&Fit, &Fit)) -> Self {
+        let (imu, knowledge) = (case.imu(), case.knowledge());
+        match held_out {
+            None => Self { on: None, gain: Gain::within(&case.given(), fits, imu, knowledge) },
+            Some(other) => Self {
+                on: Some(other.name.clone()),
+                gain: Gain::on(std::slice::from_ref(&other.run), fits, imu, knowledge),
+            },
+        }
+    }
+
+    /// For a machine.
+    pub(super) fn json(&self) -> Value {
+        let held_out = match &self.on {
+            None => "last 30 % of each segment".to_owned(),
+            Some(rig) => format!("last 30 % of each segment of {rig}"),
+        };
+        let gain = match &self.gain {
+            Ok(gain) => gain,
+            Err(error) => {
+                let why = error.to_string();
+                return json!({"held_out": held_out, "verdict": "not_measurable", "why": why});
+            }
+        };
+        let per_sample = |score: f64| score / gain.samples as f64;
+        let drifts: Vec<Value> = gain.drifts.iter().map(drift).collect();
+        let longest = drifts.last().cloned().unwrap_or_default();
+        json!({
+            "held_out": held_out,
+            "rig": self.on,
+            "samples": gain.samples,
+            "blocks": gain.blocks,
+            "log_score_per_sample": {
+                "before": per_sample(gain.before.log_score),
+                "after": per_sample(gain.after.log_score),
+            },
+            "log_score_rise": gain.rise(),
+            "log_score_rise_95": [gain.interval.0, gain.interval.1],
+            "nis_mean": {"before": gain.before.nis_mean, "after": gain.after.nis_mean},
+            "nis_dof": gain.before.nis_dof,
+            "velocity_drift_m_s": longest["velocity_m_s"],
+            "attitude_drift_deg": longest["attitude_deg"],
+            "drift_after_s": longest["after_s"],
+            "drifts": drifts,
+            "verdict": match gain.verdict {
+                GainVerdict::Improved => "improved",
+                GainVerdict::NoImprovement => "no_improvement",
+            },
+        })
+    }
+}
+
+fn drift(drift: &Drift) -> Value {
+    let [before, after] = drift.attitude.map(|angle| angle / DEG);
+    json!({
+        "after_s": drift.after,
+        "windows": drift.windows,
+        "velocity_m_s": {"before": drift.velocity[0], "after": drift.velocity[1]},
+        "attitude_deg": {"before": before, "after": after},
+    })
+}

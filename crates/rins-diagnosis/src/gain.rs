@@ -1,0 +1,242 @@
+//! What causes gain on data that played no part in estimating them.
+
+use std::ops::Range;
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rins_estimation::{
+    Fit, FitError, Foretold, Indefinite, NoiseKnowledge, Run, fit, foretold, linearise,
+};
+use rins_imu::ImuSpec;
+use rins_terms::{Model, NotUndone, Owner, Role};
+
+use crate::disturbance;
+use crate::gain_drift::{Drift, drifts};
+use crate::gain_spans::{Held, held_out};
+
+/// Of fewer blocks no interval can be told.
+const FEWEST_BLOCKS: usize = 4;
+
+/// How often the blocks are drawn anew.
+const DRAWS: usize = 4000;
+
+/// What is left of an interval on each side: 95 % are within.
+const TAIL: f64 = 0.025;
+
+/// How well a model foretells what was held out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foresight {
+    /// The logarithm of the probability density of all that was held out \[nats\].
+    pub log_score: f64,
+    /// The mean normalised innovation squared of an epoch; `nis_dof` if the model is right.
+    pub nis_mean: f64,
+    /// How many figures an epoch shows.
+    pub nis_dof: usize,
+}
+
+/// What came of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GainVerdict {
+    /// The extended model foretells better, and not by chance.
+    Improved,
+    /// It does not.
+    NoImprovement,
+}
+
+/// What causes gain on data that played no part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gain {
+    /// The samples that were held out, run by run.
+    pub spans: Vec<Vec<Range<usize>>>,
+    /// How many they are.
+    pub samples: usize,
+    /// How many revolutions, or pieces of a rest, they make.
+    pub blocks: usize,
+    /// The model as it was given.
+    pub before: Foresight,
+    /// The model with the causes.
+    pub after: Foresight,
+    /// Between what the rise of the log score is with 95 % probability, as the blocks scatter \[nats\].
+    pub interval: (f64, f64),
+    /// How far free inertial navigation drifts.
+    pub drifts: Vec<Drift>,
+    /// What came of it.
+    pub verdict: GainVerdict,
+}
+
+/// Why a gain could not be measured.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GainError {
+    /// Nothing, or too little, can be held out.
+    #[error(
+        "{blocks} revolutions or pieces of a rest can be held out, and {FEWEST_BLOCKS} are needed: of a stretch of constant rate \
+         whole revolutions of its last 30 % are taken, of a rest 10 s each"
+    )]
+    TooLittle {
+        /// How many revolutions or pieces of a rest.
+        blocks: usize,
+    },
+    /// A model cannot be fitted to the rest.
+    #[error("the model cannot be fitted to what is not held out")]
+    Fit(#[from] FitError),
+    /// The held-out data cannot be foretold.
+    #[error("what is held out cannot be foretold")]
+    Foretold(#[from] Indefinite),
+    /// The errors that were found cannot be undone.
+    #[error("what was found cannot be undone")]
+    NotUndone(#[from] NotUndone),
+}
+
+impl Gain {
+    /// By how much the log score rises \[nats\].
+    pub fn rise(&self) -> f64 {
+        self.after.log_score - self.before.log_score
+    }
+
+    /// What the causes in `after` gain over the model in `before`, on the last 30 % of every stretch of constant rate of
+    /// the runs from which both were estimated.
+    ///
+    /// Both models are estimated anew from the rest. Which causes there are was found with all the data; how large they
+    /// are is found without those held out.
+    ///
+    /// # Errors
+    /// [`GainError`] if too little can be held out, or a model does not fit the rest.
+    pub fn within(
+        runs: &[Run],
+        (before, after): (&Fit, &Fit),
+        imu: &ImuSpec,
+        knowledge: NoiseKnowledge,
+    ) -> Result<Self, GainError> {
+        Self::of(runs, [as_expected(before), as_expected(after)], imu, knowledge)
+    }
+
+    /// The same on runs that played no part at all: what belongs to the sensors is held as it was found, and what belongs to
+    /// a run, such as its turn-on biases, is estimated from the first 70 % of its every stretch.
+    ///
+    /// # Errors
+    /// [`GainError`] if too little can be held out, or a model does not fit the rest.
+    pub fn on(
+        others: &[Run],
+        (before, after): (&Fit, &Fit),
+        imu: &ImuSpec,
+        knowledge: NoiseKnowledge,
+    ) -> Result<Self, GainError> {
+        Self::of(others, [transferred(before), transferred(after)], imu, knowledge)
+    }
+
+    fn of(
+        runs: &[Run],
+        [before, after]: [Model; 2],
+        imu: &ImuSpec,
+        knowledge: NoiseKnowledge,
+    ) -> Result<Self, GainError> {
+        let held: Vec<Vec<Held>> = runs.iter().map(held_out).collect();
+        let blocks = held.iter().flatten().map(|held| held.blocks.len()).sum();
+        if blocks < FEWEST_BLOCKS {
+            return Err(GainError::TooLittle { blocks });
+        }
+        let spans: Vec<Vec<Range<usize>>> = held
+            .iter()
+            .map(|of_run| of_run.iter().map(|held| held.span.clone()).collect())
+            .collect();
+        let rest: Vec<Run> =
+            runs.iter().zip(&spans).map(|(r, s)| r.clone().leaving_out(s.clone())).collect();
+        let fitted = |model: &Model| fit(&rest, model, imu, knowledge, |_| ());
+        let first = fitted(&before)?;
+        let second = if before == after { first.clone() } else { fitted(&after)? };
+        let scores = [scored(runs, &held, &first)?, scored(runs, &held, &second)?];
+        let rises: Vec<f64> =
+            scores[0].blocks.iter().zip(&scores[1].blocks).map(|(a, b)| b - a).collect();
+        let interval = interval(&rises);
+        let drifts = drifts(runs, &spans, [&first, &second])?;
+        let samples = spans.iter().flatten().map(Range::len).sum();
+        let verdict =
+            if interval.0 > 0.0 { GainVerdict::Improved } else { GainVerdict::NoImprovement };
+        let [before, after] = scores.map(|score| score.foresight);
+        Ok(Self { spans, samples, blocks, before, after, interval, drifts, verdict })
+    }
+}
+
+/// A model with all it estimates where it was expected, and no better known than it was.
+fn as_expected(fit: &Fit) -> Model {
+    let mut model = fit.model().clone();
+    take_back(&mut model, fit);
+    without_nameless(model)
+}
+
+/// Takes every estimate back to what was expected.
+fn take_back(model: &mut Model, fit: &Fit) {
+    for estimate in fit.parameters.iter().filter(|estimate| estimate.run.is_none_or(|run| run == 0))
+    {
+        let at = &estimate.parameter;
+        model.terms[at.term].values[at.parameter] = estimate.expected;
+        model.terms[at.term].roles[at.parameter] = Role::Within(at.sigma);
+    }
+}
+
+/// A disturbance without a name foretells nothing.
+fn without_nameless(mut model: Model) -> Model {
+    model.terms.retain(|chosen| chosen.term.id != disturbance::ID);
+    model
+}
+
+/// The same with what belongs to the sensors held as it was found.
+fn transferred(fit: &Fit) -> Model {
+    let mut model = fit.model().clone();
+    take_back(&mut model, fit);
+    for estimate in fit.parameters.iter().filter(|e| e.parameter.owner == Owner::Sensor) {
+        let at = &estimate.parameter;
+        model.terms[at.term].values[at.parameter] = estimate.value;
+        model.terms[at.term].roles[at.parameter] = Role::Held;
+    }
+    without_nameless(model)
+}
+
+/// How well the whole was foretold, and each block.
+struct Scores {
+    foresight: Foresight,
+    blocks: Vec<f64>,
+}
+
+/// How well a fit to the rest foretells what was held out: every epoch from all before it.
+fn scored(runs: &[Run], held: &[Vec<Held>], fit: &Fit) -> Result<Scores, Indefinite> {
+    let mut blocks = Vec::new();
+    let (mut log_score, mut square, mut epochs, mut nis_dof) = (0.0, 0.0, 0_usize, 0);
+    for (place, run) in runs.iter().enumerate() {
+        let linear = linearise(run, &fit.models[place], &[]);
+        let told: Vec<Foretold> = foretold(&linear, &fit.noise[place])?;
+        let samples: Vec<Range<usize>> = linear.samples().collect();
+        nis_dof = nis_dof.max(linear.shown());
+        for block in held[place].iter().flat_map(|held| &held.blocks) {
+            let inside = samples.iter().zip(&told);
+            let inside = inside.filter(|(of, _)| block.start <= of.start && of.end <= block.end);
+            let mut sum = 0.0;
+            for (_, one) in inside {
+                sum += one.log_density;
+                square += one.innovation.norm_squared();
+                epochs += 1;
+            }
+            log_score += sum;
+            blocks.push(sum);
+        }
+    }
+    let nis_mean = square / epochs.max(1) as f64;
+    Ok(Scores { foresight: Foresight { log_score, nis_mean, nis_dof }, blocks })
+}
+
+/// Between what the sum is with 95 % probability, if blocks are drawn again from those there are.
+fn interval(blocks: &[f64]) -> (f64, f64) {
+    let mut random = Pcg64::seed_from_u64(1);
+    let mut sums: Vec<f64> = (0..DRAWS)
+        .map(|_| blocks.iter().map(|_| blocks[random.random_range(0..blocks.len())]).sum())
+        .collect();
+    sums.sort_by(f64::total_cmp);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of the number of draws"
+    )]
+    let tail = (TAIL * DRAWS as f64) as usize;
+    (sums[tail], sums[DRAWS - 1 - tail])
+}

@@ -1,0 +1,112 @@
+//! Which part of a run is held out: the last of every stretch of constant rate, in whole revolutions.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use rins_estimation::{Run, linearise};
+use rins_terms::Model;
+
+/// How much of a stretch is held out.
+const SHARE: f64 = 0.3;
+
+/// A rate is constant within this part of itself, or within so much \[rad/s\].
+const CONSTANT: (f64, f64) = (0.02, 1e-3);
+
+/// A table that turns more slowly rests \[rad/s\].
+const REST: f64 = 1e-3;
+
+/// A shorter stretch is a ramp \[s\].
+const SHORTEST: f64 = 10.0;
+
+/// Where a table rests, so much of the time is taken together \[s\].
+const BLOCK: f64 = 10.0;
+
+/// An epoch: its samples, the table's angle in its middle and its rate, and how long it is.
+struct Epoch {
+    samples: Range<usize>,
+    angle: f64,
+    rate: f64,
+    duration: f64,
+}
+
+/// Samples that are held out together, and such as are taken together in judging how certain a gain is.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Held {
+    /// The samples of a stretch.
+    pub(crate) span: Range<usize>,
+    /// Its revolutions, or pieces of a rest, one after the other.
+    pub(crate) blocks: Vec<Range<usize>>,
+}
+
+/// What is held out of a run: nothing of stretches of less than four revolutions.
+pub(crate) fn held_out(run: &Run) -> Vec<Held> {
+    let epochs = epochs(run);
+    stretches(&epochs).into_iter().filter_map(|stretch| end_of(&epochs[stretch])).collect()
+}
+
+fn epochs(run: &Run) -> Vec<Epoch> {
+    let linear = linearise(run, &Model::default(), &[]);
+    let increments = &run.recording.increments;
+    let of = |((angle, rate), samples): ((f64, f64), Range<usize>)| Epoch {
+        duration: increments[samples.clone()].iter().map(|sample| sample.interval).sum(),
+        samples,
+        angle,
+        rate,
+    };
+    linear.motion().into_iter().zip(linear.samples()).map(of).collect()
+}
+
+/// Stretches of epochs over which the rate is constant.
+fn stretches(epochs: &[Epoch]) -> Vec<Range<usize>> {
+    let mut stretches = Vec::new();
+    let (mut first, mut sum) = (0, 0.0);
+    for (place, epoch) in epochs.iter().enumerate() {
+        let mean: f64 = if place > first { sum / (place - first) as f64 } else { epoch.rate };
+        if (epoch.rate - mean).abs() > CONSTANT.1.max(CONSTANT.0 * mean.abs()) {
+            stretches.push(first..place);
+            (first, sum) = (place, 0.0);
+        }
+        sum += epoch.rate;
+    }
+    stretches.push(first..epochs.len());
+    stretches
+}
+
+/// The last of a stretch, if it is long enough.
+fn end_of(stretch: &[Epoch]) -> Option<Held> {
+    let duration: f64 = stretch.iter().map(|epoch| epoch.duration).sum();
+    if duration < SHORTEST {
+        return None;
+    }
+    let (first, last) = (stretch.first()?, stretch.last()?);
+    let turned = (last.angle - first.angle).abs();
+    let rests = turned / duration < REST;
+    let revolutions = (SHARE * turned / TAU).floor();
+    if !rests && revolutions < 1.0 {
+        return None;
+    }
+    // How far each epoch is from the stretch's end, in blocks.
+    let mut left = 0.0;
+    let mut blocks: Vec<Range<usize>> = Vec::new();
+    let most = if rests { SHARE * duration / BLOCK } else { revolutions };
+    for epoch in stretch.iter().rev() {
+        let from_end = if rests { left / BLOCK } else { (last.angle - epoch.angle).abs() / TAU };
+        left += epoch.duration;
+        if from_end >= most {
+            break;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a number of revolutions of a run, not negative"
+        )]
+        let block = from_end as usize;
+        match blocks.get_mut(block) {
+            Some(block) => block.start = epoch.samples.start,
+            None => blocks.push(epoch.samples.clone()),
+        }
+    }
+    blocks.reverse();
+    let span = blocks.first()?.start..blocks.last()?.end;
+    Some(Held { span, blocks })
+}

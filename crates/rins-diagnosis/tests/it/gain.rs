@@ -1,0 +1,103 @@
+//! What is gained is measured on data that played no part: something where an effect is, nothing where none is.
+
+use rins_diagnosis::{Gain, GainError, GainVerdict};
+use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_frames::units::PPM;
+use rins_terms::{Chosen, Model, catalogue};
+
+use crate::support::{fibre, run};
+
+/// Stretches of 50 s: a rest, and such of five revolutions and more.
+const RATES: [f64; 5] = [0.0, 40.0, -40.0, 80.0, -80.0];
+
+fn asymmetric() -> Chosen {
+    Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY)
+}
+
+fn fitted(run: &Run, model: &Model) -> Fit {
+    let imu = fibre();
+    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    fit(std::slice::from_ref(run), model, &imu, known, |_| ()).unwrap()
+}
+
+/// The full model, and the same with an asymmetry of the gyro's scale.
+fn fits(run: &Run) -> (Fit, Fit) {
+    let model = Model::full();
+    (fitted(run, &model), fitted(run, &model.with(asymmetric().estimated())))
+}
+
+fn hiding(ppm: f64, seed: u64) -> Run {
+    let model = Model { terms: vec![asymmetric().with_values(&[ppm * PPM])] };
+    run(&RATES, model, 0.0, seed)
+}
+
+fn within(run: &Run) -> Gain {
+    let (before, after) = fits(run);
+    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    Gain::within(std::slice::from_ref(run), (&before, &after), &fibre(), known).unwrap()
+}
+
+#[test]
+fn an_effect_that_is_there_foretells_better() {
+    let gain = within(&hiding(3.0, 90));
+    assert_eq!(gain.verdict, GainVerdict::Improved);
+    assert!(gain.rise() > 20.0 && gain.interval.0 < gain.rise(), "{gain:?}");
+    assert!(gain.interval.1 > gain.rise());
+    // Right again: chi-square of six degrees.
+    assert!((gain.after.nis_mean - 6.0).abs() < 0.8, "{}", gain.after.nis_mean);
+    assert!(gain.before.nis_mean > gain.after.nis_mean + 1.0);
+    let drift = gain.drifts.last().unwrap();
+    assert!(drift.attitude[1] < 0.5 * drift.attitude[0], "{drift:?}");
+}
+
+/// The right model gains about what a parameter costs, the half of a nat and less.
+#[test]
+fn an_effect_that_is_not_there_gains_nothing() {
+    for seed in [91, 92, 93] {
+        let gain = within(&hiding(0.0, seed));
+        assert!(gain.rise().abs() < 3.0, "{}", gain.rise());
+        assert_eq!(gain.verdict, GainVerdict::NoImprovement, "{gain:?}");
+    }
+}
+
+#[test]
+fn the_last_of_every_stretch_is_held_out_in_whole_revolutions() {
+    let run = run(&[0.0, 40.0, 80.0], Model::default(), 0.0, 94);
+    let gain = within(&run);
+    let angles = run.recording.table_angle.as_ref().unwrap();
+    let times = &run.recording.times;
+    let spans = &gain.spans[0];
+    // 15 s of the rest in two pieces, one revolution of five, two of nine.
+    assert_eq!((spans.len(), gain.blocks), (3, 5));
+    for (span, revolutions) in spans.iter().zip([0.0, 1.0, 2.0]) {
+        let turned = (angles[span.end - 1] - angles[span.start]).abs() / std::f64::consts::TAU;
+        // To an epoch, a quarter of a second.
+        assert!((turned - revolutions).abs() < 0.08, "{turned}");
+    }
+    assert!((times[spans[0].end] - times[spans[0].start] - 15.0).abs() < 1.0);
+    assert_eq!(gain.samples, spans.iter().map(ExactSizeIterator::len).sum::<usize>());
+}
+
+/// What belongs to the sensor was found in one run and holds in another; one that is wrong does harm there.
+#[test]
+fn what_was_found_is_carried_to_another_run() {
+    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let (before, after) = fits(&hiding(3.0, 95));
+    let on = |other: &Run| {
+        Gain::on(std::slice::from_ref(other), (&before, &after), &fibre(), known).unwrap()
+    };
+    let same = on(&hiding(3.0, 96));
+    assert_eq!(same.verdict, GainVerdict::Improved, "{same:?}");
+    let other = on(&hiding(-3.0, 97));
+    assert_eq!(other.verdict, GainVerdict::NoImprovement);
+    assert!(other.rise() < -20.0, "{}", other.rise());
+}
+
+#[test]
+fn too_short_a_run_holds_nothing_to_measure_by() {
+    let run = run(&[5.0, -5.0], Model::default(), 0.0, 98);
+    let (before, after) = fits(&run);
+    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let refused = Gain::within(std::slice::from_ref(&run), (&before, &after), &fibre(), known);
+    assert_eq!(refused, Err(GainError::TooLittle { blocks: 0 }));
+}
