@@ -9,6 +9,9 @@ use rins_terms::Model;
 /// How much of a stretch is held out.
 const SHARE: f64 = 0.3;
 
+/// Of a stretch that turns so far one revolution is held out, though it is more \[rad\].
+const LEAST_TURNED: f64 = 1.5 * TAU;
+
 /// A rate is constant within this part of itself, or within so much \[rad/s\].
 const CONSTANT: (f64, f64) = (0.02, 1e-3);
 
@@ -38,7 +41,7 @@ pub(crate) struct Held {
     pub(crate) blocks: Vec<Range<usize>>,
 }
 
-/// What is held out of a run: nothing of stretches of less than four revolutions.
+/// What is held out of a run: nothing of stretches of less than one and a half revolutions.
 pub(crate) fn held_out(run: &Run) -> Vec<Held> {
     let epochs = epochs(run);
     stretches(&epochs).into_iter().filter_map(|stretch| end_of(&epochs[stretch])).collect()
@@ -81,7 +84,8 @@ fn end_of(stretch: &[Epoch]) -> Option<Held> {
     let (first, last) = (stretch.first()?, stretch.last()?);
     let turned = (last.angle - first.angle).abs();
     let rests = turned / duration < REST;
-    let revolutions = (SHARE * turned / TAU).floor();
+    let least = if turned > LEAST_TURNED { 1.0 } else { 0.0 };
+    let revolutions = (SHARE * turned / TAU).floor().max(least);
     if !rests && revolutions < 1.0 {
         return None;
     }

@@ -27,12 +27,14 @@ mod unexplained;
 
 mod gain;
 mod gain_drift;
+mod gain_overlay;
 mod gain_spans;
 
 pub use candidates::{Candidate, candidates};
 pub use diagnosis::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
 pub use gain::{Foresight, Gain, GainError, GainVerdict};
 pub use gain_drift::Drift;
+pub use gain_overlay::Overlay;
 pub use limits::{Limit, chance, limits};
 pub use structure::{Along, Structure};
 pub use unexplained::Unexplained;

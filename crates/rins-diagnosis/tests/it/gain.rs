@@ -1,8 +1,8 @@
 //! What is gained is measured on data that played no part: something where an effect is, nothing where none is.
 
-use rins_diagnosis::{Gain, GainError, GainVerdict};
+use rins_diagnosis::{Gain, GainError, GainVerdict, Overlay};
 use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
-use rins_frames::units::PPM;
+use rins_frames::units::{ARCSEC, PPM};
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::support::{fibre, run};
@@ -100,4 +100,33 @@ fn too_short_a_run_holds_nothing_to_measure_by() {
     let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
     let refused = Gain::within(std::slice::from_ref(&run), (&before, &after), &fibre(), known);
     assert_eq!(refused, Err(GainError::TooLittle { blocks: 0 }));
+}
+
+/// Of an eccentric encoder the second harmonic stays in gyro z, in the table angle, until the model has it.
+#[test]
+fn what_the_model_lacks_stays_in_the_residual() {
+    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 2.0);
+    let hidden = Model { terms: vec![harmonic.clone().with_values(&[2.0 * ARCSEC, 0.0])] };
+    let run = run(&RATES, hidden, 0.0, 99);
+    let amplitude = |model: &Model| {
+        let overlay = Overlay::of(&run, &fitted(&run, model), 0);
+        assert_eq!(overlay.residuals.len(), run.recording.len());
+        let (mut cos, mut sin, mut turning) = (0.0, 0.0, 0.0);
+        for ((residual, angle), rate) in
+            overlay.residuals.iter().zip(&overlay.angles).zip(&overlay.rates)
+        {
+            if *rate > 0.6 && *rate < 0.8 {
+                cos += residual[2] * (2.0 * angle).cos();
+                sin += residual[2] * (2.0 * angle).sin();
+                turning += 0.5;
+            }
+        }
+        f64::hypot(cos, sin) / turning
+    };
+    // The encoder's rate is off by k w e, 2 · 40 deg/s · 2 arcsec, seen smoothed.
+    let expected = 2.0 * 0.698 * 2.0 * ARCSEC;
+    let (without, with) =
+        (amplitude(&Model::full()), amplitude(&Model::full().with(harmonic.estimated())));
+    assert!((without / expected - 1.0).abs() < 0.1, "{without} of {expected}");
+    assert!(with < 0.05 * without, "{with} and {without}");
 }

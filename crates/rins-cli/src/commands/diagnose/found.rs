@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
-use rins_diagnosis::{Cause, Unexplained, diagnose};
+use rins_diagnosis::{Cause, Limit, Overlay, Unexplained, diagnose, limits};
 use rins_estimation::{Estimate, Fit};
 use rins_imu::ImuSpec;
 
@@ -48,6 +48,10 @@ pub(crate) struct Found {
     pub(crate) shifts: Vec<Shift>,
     /// The effects of which the run could not have shown anything.
     pub(crate) untestable: Vec<Untestable>,
+    /// The amplitudes that the run would have shown of what was not found.
+    pub(crate) limits: Vec<Limit>,
+    /// What is left of each run, before and after.
+    pub(crate) overlays: Vec<[Overlay; 2]>,
     /// The calibration with the extended model.
     pub(crate) certificate: Certificate,
     /// How long it took \[s\].
@@ -111,10 +115,26 @@ impl Found {
         };
         let shifts = shifts(&diagnosis.before, &diagnosis.after);
         let untestable = untestable(&runs, &case.model, &diagnosis.not_testable);
+        let limits = limits(&runs, &diagnosis.after, &imu).with_context(|| case.names())?;
+        let left = |place| {
+            [&diagnosis.before, &diagnosis.after].map(|fit| Overlay::of(&runs[place], fit, place))
+        };
+        let overlays = (0..runs.len()).map(left).collect();
         let certificate = Certificate::with(case, diagnosis.after)?;
         let seconds = started.elapsed().as_secs_f64();
         let unexplained = diagnosis.unexplained;
-        Ok(Self { verdict, causes, unexplained, gain, shifts, untestable, certificate, seconds })
+        Ok(Self {
+            verdict,
+            causes,
+            unexplained,
+            gain,
+            shifts,
+            untestable,
+            limits,
+            overlays,
+            certificate,
+            seconds,
+        })
     }
 
     /// What the command delivers.

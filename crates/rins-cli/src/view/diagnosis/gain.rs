@@ -5,6 +5,55 @@ use rins_frames::units::DEG;
 
 use crate::commands::diagnose::Measured;
 use crate::number::figure;
+use crate::report::{Cell, Column, Item, Section, Table, Tone};
+
+/// The evidence for the gain.
+pub(super) fn gain_section(measured: &Measured) -> Section {
+    let heading = "What it gains on data that played no part".to_owned();
+    let intro = "Both models were estimated anew without what is held out, and then foretold every epoch of it from all before. NIS is \
+                 the mean of the squared innovations of an epoch: as many as there are figures, if the model is right."
+        .to_owned();
+    let Ok(gain) = &measured.gain else {
+        let items = vec![Item::Note(Tone::Neutral, gain_sentence(measured))];
+        return Section { heading, intro, items };
+    };
+    let tone = match gain.verdict {
+        GainVerdict::Improved => Tone::Good,
+        GainVerdict::NoImprovement => Tone::Neutral,
+    };
+    let row = |name: String, [before, after]: [f64; 2]| {
+        vec![Cell::text(name), Cell::text(figure(before, 4)), Cell::text(figure(after, 4))]
+    };
+    let per_sample = |score: f64| score / gain.samples as f64;
+    let mut rows = vec![
+        row(
+            "log score of a sample [nats]".into(),
+            [per_sample(gain.before.log_score), per_sample(gain.after.log_score)],
+        ),
+        row(
+            format!("mean NIS, of {} figures", gain.before.nis_dof),
+            [gain.before.nis_mean, gain.after.nis_mean],
+        ),
+    ];
+    for drift in &gain.drifts {
+        let over = format!("after {:.0} s, rms of {} window(s)", drift.after, drift.windows);
+        rows.push(row(format!("velocity {over} [m/s]"), drift.velocity));
+        rows.push(row(format!("attitude {over} [deg]"), drift.attitude.map(|angle| angle / DEG)));
+    }
+    let table = Table {
+        caption: format!(
+            "Held out: {} samples, {} revolutions or pieces of a rest",
+            gain.samples, gain.blocks
+        ),
+        columns: vec![Column::text(""), Column::number("before"), Column::number("after")],
+        rows,
+    };
+    Section {
+        heading,
+        intro,
+        items: vec![Item::Note(tone, gain_sentence(measured)), Item::Table(table)],
+    }
+}
 
 /// What came of it, with the figures.
 pub(super) fn gain_sentence(measured: &Measured) -> String {
@@ -32,7 +81,7 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
 }
 
 /// What was held out.
-pub(super) fn held_out(measured: &Measured, gain: &Gain) -> String {
+fn held_out(measured: &Measured, gain: &Gain) -> String {
     let size = format!("{} revolutions or pieces of a rest", gain.blocks);
     match &measured.on {
         None => format!(

@@ -1,6 +1,7 @@
 //! A diagnosis, for a terminal and for a browser.
 
 mod gain;
+mod overlay;
 mod report;
 mod structure;
 mod words;

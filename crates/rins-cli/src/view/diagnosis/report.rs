@@ -1,8 +1,11 @@
 //! The page of a diagnosis.
 
+use super::gain::gain_section;
+use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
 use super::words::{next_steps, probability, rivals, summary};
 use crate::commands::diagnose::{Found, Named};
+use crate::number::figure;
 use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
 use crate::view::settings_in_words;
 
@@ -19,7 +22,12 @@ pub(crate) fn diagnosis_report(found: &Found) -> Report {
             certificate.model, found.seconds
         ),
         summary,
-        sections: vec![causes(found), unexplained(found), shifts(found), untestable(found)],
+        sections: [
+            vec![causes(found), unexplained(found)],
+            overlay_sections(found),
+            vec![gain_section(&found.gain), shifts(found), limits(found), untestable(found)],
+        ]
+        .concat(),
     }
 }
 
@@ -156,6 +164,49 @@ fn shifts(found: &Found) -> Section {
                 Column::number("with"),
                 Column::text("unit"),
                 Column::number("moved [σ]"),
+            ],
+            rows: rows.collect(),
+        })],
+    }
+}
+
+fn limits(found: &Found) -> Section {
+    let rows = found.limits.iter().map(|limit| {
+        let parameter = &limit.term.parameters[limit.parameter];
+        let unit = parameter.unit;
+        let (low, high) = parameter.range(&found.certificate.runs[0].prepared.imu);
+        let shown = |value: f64| Cell::text(figure(value / unit.factor, 3));
+        vec![
+            Cell::text(format!("{}.{}", limit.term.id, parameter.name)),
+            shown(limit.detectable),
+            Cell::text(unit.symbol),
+            Cell::text(format!(
+                "{} to {}",
+                figure(low / unit.factor, 2),
+                figure(high / unit.factor, 2)
+            )),
+            if limit.detectable < low {
+                Cell::badge(Tone::Good, "all usual ones")
+            } else if limit.detectable < high {
+                Cell::badge(Tone::Neutral, "large ones")
+            } else {
+                Cell::badge(Tone::Warning, "none")
+            },
+        ]
+    });
+    Section {
+        heading: "What would have been seen".into(),
+        intro: "For each parameter of each effect that the model does not have, the amplitude that this run would have shown with a \
+                probability of 95 %, the parameter alone being there. What is smaller may be there and not be named."
+            .into(),
+        items: vec![Item::Table(Table {
+            caption: "Smallest amplitudes that are found".into(),
+            columns: vec![
+                Column::id("parameter"),
+                Column::number("found from"),
+                Column::text("unit"),
+                Column::text("usual"),
+                Column::text("seen of the usual"),
             ],
             rows: rows.collect(),
         })],

@@ -1,0 +1,69 @@
+//! A simulation with a fitted model, laid over the measurement.
+
+use rins_estimation::{Fit, Run};
+use rins_frames::{InFrame, Increments};
+use rins_terms::{Making, Model, Track};
+
+/// What was measured less what a fitted model says, sample by sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlay {
+    /// Of gyros x, y, z \[rad/s\] and accelerometers x, y, z \[m/s²\].
+    pub residuals: Vec<[f64; 6]>,
+    /// The table angle in the middle of each sample, without the encoder's errors \[rad\].
+    pub angles: Vec<f64>,
+    /// The table's rate over it \[rad/s\].
+    pub rates: Vec<f64>,
+}
+
+impl Overlay {
+    /// Simulates run `place` of a fit along the way that its table went, and takes that from what was measured.
+    ///
+    /// The way is the encoder's, or what else tells the angle, smoothed over an epoch, with the gyro's details: what is
+    /// faster does not show in gyro z.
+    pub fn of(run: &Run, fit: &Fit, place: usize) -> Self {
+        let track = fit.linear[place].track();
+        let mut model = fit.models[place].clone();
+        // It is in the track's surroundings.
+        model.terms.retain(|chosen| chosen.term.id != "axis.attitude");
+        let errors: Vec<f64> = readings(&model, track).map(|reading| reading.1).collect();
+        let first = errors.first().copied().unwrap_or_default();
+        let errors = std::iter::once(first).chain(errors);
+        let angles: Vec<f64> = track.angles().iter().zip(errors).map(|(a, e)| a - e).collect();
+        let recording = &run.recording;
+        let track = Track::new(
+            track.surroundings,
+            recording.times.clone(),
+            recording.increments.iter().map(|sample| sample.interval).collect(),
+            angles,
+            recording.temperature.clone(),
+        );
+        let residuals = readings(&model, &track).zip(&recording.increments).map(|(said, read)| {
+            let (said, read) = (said.0.rates(), read.rates());
+            let gyro = read.angular_rate.components() - said.angular_rate.components();
+            let accel = read.specific_force.components() - said.specific_force.components();
+            [gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z]
+        });
+        Self {
+            residuals: residuals.collect(),
+            angles: track.moments().map(|moment| moment.mean.angle).collect(),
+            rates: track.moments().map(|moment| moment.mean.rate).collect(),
+        }
+    }
+}
+
+/// What is read along a track without noise, and by how much the angle that is read is off \[rad\].
+fn readings<'a>(
+    model: &'a Model,
+    track: &'a Track,
+) -> impl Iterator<Item = (Increments, f64)> + use<'a> {
+    let mut making = Making::new(model, track);
+    track.moments().map(move |moment| {
+        let truth = Increments {
+            angle: InFrame::from_components(moment.rate * moment.interval),
+            velocity: InFrame::from_components(moment.force * moment.interval),
+            interval: moment.interval,
+        };
+        let reading = making.read(&moment, &truth);
+        (reading.increments, reading.angle_error)
+    })
+}
