@@ -3,11 +3,11 @@
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Fit, Identifiability, fit};
+use rins_estimation::{Fit, Identifiability, Run, fit};
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
 use rins_motion::Recording;
-use rins_terms::{Model, Surroundings, compensated};
+use rins_terms::{Model, NotUndone, Surroundings, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
@@ -69,7 +69,17 @@ impl Certificate {
     }
 
     /// What follows from a case and what was estimated from it.
-    pub(crate) fn with(case: Case, fit: Fit) -> anyhow::Result<Self> {
+    ///
+    /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
+    pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
+        for (run, model) in case.runs.iter().zip(&fit.models) {
+            if let Err(error) = undone(&run.run, model) {
+                case.remarks.push(format!(
+                    "{}: what was estimated cannot be undone from the readings ({error}): navigation is as recorded.",
+                    run.name
+                ));
+            }
+        }
         let told = fit.identifiability();
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, prepared) in case.runs.into_iter().enumerate() {
@@ -142,9 +152,7 @@ impl CertifiedRun {
         let model = &fit.models[run];
         let nav_from_table = prepared.run.rig.nav_from_table * attitude_of(model);
         let recorded = &prepared.run.recording;
-        let around = Surroundings::new(*station, nav_from_table);
-        let undone = compensated(model, around, recorded)
-            .with_context(|| format!("{}: what was estimated cannot be undone", prepared.name))?;
+        let undone = undone(&prepared.run, model).unwrap_or_else(|_| recorded.clone());
         let track = fit.linear[run].track();
         let navigate = |recording: &Recording| {
             navigate_freely(recording, track.angles(), nav_from_table, station, None)
@@ -184,6 +192,12 @@ impl CertifiedRun {
             places,
         })
     }
+}
+
+/// A run's readings with the errors of a model undone.
+fn undone(run: &Run, model: &Model) -> Result<Recording, NotUndone> {
+    let nav_from_table = run.rig.nav_from_table * attitude_of(model);
+    compensated(model, Surroundings::new(run.rig.station, nav_from_table), &run.recording)
 }
 
 /// The rotation by which a model says that the axis frame differs from the survey.

@@ -152,11 +152,10 @@ fn shifts(found: &Found) -> Section {
             Cell::Number { value: shift.sigmas(), decimals: 1 },
         ]
     });
-    Section {
-        heading: "What it did to the estimates".into(),
-        intro: "Estimates that move by more than 3 of the sigmas that they had without the causes."
-            .into(),
-        items: vec![Item::Table(Table {
+    let items = if found.shifts.is_empty() {
+        vec![Item::Note(Tone::Neutral, "No estimate moves by so much.".into())]
+    } else {
+        vec![Item::Table(Table {
             caption: "Estimates without and with the causes".into(),
             columns: vec![
                 Column::id("parameter"),
@@ -166,7 +165,13 @@ fn shifts(found: &Found) -> Section {
                 Column::number("moved [σ]"),
             ],
             rows: rows.collect(),
-        })],
+        })]
+    };
+    Section {
+        heading: "What it did to the estimates".into(),
+        intro: "Estimates that move by more than 3 of the sigmas that they had without the causes."
+            .into(),
+        items,
     }
 }
 

@@ -4,6 +4,9 @@ use rins_diagnosis::{Along, Structure, Unexplained};
 
 use crate::number::figure;
 
+/// An order so near to a whole one is that one: a run of a hundred turns tells no finer.
+const NEARLY: f64 = 5e-3;
+
 /// What it looks like.
 pub(crate) fn structure_in_words(one: &Unexplained) -> String {
     match one.structure {
@@ -28,7 +31,7 @@ pub(crate) fn size_in_words(one: &Unexplained) -> Option<String> {
 fn order_in_words(order: f64) -> String {
     let against = if order < 0.0 { ", against the table" } else { "" };
     let size = order.abs();
-    if (size - size.round()).abs() > 1e-6 {
+    if (size - size.round()).abs() > NEARLY {
         return format!("order {} in table angle{against}", figure(size, 3));
     }
     let size = size.round();
