@@ -49,7 +49,7 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
 }
 
 /// Whether a term of a model leaves no room for another shape of it: two orders are two effects.
-fn stands_for(own: &Chosen, other: &Chosen) -> bool {
+pub(crate) fn stands_for(own: &Chosen, other: &Chosen) -> bool {
     let has_order = own.term.settings.iter().any(|setting| setting.name == "order");
     own.term.id == other.term.id && (!has_order || own.settings == other.settings)
 }

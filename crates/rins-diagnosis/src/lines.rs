@@ -7,7 +7,7 @@ use rins_terms::{Chosen, Term, catalogue, values};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use crate::candidates::Candidate;
+use crate::candidates::{Candidate, stands_for};
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
 use crate::disturbance::IN_ANGLE;
@@ -85,10 +85,16 @@ impl Case<'_> {
             outliers.filter(|&epoch| innovations[epoch].amax() > OUTLIER).collect();
         let epoch = linear.mean_epoch();
         let mut list = Vec::new();
-        for term in catalogue::CATALOGUE.iter().filter(|term| term.is_signal()) {
-            let Some(place) = term.settings.iter().position(|s| s.name == "time") else { continue };
+        let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
+        for chosen in terms.map(|term| Chosen::new(term).estimated()) {
+            let time = chosen.term.settings.iter().position(|setting| setting.name == "time");
+            let Some(place) = time else { continue };
+            // A base that steps time and again is no step.
+            if present.model().terms.iter().any(|own| stands_for(own, &chosen)) {
+                continue;
+            }
             for &outlier in &outliers {
-                let mut chosen = Chosen::new(term).estimated();
+                let mut chosen = chosen.clone();
                 chosen.settings[place] = ends[outlier] - begin - 0.5 * epoch;
                 let looks = innovations.len() as f64;
                 list.push(Candidate { chosen, looks, step: Some((place, epoch)) });

@@ -24,7 +24,7 @@ pub enum NotUndone {
     Triads(#[from] ImuCompensationError),
     /// The terms are so large that undoing them does not come to an end.
     #[error(
-        "the terms cannot be undone: after {MOST_ROUNDS} rounds readings still change by {change} of the largest"
+        "the terms cannot be undone: after {MOST_ROUNDS} rounds readings still change by {change:.1e} of the largest"
     )]
     Endless {
         /// By how much readings changed in the last round, relative to the largest.
