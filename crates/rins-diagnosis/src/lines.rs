@@ -54,7 +54,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
-            list.extend(self.events(&innovations, present, run));
+            list.extend(Self::events(&innovations, present, run));
             let frequencies =
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
@@ -69,14 +69,9 @@ impl Case<'_> {
     }
 
     /// Every event at the epochs whose innovations are largest: what is over in an instant shows in one of them only.
-    fn events(
-        &self,
-        innovations: &[SVector<f64, CHANNELS>],
-        present: &Fit,
-        run: usize,
-    ) -> Vec<Candidate> {
+    fn events(innovations: &[SVector<f64, CHANNELS>], present: &Fit, run: usize) -> Vec<Candidate> {
         let linear = &present.linear[run];
-        let ends = linear.ends(&self.runs[run].recording.times);
+        let ends = linear.ends();
         let begin = linear.track().start();
         let mut order: Vec<usize> = (0..innovations.len()).collect();
         order.sort_by(|&a, &b| innovations[b].amax().total_cmp(&innovations[a].amax()));

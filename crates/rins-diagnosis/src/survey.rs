@@ -72,7 +72,7 @@ impl Survey {
         }
         let known_free = free.iter().filter(|f| f.term < fit.model().terms.len()).count();
         let layout =
-            Places::of(&free, known_free, runs.len(), fit.model().terms.len() + candidates.len());
+            Places::of(&free, known_free, runs, fit.model().terms.len() + candidates.len());
         let known = layout.known;
         let off = DVector::from_fn(known, |place, _| {
             let estimate = &fit.parameters[place];
@@ -217,18 +217,19 @@ struct Places {
 }
 
 impl Places {
-    fn of(free: &[Free], known_free: usize, runs: usize, terms: usize) -> Self {
+    fn of(free: &[Free], known_free: usize, runs: &[Run], terms: usize) -> Self {
         let (model, candidates) = free.split_at(known_free);
         let (first, second) = (Layout::of(model, runs), Layout::of(candidates, runs));
         let known = first.all.len();
         let mut of_terms = vec![Vec::new(); terms];
         for (index, parameter) in free.iter().enumerate() {
-            let mut places: Vec<usize> = (0..runs)
+            let mut places: Vec<usize> = (0..runs.len())
                 .map(|run| match index.checked_sub(known_free) {
                     None => first.places[run][index],
                     Some(index) => known + second.places[run][index],
                 })
                 .collect();
+            places.sort_unstable();
             places.dedup();
             of_terms[parameter.term].push(places);
         }
@@ -241,7 +242,7 @@ impl Places {
         };
         Self {
             known,
-            of_runs: (0..runs).map(of_run).collect(),
+            of_runs: (0..runs.len()).map(of_run).collect(),
             of_terms,
             sigmas: [sigmas(model, &first), sigmas(candidates, &second)].concat(),
         }

@@ -1,11 +1,12 @@
 //! The batch solution: iterated least squares over one run or several.
 
-use nalgebra::{DMatrix, DVector, SVector};
+use nalgebra::DVector;
+use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
 use rins_terms::{Free, Model};
 
-use crate::evidence::{Indefinite, innovations};
-use crate::identifiability::{Alias, Identifiability, Unknown};
+use crate::estimate::{Estimate, Fit, Iteration};
+use crate::evidence::Indefinite;
 use crate::layout::Layout;
 use crate::likely::likely_noise;
 use crate::linear::{Linear, linearise};
@@ -18,6 +19,9 @@ const MOST_ITERATIONS: usize = 20;
 
 /// A step below this part of every sigma ends the iteration.
 const CONVERGED: f64 = 1e-3;
+
+/// The cosine of the angle between a step and the way back beyond which it only turns back.
+const TURNING_BACK: f64 = 0.5;
 
 /// What is known of the sensors' random errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,54 +64,10 @@ pub enum FitError {
     },
 }
 
-/// An estimated parameter, in SI units.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Estimate {
-    /// What it is.
-    pub parameter: Free,
-    /// The run that it belongs to, counted from zero; none if to the IMU and so to all, or if there is one only.
-    pub run: Option<usize>,
-    /// What it was expected to be.
-    pub expected: f64,
-    /// The estimate.
-    pub value: f64,
-    /// Its 1σ.
-    pub sigma: f64,
-}
-
-/// One step of the iteration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Iteration {
-    /// The largest of the steps, in sigmas.
-    pub step: f64,
-    /// The logarithm of the probability of the data, but for a constant.
-    pub log_likelihood: f64,
-}
-
-/// A finished estimate.
-#[derive(Clone, Debug)]
-pub struct Fit {
-    /// The parameters, in the order of the model, those of the IMU first, then those of each run.
-    pub parameters: Vec<Estimate>,
-    /// Their covariance, in SI units; where the noise was found, its own uncertainty is in it.
-    pub covariance: DMatrix<f64>,
-    /// What the data alone say, made linear about the estimate.
-    pub evidence: Evidence,
-    /// The logarithm of the probability of the data, the parameters integrated out, but for a constant.
-    pub log_likelihood: f64,
-    /// Each run's model with the estimates in it.
-    pub models: Vec<Model>,
-    /// Each run's noise.
-    pub noise: Vec<Noise>,
-    /// Each run, made linear about the estimate.
-    pub linear: Vec<Linear>,
-    /// How the iteration went.
-    pub iterations: Vec<Iteration>,
-}
-
 /// Estimates what `model` leaves free from `runs` of one IMU.
 ///
-/// What belongs to the sensors is shared; what belongs to a run is estimated for each. The
+/// What belongs to the sensors is shared; what belongs to a run is estimated for each, or for those together that were
+/// not switched off in between. The
 /// values that the model has are what is expected, within the priors' sigmas. `progress` is told of every
 /// iteration.
 ///
@@ -183,11 +143,13 @@ struct Problem<'a> {
     values: Vec<f64>,
     /// Each run, linear about these values.
     linear: Vec<Linear>,
+    /// The last step, in sigmas.
+    last: Option<DVector<f64>>,
 }
 
 impl<'a> Problem<'a> {
     fn new(runs: &'a [Run], model: &Model, free: Vec<Free>) -> Self {
-        let Layout { all, places } = Layout::of(&free, runs.len());
+        let Layout { all, places } = Layout::of(&free, runs);
         let value = |&(index, _): &(usize, Option<usize>)| {
             let Free { term, parameter, .. } = free[index];
             model.terms[term].values[parameter]
@@ -195,8 +157,17 @@ impl<'a> Problem<'a> {
         let expected: Vec<f64> = all.iter().map(value).collect();
         let models = vec![model.clone(); runs.len()];
         let values = expected.clone();
-        let mut problem =
-            Self { runs, models, values, expected, free, all, places, linear: Vec::new() };
+        let mut problem = Self {
+            runs,
+            models,
+            values,
+            expected,
+            free,
+            all,
+            places,
+            linear: Vec::new(),
+            last: None,
+        };
         problem.linear = problem.linearised();
         problem
     }
@@ -273,12 +244,33 @@ impl<'a> Problem<'a> {
 
     /// Goes to the estimate; the largest step in sigmas.
     fn advance(&mut self, posterior: &Posterior) -> f64 {
-        let mut largest = 0.0_f64;
-        for (place, value) in self.values.iter_mut().enumerate() {
-            *value += posterior.step[place];
-            largest = largest.max((posterior.step[place] / posterior.sigma(place)).abs());
+        let before = self.values.clone();
+        let sigmas = posterior.covariance.diagonal().map(f64::sqrt);
+        let step = posterior.step.component_div(&sigmas);
+        // What only turns back goes half the way: an azimuth that hardly shows would swing for ever.
+        let turns_back = self
+            .last
+            .as_ref()
+            .is_some_and(|last| step.dot(last) < -TURNING_BACK * step.norm() * last.norm());
+        let taken = &posterior.step * if turns_back { 0.5 } else { 1.0 };
+        let largest = step.amax();
+        self.last = Some(step);
+        for (value, step) in self.values.iter_mut().zip(&taken) {
+            *value += step;
         }
         for (model, places) in self.models.iter_mut().zip(&self.places) {
+            // Derivatives by an attitude are by what is turned on from it.
+            if let Some(attitude) = attitude_of(&self.free, places) {
+                let turn = |of: &[f64]| {
+                    Dcm::<Table, Table>::from_rotation_vector(
+                        &attitude.map(|place| of[place]).into(),
+                    )
+                };
+                let turned = (turn(&before) * turn(taken.as_slice())).rotation_vector();
+                for (place, value) in attitude.into_iter().zip(&turned) {
+                    self.values[place] = *value;
+                }
+            }
             for (parameter, &place) in self.free.iter().zip(places) {
                 model.terms[parameter.term].values[parameter.parameter] = self.values[place];
             }
@@ -323,49 +315,9 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl Fit {
-    /// The parameter of this id, of the IMU or of the first run.
-    pub fn parameter(&self, id: &str) -> Option<&Estimate> {
-        self.parameters.iter().find(|estimate| estimate.parameter.id == id)
-    }
-
-    /// What the data tell of the parameters, the noise being what was found.
-    pub fn identifiability(&self) -> Identifiability {
-        let unknown = |estimate: &Estimate| Unknown {
-            id: estimate.parameter.id.clone(),
-            run: estimate.run,
-            unit: estimate.parameter.unit,
-            sigma: estimate.parameter.sigma,
-        };
-        let unknowns = self.parameters.iter().map(unknown).collect();
-        Identifiability::of(&self.evidence.information, unknowns)
-    }
-
-    /// The sum of the parameter at `place` and of others, each times its coefficient: value and 1σ, in SI units.
-    pub fn sum(&self, place: usize, others: &[Alias]) -> (f64, f64) {
-        let mut weights = DVector::zeros(self.parameters.len());
-        weights[place] = 1.0;
-        for alias in others {
-            weights[alias.unknown] += alias.coefficient;
-        }
-        let values = self.parameters.iter().map(|estimate| estimate.value);
-        let value = values.zip(&weights).map(|(value, weight)| value * weight).sum();
-        let variance = (weights.transpose() * &self.covariance * &weights)[(0, 0)];
-        (value, variance.max(0.0).sqrt())
-    }
-
-    /// The whitened innovations of a run: each N(0, I) if the model is right.
-    ///
-    /// # Panics
-    /// If there is no such run.
-    pub fn innovations(&self, run: usize) -> Vec<SVector<f64, 6>> {
-        let none = vec![0.0; self.linear[run].parameters];
-        innovations(&self.linear[run], &self.noise[run], &none)
-            .expect("the same filter has been run to find the estimate")
-    }
-
-    /// The model of the IMU: what belongs to the sensors, and for the rest the first run's.
-    pub fn model(&self) -> &Model {
-        &self.models[0]
-    }
+/// Where the attitude of a run's axis stands among all parameters, if all three of its angles are free.
+fn attitude_of(free: &[Free], places: &[usize]) -> Option<[usize; 3]> {
+    let of = |id: &str| free.iter().position(|parameter| parameter.id == id);
+    let [x, y, z] = ["axis.attitude.x", "axis.attitude.y", "axis.attitude.z"].map(of);
+    Some([places[x?], places[y?], places[z?]])
 }

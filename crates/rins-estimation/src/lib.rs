@@ -33,15 +33,17 @@ mod evidence;
 mod gram;
 mod posterior;
 
+mod estimate;
 mod filter;
 mod fit;
 mod likely;
 
 mod identifiability;
 
+pub use estimate::{Estimate, Fit, Iteration};
 pub use evidence::{Foretold, Indefinite, foretold, innovations};
 pub use filter::Filter;
-pub use fit::{Estimate, Fit, FitError, Iteration, NoiseKnowledge, fit};
+pub use fit::{FitError, NoiseKnowledge, fit};
 pub use gravity::{axis_from_gravity, turning_span};
 pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,

@@ -47,7 +47,7 @@ const LEAST_GAIN: f64 = 0.02;
 const DIFFERENCE: f64 = 0.004;
 
 /// One strength that is searched for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct Unknown {
     which: Which,
     /// Where the search starts, in SI units.
@@ -58,7 +58,7 @@ struct Unknown {
     sigma: f64,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Which {
     GyroWhite,
     GyroFlicker,
@@ -66,27 +66,34 @@ enum Which {
     AccelWhite,
     AccelFlicker,
     AccelWalk,
-    Wobble(usize),
-    Encoder(usize),
+    /// Of the runs on one rig.
+    Wobble(Vec<usize>),
+    Encoder(Vec<usize>),
     Velocity,
     Sway(usize),
 }
 
 impl Which {
     fn of<'a>(&self, noise: &'a mut [Noise]) -> Vec<&'a mut f64> {
-        match *self {
+        match self {
             Self::GyroWhite => noise.iter_mut().map(|n| &mut n.imu.gyro.white).collect(),
             Self::GyroFlicker => noise.iter_mut().map(|n| &mut n.imu.gyro.flicker).collect(),
             Self::GyroWalk => noise.iter_mut().map(|n| &mut n.imu.gyro.walk).collect(),
             Self::AccelWhite => noise.iter_mut().map(|n| &mut n.imu.accel.white).collect(),
             Self::AccelFlicker => noise.iter_mut().map(|n| &mut n.imu.accel.flicker).collect(),
             Self::AccelWalk => noise.iter_mut().map(|n| &mut n.imu.accel.walk).collect(),
-            Self::Wobble(run) => vec![&mut noise[run].wobble],
-            Self::Encoder(run) => vec![&mut noise[run].encoder],
+            Self::Wobble(runs) => on(noise, runs).map(|n| &mut n.wobble).collect(),
+            Self::Encoder(runs) => on(noise, runs).map(|n| &mut n.encoder).collect(),
             Self::Velocity => noise.iter_mut().map(|n| &mut n.velocity).collect(),
-            Self::Sway(axis) => noise.iter_mut().map(|n| &mut n.sway[axis]).collect(),
+            Self::Sway(axis) => noise.iter_mut().map(|n| &mut n.sway[*axis]).collect(),
         }
     }
+}
+
+/// The noise of some runs.
+fn on<'a>(noise: &'a mut [Noise], runs: &[usize]) -> impl Iterator<Item = &'a mut Noise> {
+    let all = noise.iter_mut().enumerate();
+    all.filter(move |(run, _)| runs.contains(run)).map(|(_, noise)| noise)
 }
 
 /// The most likely noise, and what else it might be.
@@ -180,11 +187,13 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     if sheet.accel.walk > 0.0 {
         add(Which::AccelWalk, sheet.accel.walk, sheet.accel.walk, UNKNOWN);
     }
-    for (run, linear) in linear.iter().enumerate() {
-        add(Which::Wobble(run), first[run].wobble, expected[run].wobble, UNKNOWN);
-        if matches!(linear.reference, Reference::Encoder { .. }) {
-            add(Which::Encoder(run), first[run].encoder, expected[run].encoder, WHITE);
+    for runs in rigs(linear) {
+        let (first, expected) = (first[runs[0]], expected[runs[0]]);
+        let read = matches!(linear[runs[0]].reference, Reference::Encoder { .. });
+        if read {
+            add(Which::Encoder(runs.clone()), first.encoder, expected.encoder, WHITE);
         }
+        add(Which::Wobble(runs), first.wobble, expected.wobble, UNKNOWN);
     }
     if free {
         add(Which::Velocity, UNSTEADY, expected[0].velocity, ANYTHING);
@@ -196,13 +205,27 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     unknown
 }
 
+/// The runs on each rig: those that were not switched off in between are on one.
+fn rigs(linear: &[Linear]) -> Vec<Vec<usize>> {
+    let mut rigs: Vec<Vec<usize>> = Vec::new();
+    for (run, one) in linear.iter().enumerate() {
+        let same =
+            |rig: &&mut Vec<usize>| one.turn_on.is_some() && linear[rig[0]].turn_on == one.turn_on;
+        match rigs.iter_mut().find(same) {
+            Some(rig) => rig.push(run),
+            None => rigs.push(vec![run]),
+        }
+    }
+    rigs
+}
+
 /// Where the search starts: where nothing holds the base, at the best of some bases, from rock to a boat.
 ///
 /// From the wrong one it would end where the sensors' noise stands for the base's, or the other way round.
 fn start(unknown: &[Unknown], cost: impl Fn(&DVector<f64>) -> f64 + Sync + Send) -> DVector<f64> {
     let steps = [0.0, 2.5, 5.0, 7.5];
     let on = |velocity: f64, sway: f64| {
-        let of = |unknown: &Unknown| match unknown.which {
+        let of = |unknown: &Unknown| match &unknown.which {
             Which::Velocity => unknown.centre + velocity,
             Which::Sway(_) => unknown.centre + sway,
             _ => 0.0,

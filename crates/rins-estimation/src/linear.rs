@@ -58,6 +58,8 @@ pub struct Linear {
     /// How many parameters are estimated.
     pub(crate) parameters: usize,
     pub(crate) reference: Reference,
+    /// Which switching-on the run belongs to, if not to one of its own.
+    pub(crate) turn_on: Option<usize>,
     /// The way of the table about which it is linear.
     pub(crate) track: Track,
 }
@@ -113,6 +115,7 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
         earth_rate: surroundings.earth_rate,
         parameters: free.len(),
         reference: run.rig.reference,
+        turn_on: run.turn_on,
         track,
     }
 }
@@ -322,8 +325,9 @@ impl Linear {
         self.epochs.iter().map(|epoch| epoch.samples.0..epoch.samples.1)
     }
 
-    /// When each epoch ends \[s\], for a recording with these times.
-    pub fn ends(&self, times: &[f64]) -> Vec<f64> {
+    /// When each epoch ends \[s\].
+    pub fn ends(&self) -> Vec<f64> {
+        let times = self.track.times();
         self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
     }
 

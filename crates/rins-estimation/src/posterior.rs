@@ -1,6 +1,9 @@
 //! Information and score, and the estimate that they and prior knowledge make.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
+
+/// The part of the best seen below which the information on a sum is rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// What data say of parameters about the values where they were made linear.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +59,41 @@ impl Evidence {
         self.square += other.square;
         self.figures += other.figures;
         self.log_determinant += other.log_determinant;
+    }
+
+    /// What is said of the parameters `kept` whatever the others are, those `open`.
+    ///
+    /// A sum of these of which the data say nothing takes nothing from the rest.
+    pub(crate) fn leaving_open(&self, open: &[usize], kept: &[usize]) -> Self {
+        let block = |rows: &[usize], columns: &[usize]| {
+            DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
+                self.information[(rows[row], columns[column])]
+            })
+        };
+        let score = |places: &[usize]| {
+            DVector::from_iterator(places.len(), places.iter().map(|&place| self.score[place]))
+        };
+        // In units of what each alone is told to, so that units do not matter.
+        let size =
+            block(open, open).diagonal().map(|x| if x > 0.0 { x.sqrt().recip() } else { 0.0 });
+        let own = SymmetricEigen::new(DMatrix::from_fn(open.len(), open.len(), |row, column| {
+            self.information[(open[row], open[column])] * size[row] * size[column]
+        }));
+        let inverse = DMatrix::from_diagonal(
+            &own.eigenvalues.map(|value| if value > ROUNDING { value.recip() } else { 0.0 }),
+        );
+        let turned = own.eigenvectors.transpose() * DMatrix::from_diagonal(&size);
+        let (across, pull) = (&turned * block(open, kept), &turned * score(open));
+        let solved = across.tr_mul(&inverse);
+        let seen = own.eigenvalues.iter().zip(&size).filter(|(value, _)| **value > ROUNDING);
+        let log_determinant: f64 = seen.map(|(value, size)| value.ln() - 2.0 * size.ln()).sum();
+        Self {
+            information: block(kept, kept) - &solved * across,
+            score: score(kept) - solved * &pull,
+            square: self.square - pull.dot(&(inverse * &pull)),
+            figures: self.figures,
+            log_determinant: self.log_determinant + 0.5 * log_determinant,
+        }
     }
 
     /// The estimate with these priors: each parameter's `sigma`, and how far its expected value is from

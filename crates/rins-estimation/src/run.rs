@@ -48,6 +48,8 @@ pub struct Run {
     pub recording: Recording,
     /// The samples that play no part in an estimate, apart and in order.
     pub left_out: Vec<Range<usize>>,
+    /// Which of several switchings-on it belongs to, if not to one of its own.
+    pub turn_on: Option<usize>,
 }
 
 /// The fewest samples that a run may have.
@@ -126,7 +128,7 @@ impl Run {
             }
             Reference::Rest => {}
         }
-        Ok(Self { rig, recording, left_out: Vec::new() })
+        Ok(Self { rig, recording, left_out: Vec::new(), turn_on: None })
     }
 
     /// The same with these samples left out of what is estimated from: apart and in order.
@@ -137,5 +139,18 @@ impl Run {
     pub fn leaving_out(mut self, spans: Vec<Range<usize>>) -> Self {
         self.left_out = spans;
         self
+    }
+
+    /// The same as a part of what was recorded without switching off: all runs of the same `turn_on` have their turn-on
+    /// biases in common, and the noise of their rig.
+    #[must_use]
+    pub fn since(mut self, turn_on: usize) -> Self {
+        self.turn_on = Some(turn_on);
+        self
+    }
+
+    /// Whether the IMU was not switched off between this run and another.
+    pub(crate) fn shares_turn_on(&self, other: &Self) -> bool {
+        self.turn_on.is_some() && self.turn_on == other.turn_on
     }
 }

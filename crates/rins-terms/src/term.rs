@@ -142,8 +142,10 @@ pub enum Need {
 pub enum Owner {
     /// The IMU: the same in all its runs.
     Sensor,
-    /// One run: turn-on biases, the attitude of the axis, what the table and the base did.
+    /// One run, from switching on to switching off: turn-on biases, what the table and the base did.
     Run,
+    /// One way of standing: the attitude of the axis, another one after the IMU was turned over, switched off or not.
+    Placement,
 }
 
 /// What a term does, and to what.

@@ -51,6 +51,11 @@ impl Track {
         self.times.is_empty()
     }
 
+    /// When each sample ends \[s\].
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
     /// The table angle before the first sample, and at the end of each \[rad\].
     pub fn angles(&self) -> &[f64] {
         &self.angles

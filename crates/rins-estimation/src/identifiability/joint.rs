@@ -63,7 +63,7 @@ pub fn joint(
     strengths: &Strengths,
 ) -> Result<Joint, JointError> {
     let free = model.free(imu);
-    let Layout { all, places } = Layout::of(&free, runs.len());
+    let Layout { all, places } = Layout::of(&free, runs);
     let columns: Vec<(usize, usize)> =
         free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
     let mut evidence = Evidence::none(all.len());

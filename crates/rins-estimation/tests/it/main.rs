@@ -6,6 +6,7 @@ mod colour;
 mod gravity;
 mod left_out;
 mod refusals;
+mod rests;
 mod several_runs;
 mod support;
 mod sway;

@@ -24,7 +24,7 @@ pub static AXIS_ATTITUDE: Term = Term {
     needs: &[],
     partners: &["encoder.zero", "accel.scale", "wrong_latitude"],
     told_apart_by: "z and the encoder's zero are one number; x and y: tilt the axis otherwise",
-    owner: Owner::Run,
+    owner: Owner::Placement,
     action: Action::Signal(|p, _, _, out| add_constant(&mut out.tilt, p, 1.0)),
 };
 
