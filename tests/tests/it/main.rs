@@ -20,4 +20,5 @@ mod repairs;
 mod round_trip;
 mod support;
 mod synthetic;
+mod turned_over;
 mod verdicts;

@@ -72,6 +72,12 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
                 loaded.rig.log.path.display()
             )
         })?;
+    found_over(loaded, span)
+}
+
+/// Aligns on one rest of a run.
+pub(crate) fn found_over(loaded: &Loaded, span: std::ops::Range<usize>) -> anyhow::Result<Found> {
+    let recording = &loaded.recording;
     let mean = RestMean::of(recording, span.clone())
         .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;
     let uncertainty = uncertainty(loaded, &mean);

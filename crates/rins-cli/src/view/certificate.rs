@@ -133,7 +133,7 @@ pub(crate) fn certificate_report(certificate: &Certificate) -> Report {
             &Residuals { channels: CHANNELS, times: &run.times, innovations: &run.innovations },
         ));
     }
-    let samples: usize = certificate.runs.iter().map(|run| run.prepared.run.recording.len()).sum();
+    let samples: usize = certificate.runs.iter().map(|run| run.prepared.samples()).sum();
     Report {
         title: certificate.title(),
         subtitle: format!(

@@ -58,9 +58,31 @@ impl Case {
         &self.runs[0].imu
     }
 
-    /// The runs as the estimator takes them.
+    /// The runs as the estimator takes them: one of each log, and then the other rests of the first, of the second ...
     pub(crate) fn given(&self) -> Vec<Run> {
-        self.runs.iter().map(|run| run.run.clone()).collect()
+        let of_log = |(log, prepared): (usize, &Prepared), run: &Run| match &prepared.others[..] {
+            [] => run.clone(),
+            _ => run.clone().since(log),
+        };
+        let logs = || self.runs.iter().enumerate();
+        let first = logs().map(|log| of_log(log, &log.1.run));
+        let others = logs().flat_map(|log| log.1.others.iter().map(move |run| of_log(log, run)));
+        first.chain(others).collect()
+    }
+
+    /// Of each log which of the runs given are its own, in order of time.
+    pub(super) fn given_of_logs(&self) -> Vec<Vec<usize>> {
+        let mut next = self.runs.len();
+        let of_log = |(log, prepared): (usize, &Prepared)| {
+            let mut places = vec![log];
+            places.extend(next..next + prepared.others.len());
+            next += prepared.others.len();
+            let starts: Vec<f64> = prepared.rests().map(|run| run.recording.times[0]).collect();
+            let mut order: Vec<usize> = (0..places.len()).collect();
+            order.sort_by(|&a, &b| starts[a].total_cmp(&starts[b]));
+            order.into_iter().map(|rest| places[rest]).collect()
+        };
+        self.runs.iter().enumerate().map(of_log).collect()
     }
 
     /// What is known of the random errors.

@@ -7,7 +7,7 @@ use rins_estimation::{Fit, Identifiability, Run, fit};
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
 use rins_motion::Recording;
-use rins_terms::{Model, NotUndone, Surroundings, compensated};
+use rins_terms::{Model, NotUndone, Owner, Surroundings, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
@@ -80,10 +80,18 @@ impl Certificate {
                 ));
             }
         }
+        let given = case.given_of_logs();
+        // How an IMU stood that was turned over and over is nothing to keep.
+        let fit = fit.leaving_open(|estimate| {
+            let of_log = |run| given.iter().position(|runs| runs.contains(&run));
+            let log = estimate.run.and_then(of_log);
+            let many = log.is_some_and(|log| given[log].len() > 1);
+            estimate.parameter.owner == Owner::Placement && many
+        });
         let told = fit.identifiability();
         let mut certified = Vec::with_capacity(case.runs.len());
-        for (place, prepared) in case.runs.into_iter().enumerate() {
-            certified.push(CertifiedRun::of(prepared, &fit, place)?);
+        for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
+            certified.push(CertifiedRun::of(prepared, &fit, place, given)?);
         }
         let innovations: Vec<_> =
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
@@ -147,7 +155,7 @@ impl Certificate {
 }
 
 impl CertifiedRun {
-    fn of(prepared: Prepared, fit: &Fit, run: usize) -> anyhow::Result<Self> {
+    fn of(prepared: Prepared, fit: &Fit, run: usize, given: &[usize]) -> anyhow::Result<Self> {
         let station = &prepared.loaded.station;
         let model = &fit.models[run];
         let nav_from_table = prepared.run.rig.nav_from_table * attitude_of(model);
@@ -158,7 +166,7 @@ impl CertifiedRun {
             navigate_freely(recording, track.angles(), nav_from_table, station, None)
         };
         let (before, after) = (navigate(recorded), navigate(&undone));
-        let innovations = fit.innovations(run);
+        let innovations: Vec<_> = given.iter().flat_map(|&run| fit.innovations(run)).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
         let of_run = |place: &usize| fit.parameters[*place].run.is_none_or(|of| of == run);
         let places: Vec<usize> = (0..fit.parameters.len()).filter(of_run).collect();
@@ -179,7 +187,7 @@ impl CertifiedRun {
         });
         let truth = Truth { station, nav_from_table, recording: &undone, track };
         let budget = Budget::of(&truth, &asked, &covariance);
-        let times = fit.linear[run].ends();
+        let times = given.iter().flat_map(|&rest| fit.linear[rest].ends()).collect();
         Ok(Self {
             prepared,
             nav_from_table,

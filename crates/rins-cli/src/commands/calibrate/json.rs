@@ -140,7 +140,8 @@ fn run_json(certificate: &Certificate, place: usize, run: &CertifiedRun) -> Valu
             Reference::Gravity => "gravity",
             Reference::Rest => "rest",
         },
-        "samples": run.prepared.run.recording.len(),
+        "samples": run.prepared.samples(),
+        "rests": (!run.prepared.others.is_empty()).then_some(1 + run.prepared.others.len()),
         "axis_attitude_deg": euler_json(&run.nav_from_table.euler_angles()),
         "gravity_across_axis_m_s2":
             across_axis(run.prepared.loaded.station.gravity, &run.nav_from_table),

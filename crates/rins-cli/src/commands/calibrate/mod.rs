@@ -8,6 +8,7 @@ mod gates;
 mod json;
 mod paper;
 mod prepared;
+mod rests;
 
 use rins_io::ModelFile;
 use rins_terms::Model;

@@ -13,8 +13,9 @@ use rins_io::Loaded;
 use rins_motion::Recording;
 
 use crate::args::NoiseChoice;
-use crate::commands::align::found;
+use crate::commands::align::{Found, found};
 use crate::commands::calibrate::gates::refuse_mistaken;
+use crate::commands::calibrate::rests::Rests;
 use crate::commands::setup::{setup, shown};
 
 /// An attitude that was found in the same data is counted again by a hundredth of its information.
@@ -40,8 +41,10 @@ pub(crate) struct Prepared {
     pub(crate) loaded: Loaded,
     /// What the data sheet says.
     pub(crate) imu: ImuSpec,
-    /// The samples that are used.
+    /// The samples that are used; of several rests the longest.
     pub(crate) run: Run,
+    /// The other rests.
+    pub(crate) others: Vec<Run>,
     /// How well the axis' attitude is known beforehand.
     pub(crate) attitude: Attitude,
     /// What a reader must know of how it was prepared.
@@ -67,6 +70,8 @@ struct Axis {
     recording: Recording,
     reference: Reference,
     nav_from_table: Dcm<Nav, Table>,
+    /// Other rests, and how each stands.
+    others: Vec<(Recording, Dcm<Nav, Table>)>,
     attitude: Attitude,
     remarks: Vec<String>,
 }
@@ -95,8 +100,31 @@ impl Prepared {
             velocity: setup.velocity_noise,
         };
         let run = Run::new(rig, axis.recording).with_context(log)?;
+        let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
+            Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
+        });
+        let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
         let (attitude, remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
-        Ok(Self { name: shown(path), loaded, imu, run, attitude, remarks })
+        Ok(Self { name: shown(path), loaded, imu, run, others, attitude, remarks })
+    }
+
+    /// How many samples are used.
+    pub(crate) fn samples(&self) -> usize {
+        self.rests().map(|run| run.recording.len()).sum()
+    }
+
+    /// The samples that are used, the longest rest first.
+    pub(crate) fn rests(&self) -> impl Iterator<Item = &Run> {
+        std::iter::once(&self.run).chain(&self.others)
+    }
+
+    /// The same with the longest rest only.
+    pub(crate) fn of_longest_rest(mut self) -> Self {
+        if !self.others.is_empty() {
+            self.others.clear();
+            self.remarks.push("Of these only the longest is used here.".into());
+        }
+        self
     }
 }
 
@@ -114,7 +142,8 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
     if let Some(given) = loaded.rig.attitude {
         let nav_from_table = given.angles.dcm();
         let attitude = Attitude::within(given.sigma);
-        return Ok(Axis { recording, reference, nav_from_table, attitude, remarks: Vec::new() });
+        let (others, remarks) = (Vec::new(), Vec::new());
+        return Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks });
     }
     let rest = found(loaded).context("the rig gives no [attitude], and none can be found")?;
     let table_from_body = Dcm::<Table, Body>::about_z(angles[rest.span.start]);
@@ -125,7 +154,8 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
         rest.start,
         loaded.recording.times[rest.span.end - 1]
     )];
-    Ok(Axis { recording, reference, nav_from_table, attitude, remarks })
+    let others = Vec::new();
+    Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks })
 }
 
 /// A run whose table nothing reads: it turns by gravity, or rests.
@@ -151,7 +181,11 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
         let wide = Some(AXIS_BY_GRAVITY);
         let attitude = Attitude { sigma: [wide, wide, None] };
         let reference = Reference::Gravity;
-        return Ok(Axis { recording: turning, reference, nav_from_table, attitude, remarks });
+        let (recording, others) = (turning, Vec::new());
+        return Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks });
+    }
+    if let Some(rests) = Rests::of(loaded)? {
+        return Ok(turned_over(loaded, &rests));
     }
     let rest = found(loaded)
         .context("nothing reads the table, and there are no two turns about its axis that gravity would show")?;
@@ -168,7 +202,32 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
         }
     };
     let recording = recording.slice(rest.span.start, rest.span.end);
-    Ok(Axis { recording, reference: Reference::Rest, nav_from_table, attitude, remarks })
+    let (reference, others) = (Reference::Rest, Vec::new());
+    Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks })
+}
+
+/// A run of many rests, each with an attitude of its own.
+fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
+    let stood = |found: &Found| {
+        let recording = loaded.recording.slice(found.span.start, found.span.end);
+        let nav_from_table = found.nav_from_body * Dcm::<Table, Body>::about_z(0.0).inverse();
+        (recording, nav_from_table)
+    };
+    let longest = rests.longest();
+    let (recording, nav_from_table) = stood(&rests.found[longest]);
+    let others = rests.found.iter().enumerate().filter(|(place, _)| *place != longest);
+    let others = others.map(|(_, found)| stood(found)).collect();
+    // One prior for all: the widest.
+    let sigmas = rests.found.iter().map(|found| aligned(&stood(found).1, found.sigma).sigma);
+    let wide = sigmas.fold([None; 3], |wide, of| [0, 1, 2].map(|axis| wider(wide[axis], of[axis])));
+    Axis {
+        recording,
+        reference: Reference::Rest,
+        nav_from_table,
+        others,
+        attitude: Attitude { sigma: wide },
+        remarks: vec![rests.in_words()],
+    }
 }
 
 /// What an alignment's 1σ about east, north and up are about the axes of the axis frame, widened since the
@@ -180,6 +239,11 @@ fn aligned(nav_from_table: &Dcm<Nav, Table>, sigma: (f64, f64, Option<f64>)) -> 
     let covariance = Matrix3::from_diagonal(&about.map(|sigma| sigma * sigma));
     let turned = nav_from_table.matrix().transpose() * covariance * nav_from_table.matrix();
     Attitude { sigma: [0, 1, 2].map(|axis| Some(turned[(axis, axis)].sqrt())) }
+}
+
+/// The larger of two sigmas.
+fn wider(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    one.into_iter().chain(other).reduce(f64::max)
 }
 
 /// How much of gravity turns in the plane of rotation \[m/s²\].

@@ -5,6 +5,8 @@ mod json;
 mod measured;
 mod testable;
 
+use std::path::Path;
+
 pub(crate) use self::found::{Found, Named, Verdict};
 pub(crate) use self::measured::Measured;
 use crate::args::Diagnose;
@@ -14,10 +16,13 @@ use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     let named = NamedModel::of(&arguments.model)?;
-    let runs = arguments.rigs.iter().map(|rig| Prepared::of(rig, load(rig)?, arguments.noise));
+    let prepared = |rig: &Path| -> anyhow::Result<Prepared> {
+        Ok(Prepared::of(rig, load(rig)?, arguments.noise)?.of_longest_rest())
+    };
+    let runs = arguments.rigs.iter().map(|rig| prepared(rig));
     let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
     let other = arguments.held_out.as_deref();
-    let other = other.map(|rig| Prepared::of(rig, load(rig)?, arguments.noise)).transpose()?;
+    let other = other.map(prepared).transpose()?;
     let case = Case::of(runs, named, arguments.noise)?;
     if let Some(other) = &other {
         case.ensure_same_imu(other)?;

@@ -12,7 +12,7 @@ use crate::view::settings_in_words;
 /// The report page.
 pub(crate) fn diagnosis_report(found: &Found) -> Report {
     let certificate = &found.certificate;
-    let samples: usize = certificate.runs.iter().map(|run| run.prepared.run.recording.len()).sum();
+    let samples: usize = certificate.runs.iter().map(|run| run.prepared.samples()).sum();
     let mut summary = summary(found);
     summary.extend(next_steps(found));
     Report {
