@@ -3,7 +3,7 @@
 //! **What it does.** [`record`] takes an [`Experiment`] - a place, a table with a servo and a bearing, an IMU, an
 //! encoder, noise, and effects - through an oversampled motion: a servo's angle, the attitude as a quaternion, rates and
 //! forces by differences of attitude and place, sensors' errors on each of the short steps, means over samples.
-//! [`write`] puts the log and its rig file into a folder, as a laboratory would hand them over; what is
+//! [`write()`] puts the log and its rig file into a folder, as a laboratory would hand them over; what is
 //! hidden is not in it.
 //!
 //! **What it does not do.** It knows no closed form of any increment, no derivative of any effect, and no
