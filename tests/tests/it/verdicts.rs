@@ -119,7 +119,7 @@ const FAULTS: [Row; 7] = [
         "quantised",
         |lines| each(&lines, |_, line| field(line, 4, |a| (a / 1e-3).round() * 1e-3)),
         "fact",
-        "accel.x 1.0000 mm/s",
+        "accel.x 1.000 mm/s",
     ),
     (
         "units",
