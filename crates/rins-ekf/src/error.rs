@@ -63,15 +63,26 @@ pub enum UpdateError {
         variance: f64,
     },
     /// A measurement is so precise, beside what stays unknown of the states it mixes, that the updated
-    /// covariance cannot hold what it says: sigmas would be off by more than some 1e-3.
+    /// covariance cannot hold what it says: sigmas would be off by more than some
+    /// 1e-3 in the plain form, 1e-6 in the factorised one.
     #[error(
-        "the states in row {row} of the measurement keep a variance of {ratio:e} times its noise, more than the covariance can resolve; update with more rows at once, or start with smaller variances"
+        "the states in row {row} of the measurement keep a variance of {ratio:e} times its noise, more than the covariance can resolve; use the factorised form, or start with smaller variances"
     )]
     Unresolved {
         /// The measurement's row.
         row: usize,
         /// `Σ h² P / R` of the row after the update.
         ratio: f64,
+    },
+    /// The state's error explains more of a row's noise than there is.
+    #[error(
+        "the noise of row {row} would have the variance {variance:e} once the state's error is known; their covariance is too large"
+    )]
+    NoiseOverexplained {
+        /// The measurement's row.
+        row: usize,
+        /// What would be left of its variance.
+        variance: f64,
     },
     /// Every input is finite and the result is not.
     #[error("the update overflows; scale the states or the measurement")]
@@ -109,5 +120,16 @@ pub enum CovarianceError {
         index: usize,
         /// Its variance given the states before it.
         variance: f64,
+    },
+    /// A combination of states is known so much better than they are that the matrix, whose numbers have
+    /// sixteen digits, cannot say how well.
+    #[error(
+        "state {index} has {part:e} of its variance left once those after it are known, less than a covariance matrix can hold; build its factors from independent sources"
+    )]
+    Unresolved {
+        /// The state's index.
+        index: usize,
+        /// Its variance given the states after it, over its own.
+        part: f64,
     },
 }

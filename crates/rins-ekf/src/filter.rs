@@ -8,8 +8,9 @@ use crate::kernel::{Factor, add_congruence, add_product, is_finite, mirrored};
 use crate::measurement::Measurement;
 
 /// The largest ratio of a measured combination's variance, its states taken apart, to the
-/// measurement's noise: rounding of the covariance is then a thousandth of that noise.
-const RESOLVED: f64 = 1e-3 / f64::EPSILON;
+/// measurement's noise: rounding of 24 states' covariance, step after step, then takes some
+/// thousandth of a sigma.
+const RESOLVED: f64 = 1e10;
 
 /// Estimate and covariance of an `N`-element state.
 ///
@@ -216,7 +217,7 @@ impl<const N: usize> Filter<N> {
 }
 
 impl<const M: usize, const N: usize> Measurement<M, N> {
-    fn culprit(&self) -> Option<Quantity> {
+    pub(crate) fn culprit(&self) -> Option<Quantity> {
         if !is_finite(&self.value) {
             Some(Quantity::Value)
         } else if !is_finite(&self.matrix) {

@@ -8,8 +8,11 @@
 //!
 //! **What it does not do.** It knows nothing of inertial navigation. It never rejects an outlier,
 //! clamps, inflates a covariance or falls back: a step is done as it was asked for, or it is an error
-//! and nothing has changed. It has no square-root form: rows that mix states whose variances stay
-//! above 1e10 times their noise take digits of the sigmas, and above 1e12 times they are refused.
+//! and nothing has changed.
+//!
+//! **Which form.** [`Filter`]'s sigmas keep six digits while rows do not mix states whose variances stay
+//! above 1e6 times the noise, and three up to 1e10 times; beyond, it refuses. [`FactorisedFilter`]
+//! takes the same steps on the factors `U D Uᵀ`, and keeps six digits up to 1e16 times.
 //!
 //! Position and velocity from positions:
 //! ```
@@ -33,6 +36,8 @@ extern crate alloc;
 
 mod block;
 mod error;
+mod factorised;
+mod factors;
 mod filter;
 mod innovation;
 mod kernel;
@@ -42,6 +47,8 @@ mod smoother;
 
 pub use block::Block;
 pub use error::{CovarianceError, Quantity, UpdateError};
+pub use factorised::FactorisedFilter;
+pub use factors::Factors;
 pub use filter::Filter;
 pub use innovation::Innovation;
 pub use kernel::congruence;

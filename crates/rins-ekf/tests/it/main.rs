@@ -2,7 +2,9 @@
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod consistency;
+mod digits;
 mod exact;
+mod factorised;
 mod laws;
 mod random;
 mod refusals;

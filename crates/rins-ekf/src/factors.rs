@@ -1,0 +1,212 @@
+//! A covariance by its factors `U D Uᵀ`, which hold what the covariance itself rounds away.
+
+use nalgebra::{ComplexField, SMatrix, SVector};
+
+use crate::error::CovarianceError;
+use crate::kernel::is_finite;
+
+/// The least part of a state's variance that may be left once others are known: below it a covariance
+/// written out as a matrix has lost the digits by which a sigma is told to 1e-6.
+const HELD: f64 = 1e-10;
+
+/// A covariance `P = U D Uᵀ`, with a unit upper triangular `U` and no negative number in the diagonal `D`.
+///
+/// An element of `D` is the variance of a state once those after it are known. Two states of variance
+/// 1 that are the same but for 1e-20 have the covariance 1, to the last bit of an `f64`; their
+/// factors still hold the 1e-20.
+///
+/// ```
+/// use nalgebra::{Matrix2, Vector2};
+/// use rins_ekf::Factors;
+/// // One unknown for both states, and a little of its own for the first.
+/// let factors = Factors::of_sources(&Matrix2::new(1.0, 1.0, 0.0, 1.0), &Vector2::new(1e-20, 1.0));
+/// assert_eq!(factors.covariance(), Matrix2::from_element(1.0));
+/// assert_eq!(factors.variance_of(&nalgebra::RowVector2::new(1.0, -1.0)), 1e-20);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factors<const N: usize> {
+    /// `U`; what is below the diagonal is zero.
+    pub(crate) upper: SMatrix<f64, N, N>,
+    /// `D`.
+    pub(crate) variances: SVector<f64, N>,
+}
+
+impl<const N: usize> Factors<N> {
+    /// The factors of `A W Aᵀ`: of states that depend by `by` on independent sources of these variances.
+    pub fn of_sources<const K: usize>(
+        by: &SMatrix<f64, N, K>,
+        variances: &SVector<f64, K>,
+    ) -> Self {
+        gram_schmidt(
+            (by.transpose(), variances),
+            (SMatrix::<f64, 0, N>::zeros(), &SVector::zeros()),
+        )
+    }
+
+    /// The factors of a covariance.
+    ///
+    /// A state with zero variance is known; its covariances must then be zero.
+    ///
+    /// # Errors
+    /// [`CovarianceError`] if a number is not finite, a combination of states would have a variance
+    /// below zero, or one so far below those of the states that the matrix cannot hold it.
+    pub fn of(covariance: &SMatrix<f64, N, N>) -> Result<Self, CovarianceError> {
+        if !is_finite(covariance) {
+            return Err(CovarianceError::NotFinite { quantity: crate::Quantity::Covariance });
+        }
+        let whole = covariance.diagonal();
+        let factors = Self::eliminated(*covariance, &whole, 0.0).map_err(|(index, variance)| {
+            CovarianceError::NotPositiveDefinite { index, variance }
+        })?;
+        for index in 0..N {
+            let part = factors.variances[index] / whole[index];
+            if part > 0.0 && part < HELD {
+                return Err(CovarianceError::Unresolved { index, part });
+            }
+        }
+        Ok(factors)
+    }
+
+    /// The factors of what is left of a covariance, of which the upper triangle is read; the variances of `whole`, times
+    /// `rounding`, count as zero. Else the first state of which the variance is not positive, and that.
+    pub(crate) fn eliminated(
+        mut rest: SMatrix<f64, N, N>,
+        whole: &SVector<f64, N>,
+        rounding: f64,
+    ) -> Result<Self, (usize, f64)> {
+        let (mut upper, mut variances) = (SMatrix::identity(), SVector::zeros());
+        for j in (0..N).rev() {
+            let variance = rest[(j, j)];
+            let nothing = rounding * whole[j];
+            let known = variance.abs() <= nothing
+                && (0..j).all(|i| {
+                    rest[(i, j)].abs() <= rounding * ComplexField::sqrt(whole[i] * whole[j])
+                });
+            if known {
+                continue;
+            }
+            if variance.is_nan() || variance <= nothing {
+                return Err((j, variance));
+            }
+            variances[j] = variance;
+            for i in 0..j {
+                upper[(i, j)] = rest[(i, j)] / variance;
+            }
+            for column in 0..j {
+                let factor = rest[(column, j)];
+                for row in 0..=column {
+                    rest[(row, column)] -= upper[(row, j)] * factor;
+                }
+            }
+        }
+        Ok(Self { upper, variances })
+    }
+
+    /// The variances of the states.
+    pub fn diagonal(&self) -> SVector<f64, N> {
+        let square = |i: usize, k: usize| self.upper[(i, k)] * self.upper[(i, k)];
+        SVector::from_fn(|i, _| (i..N).map(|k| square(i, k) * self.variances[k]).sum())
+    }
+
+    /// The covariance, exactly symmetric.
+    pub fn covariance(&self) -> SMatrix<f64, N, N> {
+        let mut covariance = SMatrix::zeros();
+        for row in 0..N {
+            for column in 0..=row {
+                let sum: f64 = (row..N)
+                    .map(|k| self.upper[(row, k)] * self.variances[k] * self.upper[(column, k)])
+                    .sum();
+                covariance[(row, column)] = sum;
+                covariance[(column, row)] = sum;
+            }
+        }
+        covariance
+    }
+
+    /// The variance of a combination of states.
+    pub fn variance_of(&self, combination: &SMatrix<f64, 1, N>) -> f64 {
+        let by = combination * self.upper;
+        (0..N).map(|k| by[k] * by[k] * self.variances[k]).sum()
+    }
+
+    /// The factors after a step: of `Φ P Φᵀ` and what sources of noise add.
+    pub(crate) fn carried<const K: usize>(
+        &self,
+        transition: &SMatrix<f64, N, N>,
+        by: &SMatrix<f64, N, K>,
+        variances: &SVector<f64, K>,
+    ) -> Self {
+        let mut carried = SMatrix::<f64, N, N>::zeros();
+        crate::kernel::add_product(&mut carried, &self.upper.transpose(), transition);
+        gram_schmidt((carried, &self.variances), (by.transpose(), variances))
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        is_finite(&self.upper) && is_finite(&self.variances)
+    }
+
+    /// `U⁻¹ v`.
+    pub(crate) fn unmixed(&self, mut v: SVector<f64, N>) -> SVector<f64, N> {
+        for j in (0..N).rev() {
+            for i in 0..j {
+                v[i] -= self.upper[(i, j)] * v[j];
+            }
+        }
+        v
+    }
+}
+
+/// How `N` states depend on `K` sources, a column for each state, and the sources' variances.
+type Sources<'a, const K: usize, const N: usize> = (SMatrix<f64, K, N>, &'a SVector<f64, K>);
+
+/// The factors of what two sets of sources make: Gram and Schmidt's orthogonalisation, modified and
+/// weighted, from the last state to the first (‹thornton1976›; ‹bierman1977›, ch. VI).
+///
+/// Sums of squares and projections only: nothing is subtracted from a variance.
+fn gram_schmidt<const N: usize, const K: usize, const L: usize>(
+    (mut a, weights_a): Sources<'_, K, N>,
+    (mut b, weights_b): Sources<'_, L, N>,
+) -> Factors<N> {
+    let mut factors = Factors { upper: SMatrix::identity(), variances: SVector::zeros() };
+    for j in (0..N).rev() {
+        let (of_a, of_b) = (a.data.0[j], b.data.0[j]);
+        let (heavy_a, heavy_b) =
+            (times(&of_a, &weights_a.data.0[0]), times(&of_b, &weights_b.data.0[0]));
+        let variance = dot(&heavy_a, &of_a) + dot(&heavy_b, &of_b);
+        factors.variances[j] = variance;
+        if variance <= 0.0 {
+            continue;
+        }
+        for i in 0..j {
+            let share = (dot(&heavy_a, &a.data.0[i]) + dot(&heavy_b, &b.data.0[i])) / variance;
+            factors.upper[(i, j)] = share;
+            take(&mut a.data.0[i], &of_a, share);
+            take(&mut b.data.0[i], &of_b, share);
+        }
+    }
+    factors
+}
+
+/// The products of elements.
+#[inline]
+fn times<const K: usize>(a: &[f64; K], b: &[f64; K]) -> [f64; K] {
+    core::array::from_fn(|k| a[k] * b[k])
+}
+
+/// The scalar product, in four sums that run side by side.
+#[inline]
+fn dot<const K: usize>(a: &[f64; K], b: &[f64; K]) -> f64 {
+    let mut sums = [0.0; 4];
+    for (k, (a, b)) in a.iter().zip(b).enumerate() {
+        sums[k % 4] += a * b;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// Takes `share` of `part` from `whole`.
+#[inline]
+fn take<const K: usize>(whole: &mut [f64; K], part: &[f64; K], share: f64) {
+    for (whole, part) in whole.iter_mut().zip(part) {
+        *whole -= part * share;
+    }
+}
