@@ -1,4 +1,4 @@
-//! The same update with dense matrices, for what the plain form cannot hold, and the reasons of refusals.
+//! A sample's comparison as a measurement of the generic filter, and why that refuses one.
 
 use nalgebra::{SMatrix, SVector};
 use rins_ekf::{Filter, Measurement, UpdateError};
@@ -7,7 +7,7 @@ use rins_lanes::Vector;
 use crate::filter::MEASUREMENTS;
 use crate::kernel::{Kernel, WithAxis};
 use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY};
-use crate::structured::{Comparison, Covariance, Found, With};
+use crate::structured::{Comparison, Found, With};
 
 impl Comparison<f64, STATES> {
     /// Zero velocity, which the computed one is `velocity` off, above the three rows, as a
@@ -59,25 +59,6 @@ impl Found<f64, STATES> {
 }
 
 impl Kernel<f64, WithAxis, STATES> {
-    /// The update in Joseph's form: what it found, and the log-likelihood of that.
-    pub(crate) fn update_densely(
-        &mut self,
-        comparison: &Comparison<f64, STATES>,
-        velocity: &Vector<f64>,
-    ) -> Result<(Found<f64, STATES>, f64), UpdateError> {
-        let mut filter = self.dense();
-        let measurement = comparison.measurement(velocity, self.setup.velocity_noise);
-        let innovation = filter.update(&measurement)?;
-        let p = &filter.covariance;
-        self.covariance = Covariance::from_fn(0.0, |row, column| p[(row, column)]);
-        let found = Found {
-            whitened: innovation.whitened.into(),
-            inverse_scales: [f64::NAN; MEASUREMENTS],
-            state: filter.state.into(),
-        };
-        Ok((found, innovation.log_likelihood()))
-    }
-
     /// Why a comparison could not be used.
     pub(crate) fn refusal(
         &self,

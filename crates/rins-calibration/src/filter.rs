@@ -1,7 +1,7 @@
 //! The paper's filter, eqs. (10)-(21), closed loop.
 
-use nalgebra::{ComplexField, Matrix3, SMatrix, SVector, Vector3};
-use rins_ekf::UpdateError;
+use nalgebra::{ComplexField, Matrix3, RowSVector, SMatrix, SVector, Vector3};
+use rins_ekf::{FactorisedFilter, Factors, UpdateError};
 use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Site, Table};
 use rins_imu::TriadError;
 use rins_lanes::Vector;
@@ -19,9 +19,9 @@ pub const MEASUREMENTS: usize = 6;
 /// Nothing here depends on it; it only keeps the covariance positive definite.
 const POSITION_SIGMA: f64 = 1e-3;
 
-/// The largest ratio of a measured combination's variance, its states taken apart, to its noise for
-/// which the plain update keeps enough digits: what is left has some 1e8 × 1e-16 of rounding in it.
-pub(crate) const PLAIN: f64 = 1e8;
+/// The ratio of a measured combination's variance, its states taken apart, to its noise from which on
+/// the covariance is kept as factors: below it the plain form keeps six digits of every sigma.
+pub(crate) const PLAIN: f64 = 1e7;
 
 /// What the table said at the end of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +30,15 @@ pub enum TableReading {
     Angle(f64),
     /// The mean commanded rate over the sample \[rad/s\].
     Rate(f64),
+}
+
+/// How a filter keeps its covariance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// As a matrix.
+    Plain,
+    /// As factors `U D Uᵀ`.
+    Factorised,
 }
 
 /// What a sample is compared with.
@@ -82,6 +91,10 @@ pub enum AngleSource {
 #[derive(Clone, Debug)]
 pub struct SpinAxisFilter {
     kernel: Kernel<f64, WithAxis, STATES>,
+    /// The covariance's factors at the start, until the first sample has been taken in.
+    beginning: Option<Box<Factors<STATES>>>,
+    /// The covariance's factors, from where they are needed on; the kernel's is then a copy to read.
+    factorised: Option<Box<FactorisedFilter<STATES>>>,
     log_likelihood: f64,
 }
 
@@ -93,7 +106,8 @@ impl SpinAxisFilter {
         let p = start.covariance(&setup);
         let attitudes = [nav_from_body.matrix(), nav_from_table.matrix()];
         let kernel = Kernel::at_rest(0.0, &setup, attitudes, |row, column| p[(row, column)]);
-        Self { kernel, log_likelihood: 0.0 }
+        let beginning = start.factors(&setup).map(Box::new);
+        Self { kernel, beginning, factorised: None, log_likelihood: 0.0 }
     }
 
     /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated so far.
@@ -116,6 +130,26 @@ impl SpinAxisFilter {
         Dcm::from_kernel(self.kernel.nav_from_table.lane(0))
     }
 
+    #[cfg(test)]
+    pub(crate) const fn kernel(&self) -> &Kernel<f64, WithAxis, STATES> {
+        &self.kernel
+    }
+
+    /// The variance of a combination of states, in the order of [`crate::layout`].
+    ///
+    /// Of a combination that is known much better than its states are, the covariance says less.
+    pub fn variance_of(&self, combination: &RowSVector<f64, STATES>) -> f64 {
+        self.factorised.as_ref().map_or_else(
+            || (combination * self.covariance() * combination.transpose())[0],
+            |filter| filter.factors().variance_of(combination),
+        )
+    }
+
+    /// Which form the covariance is kept in by now.
+    pub const fn form(&self) -> Form {
+        if self.factorised.is_some() { Form::Factorised } else { Form::Plain }
+    }
+
     /// The logarithm of the probability density of all references so far, under this setup.
     pub const fn log_likelihood(&self) -> f64 {
         self.log_likelihood
@@ -134,12 +168,13 @@ impl SpinAxisFilter {
 
     /// Takes in one sample and its reference; returns the whitened innovations.
     ///
-    /// Where a reference is so precise, beside what is not known yet, that the plain form of the
-    /// update would lose digits of the covariance, the update is Joseph's with dense matrices.
+    /// **Which form runs.** From the first sample on of which a figure is more than 3,000 times as precise as what it
+    /// is compared with is known, its states taken apart, the covariance is kept as factors `U D Uᵀ`, in which no
+    /// digits are lost (a ratio of variances of 1e7); up to there it is the plain one, some ten times as fast.
     ///
     /// # Errors
     /// [`UpdateError`] if a figure is not finite, the innovation covariance is not positive definite,
-    /// or the covariance could not resolve the reference in Joseph's form either.
+    /// or not even the factors could resolve the reference.
     pub fn step(
         &mut self,
         sample: &Increments,
@@ -158,12 +193,31 @@ impl SpinAxisFilter {
             TableReading::Rate(rate) => Reading::Rate(rate),
         };
         let kernel = &mut self.kernel;
-        let interval = kernel.predict(&sample);
+        let (interval, means) = kernel.navigate(&sample);
         let comparison = kernel.compare(&interval, &reading);
         let off = kernel.mechanisation.velocity - Vector::from(*reference.velocity.components());
         let noise = kernel.setup.velocity_noise;
-        let ratios = kernel.covariance.ratios::<WithAxis>(&comparison, noise);
-        let (found, log_likelihood) = if ratios.iter().all(|&ratio| ratio < PLAIN) {
+        if self.factorised.is_none() {
+            let before = kernel.covariance;
+            kernel.carry(&interval, &means);
+            let ratios = kernel.covariance.ratios::<WithAxis>(&comparison, noise);
+            let beginning = self.beginning.take();
+            if ratios.iter().any(|&ratio| ratio >= PLAIN) {
+                kernel.covariance = before;
+                let factors = match beginning {
+                    Some(factors) => *factors,
+                    None => kernel.factors()?,
+                };
+                let filter = FactorisedFilter::from_factors(SVector::zeros(), factors);
+                self.factorised = Some(Box::new(filter));
+            }
+        }
+        if let Some(filter) = &mut self.factorised {
+            kernel.carry_factors(filter, &interval, &means);
+        }
+        let (found, log_likelihood) = if let Some(filter) = &mut self.factorised {
+            kernel.update_factors(filter, &comparison, &off)?
+        } else {
             let found = kernel.covariance.update::<WithAxis>(&comparison, &off, noise);
             // False for what is not a number, too.
             let finite = found.whitened.iter().copied().all(f64::is_finite);
@@ -171,8 +225,6 @@ impl SpinAxisFilter {
                 return Err(kernel.refusal(&comparison, &off));
             }
             (found, found.log_likelihood())
-        } else {
-            kernel.update_densely(&comparison, &off)?
         };
         kernel.correct(&found.state, &interval);
         self.log_likelihood += log_likelihood;
@@ -184,20 +236,18 @@ impl Start {
     /// The covariance of all states that a filter starts with.
     pub(crate) fn covariance(&self, setup: &Setup) -> SMatrix<f64, STATES, STATES> {
         let Self { nav_from_table, ref axis_covariance, angle_source, .. } = *self;
-        let radius = setup.station.site.meridian_radius();
+        let StartSigmas { position, velocity, reading, sensor } = StartSigmas::of(setup);
         let square = |vector: Vector3<f64>| Matrix3::from_diagonal(&vector.component_mul(&vector));
-
-        let position = Vector3::new(1.0 / radius, 1.0 / radius, 1.0) * POSITION_SIGMA;
-        let spec = setup.imu.gyro;
-        let sensor =
-            Vector3::new(spec.misalignment_sigma, spec.misalignment_sigma, spec.scale_sigma);
         let first_reading = match angle_source {
-            AngleSource::Read => angle_noise(setup, &nav_from_table),
+            AngleSource::Read => {
+                let c = nav_from_table.matrix();
+                c * square(reading) * c.transpose()
+            }
             AngleSource::Defined => Matrix3::zeros(),
         };
         let mut p = SMatrix::zeros();
         POSITION.set(POSITION, &mut p, &square(position));
-        VELOCITY.set(VELOCITY, &mut p, &square(Vector3::repeat(setup.velocity_noise)));
+        VELOCITY.set(VELOCITY, &mut p, &square(velocity));
         ATTITUDE.set(ATTITUDE, &mut p, &(axis_covariance + first_reading));
         ATTITUDE.set(AXIS, &mut p, axis_covariance);
         AXIS.set(ATTITUDE, &mut p, axis_covariance);
@@ -207,16 +257,38 @@ impl Start {
     }
 }
 
+/// The sigmas of what is independent at the start, beside the axis.
+pub(crate) struct StartSigmas {
+    /// `δθ_x`, `δθ_y` \[rad\] and `δh` \[m\].
+    pub(crate) position: Vector3<f64>,
+    /// \[m/s\]
+    pub(crate) velocity: Vector3<f64>,
+    /// A reading of the table's attitude, in s \[rad\].
+    pub(crate) reading: Vector3<f64>,
+    /// `M_xz`, `M_yz` \[rad\] and `S_z`.
+    pub(crate) sensor: Vector3<f64>,
+}
+
+impl StartSigmas {
+    pub(crate) fn of(setup: &Setup) -> Self {
+        let radius = setup.station.site.meridian_radius();
+        let spec = setup.imu.gyro;
+        Self {
+            position: Vector3::new(1.0 / radius, 1.0 / radius, 1.0) * POSITION_SIGMA,
+            velocity: Vector3::repeat(setup.velocity_noise),
+            reading: Vector3::new(setup.table.wobble, setup.table.wobble, setup.table.angle_noise),
+            sensor: Vector3::new(
+                spec.misalignment_sigma,
+                spec.misalignment_sigma,
+                spec.scale_sigma,
+            ),
+        }
+    }
+}
+
 /// The triad error with these `M_xz`, `M_yz` and `S_z`, and no other.
 pub(crate) fn gyro_error(estimate: &Vector3<f64>) -> TriadError {
     let mut matrix = Matrix3::zeros();
     matrix.set_column(2, estimate);
     TriadError { bias: Vector3::zeros(), matrix }
-}
-
-/// The covariance of the attitude that one reading of the table gives, resolved in n.
-fn angle_noise(setup: &Setup, nav_from_table: &Dcm<Nav, Table>) -> Matrix3<f64> {
-    let c = nav_from_table.matrix();
-    let sigma = Vector3::new(setup.table.wobble, setup.table.wobble, setup.table.angle_noise);
-    c * Matrix3::from_diagonal(&sigma.component_mul(&sigma)) * c.transpose()
 }

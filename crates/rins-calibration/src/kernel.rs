@@ -162,13 +162,22 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         regressors
     }
 
+    /// What carries the errors over an interval.
+    #[inline(always)]
+    pub(crate) fn transition(
+        &self,
+        interval: &Interval<T>,
+        means: &Means<T>,
+    ) -> Transition<T, M, N> {
+        let regressors = Self::regressors(interval.rate[2]);
+        let imu = &self.setup.imu;
+        Transition::new(means, regressors, [imu.accel.noise_density, imu.gyro.noise_density])
+    }
+
     /// Carries the covariance over an interval.
     #[inline(always)]
     pub(crate) fn carry(&mut self, interval: &Interval<T>, means: &Means<T>) {
-        let regressors = Self::regressors(interval.rate[2]);
-        let imu = &self.setup.imu;
-        let densities = [imu.accel.noise_density, imu.gyro.noise_density];
-        Transition::<T, M, N>::new(means, regressors, densities).carry(&mut self.covariance);
+        self.transition(interval, means).carry(&mut self.covariance);
     }
 
     /// Eq. (1) undone with the present estimate: exact, since only the third column is not zero.

@@ -22,6 +22,7 @@ mod calibration;
 mod consistency;
 mod dense;
 mod estimate;
+mod factorised;
 mod filter;
 mod history;
 mod kernel;
@@ -39,7 +40,7 @@ pub use calibration::{
 };
 pub use consistency::{Consistency, Verdict};
 pub use estimate::{Estimate, beginning, estimate};
-pub use filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
+pub use filter::{AngleSource, Form, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
 pub use lanes::SpinAxisLanes;
 pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};
 pub use parameter::{Parameter, ParameterKind, Partner};

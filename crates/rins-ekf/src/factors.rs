@@ -2,7 +2,7 @@
 
 use nalgebra::{ComplexField, SMatrix, SVector};
 
-use crate::error::CovarianceError;
+use crate::error::{CovarianceError, Quantity};
 use crate::kernel::is_finite;
 
 /// The least part of a state's variance that may be left once others are known: below it a covariance
@@ -51,20 +51,32 @@ impl<const N: usize> Factors<N> {
     /// [`CovarianceError`] if a number is not finite, a combination of states would have a variance
     /// below zero, or one so far below those of the states that the matrix cannot hold it.
     pub fn of(covariance: &SMatrix<f64, N, N>) -> Result<Self, CovarianceError> {
-        if !is_finite(covariance) {
-            return Err(CovarianceError::NotFinite { quantity: crate::Quantity::Covariance });
-        }
-        let whole = covariance.diagonal();
-        let factors = Self::eliminated(*covariance, &whole, 0.0).map_err(|(index, variance)| {
-            CovarianceError::NotPositiveDefinite { index, variance }
-        })?;
+        let factors = Self::of_rounded(covariance, 0.0)?;
         for index in 0..N {
-            let part = factors.variances[index] / whole[index];
+            let part = factors.variances[index] / covariance[(index, index)];
             if part > 0.0 && part < HELD {
                 return Err(CovarianceError::Unresolved { index, part });
             }
         }
         Ok(factors)
+    }
+
+    /// The factors of a covariance that has been rounded: a state of which no more than the part `rounding` of its variance
+    /// is left once those after it are known counts as known with them.
+    ///
+    /// Of a filter that has been plain so far, say. Combinations are as well known as that could tell.
+    ///
+    /// # Errors
+    /// [`CovarianceError`] if a number is not finite, or a combination's variance is further below zero.
+    pub fn of_rounded(
+        covariance: &SMatrix<f64, N, N>,
+        rounding: f64,
+    ) -> Result<Self, CovarianceError> {
+        if !is_finite(covariance) {
+            return Err(CovarianceError::NotFinite { quantity: Quantity::Covariance });
+        }
+        Self::eliminated(*covariance, &covariance.diagonal(), rounding)
+            .map_err(|(index, variance)| CovarianceError::NotPositiveDefinite { index, variance })
     }
 
     /// The factors of what is left of a covariance, of which the upper triangle is read; the variances of `whole`, times
@@ -78,10 +90,9 @@ impl<const N: usize> Factors<N> {
         for j in (0..N).rev() {
             let variance = rest[(j, j)];
             let nothing = rounding * whole[j];
+            // No covariance is larger than the root of the variances' product.
             let known = variance.abs() <= nothing
-                && (0..j).all(|i| {
-                    rest[(i, j)].abs() <= rounding * ComplexField::sqrt(whole[i] * whole[j])
-                });
+                && (0..j).all(|i| rest[(i, j)].abs() <= ComplexField::sqrt(whole[i] * nothing));
             if known {
                 continue;
             }
@@ -106,6 +117,16 @@ impl<const N: usize> Factors<N> {
     pub fn diagonal(&self) -> SVector<f64, N> {
         let square = |i: usize, k: usize| self.upper[(i, k)] * self.upper[(i, k)];
         SVector::from_fn(|i, _| (i..N).map(|k| square(i, k) * self.variances[k]).sum())
+    }
+
+    /// `U`.
+    pub const fn upper(&self) -> &SMatrix<f64, N, N> {
+        &self.upper
+    }
+
+    /// The diagonal of `D`.
+    pub const fn variances(&self) -> &SVector<f64, N> {
+        &self.variances
     }
 
     /// The covariance, exactly symmetric.

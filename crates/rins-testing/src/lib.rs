@@ -1,10 +1,12 @@
-//! For the workspace's own tests: strategies over physical quantities, `assert_close!`, and the
-//! bounds that a statistic must keep.
+//! For the workspace's own tests: strategies over physical quantities, `assert_close!`, the bounds that
+//! a statistic must keep, and covariances in long numbers.
 #![expect(clippy::missing_panics_doc, reason = "tests are meant to panic")]
 
+mod long;
 mod statistics;
 mod strategies;
 
+pub use long::LongCovariance;
 pub use statistics::{
     assert_chi_squared, assert_standard_normal, chi_squared_mean_bounds, is_chi_squared,
     standard_normal_defect,

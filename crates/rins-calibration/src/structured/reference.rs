@@ -268,8 +268,14 @@ mod tests {
             let mut carried = Covariance::from_fn(0.0, |row, column| p[(row, column)]);
             let mut regressors = [0.0; STATES];
             regressors[SPIN_AXIS_ERRORS.start()..SPIN_AXIS_ERRORS.end()].fill(spin_rate);
-            Transition::<f64, WithAxis, STATES>::new(&means, regressors, [0.3, 0.2])
-                .carry(&mut carried);
+            let sparse = Transition::<f64, WithAxis, STATES>::new(&means, regressors, [0.3, 0.2]);
+            for (unit, column) in phi.column_iter().enumerate() {
+                let mut x = [0.0; STATES];
+                x[unit] = 1.0;
+                let off = State::from(sparse.times(x)) - column;
+                assert!(off.amax() < 1e-14 * phi.amax(), "{off:e}");
+            }
+            sparse.carry(&mut carried);
             let got = StateMatrix::from_fn(|row, column| carried.get(row, column));
             let off = differences(&got, &want).amax();
             assert!(off < 1e-13, "{off:e}");

@@ -147,6 +147,29 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         }
     }
 
+    /// What the interval makes of one column of errors: `Φ x`.
+    #[inline(always)]
+    pub fn times(&self, mut x: [T; N]) -> [T; N] {
+        let half_way = |x: &mut [T; N]| {
+            let moved = self.moved([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
+            x[POSITION..POSITION + 3].copy_from_slice(&moved);
+        };
+        half_way(&mut x);
+        let (gyros, accels) = self.sensed_by(&x);
+        let column = [x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8]];
+        let pushed = self.pushed(column, &gyros, &accels);
+        x[VELOCITY..VELOCITY + 3].copy_from_slice(&pushed.0);
+        let turned = self.turned(&Vector([x[6], x[7], x[8]]), &gyros);
+        x[ATTITUDE..ATTITUDE + 3].copy_from_slice(&turned.0);
+        half_way(&mut x);
+        x
+    }
+
+    /// The variance that the interval adds to each velocity \[m²/s²\] and to each attitude \[rad²\].
+    pub const fn noise(&self) -> [f64; 2] {
+        self.noise
+    }
+
     /// What half an interval makes of three position errors that have three velocity errors.
     #[inline(always)]
     fn moved(&self, [x, y, up]: [T; 3], [east, north, rise]: [T; 3]) -> [T; 3] {

@@ -1,15 +1,8 @@
 //! How many digits of the sigmas survive long runs from wide priors, against 200 bits.
-#![expect(clippy::needless_range_loop, reason = "indices count through rows of several matrices")]
 
-use dashu_float::FBig;
-use dashu_float::round::mode::HalfEven;
 use nalgebra::{RowSVector, SMatrix, SVector};
 use rins_ekf::{FactorisedFilter, Factors, Filter, Measurement, UpdateError, congruence};
-
-type Number = FBig<HalfEven>;
-
-/// Of the reference's numbers: those of an `f64` thrice over, and some.
-const BITS: usize = 200;
+use rins_testing::LongCovariance;
 
 /// How far a sigma may be off.
 const SIX_DIGITS: f64 = 1e-6;
@@ -18,10 +11,6 @@ const INTERVAL: f64 = 0.1;
 
 /// Rows: three of velocity, three of rate. Sources: three of each.
 const ROWS: usize = 6;
-
-fn number(x: f64) -> Number {
-    Number::try_from(x).unwrap().with_precision(BITS).value()
-}
 
 /// A vehicle's position and velocity, and constants that drive it in proportion to what turns; two of the
 /// constants always enter together, so that no measurement ever tells them apart.
@@ -62,96 +51,15 @@ impl<const N: usize> Step<N> {
             Measurement::new(SVector::zeros(), matrix, noise).correlated_with_state_error(cross);
         Self { transition, by, variances, measurement }
     }
+
+    fn noise(&self) -> SMatrix<f64, N, N> {
+        congruence(&self.by, &SMatrix::from_diagonal(&self.variances))
+    }
 }
 
 /// The variances at the start: position and velocity as they are measured, constants `ratio` times so.
 fn prior<const N: usize>(ratio: f64) -> SVector<f64, N> {
     SVector::from_fn(|index, _| if index < 6 { 1.0 } else { ratio })
-}
-
-/// The textbook's covariance with long numbers.
-struct Reference<const N: usize>(Vec<Vec<Number>>);
-
-/// `A Bᵀ`, passing over the zeros of `B`.
-fn product<const K: usize, const M: usize>(
-    a: &[Vec<Number>],
-    b: &SMatrix<f64, M, K>,
-) -> Vec<Vec<Number>> {
-    let element = |row: &Vec<Number>, column: usize| {
-        let mut sum = number(0.0);
-        for (k, x) in row.iter().enumerate() {
-            if b[(column, k)] != 0.0 {
-                sum += x * number(b[(column, k)]);
-            }
-        }
-        sum
-    };
-    a.iter().map(|row| (0..M).map(|column| element(row, column)).collect()).collect()
-}
-
-fn transposed(a: &[Vec<Number>]) -> Vec<Vec<Number>> {
-    (0..a[0].len()).map(|j| a.iter().map(|row| row[j].clone()).collect()).collect()
-}
-
-impl<const N: usize> Reference<N> {
-    fn new(prior: &SVector<f64, N>) -> Self {
-        let element = |i, j| number(if i == j { prior[i] } else { 0.0 });
-        Self((0..N).map(|i| (0..N).map(|j| element(i, j)).collect()).collect())
-    }
-
-    fn step(&mut self, step: &Step<N>) {
-        let Step { transition, by, variances, measurement } = step;
-        let mut p = product(&transposed(&product(&self.0, transition)), transition);
-        let noise = congruence(by, &SMatrix::from_diagonal(variances));
-        for i in 0..N {
-            for j in 0..N {
-                p[i][j] += number(noise[(i, j)]);
-            }
-        }
-        let h = &measurement.matrix;
-        let cross = measurement.cross.unwrap();
-        // (P Hᵀ + C), a row for each state, and S.
-        let mut with = product(&p, h);
-        let mut s = product(&transposed(&with), h);
-        for i in 0..ROWS {
-            for j in 0..ROWS {
-                // H C is exact: a row of H has no two elements where a column of C has one.
-                let hc = (h * cross)[(i, j)] + (h * cross)[(j, i)];
-                s[i][j] += number(measurement.noise[(i, j)]) + number(hc);
-            }
-        }
-        for i in 0..N {
-            for j in 0..ROWS {
-                with[i][j] += number(cross[(i, j)]);
-            }
-        }
-        // Row by row of S, what it explains of everything is taken away.
-        for row in 0..ROWS {
-            for i in row + 1..ROWS {
-                let share = &s[i][row] / &s[row][row];
-                for j in row..ROWS {
-                    let less = &share * &s[row][j];
-                    s[i][j] -= less;
-                }
-                for state in &mut with {
-                    let less = &share * &state[row];
-                    state[i] -= less;
-                }
-            }
-            for i in 0..N {
-                let share = &with[i][row] / &s[row][row];
-                for j in 0..N {
-                    p[i][j] -= &share * &with[j][row];
-                }
-            }
-        }
-        self.0 = p;
-    }
-
-    fn variance_of(&self, combination: &RowSVector<f64, N>) -> f64 {
-        let half = product(&self.0, combination);
-        product(&transposed(&half), combination)[0][0].to_f64().value()
-    }
 }
 
 /// What sigmas are told of: each state, each row that is measured, and the twins' sum and difference.
@@ -171,12 +79,15 @@ fn worst<const N: usize, Form>(
     mut advance: impl FnMut(&mut Form, &Step<N>) -> Result<(), UpdateError>,
     variance: impl Fn(&Form, &RowSVector<f64, N>) -> f64,
 ) -> Result<f64, UpdateError> {
-    let mut reference = Reference::new(&prior::<N>(ratio));
+    let prior = prior::<N>(ratio);
+    let mut reference = LongCovariance::new(|i, j| if i == j { prior[i] } else { 0.0 });
     let mut form = start;
     let mut worst = 0.0_f64;
     for index in 0..60 {
         let step = Step::at(index);
-        reference.step(&step);
+        reference.predict(&step.transition, &step.noise());
+        let Measurement { matrix, noise, cross, .. } = &step.measurement;
+        reference.update(matrix, noise, &cross.unwrap());
         advance(&mut form, &step)?;
         if index % 10 == 9 {
             for combination in combinations(&step) {
@@ -203,8 +114,7 @@ fn worst_of_plain<const N: usize>(ratio: f64) -> Result<f64, UpdateError> {
     let covariance = SMatrix::from_diagonal(&prior::<N>(ratio));
     let filter = Filter { state: SVector::zeros(), covariance };
     let advance = |filter: &mut Filter<N>, step: &Step<N>| {
-        let noise = congruence(&step.by, &SMatrix::from_diagonal(&step.variances));
-        filter.predict(&step.transition, &noise);
+        filter.predict(&step.transition, &step.noise());
         filter.update(&step.measurement).map(|_| ())
     };
     worst((filter, ratio), advance, |filter, by| (by * filter.covariance * by.transpose())[0])

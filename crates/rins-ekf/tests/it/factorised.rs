@@ -162,6 +162,9 @@ fn a_matrix_that_has_lost_its_digits_has_no_factors() {
         of(f64::NAN, 0.0, 1.0),
         Err(CovarianceError::NotFinite { quantity: Quantity::Covariance })
     );
+    // Taken for what it is, it knows the one state with the other.
+    let known = Factors::of_rounded(&Matrix2::new(1.0 + 1e-15, 1.0, 1.0, 1.0), 1e-13).unwrap();
+    assert_eq!(known.covariance(), Matrix2::from_element(1.0));
     assert!(FactorisedFilter::new(Vector2::new(f64::NAN, 0.0), &Matrix2::identity()).is_err());
     assert!(Filter::new(Vector2::zeros(), Matrix2::identity()).is_ok());
 }
