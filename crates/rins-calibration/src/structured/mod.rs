@@ -8,7 +8,8 @@
 //!
 //! The form is the plain one, `P - P Hᵀ S⁻¹ H P`, in two blocks of three rows: it keeps the digits
 //! as long as what is measured is not known very much worse than it is measured. [`Covariance::ratios`]
-//! says how much; a rounding error is some 1e-16 of that.
+//! says how much; a rounding error is some 1e-16 of that. Beyond, [`crate::SpinAxisFilter`] goes on with
+//! factors of the covariance.
 #![expect(
     clippy::needless_range_loop,
     reason = "an index counts through rows of several arrays at once"
