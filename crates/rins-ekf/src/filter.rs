@@ -174,7 +174,8 @@ impl<const N: usize> Filter<N> {
         add_product(&mut covariance, &corrected_with_innovation, &minus_gain);
         let covariance = mirrored(covariance);
 
-        if !is_finite(&state) || !is_finite(&covariance) {
+        let whitened = factor.whiten(innovation);
+        if !is_finite(&state) || !is_finite(&covariance) || !is_finite(&whitened) {
             return Err(self.refusal(UpdateError::Overflow));
         }
         if let Some(index) = (0..N).find(|&i| covariance[(i, i)] < 0.0) {
@@ -195,7 +196,7 @@ impl<const N: usize> Filter<N> {
         Ok(Innovation {
             value: innovation,
             covariance: s,
-            whitened: factor.whiten(innovation),
+            whitened,
             inverse_scales: *factor.inverse_diagonal(),
         })
     }

@@ -70,6 +70,12 @@ fn overflow_is_refused() {
     let mut other = filter();
     other.state = Vector2::new(-f64::MAX, 0.0);
     assert_refused(other, &far, UpdateError::Overflow);
+    // The state says nothing of it, and its distance in sigmas is no number.
+    let mut sharp = measurement();
+    sharp.matrix = RowVector2::zeros();
+    sharp.noise[0] = f64::MIN_POSITIVE;
+    sharp.value[0] = f64::MAX;
+    assert_refused(filter(), &sharp, UpdateError::Overflow);
 }
 
 #[test]
