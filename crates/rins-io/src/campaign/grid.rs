@@ -92,11 +92,12 @@ impl ScenarioGrid {
         if let Some(grid) = document.root.iter().find(|entry| entry.key == "grid") {
             collect(path, "", grid, &mut axes)?;
         }
-        let cells = axes.iter().map(|axis| axis.values.len()).product::<usize>();
-        if cells > MOST_CELLS {
-            let reason = format!("{cells} combinations, more than {MOST_CELLS}");
+        let mut lengths = axes.iter().map(|axis| axis.values.len());
+        let cells = lengths.try_fold(1, usize::checked_mul).filter(|cells| *cells <= MOST_CELLS);
+        let Some(cells) = cells else {
+            let reason = format!("more than {MOST_CELLS} combinations");
             return Err(refusal(path, "", None, KeyProblem::Conflict { reason }));
-        }
+        };
         let cell = |mut place: usize| {
             let mut values = Vec::new();
             for axis in axes.iter().rev() {

@@ -14,6 +14,7 @@ mod damaged;
 mod draft;
 mod faults;
 mod formats;
+mod grid;
 mod log_refusals;
 mod logs;
 mod measured;
