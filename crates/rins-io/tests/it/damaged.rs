@@ -26,6 +26,10 @@ fn damaged_parquet_files_are_refused() {
         said("a.parquet", include_bytes!("../data/damaged/no_dictionary.parquet")),
         "a.parquet: not a Parquet file, or a damaged one: Parquet error: a page of a dictionary that is not there"
     );
+    assert_eq!(
+        said("a.parquet", include_bytes!("../data/damaged/short_page.parquet")),
+        "a.parquet: not a Parquet file, or a damaged one: Parquet error: a page of fewer numbers than it says"
+    );
 }
 
 /// A page's header holds a list of two billion items, and the file ends.

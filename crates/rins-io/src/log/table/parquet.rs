@@ -69,7 +69,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
                 .get_row_group(index)
                 .and_then(|group| group.get_column_page_reader(place))
                 .map_err(damaged)?;
-            let pages = Box::new(SoundPages::new(pages, most));
+            let pages = Box::new(SoundPages::new(pages, &schema.column(place), most));
             let pages = get_column_reader(schema.column(place), pages);
             let before = list.len();
             match read_chunk(pages, kind, most, &mut list) {

@@ -1,20 +1,49 @@
 //! Pages of a column, held against what the parser takes for granted of them.
 
-use parquet::basic::Encoding;
+use parquet::basic::{Encoding, Type};
 use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::errors::{ParquetError, Result};
+use parquet::schema::types::ColumnDescriptor;
 
 /// Pages of which each is what the parser relies upon.
 pub(super) struct SoundPages {
     pages: Box<dyn PageReader>,
     has_dictionary: bool,
+    /// The bytes of a number, and the bits of a level, none where nothing may be missing.
+    number: usize,
+    level: usize,
     /// The most values that all pages may hold.
     left: u64,
 }
 
 impl SoundPages {
-    pub(super) fn new(pages: Box<dyn PageReader>, most: u64) -> Self {
-        Self { pages, has_dictionary: false, left: most }
+    pub(super) fn new(pages: Box<dyn PageReader>, column: &ColumnDescriptor, most: u64) -> Self {
+        let number = match column.physical_type() {
+            Type::INT32 | Type::FLOAT => 4,
+            _ => 8,
+        };
+        let level = (16 - column.max_def_level().leading_zeros()) as usize;
+        Self { pages, has_dictionary: false, number, level, left: most }
+    }
+
+    /// How many bytes of a page its numbers take; `None` if its levels are longer than it is.
+    fn of_numbers(&self, page: &Page) -> Option<usize> {
+        let length = page.buffer().len();
+        let levels = match page {
+            Page::DataPageV2 { def_levels_byte_len, rep_levels_byte_len, .. } => {
+                usize::try_from(u64::from(*def_levels_byte_len) + u64::from(*rep_levels_byte_len))
+                    .ok()?
+            }
+            Page::DataPage { buf, def_level_encoding: Encoding::RLE, .. } if self.level > 0 => {
+                let said = buf.get(..4)?.try_into().ok()?;
+                usize::try_from(u32::from_le_bytes(said)).ok()?.checked_add(4)?
+            }
+            Page::DataPage { num_values, .. } => {
+                (usize::try_from(*num_values).ok()? * self.level).div_ceil(8)
+            }
+            Page::DictionaryPage { .. } => 0,
+        };
+        length.checked_sub(levels)
     }
 
     fn refuse_unsound(&mut self, page: &Page) -> Result<()> {
@@ -39,6 +68,12 @@ impl SoundPages {
                 if levels > buf.len() as u64 {
                     return damaged("levels that are longer than their page");
                 }
+            }
+        }
+        if page.encoding() == Encoding::BYTE_STREAM_SPLIT {
+            let room = self.of_numbers(page).map_or(0, |length| length / self.number);
+            if (room as u64) < u64::from(page.num_values()) {
+                return damaged("a page of fewer numbers than it says");
             }
         }
         if by_dictionary && !self.has_dictionary {
