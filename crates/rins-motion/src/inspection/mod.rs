@@ -9,6 +9,7 @@ mod spin;
 mod suspicion;
 mod timing;
 mod turning;
+mod whole_turns;
 
 use std::ops::Range;
 
@@ -23,6 +24,7 @@ pub use timing::Timing;
 use self::orientation::Evidence;
 use self::spin::{Spin, table_angle};
 use self::turning::Turning;
+use self::whole_turns::WholeTurns;
 use crate::recording::Recording;
 use crate::rest::{RestMean, rest_spans};
 use crate::station::Station;
@@ -36,6 +38,9 @@ const NARROW_FACTOR_WITHIN: f64 = 0.005;
 
 /// The shortest rest that is reported \[s\].
 const SHORTEST_REST: f64 = 1.0;
+
+/// Rests that last this share of the longest are looked at like it.
+const LONG_REST: f64 = 0.5;
 
 /// A mean rate at rest up to this many times the Earth's still shows the Earth's.
 const EARTH_RATE_VISIBLE: f64 = 2.0;
@@ -102,6 +107,8 @@ pub struct Inspection {
     pub resolution: [Option<f64>; 6],
     /// For each channel the longest run of equal readings.
     pub longest_repeat: [usize; 6],
+    /// Whether the table makes whole turns, over which directions were averaged.
+    pub turns_whole: bool,
     /// Whether the mean rate at rest is near enough to the Earth's to show it.
     pub earth_rate_visible: bool,
     /// What looks wrong.
@@ -160,27 +167,44 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
     suspicions.extend(channel::suspicions(recording, expected, &stands));
     let timing = Timing::of(recording);
     let longest = rests.iter().max_by(|a, b| a.mean.duration.total_cmp(&b.mean.duration));
-    let gravity = longest
-        .zip(expected.station.as_ref())
-        .and_then(|(rest, station)| gravity_suspicion(rest, station, &timing));
     let table_angle = table_angle(recording);
+    let whole_turns = WholeTurns::of(recording, table_angle.as_deref());
+    // A table that turns slowly shows gravity as well as a rest does.
+    let force = longest
+        .map(|rest| rest.mean.rates.specific_force.norm())
+        .or_else(|| whole_turns.as_ref().and_then(|turns| turns.force));
+    let gravity = force
+        .zip(expected.station.as_ref())
+        .and_then(|(force, station)| gravity_suspicion(force, station, &timing));
     let spin = Spin::of(recording, table_angle.as_deref());
     let exchanged = exchange::suspicion(recording, table_angle.as_deref());
     let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected));
     let right_units =
         gravity.is_none() && exchanged.is_none() && spin.as_ref().is_none_or(Spin::counts);
     // What exchanged columns look like beside is nothing of its own.
+    // A table that moved otherwise than is said has not that angle either, but perhaps at rest.
+    let followed = !matches!(spun, Some(Suspicion::SpinProfile { .. }));
     let of_units = if exchanged.is_some() { [exchanged, None] } else { [gravity, spun] };
     suspicions.extend(of_units.into_iter().flatten());
     // Directions mean something once units are right.
     if right_units {
-        let rest = longest.map(|rest| {
-            let angle =
-                table_angle.as_ref().and_then(|angle| median(angle[rest.span.clone()].to_vec()));
-            (rest, angle)
-        });
-        let turning = Turning::of(recording, &stands);
-        let evidence = Evidence::new(expected, rest, spin.as_ref(), turning);
+        let share = if followed { LONG_REST } else { 1.0 };
+        let lasting = longest.map_or(0.0, |rest| share * rest.mean.duration);
+        let mut long: Vec<&RestSeen> =
+            rests.iter().filter(|rest| rest.mean.duration >= lasting).collect();
+        long.sort_by(|a, b| b.mean.duration.total_cmp(&a.mean.duration));
+        let angle = |rest: &RestSeen| {
+            table_angle.as_ref().and_then(|angle| median(angle[rest.span.clone()].to_vec()))
+        };
+        let evidence = Evidence {
+            expected,
+            station: expected.station,
+            rests: long.into_iter().map(|rest| (rest, angle(rest))).collect(),
+            whole_turns: whole_turns.as_ref().filter(|_| followed),
+            interval: timing.interval,
+            spin: spin.as_ref().map(|spin| spin.all),
+            turning: Turning::of(recording, &stands),
+        };
         suspicions.extend(evidence.suspicions());
     }
     Inspection {
@@ -188,6 +212,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
             / std::f64::consts::TAU,
         spin_ratio: spin.map(|spin| spin.ratio),
         table_lag: TableLag::of(recording),
+        turns_whole: whole_turns.is_some(),
         resolution: std::array::from_fn(|index| channel::resolution(&channels[index])),
         longest_repeat,
         earth_rate_visible: rests
@@ -207,8 +232,8 @@ fn reading(sample: &rins_frames::Increments, channel: usize) -> f64 {
     }
 }
 
-fn gravity_suspicion(rest: &RestSeen, station: &Station, timing: &Timing) -> Option<Suspicion> {
-    let (seen, expected) = (rest.mean.rates.specific_force.norm(), station.gravity);
+fn gravity_suspicion(seen: f64, station: &Station, timing: &Timing) -> Option<Suspicion> {
+    let expected = station.gravity;
     let cause = nearest_factor(
         seen / expected,
         &[

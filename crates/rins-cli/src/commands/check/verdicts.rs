@@ -176,10 +176,12 @@ fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
                 | Suspicion::Handedness { .. }
         )
     };
+    let whole = inspection.turns_whole;
     let of_gyro = if turns { "the gyros count the table's turn" } else { "gyros not shown" };
-    let of_accel = if rests { "accelerometers show gravity" } else { "accelerometers not shown" };
+    let of_accel =
+        if rests || whole { "accelerometers show gravity" } else { "accelerometers not shown" };
     let evidence = format!("{of_gyro}, {of_accel}");
-    let level = rests && loaded.rig.attitude.is_some();
+    let level = (rests || whole) && loaded.rig.attitude.is_some();
     let earth = if inspection.earth_rate_visible { ", the Earth's rate" } else { "" };
     let signs = match (level, turns) {
         (true, true) => {

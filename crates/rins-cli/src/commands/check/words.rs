@@ -18,7 +18,7 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
     };
     let seen = match suspicion {
         Suspicion::Gravity { seen, expected, cause } => format!(
-            "specific force at rest is {seen:.5} m/s^2 where gravity is {expected:.5}: {}",
+            "the specific force is {seen:.5} m/s^2 where gravity is {expected:.5}: {}",
             because(*cause)
         ),
         Suspicion::SpinScale { ratio, cause } => {
@@ -57,13 +57,13 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
             reading_in_words(channel, *reading)
         ),
         Suspicion::Level { off, limit, .. } => format!(
-            "the specific force at rest is {:.2} deg off the vertical that [attitude] and the table's angle have, where \
+            "the specific force is {:.2} deg off the vertical that [attitude] and the table's angle have, where \
              {:.2} deg is the most to expect",
             off / DEG,
             limit / DEG
         ),
         Suspicion::EarthRate { off, limit, .. } => format!(
-            "the mean rate at rest is {:.2} deg/h off the Earth's by [attitude], [site] and the table's angle, where \
+            "the mean rate is {:.2} deg/h off the Earth's by [attitude], [site] and the table's angle, where \
              {:.2} deg/h is the most to expect",
             off / DEG_PER_HOUR,
             limit / DEG_PER_HOUR
