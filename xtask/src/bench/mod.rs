@@ -40,6 +40,7 @@ type Row = (&'static str, &'static str, Option<&'static str>);
 const ROWS: &[Row] = &[
     ("filter_step_12", "filter_step_12/one", Some("filter_step_12/dense")),
     ("filter_step_12_lanes", "filter_step_12/lanes", Some("filter_step_12/dense")),
+    ("filter_step_12_avx2", "filter_step_12/avx2", Some("filter_step_12/dense")),
     ("filter_step_24", "filter_step_24/one", Some("filter_step_24/dense")),
     ("filter_step_24_lanes", "filter_step_24/lanes", Some("filter_step_24/dense")),
     ("filter_step_40", "filter_step_40/one", Some("filter_step_40/dense")),

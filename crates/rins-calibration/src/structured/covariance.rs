@@ -34,8 +34,8 @@ impl<T: Real, const N: usize> Covariance<T, N> {
     /// Copies three rows that have moved into their columns; the block where they cross has no say.
     #[inline(always)]
     pub(super) fn mirror(&mut self, first: usize) {
-        for other in 0..N {
-            if other < first || other >= first + 3 {
+        for others in [0..first, first + 3..N] {
+            for other in others {
                 for k in first..first + 3 {
                     self.rows[other][k] = self.rows[k][other];
                 }

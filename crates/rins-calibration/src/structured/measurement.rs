@@ -8,22 +8,23 @@ use super::covariance::Covariance;
 pub(super) type Rows<T, const N: usize> = [[T; N]; 3];
 
 /// What three rows say of the state.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Correction<T, const N: usize> {
+#[derive(Debug)]
+pub(super) struct Correction<'a, T, const N: usize> {
     /// `P Hᵀ + C` over the Cholesky factor of `S`, transposed: the part of the state's error that each
     /// whitened innovation shows.
-    shown: Rows<T, N>,
+    shown: &'a Rows<T, N>,
     /// The Cholesky factor's subdiagonal elements: (1,0), (2,0) and (2,1).
     below: [T; 3],
     /// The inverse of its diagonal; not a number where `S` is not positive definite.
     pub(super) inverse_scales: [T; 3],
 }
 
-impl<T: Real, const N: usize> Correction<T, N> {
+impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
     /// The correction where `with_state` is the covariance of the innovation with the state's error,
-    /// `(P Hᵀ + C)ᵀ`, and `innovation` the innovation's own: (0,0), (1,0), (1,1), (2,0), (2,1), (2,2).
+    /// `(P Hᵀ + C)ᵀ`, which it makes its own, and `innovation` the innovation's: (0,0), (1,0), (1,1),
+    /// (2,0), (2,1), (2,2).
     #[inline(always)]
-    pub(super) fn new(with_state: &Rows<T, N>, innovation: [T; 6]) -> Self {
+    pub(super) fn new(with_state: &'a mut Rows<T, N>, innovation: [T; 6]) -> Self {
         let [s00, s10, s11, s20, s21, s22] = innovation;
         let one = s00.constant(1.0);
         let i0 = one / s00.sqrt();
@@ -31,15 +32,15 @@ impl<T: Real, const N: usize> Correction<T, N> {
         let i1 = one / (s11 - l10 * l10).sqrt();
         let l21 = (s21 - l20 * l10) * i1;
         let i2 = one / (s22 - l20 * l20 - l21 * l21).sqrt();
-        let mut shown = *with_state;
+        let [first, second, third] = with_state;
         for j in 0..N {
-            let x0 = with_state[0][j] * i0;
-            let x1 = (with_state[1][j] - x0 * l10) * i1;
-            shown[0][j] = x0;
-            shown[1][j] = x1;
-            shown[2][j] = (with_state[2][j] - x0 * l20 - x1 * l21) * i2;
+            let x0 = first[j] * i0;
+            let x1 = (second[j] - x0 * l10) * i1;
+            third[j] = (third[j] - x0 * l20 - x1 * l21) * i2;
+            first[j] = x0;
+            second[j] = x1;
         }
-        Self { shown, below: [l10, l20, l21], inverse_scales: [i0, i1, i2] }
+        Self { shown: with_state, below: [l10, l20, l21], inverse_scales: [i0, i1, i2] }
     }
 
     /// The innovation over its Cholesky factor.
@@ -65,14 +66,32 @@ impl<T: Real, const N: usize> Correction<T, N> {
     /// Takes what is now known from the covariance.
     #[inline(always)]
     pub(super) fn reduce(&self, p: &mut Covariance<T, N>) {
-        let [a, b, c] = &self.shown;
+        let [a, b, c] = self.shown;
         if self.below[0].lanes() > 1 {
-            for row in 0..N {
-                for column in 0..=row {
-                    let known = a[row] * a[column] + b[row] * b[column] + c[row] * c[column];
-                    let left = p.rows[row][column] - known;
-                    p.rows[row][column] = left;
-                    p.rows[column][row] = left;
+            // Two rows at a time, so that what a column shows is read once for both.
+            let pairs = N / 2;
+            for pair in 0..pairs {
+                let (row, next) = (2 * pair, 2 * pair + 1);
+                let (x, y, z) = (a[row], b[row], c[row]);
+                let (u, v, w) = (a[next], b[next], c[next]);
+                for column in 0..next {
+                    let (a, b, c) = (a[column], b[column], c[column]);
+                    let first = p.rows[row][column] - (x * a + y * b + z * c);
+                    let second = p.rows[next][column] - (u * a + v * b + w * c);
+                    p.rows[row][column] = first;
+                    p.rows[next][column] = second;
+                    p.rows[column][row] = first;
+                    p.rows[column][next] = second;
+                }
+                p.rows[next][next] = p.rows[next][next] - (u * u + v * v + w * w);
+            }
+            if 2 * pairs < N {
+                let (x, y, z) = (a[N - 1], b[N - 1], c[N - 1]);
+                for column in 0..N {
+                    let left =
+                        p.rows[N - 1][column] - (x * a[column] + y * b[column] + z * c[column]);
+                    p.rows[N - 1][column] = left;
+                    p.rows[column][N - 1] = left;
                 }
             }
         } else {

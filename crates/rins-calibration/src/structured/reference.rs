@@ -55,13 +55,13 @@ fn transition(f: &StateMatrix, interval: f64) -> StateMatrix {
     let half_position = part(POSITION, 0.5);
     let mut velocity = part(VELOCITY, 1.0);
     let attitude = part(ATTITUDE, 1.0);
-    // The attitude half-way.
+    // The attitude half-way: turned with the level, then by what the gyros get wrong.
     let half_way = (attitude - StateMatrix::identity()) * 0.5;
     let force = VELOCITY.get(ATTITUDE, &velocity);
-    for columns in [ATTITUDE, SPIN_AXIS_ERRORS] {
-        let more = VELOCITY.get(columns, &velocity) + force * ATTITUDE.get(columns, &half_way);
-        VELOCITY.set(columns, &mut velocity, &more);
-    }
+    let force = force + force * ATTITUDE.get(ATTITUDE, &half_way);
+    VELOCITY.set(ATTITUDE, &mut velocity, &force);
+    let by_gyros = force * ATTITUDE.get(SPIN_AXIS_ERRORS, &half_way);
+    VELOCITY.set(SPIN_AXIS_ERRORS, &mut velocity, &by_gyros);
     half_position * attitude * velocity * half_position
 }
 

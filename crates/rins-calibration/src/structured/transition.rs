@@ -6,6 +6,7 @@ use rins_frames::EARTH_RATE;
 use rins_lanes::{Matrix, Real, Vector};
 
 use super::covariance::Covariance;
+use super::measurement::Rows;
 use super::{ATTITUDE, NAVIGATION, POSITION, VELOCITY};
 
 /// How a constant enters: through the sensor along a body axis, or not at all.
@@ -17,6 +18,18 @@ pub enum Input {
     Accel(usize),
     /// Into no sensor: it is only measured.
     None,
+}
+
+impl Input {
+    /// The gyro that it enters, if it is one.
+    const fn gyro(self) -> Option<usize> {
+        if let Self::Gyro(axis) = self { Some(axis) } else { None }
+    }
+
+    /// The accelerometer that it enters, if it is one.
+    const fn accel(self) -> Option<usize> {
+        if let Self::Accel(axis) = self { Some(axis) } else { None }
+    }
 }
 
 /// The states of a filter, known when it is compiled: nine navigation errors, then constants.
@@ -47,8 +60,6 @@ pub struct Transition<T, M, const N: usize> {
     coriolis: Vector<T>,
     /// Velocity by attitude.
     force: Matrix<T>,
-    /// Velocity by the gyros' errors.
-    force_by_gyro: Matrix<T>,
     /// Attitude by attitude.
     nav_turn: Vector<T>,
     /// Attitude by the gyros' errors.
@@ -108,7 +119,6 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
             weight: [-weight, weight, weight * meridian * 2.0],
             coriolis: (earth + nav_rate).scaled(-interval),
             force: force + force * Matrix::cross(&nav_turn.scaled(0.5)),
-            force_by_gyro: force * turn_by_gyro.scaled(0.5),
             nav_turn,
             turn_by_gyro,
             push_by_accel: means.nav_from_body.scaled(interval),
@@ -136,8 +146,17 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
     #[inline(always)]
     pub fn carry(&self, p: &mut Covariance<T, N>) {
         self.half_position(p);
-        self.velocity(p);
-        self.attitude(p);
+        let mut turns = self.turns(p);
+        self.velocity(p, &turns);
+        // Of all that the gyros' errors go together with, the velocities alone have moved.
+        for k in VELOCITY..VELOCITY + 3 {
+            let (gyros, _) = self.sensed_by(&p.rows[k]);
+            let turn = self.turn_by_gyro * gyros;
+            for axis in 0..3 {
+                turns[axis][k] = turn[axis];
+            }
+        }
+        self.attitude(p, &turns);
         self.half_position(p);
         let [of_velocity, of_attitude] = self.noise;
         for axis in 0..3 {
@@ -157,9 +176,10 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         half_way(&mut x);
         let (gyros, accels) = self.sensed_by(&x);
         let column = [x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8]];
-        let pushed = self.pushed(column, &gyros, &accels);
+        let turn = self.turn_by_gyro * gyros;
+        let pushed = self.pushed(column, &turn, &accels);
         x[VELOCITY..VELOCITY + 3].copy_from_slice(&pushed.0);
-        let turned = self.turned(&Vector([x[6], x[7], x[8]]), &gyros);
+        let turned = self.turned(&Vector([x[6], x[7], x[8]]), &turn);
         x[ATTITUDE..ATTITUDE + 3].copy_from_slice(&turned.0);
         half_way(&mut x);
         x
@@ -199,22 +219,26 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         p.mirror(POSITION);
     }
 
-    /// The errors that the constants put into gyros and accelerometers, with every state.
+    /// What the constants put into the sensors along `kind`'s axes, with every state.
     #[inline(always)]
-    fn sensed(&self, p: &Covariance<T, N>) -> ([[T; N]; 3], [[T; N]; 3]) {
-        let zero = self.half_angle.constant(0.0);
-        let (mut gyros, mut accels) = ([[zero; N]; 3], [[zero; N]; 3]);
+    fn sensed(&self, p: &Covariance<T, N>, kind: fn(Input) -> Option<usize>) -> Rows<T, N> {
+        let mut sums = [[self.half_angle.constant(0.0); N]; 3];
+        let mut begun = [false; 3];
         for index in NAVIGATION..N {
-            let (sum, amount) = match M::INPUTS[index] {
-                Input::Gyro(axis) => (&mut gyros[axis], self.regressors[index]),
-                Input::Accel(axis) => (&mut accels[axis], self.regressors[index]),
-                Input::None => continue,
-            };
-            for j in 0..N {
-                sum[j] = sum[j] + p.rows[index][j] * amount;
+            let Some(axis) = kind(M::INPUTS[index]) else { continue };
+            let (sum, amount) = (&mut sums[axis], self.regressors[index]);
+            if begun[axis] {
+                for j in 0..N {
+                    sum[j] = sum[j] + p.rows[index][j] * amount;
+                }
+            } else {
+                for j in 0..N {
+                    sum[j] = p.rows[index][j] * amount;
+                }
             }
+            begun[axis] = true;
         }
-        (gyros, accels)
+        sums
     }
 
     /// The same with one state, of which `row` holds the covariances.
@@ -232,31 +256,32 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         (gyros, accels)
     }
 
-    /// The velocity error after the interval, of one column of any matrix: nine navigation errors
-    /// above what the gyros and accelerometers get wrong.
+    /// The velocity error after the interval, of one column of any matrix: nine navigation errors, what
+    /// the gyros' errors turn meanwhile, and what the accelerometers get wrong.
     #[inline(always)]
-    fn pushed(&self, column: [T; NAVIGATION], gyros: &Vector<T>, accels: &Vector<T>) -> Vector<T> {
+    fn pushed(&self, column: [T; NAVIGATION], turn: &Vector<T>, accels: &Vector<T>) -> Vector<T> {
         let [x, y, up, east, north, rise, ..] = column;
         let attitude = Vector([column[6], column[7], column[8]]);
         let [by_y, by_x, by_height] = self.weight;
         let velocity = Vector([east, north, rise]);
+        // The attitude half-way.
         let pushed = Vector([y * by_y, x * by_x, up * by_height])
             + self.coriolis.cross(&velocity)
-            + self.force * attitude
-            + self.force_by_gyro * *gyros;
+            + self.force * (attitude + turn.scaled(0.5));
         velocity + if Self::PUSHES { pushed + self.push_by_accel * *accels } else { pushed }
     }
 
+    /// Carries the velocities; what the gyros' errors turn, with every state, was `turns` before.
     #[inline(always)]
-    fn velocity(&self, p: &mut Covariance<T, N>) {
-        let (gyros, accels) = self.sensed(p);
+    fn velocity(&self, p: &mut Covariance<T, N>, turns: &Rows<T, N>) {
+        let accels = if Self::PUSHES { self.sensed(p, Input::accel) } else { *turns };
         for j in 0..N {
             let r = &p.rows;
             let column =
                 [r[0][j], r[1][j], r[2][j], r[3][j], r[4][j], r[5][j], r[6][j], r[7][j], r[8][j]];
-            let gyros = Vector([gyros[0][j], gyros[1][j], gyros[2][j]]);
+            let turn = Vector([turns[0][j], turns[1][j], turns[2][j]]);
             let accels = Vector([accels[0][j], accels[1][j], accels[2][j]]);
-            let after = self.pushed(column, &gyros, &accels);
+            let after = self.pushed(column, &turn, &accels);
             p.rows[VELOCITY][j] = after[0];
             p.rows[VELOCITY + 1][j] = after[1];
             p.rows[VELOCITY + 2][j] = after[2];
@@ -266,24 +291,38 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
             let row = &p.rows[VELOCITY + k];
             let (gyros, accels) = self.sensed_by(row);
             let column = [row[0], row[1], row[2], row[3], row[4], row[5], row[6], row[7], row[8]];
-            crossing[k] = self.pushed(column, &gyros, &accels).0;
+            crossing[k] = self.pushed(column, &(self.turn_by_gyro * gyros), &accels).0;
         }
         p.set_crossing(VELOCITY, &crossing);
         p.mirror(VELOCITY);
     }
 
-    /// The attitude error after the interval.
+    /// What the gyros' errors turn over the interval, with every state.
     #[inline(always)]
-    fn turned(&self, attitude: &Vector<T>, gyros: &Vector<T>) -> Vector<T> {
-        *attitude + self.nav_turn.cross(attitude) + self.turn_by_gyro * *gyros
+    fn turns(&self, p: &Covariance<T, N>) -> Rows<T, N> {
+        let mut turns = self.sensed(p, Input::gyro);
+        let [a, b, c] = &mut turns;
+        for j in 0..N {
+            let turn = self.turn_by_gyro * Vector([a[j], b[j], c[j]]);
+            a[j] = turn[0];
+            b[j] = turn[1];
+            c[j] = turn[2];
+        }
+        turns
     }
 
+    /// The attitude error after the interval.
     #[inline(always)]
-    fn attitude(&self, p: &mut Covariance<T, N>) {
-        let (gyros, _) = self.sensed(p);
+    fn turned(&self, attitude: &Vector<T>, turn: &Vector<T>) -> Vector<T> {
+        *attitude + self.nav_turn.cross(attitude) + *turn
+    }
+
+    /// Carries the attitudes, likewise.
+    #[inline(always)]
+    fn attitude(&self, p: &mut Covariance<T, N>, turns: &Rows<T, N>) {
         for j in 0..N {
             let column = Vector([p.rows[6][j], p.rows[7][j], p.rows[8][j]]);
-            let after = self.turned(&column, &Vector([gyros[0][j], gyros[1][j], gyros[2][j]]));
+            let after = self.turned(&column, &Vector([turns[0][j], turns[1][j], turns[2][j]]));
             p.rows[6][j] = after[0];
             p.rows[7][j] = after[1];
             p.rows[8][j] = after[2];
@@ -292,7 +331,8 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         for k in 0..3 {
             let row = &p.rows[ATTITUDE + k];
             let (gyros, _) = self.sensed_by(row);
-            crossing[k] = self.turned(&Vector([row[6], row[7], row[8]]), &gyros).0;
+            let turn = self.turn_by_gyro * gyros;
+            crossing[k] = self.turned(&Vector([row[6], row[7], row[8]]), &turn).0;
         }
         p.set_crossing(ATTITUDE, &crossing);
         p.mirror(ATTITUDE);

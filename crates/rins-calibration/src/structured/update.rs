@@ -54,19 +54,21 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         velocity_noise: f64,
     ) -> Found<T, N> {
         let zero_velocity = velocity_noise * velocity_noise;
-        let with_state = [self.rows[VELOCITY], self.rows[VELOCITY + 1], self.rows[VELOCITY + 2]];
+        let mut with_state =
+            [self.rows[VELOCITY], self.rows[VELOCITY + 1], self.rows[VELOCITY + 2]];
         let mut s = crossing(&with_state, VELOCITY);
         for axis in 0..3 {
             s[axis][axis] = s[axis][axis] + zero_velocity;
         }
-        let first = Correction::new(&with_state, lower(&s));
+        let first = Correction::new(&mut with_state, lower(&s));
         let first_whitened = first.whiten(velocity);
         first.reduce(self);
         let mut state = [velocity[0].constant(0.0); N];
         first.add_to(&mut state, &first_whitened);
 
-        let with_state = comparison.with_state::<M>(self);
-        let second = Correction::new(&with_state, comparison.innovation::<M>(&with_state));
+        let mut with_state = comparison.with_state::<M>(self);
+        let innovation = comparison.innovation::<M>(&with_state);
+        let second = Correction::new(&mut with_state, innovation);
         let expected = comparison.rows_of::<M>(&state);
         let second_whitened = second.whiten(&(comparison.difference - expected));
         second.reduce(self);

@@ -1,3 +1,4 @@
 //! Integration tests of the calibration.
 mod consistency;
 mod lanes;
+mod soak;
