@@ -8,11 +8,11 @@ use rins_lanes::{Matrix, Vector, rotation};
 /// 200 Hz \[s\].
 const INTERVAL: f64 = 0.005;
 
-/// A turn forward in five seconds, and a turn back.
-const PERIOD: usize = 2_000;
+/// A turn forward in one second, and a turn back.
+const PERIOD: usize = 400;
 
 /// The table's rate \[rad/s\].
-const RATE: f64 = core::f64::consts::TAU / 5.0;
+const RATE: f64 = core::f64::consts::TAU;
 
 const VELOCITY_NOISE: f64 = 1e-4;
 /// Of accelerometers \[m/s²/√Hz\] and gyros \[rad/s/√Hz\].
