@@ -1,7 +1,7 @@
 //! The question put to some runs, and how an answer is tried.
 
 use nalgebra::DMatrix;
-use rins_estimation::{Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, fit};
+use rins_estimation::{Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, fit, fit_near};
 use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Role};
 
@@ -41,6 +41,13 @@ impl Case<'_> {
         let mut model = self.given.clone();
         model.terms.extend(causes.iter().cloned());
         fit(self.runs, &model, self.imu, self.knowledge, |_| ())
+    }
+
+    /// The same where much the same has been fitted.
+    pub(crate) fn fit_near(&self, near: &Fit, causes: &[Chosen]) -> Result<Fit, FitError> {
+        let mut model = self.given.clone();
+        model.terms.extend(causes.iter().cloned());
+        fit_near(near, self.runs, &model, self.imu, self.knowledge)
     }
 
     /// The noise that was found, and weaker flicker, which a further effect might have passed for.

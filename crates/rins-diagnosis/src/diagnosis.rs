@@ -109,7 +109,7 @@ pub fn diagnose(
     given.terms.extend(fast.iter().map(|(line, _)| line.clone()));
     let case = Case { given: &given, ..case };
     if !fast.is_empty() {
-        present = case.fit(&[])?;
+        present = case.fit_near(&before, &[])?;
     }
     let mut found: Vec<Chosen> = Vec::new();
     let mut not_testable = None;
@@ -133,7 +133,7 @@ pub fn diagnose(
         }
         let earlier = found.len();
         found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
-        let Ok(fitted) = case.fit(&found) else {
+        let Ok(fitted) = case.fit_near(&present, &found) else {
             found.truncate(earlier);
             break;
         };

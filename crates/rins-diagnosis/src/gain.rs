@@ -5,7 +5,7 @@ use std::ops::Range;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rins_estimation::{
-    Fit, FitError, Foretold, Indefinite, NoiseKnowledge, Run, fit, foretold, linearise,
+    Fit, FitError, Foretold, Indefinite, NoiseKnowledge, Run, fit, fit_near, foretold, linearise,
 };
 use rins_imu::ImuSpec;
 use rins_terms::{Model, NotUndone, Owner, Role};
@@ -108,7 +108,12 @@ impl Gain {
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        Self::of(runs, [as_expected(before), as_expected(after)], imu, knowledge)
+        Self::of(
+            runs,
+            [(Some(before), as_expected(before)), (Some(after), as_expected(after))],
+            imu,
+            knowledge,
+        )
     }
 
     /// The same on runs that played no part at all: what belongs to the sensors is held as it was found, and what belongs to
@@ -122,12 +127,12 @@ impl Gain {
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        Self::of(others, [transferred(before), transferred(after)], imu, knowledge)
+        Self::of(others, [(None, transferred(before)), (None, transferred(after))], imu, knowledge)
     }
 
     fn of(
         runs: &[Run],
-        [before, after]: [Model; 2],
+        [(near_before, before), (near_after, after)]: [(Option<&Fit>, Model); 2],
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
@@ -142,9 +147,12 @@ impl Gain {
             .collect();
         let rest: Vec<Run> =
             runs.iter().zip(&spans).map(|(r, s)| r.clone().leaving_out(s.clone())).collect();
-        let fitted = |model: &Model| fit(&rest, model, imu, knowledge, |_| ());
-        let first = fitted(&before)?;
-        let second = if before == after { first.clone() } else { fitted(&after)? };
+        let fitted = |near: Option<&Fit>, model: &Model| match near {
+            Some(near) => fit_near(near, &rest, model, imu, knowledge),
+            None => fit(&rest, model, imu, knowledge, |_| ()),
+        };
+        let first = fitted(near_before, &before)?;
+        let second = if before == after { first.clone() } else { fitted(near_after, &after)? };
         let scores = [scored(runs, &held, &first)?, scored(runs, &held, &second)?];
         let rises: Vec<f64> =
             scores[0].blocks.iter().zip(&scores[1].blocks).map(|(a, b)| b - a).collect();

@@ -96,7 +96,7 @@ impl Case<'_> {
                     return Ok((present, causes));
                 }
             }
-            present = self.fit(&found)?;
+            present = self.fit_near(&present, &found)?;
         }
         Ok((present, Vec::new()))
     }

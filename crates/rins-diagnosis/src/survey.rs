@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise};
+use rins_estimation::{Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise_coarsely};
 use rins_imu::ImuSpec;
 use rins_terms::Free;
 
@@ -68,7 +68,7 @@ impl Survey {
             model.terms.extend(candidates.iter().map(|candidate| candidate.chosen.clone()));
             free = model.free(imu);
             let columns: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
-            linear.push(linearise(run, &model, &columns));
+            linear.push(linearise_coarsely(run, &model, &columns));
         }
         let known_free = free.iter().filter(|f| f.term < fit.model().terms.len()).count();
         let layout =

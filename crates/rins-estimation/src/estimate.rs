@@ -53,6 +53,8 @@ pub struct Fit {
     pub linear: Vec<Linear>,
     /// How the iteration went.
     pub iterations: Vec<Iteration>,
+    /// The inverse of about the curvature where the noise was found, if it was looked for.
+    pub(crate) inverse_curvature: Option<DMatrix<f64>>,
 }
 
 impl Fit {

@@ -4,7 +4,8 @@
 //! of a linear model: sums of their products are the information, and equal what a filter with the
 //! parameters as states would find from a diffuse start.
 
-use nalgebra::{Cholesky, DMatrix, Dim, Dyn, Matrix, SMatrix, SVector, StorageMut};
+use nalgebra::{Cholesky, DMatrix, SMatrix, SVector};
+use rins_lanes::Arch;
 
 use crate::gram::Gram;
 use crate::linear::{Epoch, Linear};
@@ -87,8 +88,8 @@ pub fn innovations(
     Ok(all)
 }
 
-/// Runs the filter; `each` is given what every epoch shows of the columns, whitened, a row a column, and half
-/// the logarithm of the determinant.
+/// Runs the filter; `each` is given what every epoch shows of the columns, whitened, a row a column, and
+/// half the logarithm of the determinant.
 ///
 /// With a `combination` the columns are summed up, each times its number, into one.
 fn pass(
@@ -192,7 +193,7 @@ impl Pass {
             }
         }
         let mut gain = of_shown + &step.cross;
-        over_transposed(&mut gain, &l);
+        over_transposed(gain.as_mut_slice(), &l);
 
         self.carry_columns(step, inputs, &l, &gain);
         self.carry_covariance(step, &of_navigation, &gain);
@@ -213,34 +214,30 @@ impl Pass {
 
     /// What of the columns is shown, whitened, and what is carried on.
     fn carry_columns(&mut self, step: &Step, inputs: &Inputs, l: &Square, gain: &DMatrix<f64>) {
-        let Self { columns, whitened: seen, carried, .. } = self;
+        let Self { columns, whitened, carried, .. } = self;
+        let count = columns.nrows();
+        let columns = columns.as_mut_slice();
         carried.tr_copy_from(&inputs.navigation);
-        add_times_transposed(carried, columns, &step.navigation);
-        let mut attitude = seen.columns_mut(0, 3);
-        attitude.tr_copy_from(&inputs.shown_attitude);
-        add_times_transposed(&mut attitude, columns, &step.attitude);
-        seen.columns_mut(3, 3).copy_from(&carried.columns(3, 3));
+        add_times_transposed(carried.as_mut_slice(), columns, &step.navigation);
+        let carried = carried.as_slice();
+        whitened.columns_mut(0, 3).tr_copy_from(&inputs.shown_attitude);
+        let seen = whitened.as_mut_slice();
+        add_times_transposed(&mut seen[..3 * count], columns, &step.attitude);
+        seen[3 * count..].copy_from_slice(&carried[3 * count..]);
         if !self.shows_angle {
-            seen.column_mut(2).fill(0.0);
+            seen[2 * count..3 * count].fill(0.0);
         }
         over_transposed(seen, l);
-        columns.columns_mut(0, NAVIGATION).copy_from(carried);
-        let seen: [&[f64]; SHOWN] = {
-            let count = seen.nrows();
-            let (seen, mut start) = (seen.as_slice(), 0);
-            [(); SHOWN].map(|()| {
-                start += count;
-                &seen[start - count..start]
-            })
-        };
-        for (state, mut column) in columns.column_iter_mut().enumerate() {
-            let decay = if state < NAVIGATION { 1.0 } else { step.decay[state - NAVIGATION] };
-            let gain: [f64; SHOWN] = std::array::from_fn(|part| gain[(state, part)]);
-            for (place, value) in column.iter_mut().enumerate() {
-                let shown: f64 = (0..SHOWN).map(|part| gain[part] * seen[part][place]).sum();
-                *value = *value * decay - shown;
+        columns[..NAVIGATION * count].copy_from_slice(carried);
+        Arch::new().dispatch(|| {
+            let mut parts = seen.chunks_exact(count);
+            let seen: [&[f64]; SHOWN] = std::array::from_fn(|_| parts.next().unwrap_or_default());
+            for (state, column) in columns.chunks_exact_mut(count).enumerate() {
+                let decay = if state < NAVIGATION { 1.0 } else { step.decay[state - NAVIGATION] };
+                let gain: [f64; SHOWN] = std::array::from_fn(|part| gain[(state, part)]);
+                take_away(column, decay, &gain, &seen);
             }
-        }
+        });
     }
 
     /// `Φ P Φᵀ + Q - W Wᵀ`.
@@ -268,46 +265,79 @@ impl Pass {
             }
         }
         // One triangle, and the other from it: half the work, and no less symmetric.
-        for column in 0..n {
-            let mut column_below = p.column_mut(column);
-            let mut of_column = column_below.rows_mut(column, n - column);
-            for part in 0..SHOWN {
-                let of_gain = gain.column(part);
-                of_column.axpy(-gain[(column, part)], &of_gain.rows(column, n - column), 1.0);
+        let p = p.as_mut_slice();
+        Arch::new().dispatch(|| {
+            let mut parts = gain.as_slice().chunks_exact(n);
+            let gain: [&[f64]; SHOWN] = std::array::from_fn(|_| parts.next().unwrap_or_default());
+            for (column, of_column) in p.chunks_exact_mut(n).enumerate() {
+                let factors = gain.map(|gain| gain[column]);
+                take_away(
+                    &mut of_column[column..],
+                    1.0,
+                    &factors,
+                    &gain.map(|gain| &gain[column..]),
+                );
             }
-        }
-        p.fill_upper_triangle_with_lower_triangle();
+        });
+        self.covariance.fill_upper_triangle_with_lower_triangle();
     }
 }
 
 /// `P Aᵀ`, where `A` has few rows and many zeros, and `P` is symmetric.
 fn times_transposed(p: &DMatrix<f64>, a: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(p.nrows(), a.nrows());
-    add_times_transposed(&mut product, p, a);
+    add_times_transposed(product.as_mut_slice(), p.as_slice(), a);
     product
 }
 
-/// Adds `C Aᵀ` to `to`, where `A` has few rows and many zeros.
-fn add_times_transposed<S: StorageMut<f64, Dyn, C>, C: Dim>(
-    to: &mut Matrix<f64, Dyn, C, S>,
-    c: &DMatrix<f64>,
-    a: &DMatrix<f64>,
-) {
-    for row in 0..a.nrows() {
-        let mut of_row = to.column_mut(row);
-        for (column, value) in a.row(row).iter().enumerate().filter(|(_, value)| **value != 0.0) {
-            of_row.axpy(*value, &c.column(column), 1.0);
+/// Adds `C Aᵀ` to `to`, where `A` has few rows and many zeros; column after column.
+fn add_times_transposed(to: &mut [f64], c: &[f64], a: &DMatrix<f64>) {
+    let count = c.len() / a.ncols();
+    Arch::new().dispatch(|| {
+        for (row, of_row) in to.chunks_exact_mut(count).enumerate() {
+            for (column, of_column) in c.chunks_exact(count).enumerate() {
+                let value = a[(row, column)];
+                if value != 0.0 {
+                    for (to, from) in of_row.iter_mut().zip(of_column) {
+                        *to += value * from;
+                    }
+                }
+            }
         }
-    }
+    });
 }
 
 /// `C` becomes `C L⁻ᵀ`, column after column.
-fn over_transposed(c: &mut DMatrix<f64>, l: &Square) {
-    for column in 0..SHOWN {
-        for before in 0..column {
-            let (done, mut now) = c.columns_range_pair_mut(before, column);
-            now.axpy(-l[(column, before)], &done, 1.0);
+fn over_transposed(c: &mut [f64], l: &Square) {
+    let count = c.len() / SHOWN;
+    Arch::new().dispatch(|| {
+        for column in 0..SHOWN {
+            let (done, rest) = c.split_at_mut(column * count);
+            let now = &mut rest[..count];
+            for (before, done) in done.chunks_exact(count).enumerate() {
+                let factor = l[(column, before)];
+                for (now, done) in now.iter_mut().zip(done) {
+                    *now -= factor * done;
+                }
+            }
+            let factor = 1.0 / l[(column, column)];
+            for value in now {
+                *value *= factor;
+            }
         }
-        c.column_mut(column).scale_mut(1.0 / l[(column, column)]);
+    });
+}
+
+/// `x` becomes `x · decay - Σ gain · seen`.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
+fn take_away(x: &mut [f64], decay: f64, gain: &[f64; SHOWN], seen: &[&[f64]; SHOWN]) {
+    let seen = seen.map(|seen| &seen[..x.len()]);
+    for (place, x) in x.iter_mut().enumerate() {
+        let mut shown = 0.0;
+        for part in 0..SHOWN {
+            shown += gain[part] * seen[part][place];
+        }
+        *x = *x * decay - shown;
     }
 }

@@ -78,6 +78,30 @@ pub fn fit(
     model: &Model,
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
+    progress: impl FnMut(&Iteration),
+) -> Result<Fit, FitError> {
+    fitted((runs, None), model, imu, knowledge, progress)
+}
+
+/// The same, sooner, where much the same has been estimated from these runs, or from most of them: it starts there.
+///
+/// # Errors
+/// [`FitError`] if there is nothing to do, or it does not converge.
+pub fn fit_near(
+    near: &Fit,
+    runs: &[Run],
+    model: &Model,
+    imu: &ImuSpec,
+    knowledge: NoiseKnowledge,
+) -> Result<Fit, FitError> {
+    fitted((runs, Some(near)), model, imu, knowledge, |_| ())
+}
+
+fn fitted(
+    (runs, near): (&[Run], Option<&Fit>),
+    model: &Model,
+    imu: &ImuSpec,
+    knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&Iteration),
 ) -> Result<Fit, FitError> {
     if runs.is_empty() {
@@ -92,18 +116,28 @@ pub fn fit(
     let mut problem = Problem::new(runs, model, free);
     let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut iterations = Vec::new();
-    let mut around = Vec::new();
+    let (mut around, mut inverse_curvature) = (Vec::new(), None);
+    if let Some(near) = near {
+        problem.start_near(near);
+    }
     if find_noise {
         let sheet = noise.clone();
+        let known = near.and_then(|near| Some((near, near.inverse_curvature.as_ref()?)));
+        if let Some((near, _)) = known {
+            noise.clone_from(&near.noise);
+        }
         problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
-        let likely = likely_noise(&problem.linear, &sheet, &noise, |linear, noise| {
+        let inverse = known.map(|(_, inverse)| inverse);
+        let likely = likely_noise(&problem.linear, &sheet, &noise, inverse, |linear, noise| {
             let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
             Some(posterior.log_likelihood)
         });
         (noise, around) = (likely.noise, likely.around);
+        inverse_curvature = Some(likely.inverse_curvature);
     }
     problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
-    problem.finish(noise, &around, iterations)
+    let fit = problem.finish(noise, &around, iterations)?;
+    Ok(Fit { inverse_curvature, ..fit })
 }
 
 /// When an iteration ends.
@@ -170,6 +204,34 @@ impl<'a> Problem<'a> {
         };
         problem.linear = problem.linearised();
         problem
+    }
+
+    /// Starts where another fit found what is estimated here too.
+    fn start_near(&mut self, near: &Fit) {
+        for (place, &(index, run)) in self.all.iter().enumerate() {
+            let free = &self.free[index];
+            let chosen = &self.models[0].terms[free.term];
+            let same = |found: &&Estimate| {
+                let other = &near.model().terms[found.parameter.term];
+                found.parameter.id == free.id
+                    && found.run == run
+                    && other.settings == chosen.settings
+            };
+            if let Some(found) = near.parameters.iter().find(same) {
+                self.values[place] = found.value;
+            }
+        }
+        self.take_values();
+        self.linear = self.linearised();
+    }
+
+    /// Puts the values into the models.
+    fn take_values(&mut self) {
+        for (model, places) in self.models.iter_mut().zip(&self.places) {
+            for (parameter, &place) in self.free.iter().zip(places) {
+                model.terms[parameter.term].values[parameter.parameter] = self.values[place];
+            }
+        }
     }
 
     fn linearised(&self) -> Vec<Linear> {
@@ -258,7 +320,7 @@ impl<'a> Problem<'a> {
         for (value, step) in self.values.iter_mut().zip(&taken) {
             *value += step;
         }
-        for (model, places) in self.models.iter_mut().zip(&self.places) {
+        for places in &self.places {
             // Derivatives by an attitude are by what is turned on from it.
             if let Some(attitude) = attitude_of(&self.free, places) {
                 let turn = |of: &[f64]| {
@@ -271,10 +333,8 @@ impl<'a> Problem<'a> {
                     self.values[place] = *value;
                 }
             }
-            for (parameter, &place) in self.free.iter().zip(places) {
-                model.terms[parameter.term].values[parameter.parameter] = self.values[place];
-            }
         }
+        self.take_values();
         self.linear = self.linearised();
         largest
     }
@@ -311,6 +371,7 @@ impl<'a> Problem<'a> {
             noise,
             linear: self.linear,
             iterations,
+            inverse_curvature: None,
         })
     }
 }

@@ -26,6 +26,7 @@ mod sway;
 
 mod linear;
 
+mod build;
 mod colour;
 mod space;
 
@@ -43,14 +44,14 @@ mod identifiability;
 pub use estimate::{Estimate, Fit, Iteration};
 pub use evidence::{Foretold, Indefinite, foretold, innovations};
 pub use filter::Filter;
-pub use fit::{FitError, NoiseKnowledge, fit};
+pub use fit::{FitError, NoiseKnowledge, fit, fit_near};
 pub use gravity::{axis_from_gravity, turning_span};
 pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
     Separation, Shown, Unknown, distance, gauge_of, joint, separation,
 };
 pub use layout::Layout;
-pub use linear::{Linear, linearise};
+pub use linear::{Linear, linearise, linearise_coarsely};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};
 pub use strengths::{Noise, Strengths, TriadStrengths};

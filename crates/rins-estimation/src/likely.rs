@@ -36,6 +36,9 @@ const ANYTHING: f64 = 5.0;
 /// The least curvature that is believed.
 const LEAST_CURVATURE: f64 = 0.1;
 
+/// Where a search starts beside another one, a flicker is at least so strong, as a logarithm over where it shows.
+const LEAST_SHOWING: f64 = -2.0;
+
 /// The most steps of the search.
 const MOST_STEPS: usize = 40;
 
@@ -103,6 +106,8 @@ pub(crate) struct Likely {
     /// Pairs of a stronger and a weaker flicker, √3 of its own σ away: the outer points of a Gauss-Hermite
     /// quadrature, each of which counts for a sixth.
     pub(crate) around: Vec<[Vec<Noise>; 2]>,
+    /// The inverse of about the curvature where it was found, from which another search may start.
+    pub(crate) inverse_curvature: DMatrix<f64>,
 }
 
 /// The step of second differences, in logarithms: about the σ of a flicker that shows.
@@ -116,11 +121,12 @@ const MOST_UNCERTAIN: f64 = 0.6;
 ///
 /// White noise of the sensors is known to a factor of e about what is expected, everything else to a factor of twenty,
 /// as a log-normal prior; a strength that the data do not show stays where it does no harm. The search starts from
-/// `first`.
+/// `first`, with the curvature of an earlier one if there was one.
 pub(crate) fn likely_noise(
     linear: &[Linear],
     expected: &[Noise],
     first: &[Noise],
+    inverse_curvature: Option<&DMatrix<f64>>,
     log_likelihood: impl Fn(&[Linear], &[Noise]) -> Option<f64> + Sync,
 ) -> Likely {
     let unknown = unknowns(linear, expected, first);
@@ -143,7 +149,12 @@ pub(crate) fn likely_noise(
         let value = log_likelihood(linear, &noise_at(x)).filter(|value| value.is_finite());
         value.map_or(f64::INFINITY, |value| prior - value)
     };
-    let best = minimum(start(&unknown, cost), cost);
+    let inverse = inverse_curvature.filter(|inverse| inverse.nrows() == unknown.len());
+    let start = match inverse {
+        Some(_) => near(&unknown, first),
+        None => start(&unknown, cost),
+    };
+    let (best, inverse_curvature) = minimum(start, inverse.cloned(), cost);
     let least = cost(&best);
     let flickers = (0..unknown.len())
         .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker));
@@ -158,7 +169,7 @@ pub(crate) fn likely_noise(
         let sigma = curvature.max(0.0).sqrt().recip().min(MOST_UNCERTAIN);
         [3.0_f64.sqrt() * sigma, -(3.0_f64.sqrt()) * sigma].map(|by| noise_at(&away(by)))
     });
-    Likely { noise: noise_at(&best), around: around.collect() }
+    Likely { noise: noise_at(&best), around: around.collect(), inverse_curvature }
 }
 
 fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unknown> {
@@ -244,11 +255,27 @@ fn start(unknown: &[Unknown], cost: impl Fn(&DVector<f64>) -> f64 + Sync + Send)
     bases[best].clone()
 }
 
-/// Where `cost` is least: quasi-Newton steps (BFGS), derivatives by differences.
+/// Where a search starts beside one that has found `first`. Flicker that did not show there may show now.
+fn near(unknown: &[Unknown], first: &[Noise]) -> DVector<f64> {
+    let mut first = first.to_vec();
+    let of = |unknown: &Unknown| {
+        let found = unknown.which.of(&mut first).first().map_or(0.0, |strength| **strength);
+        let from_start = (found / unknown.start).ln();
+        if from_start.is_finite() { from_start.max(LEAST_SHOWING) } else { 0.0 }
+    };
+    DVector::from_iterator(unknown.len(), unknown.iter().map(of))
+}
+
+/// Where `cost` is least, and the inverse of about the curvature there: quasi-Newton steps (BFGS), derivatives by
+/// differences.
 ///
-/// The first step knows the curvature along every axis: strengths that thousands of figures show and such
-/// that a few do differ a thousandfold in it.
-fn minimum(start: DVector<f64>, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> DVector<f64> {
+/// Without an inverse the first step knows the curvature along every axis: strengths that thousands of figures show
+/// and such that a few do differ a thousandfold in it.
+fn minimum(
+    start: DVector<f64>,
+    inverse: Option<DMatrix<f64>>,
+    cost: impl Fn(&DVector<f64>) -> f64 + Sync,
+) -> (DVector<f64>, DMatrix<f64>) {
     let n = start.len();
     let unit = |axis| DVector::from_fn(n, |row, _| if row == axis { DIFFERENCE } else { 0.0 });
     let ahead = |x: &DVector<f64>| -> Vec<f64> {
@@ -259,18 +286,15 @@ fn minimum(start: DVector<f64>, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> D
     };
     let mut x = start;
     let mut value = cost(&x);
-    let (after, before): (Vec<f64>, Vec<f64>) = {
-        let sides: Vec<f64> = (0..2 * n)
-            .into_par_iter()
-            .map(|side| cost(&if side < n { &x + unit(side) } else { &x - unit(side - n) }))
-            .collect();
-        (sides[..n].to_vec(), sides[n..].to_vec())
-    };
-    let mut slope = DVector::from_fn(n, |axis, _| (after[axis] - value) / DIFFERENCE);
-    let mut inverse = DMatrix::from_diagonal(&DVector::from_fn(n, |axis, _| {
-        let curvature = (after[axis] + before[axis] - 2.0 * value) / (DIFFERENCE * DIFFERENCE);
-        1.0 / curvature.abs().max(LEAST_CURVATURE)
-    }));
+    let mut slope = gradient(&x, value);
+    let mut inverse = inverse.unwrap_or_else(|| {
+        let behind: Vec<f64> =
+            (0..n).into_par_iter().map(|axis| cost(&(&x - unit(axis)))).collect();
+        DMatrix::from_diagonal(&DVector::from_fn(n, |axis, _| {
+            let curvature = (slope[axis] + (behind[axis] - value) / DIFFERENCE) / DIFFERENCE;
+            1.0 / curvature.abs().max(LEAST_CURVATURE)
+        }))
+    });
     for _ in 0..MOST_STEPS {
         let mut step = -(&inverse * &slope);
         if !step.iter().all(|s| s.is_finite()) {
@@ -307,5 +331,5 @@ fn minimum(start: DVector<f64>, cost: impl Fn(&DVector<f64>) -> f64 + Sync) -> D
             inverse = &left * inverse * left.transpose() + &step * step.transpose() / curvature;
         }
     }
-    x
+    (x, inverse)
 }

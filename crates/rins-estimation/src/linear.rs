@@ -5,15 +5,24 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
 use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Table};
-use rins_terms::{Chosen, Dual64, Model, Signals, Surroundings, Track, derivatives, values};
+use rins_terms::{Model, Surroundings, Track};
 
+use crate::build::Build;
 use crate::path;
 use crate::run::{Reference, Run};
 use crate::space::SHOWN;
-use crate::sway::Sway;
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (0.1, 0.5);
+
+/// In a piece of an epoch the table turns by no more than this \[rad\].
+const TURN_OF_PIECE: f64 = 0.04;
+
+/// A turn over a sample that is none \[rad\].
+const LEAST_TURN: f64 = 1e-6;
+
+/// An epoch is of as many pieces at least.
+const FEWEST_PIECES: usize = 4;
 
 /// A thread makes at least as many columns.
 const FEWEST_COLUMNS: usize = 32;
@@ -81,29 +90,57 @@ pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
     (Surroundings::new(run.rig.station, nav_from_table), rest)
 }
 
+/// How finely derivatives are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pieces {
+    /// Sample by sample.
+    Samples,
+    /// Over samples in which the table hardly turns, taken as one.
+    Coarse,
+}
+
 /// Makes a run linear about the values that `model` has.
 ///
 /// `free` lists the parameters that are estimated, each as term and place within it.
 pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
+    linearised(run, model, free, Pieces::Samples)
+}
+
+/// The same for many parameters, to compare them: the residuals are as exact, and the derivatives are taken over
+/// pieces in which the table turns by some 2 deg at most, which puts an order `n` of its angle off by no more than
+/// `(0.02 n)²/6`.
+pub fn linearise_coarsely(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
+    linearised(run, model, free, Pieces::Coarse)
+}
+
+fn linearised(run: &Run, model: &Model, free: &[(usize, usize)], pieces: Pieces) -> Linear {
     let (surroundings, model) = with_attitude(run, model);
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
     let length = (duration / 1000.0).clamp(EPOCH.0, EPOCH.1);
     let interval = duration / (recording.len() - 1) as f64;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a ratio of positive durations, at most the number of samples"
-    )]
-    let block = ((length / interval).round() as usize).max(1);
+    let block = whole(length / interval);
     let track = path::track(run, surroundings, block);
     let readings = path::readings(run);
-    let build = |free: &[(usize, usize)]| {
-        let mut build = Build::new(run, &model, free, readings.as_deref(), block);
-        for (sample, moment) in track.moments().enumerate() {
-            build.sample(sample, &moment);
+    let epochs = spans(run, block);
+    let piece = match pieces {
+        Pieces::Samples => 1,
+        Pieces::Coarse => {
+            let turned = track.angles().windows(2).map(|pair| (pair[1] - pair[0]).abs());
+            let most = turned.fold(LEAST_TURN, f64::max);
+            whole(TURN_OF_PIECE / most).min(block.div_ceil(FEWEST_PIECES))
         }
-        build.epochs
+    };
+    let ends: Vec<usize> = epochs.iter().flat_map(|span| cut(&span.samples, piece)).collect();
+    let coarse = (piece > 1).then(|| track.thinned(&ends));
+    let build = |free: &[(usize, usize)]| {
+        let mut build = Build::new(run, &model, free, readings.as_deref());
+        let mut fine = track.moments();
+        let mut pieces = coarse.as_ref().unwrap_or(&track).moments();
+        epochs
+            .iter()
+            .map(|span| build.epoch(span, cut(&span.samples, piece), &mut fine, &mut pieces))
+            .collect()
     };
     let columns = free.len().div_ceil(rayon::current_num_threads()).max(FEWEST_COLUMNS);
     let parts: Vec<Vec<Epoch>> = free.par_chunks(columns).map(build).collect();
@@ -118,6 +155,50 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
         turn_on: run.turn_on,
         track,
     }
+}
+
+/// A ratio of positive durations or angles as a number of samples, one at least.
+fn whole(ratio: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it is positive, and at most the number of samples"
+    )]
+    let whole = ratio.round() as usize;
+    whole.max(1)
+}
+
+/// The samples of an epoch.
+pub(crate) struct Span {
+    pub(crate) samples: Range<usize>,
+    /// Whether samples are missing before it.
+    pub(crate) fresh: bool,
+}
+
+/// The samples of all epochs: so many each, and a new one after a gap.
+fn spans(run: &Run, block: usize) -> Vec<Span> {
+    let recording = &run.recording;
+    // More than half a sample missing: the table's motion in between is not known.
+    let gap = |&sample: &usize| {
+        let elapsed = recording.times[sample] - recording.times[sample - 1];
+        elapsed > 1.5 * recording.increments[sample].interval
+    };
+    let starts = std::iter::once(0).chain((1..recording.len()).filter(gap));
+    let starts: Vec<usize> = starts.chain([recording.len()]).collect();
+    let epochs = |whole: &[usize]| {
+        let (start, end) = (whole[0], whole[1]);
+        (start..end).step_by(block).map(move |first| Span {
+            samples: first..end.min(first + block),
+            fresh: first == start,
+        })
+    };
+    starts.windows(2).flat_map(epochs).collect()
+}
+
+/// Where pieces of so many samples end.
+fn cut(samples: &Range<usize>, piece: usize) -> impl Iterator<Item = usize> + use<> {
+    let end = samples.end;
+    samples.clone().step_by(piece).map(move |first| end.min(first + piece))
 }
 
 /// Marks the epochs that hold any of these samples, and those that follow them.
@@ -146,163 +227,7 @@ fn beside(mut one: Vec<Epoch>, other: Vec<Epoch>) -> Vec<Epoch> {
     one
 }
 
-/// Epochs in the making.
-struct Build<'a> {
-    run: &'a Run,
-    /// The terms that do anything: hundreds may stand by to be tried.
-    present: Model,
-    /// Of each column the term, and its parameters with a derivative by one of them.
-    columns: Vec<(&'a Chosen, Vec<Dual64>)>,
-    readings: Option<&'a [f64]>,
-    sway: Option<Sway>,
-    block: usize,
-    /// What turns a difference in readings into one in what was true, `(I + [S, M])⁻¹`, of gyros and accelerometers.
-    inverse_gains: [Matrix3<f64>; 2],
-    epochs: Vec<Epoch>,
-    now: Option<Epoch>,
-}
-
-impl<'a> Build<'a> {
-    fn new(
-        run: &'a Run,
-        model: &'a Model,
-        free: &'a [(usize, usize)],
-        readings: Option<&'a [f64]>,
-        block: usize,
-    ) -> Self {
-        let triads = model.split().0;
-        let inverse_gains = [triads.gyro.matrix, triads.accel.matrix]
-            .map(|matrix| (Matrix3::identity() + matrix).try_inverse().unwrap_or_default());
-        let mut present = model.clone();
-        present.terms.retain(|chosen| chosen.values.iter().any(|value| *value != 0.0));
-        let sway = Sway::of(run);
-        let column = |&(term, parameter): &(usize, usize)| {
-            let chosen = &model.terms[term];
-            let mut duals: Vec<Dual64> =
-                chosen.values.iter().map(|&value| Dual64::from_re(value)).collect();
-            duals[parameter].eps = 1.0;
-            (chosen, duals)
-        };
-        Self {
-            run,
-            present,
-            columns: free.iter().map(column).collect(),
-            readings,
-            sway,
-            block,
-            inverse_gains,
-            epochs: Vec::new(),
-            now: None,
-        }
-    }
-
-    fn sample(&mut self, sample: usize, moment: &rins_terms::Moment) {
-        let recording = &self.run.recording;
-        let measured = &recording.increments[sample];
-        let interval = measured.interval;
-        // More than half a sample missing: the table's motion in between is not known.
-        let gap =
-            sample > 0 && recording.times[sample] - recording.times[sample - 1] > 1.5 * interval;
-        if gap {
-            self.close(sample);
-        }
-        let columns = self.columns.len() + 1;
-        let epoch =
-            self.now.get_or_insert_with(|| Epoch::empty(sample, gap || sample == 0, columns));
-
-        let (sin, cos) = moment.mean.angle.sin_cos();
-        let mut table_from_body = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-        let predicted = self.present.signals(moment);
-        let around = &moment.surroundings;
-        let rates = measured.rates();
-        let mut gyro = rates.angular_rate.components() - moment.rate;
-        let mut accel = rates.specific_force.components() - moment.force;
-        let reading = self.readings.map_or(0.0, |readings| readings[sample] - moment.end.angle);
-        let mut of_axis = Vector3::z() * (predicted.angle.re - reading) - values(&predicted.tilt);
-        if let Some(sway) = &self.sway {
-            let [middle, end] = &sway.attitudes[sample];
-            gyro = sway.mean_rate - middle.inverse() * around.earth_rate;
-            accel = rates.specific_force.components() - middle.inverse() * around.specific_force;
-            of_axis += end.scaled_axis();
-            table_from_body = *middle.matrix();
-        }
-        let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| table_from_body * inverse);
-        gyro -= values(&predicted.gyro);
-        accel -= values(&predicted.accel);
-        let rates =
-            Rates { attitude: of_gyros * gyro, velocity: of_accels * accel, reading: of_axis };
-        epoch.add(0, &rates, around, interval);
-        for (column, (chosen, duals)) in self.columns.iter().enumerate() {
-            let mut by = Signals::default();
-            chosen.term.act(duals, &chosen.settings, moment, &mut by);
-            let rates = Rates {
-                attitude: -(of_gyros * derivatives(&by.gyro)),
-                velocity: -(of_accels * derivatives(&by.accel)),
-                reading: Vector3::z() * by.angle.eps - derivatives(&by.tilt),
-            };
-            epoch.add(column + 1, &rates, around, interval);
-        }
-        epoch.twice_turned += (epoch.turned + table_from_body * (0.5 * interval)) * interval;
-        epoch.turned += table_from_body * interval;
-        epoch.mean_turned += epoch.turned;
-        epoch.mean_attitude += &epoch.attitude;
-        epoch.duration += interval;
-        if sample + 1 - epoch.samples.0 >= self.block || sample + 1 == recording.len() {
-            self.close(sample + 1);
-        }
-    }
-
-    /// Ends the epoch before sample `end`.
-    fn close(&mut self, end: usize) {
-        let Some(mut epoch) = self.now.take() else { return };
-        epoch.samples.1 = end;
-        let count = (end - epoch.samples.0) as f64;
-        epoch.mean_attitude /= count;
-        epoch.mean_turned /= count;
-        epoch.reading /= count;
-        self.epochs.push(epoch);
-    }
-}
-
-/// What one sample adds to one column: rates of φ and v, and what a reading differs by.
-struct Rates {
-    attitude: Vector3<f64>,
-    velocity: Vector3<f64>,
-    reading: Vector3<f64>,
-}
-
 impl Epoch {
-    fn empty(first: usize, fresh: bool, columns: usize) -> Self {
-        let none = Matrix3xX::zeros(columns);
-        Self {
-            samples: (first, first),
-            duration: 0.0,
-            fresh,
-            left_out: false,
-            attitude: none.clone(),
-            mean_attitude: none.clone(),
-            velocity: none.clone(),
-            reading: none,
-            turned: Matrix3::zeros(),
-            mean_turned: Matrix3::zeros(),
-            twice_turned: Matrix3::zeros(),
-        }
-    }
-
-    /// One more sample of one column.
-    fn add(&mut self, column: usize, rates: &Rates, around: &Surroundings, interval: f64) {
-        let mut attitude = self.attitude.column_mut(column);
-        let before = attitude.clone_owned();
-        // φ' = -E × φ + rate, over a sample too short for the square of its turn to count.
-        let turning = around.earth_rate.cross(&(before + rates.attitude * (0.5 * interval)));
-        attitude += (rates.attitude - turning) * interval;
-        let middle = (before + attitude.clone_owned()) * 0.5;
-        let mut velocity = self.velocity.column_mut(column);
-        velocity += (rates.velocity + middle.cross(&around.specific_force)) * interval;
-        let mut reading = self.reading.column_mut(column);
-        reading += rates.reading;
-    }
-
     /// How many readings the mean is of.
     pub(crate) fn count(&self) -> f64 {
         (self.samples.1 - self.samples.0) as f64

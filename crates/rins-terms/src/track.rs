@@ -41,6 +41,27 @@ impl Track {
         Self { surroundings, times, intervals, angles, temperature }
     }
 
+    /// The same with samples taken together: those up to each of `ends`, the sample after the last of them.
+    ///
+    /// # Panics
+    /// If an end is not after the one before it, or beyond the track.
+    #[must_use]
+    pub fn thinned(&self, ends: &[usize]) -> Self {
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let together = |(start, &end): (usize, &usize)| self.intervals[start..end].iter().sum();
+        let last = |list: &[f64]| ends.iter().map(|&end| list[end - 1]).collect();
+        Self {
+            surroundings: self.surroundings,
+            times: last(&self.times),
+            intervals: starts.zip(ends).map(together).collect(),
+            angles: std::iter::once(0)
+                .chain(ends.iter().copied())
+                .map(|end| self.angles[end])
+                .collect(),
+            temperature: self.temperature.as_deref().map(last),
+        }
+    }
+
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.times.len()

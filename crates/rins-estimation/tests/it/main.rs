@@ -8,6 +8,7 @@ mod left_out;
 mod refusals;
 mod rests;
 mod several_runs;
+mod shortcuts;
 mod support;
 mod sway;
 mod terms;

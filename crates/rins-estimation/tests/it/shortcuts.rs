@@ -1,0 +1,87 @@
+//! Quicker ways end where the exact ones do.
+
+use rins_estimation::{
+    Evidence, Linear, Noise, NoiseKnowledge, Run, Strengths, fit, fit_near, linearise,
+    linearise_coarsely,
+};
+use rins_frames::units::PPM;
+use rins_imu::{Axis, ImuError, TriadError};
+use rins_terms::{Chosen, Model, catalogue};
+
+use crate::support::{fibre, profile, run, scenario, tilted, white};
+
+fn turned() -> Run {
+    let gyro = TriadError::default().with_scale(Axis::Z, 200.0 * PPM).with_bias(Axis::X, 1e-7);
+    let turns = profile(&[(0.0, 10.0), (10.0, 60.0), (-6.0, 120.0), (0.0, 10.0)]);
+    let error = ImuError { gyro, ..ImuError::default() };
+    let truth = (error, Model::default());
+    run(&scenario(tilted(25.0, 40.0), turns, truth, Some(white(&fibre())), 3))
+}
+
+/// Effects that act on gyros, accelerometers, the encoder and the axis, steadily, at once, and in ramps.
+fn many() -> Model {
+    let mut model = Model::full();
+    let terms = [
+        Chosen::new(&catalogue::GYRO_THERMAL_BIAS),
+        Chosen::new(&catalogue::GYRO_BIAS_STEP).with_setting("time", 71.3),
+        Chosen::new(&catalogue::GYRO_G_SENSITIVITY),
+        Chosen::new(&catalogue::ACCEL_LEVER_ARM),
+        Chosen::new(&catalogue::ACCEL_LATENCY),
+        Chosen::new(&catalogue::ENCODER_LATENCY),
+        Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 6.0),
+        Chosen::new(&catalogue::TABLE_WOBBLE).with_setting("order", 3.0),
+        Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 88.9),
+    ];
+    model.terms.extend(terms.map(Chosen::estimated));
+    model
+}
+
+#[test]
+fn coarse_pieces_show_each_effect_as_well() {
+    let (run, model, imu) = (turned(), many(), fibre());
+    let free = model.free(&imu);
+    let columns: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
+    let noise = Noise::on(&run.rig, &Strengths::of(&imu));
+    let said = |linear: Linear| Evidence::of(&linear, &noise).unwrap();
+    let fine = said(linearise(&run, &model, &columns));
+    let coarse = said(linearise_coarsely(&run, &model, &columns));
+    assert!(fine != coarse, "nothing is taken together");
+    for (place, parameter) in free.iter().enumerate() {
+        let of = |evidence: &Evidence| evidence.information[(place, place)];
+        let (exact, near) = (of(&fine), of(&coarse));
+        if exact == 0.0 {
+            continue;
+        }
+        let off = (near / exact - 1.0).abs();
+        // Squares of derivatives; what is over within a sample is put off the most.
+        let bound = if parameter.id.starts_with("base_tilt_step") { 0.1 } else { 0.01 };
+        assert!(off < bound, "{}: {off}", parameter.id);
+        // By how many sigmas an estimate of it alone would differ, of as many as it is from nothing.
+        let estimate = |evidence: &Evidence| evidence.score[place] / of(evidence).sqrt();
+        let (exact, near) = (estimate(&fine), estimate(&coarse));
+        assert!(
+            (near - exact).abs() < 0.02 + 2.0 * bound * (1.0 + exact.abs()),
+            "{}: {exact} {near}",
+            parameter.id
+        );
+    }
+}
+
+#[test]
+fn a_fit_beside_another_ends_where_one_from_nothing_does() {
+    let (run, imu) = (turned(), fibre());
+    let runs = std::slice::from_ref(&run);
+    let knowledge = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let first = fit(runs, &Model::full(), &imu, knowledge, |_| ()).unwrap();
+    let mut model = Model::full();
+    model.terms.push(Chosen::new(&catalogue::ACCEL_LEVER_ARM).estimated());
+    let alone = fit(runs, &model, &imu, knowledge, |_| ()).unwrap();
+    let beside = fit_near(&first, runs, &model, &imu, knowledge).unwrap();
+    for (one, other) in alone.parameters.iter().zip(&beside.parameters) {
+        let apart = (one.value - other.value) / one.sigma;
+        assert!(apart.abs() < 0.03, "{}: {apart} sigma", one.parameter.id);
+        assert!((one.sigma / other.sigma - 1.0).abs() < 0.05, "{}", one.parameter.id);
+    }
+    let differ = alone.log_likelihood - beside.log_likelihood;
+    assert!(differ.abs() < 0.2, "{differ}");
+}
