@@ -22,6 +22,7 @@ const KNOWN: &[(&str, f64, Dimension)] = &[
     ("deg", DEG, Dimension::ANGLE),
     ("arcmin", ARCMIN, Dimension::ANGLE),
     ("arcsec", ARCSEC, Dimension::ANGLE),
+    ("gon", 0.9 * DEG, Dimension::ANGLE),
     ("rev", core::f64::consts::TAU, Dimension::ANGLE),
     ("turn", core::f64::consts::TAU, Dimension::ANGLE),
     ("s", 1.0, Dimension::TIME),
