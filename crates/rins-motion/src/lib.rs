@@ -52,8 +52,8 @@ pub use alignment::{
 };
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{
-    CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, SignedAxes,
-    Suspicion, TableLag, Timing, inspect,
+    CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,
+    ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect,
 };
 pub use recording::Recording;
 pub use rest::{RestMean, rest_spans};

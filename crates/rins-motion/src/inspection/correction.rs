@@ -105,6 +105,15 @@ pub(super) enum Weight {
 }
 
 impl Hypothesis {
+    /// Nothing but what is read.
+    pub(super) const AS_READ: Self = Self {
+        gyro: SignedAxes::IDENTITY,
+        accel: SignedAxes::IDENTITY,
+        angles: None,
+        latitude: 0.0,
+        table_sense: 1.0,
+    };
+
     /// The same but for what `correction` undoes.
     fn corrected(self, correction: Correction) -> Self {
         let turned =

@@ -1,6 +1,7 @@
 //! Gyros whose columns hold the accelerometers' readings, and the other way round.
 
 use super::suspicion::Suspicion;
+use super::whole_turns::{STANDS, WholeTurns};
 use crate::recording::Recording;
 
 /// A channel that follows the table's rate does so this closely, another one less.
@@ -26,6 +27,13 @@ pub(super) fn suspicion(recording: &Recording, table_angle: Option<&[f64]>) -> O
         .max(of(|rates| rates.specific_force.components().y)?)
         .max(of(|rates| rates.specific_force.components().z)?);
     (accel > FOLLOWS && gyro < IGNORES).then_some(Suspicion::Triads { gyro, accel })
+}
+
+/// The same where the table's rate does not change and gives no correlation: gravity, which stands
+/// while the body turns, is what the gyros show, and the accelerometers show nothing of it.
+pub(super) fn in_turns(turns: &WholeTurns) -> Option<Suspicion> {
+    let [accel, gyro] = turns.standing();
+    (gyro > STANDS && accel < gyro / 10.0).then_some(Suspicion::TurningTriads { gyro, accel })
 }
 
 /// `None` if one of them does not change.

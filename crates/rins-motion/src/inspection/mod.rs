@@ -9,32 +9,27 @@ mod spin;
 mod suspicion;
 mod timing;
 mod turning;
+mod units;
 mod whole_turns;
 
 use std::ops::Range;
 
-use rins_frames::units::{MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EARTH_RATE, EulerAngles};
 
 pub use correction::{Correction, SignedAxes};
 pub use lag::TableLag;
 pub use suspicion::Suspicion;
 pub use timing::Timing;
+pub use units::{ReadingOf, ReadingUnit};
 
 use self::orientation::Evidence;
-use self::spin::{Spin, table_angle};
+use self::spin::{Spin, Suspect, table_angle};
 use self::turning::Turning;
+use self::units::{explained, mistakes};
 use self::whole_turns::WholeTurns;
 use crate::recording::Recording;
 use crate::rest::{RestMean, rest_spans};
 use crate::station::Station;
-
-/// How far a ratio may be from a suspected factor: a sensor as it comes from the factory may be off
-/// by ten percent and more, a wrong unit by seven times at least.
-const FACTOR_WITHIN: f64 = 0.2;
-
-/// The same of a factor that is itself within ten percent or so of one.
-const NARROW_FACTOR_WITHIN: f64 = 0.005;
 
 /// The shortest rest that is reported \[s\].
 const SHORTEST_REST: f64 = 1.0;
@@ -64,6 +59,8 @@ pub struct ExpectedTriad {
     pub bias_sigma: Option<f64>,
     /// The largest rate or specific force that can be read \[rad/s\] or \[m/s²\].
     pub range: Option<f64>,
+    /// The unit that readings are said to be in.
+    pub unit: Option<ReadingUnit>,
 }
 
 /// The attitude that the spin axis is said to have.
@@ -84,6 +81,8 @@ pub struct Expected {
     pub axis: Option<ExpectedAxis>,
     /// By how much the table's angle or rate is late \[s\].
     pub table_latency: f64,
+    /// The unit that the table's angle or rate is said to be in.
+    pub table_unit: Option<ReadingUnit>,
     /// The gyros.
     pub gyro: ExpectedTriad,
     /// The accelerometers.
@@ -173,12 +172,16 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
     let force = longest
         .map(|rest| rest.mean.rates.specific_force.norm())
         .or_else(|| whole_turns.as_ref().and_then(|turns| turns.force));
-    let gravity = force
-        .zip(expected.station.as_ref())
-        .and_then(|(force, station)| gravity_suspicion(force, station, &timing));
+    let gravity = force.and_then(|force| gravity_suspicion(force, expected, &timing));
     let spin = Spin::of(recording, table_angle.as_deref());
-    let exchanged = exchange::suspicion(recording, table_angle.as_deref());
-    let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected));
+    let turning = Turning::of(recording, &stands);
+    let suspect = Suspect::of(whole_turns.as_ref(), turning.as_ref());
+    let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected, suspect));
+    let exchanged = exchange::suspicion(recording, table_angle.as_deref()).or_else(|| {
+        // Of readings in right units it is nothing to ask.
+        let turns = whole_turns.as_ref().filter(|_| gravity.is_some() && spun.is_some())?;
+        exchange::in_turns(turns)
+    });
     let right_units =
         gravity.is_none() && exchanged.is_none() && spin.as_ref().is_none_or(Spin::counts);
     // What exchanged columns look like beside is nothing of its own.
@@ -203,7 +206,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
             whole_turns: whole_turns.as_ref().filter(|_| followed),
             interval: timing.interval,
             spin: spin.as_ref().map(|spin| spin.all),
-            turning: Turning::of(recording, &stands),
+            turning,
         };
         suspicions.extend(evidence.suspicions());
     }
@@ -232,48 +235,11 @@ fn reading(sample: &rins_frames::Increments, channel: usize) -> f64 {
     }
 }
 
-fn gravity_suspicion(seen: f64, station: &Station, timing: &Timing) -> Option<Suspicion> {
-    let expected = station.gravity;
-    let cause = nearest_factor(
-        seen / expected,
-        &[
-            (STANDARD_GRAVITY, "readings in m/s^2 were declared as g"),
-            (1.0 / STANDARD_GRAVITY, "readings in g were declared as m/s^2"),
-            (1e3, "readings in mg were declared as g"),
-            (1e-3, "readings in g were declared as mg"),
-            (1.0 / (1e3 * MICRO_G), "readings in mg were declared as m/s^2"),
-            (1e3 * MICRO_G, "readings in m/s^2 were declared as mg"),
-            (timing.interval, "velocity increments were declared as specific force"),
-            (1.0 / timing.interval, "specific force was declared as velocity increments"),
-        ],
-        &[],
-    );
-    cause.err().map(|cause| Suspicion::Gravity { seen, expected, cause })
-}
-
-/// Whether a ratio is near one or, if not, the mistake that makes it what it is.
-///
-/// Of the factors within [`FACTOR_WITHIN`] the nearest counts; those of `narrow` are so near to
-/// one that a sensor as it comes from the factory may be as far off, so that they must fit well.
-fn nearest_factor(
-    ratio: f64,
-    causes: &[(f64, &'static str)],
-    narrow: &[(f64, &'static str)],
-) -> Result<(), Option<&'static str>> {
-    let off = |factor: f64| (ratio / factor - 1.0).abs();
-    let all = causes
-        .iter()
-        .map(|cause| (cause, FACTOR_WITHIN))
-        .chain(narrow.iter().map(|cause| (cause, NARROW_FACTOR_WITHIN)));
-    let nearest = all
-        .filter(|((factor, _), within)| off(*factor) < *within)
-        .min_by(|((a, _), _), ((b, _), _)| off(*a).total_cmp(&off(*b)));
-    match nearest {
-        Some(((factor, cause), _)) if off(*factor) < off(1.0) => Err(Some(*cause)),
-        _ if off(1.0) < FACTOR_WITHIN => Ok(()),
-        Some(((_, cause), _)) => Err(Some(*cause)),
-        None => Err(None),
-    }
+fn gravity_suspicion(seen: f64, expected: &Expected, timing: &Timing) -> Option<Suspicion> {
+    let gravity = expected.station?.gravity;
+    let mistakes = mistakes(&ReadingUnit::ACCEL, expected.accel.unit, timing, "readings");
+    let cause = explained(seen / gravity, &mistakes).err()?;
+    Some(Suspicion::Gravity { seen, expected: gravity, cause })
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {

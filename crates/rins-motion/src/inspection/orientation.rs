@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rins_frames::units::{DEG, DEG_PER_HOUR, STANDARD_GRAVITY};
 use rins_frames::{Body, Dcm, EARTH_RATE, InFrame, Nav, Site, Table};
 
-use super::correction::{Hypothesis, SignedAxes, Weight};
+use super::correction::{Hypothesis, Weight};
 use super::suspicion::Suspicion;
 use super::turning::Turning;
 use super::whole_turns::WholeTurns;
@@ -70,11 +70,9 @@ impl Evidence<'_> {
     /// What is wrong, each with the single corrections that put all of it right.
     pub(super) fn suspicions(&self) -> Vec<Suspicion> {
         let given = Hypothesis {
-            gyro: SignedAxes::IDENTITY,
-            accel: SignedAxes::IDENTITY,
             angles: self.expected.axis.map(|axis| axis.angles),
             latitude: self.station.map_or(0.0, |station| station.site.latitude),
-            table_sense: 1.0,
+            ..Hypothesis::AS_READ
         };
         let (level, latitude) = (self.level(&given), self.latitude(&given));
         let rate = self.rates(&given).reduce(Limited::worse);

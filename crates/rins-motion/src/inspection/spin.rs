@@ -1,16 +1,26 @@
 //! What the gyros count of the table's turn.
 
 use nalgebra::Vector3;
-use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR};
+use rins_frames::units::DEG;
 
 use super::Expected;
+use super::correction::Hypothesis;
 use super::suspicion::Suspicion;
 use super::timing::Timing;
-use super::{CHANNELS, median, nearest_factor};
+use super::turning::Turning;
+use super::units::{Mistake, ReadingUnit, explained, mistakes};
+use super::whole_turns::{STANDS, WholeTurns};
+use super::{CHANNELS, median};
 use crate::recording::Recording;
 
-/// A table that turns by less in all \[rad\] says nothing of the gyros.
+/// A table that turns by less \[rad\] says nothing of the gyros.
 const LEAST_TURN: f64 = DEG;
+
+/// A mean rate that no gyro has at rest \[rad/s\].
+const FAST: f64 = 0.5 * DEG;
+
+/// What of a gyro's turn that follows the table's may be left, as a share.
+const UNLIKE: f64 = 0.1;
 
 /// The stretch over which turns are compared \[s\]: an encoder's noise is nothing then.
 const WINDOW: f64 = 1.0;
@@ -50,22 +60,60 @@ pub(super) fn table_angle(recording: &Recording) -> Option<Vec<f64>> {
     })
 }
 
+/// Whether the z gyro follows a table that hardly turns, as of one whose unit is wrong.
+fn follows(windows: &[(f64, f64, f64)]) -> bool {
+    let sum = |of: fn(&(f64, f64, f64)) -> f64| windows.iter().map(of).sum::<f64>();
+    let (gyro, table) = (sum(|(gyro, _, _)| gyro * gyro), sum(|(_, turn, _)| turn * turn));
+    let product = sum(|(gyro, turn, _)| gyro * turn);
+    let time = sum(|(_, _, time)| time * time);
+    let left = gyro - product * product / table;
+    table > 0.0 && gyro > FAST * FAST * time && left < UNLIKE * UNLIKE * gyro
+}
+
+/// The units that the table's readings may be in, with what each does to the ratio.
+fn table_mistakes(recording: &Recording, expected: &Expected, timing: &Timing) -> Vec<Mistake> {
+    let (all, what): (&[ReadingUnit], _) = match (&recording.table_angle, expected.table_unit) {
+        (Some(_), _) => (&ReadingUnit::TABLE_ANGLE, "readings of the table's angle"),
+        (None, Some(_)) => (&ReadingUnit::TABLE_RATE, "readings of the table's rate"),
+        // A commanded profile has its units in the rig file, one each.
+        (None, None) => return Vec::new(),
+    };
+    let mut mistakes = mistakes(all, expected.table_unit, timing, what);
+    for mistake in &mut mistakes {
+        mistake.factor = 1.0 / mistake.factor;
+    }
+    mistakes
+}
+
+/// Which of the two is wrong where gyros and table count differently.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Suspect {
+    Gyro,
+    Table,
+    Either,
+}
+
+impl Suspect {
+    /// By gravity, which stands still where the table's angle is right, and turns in the body as the
+    /// gyros say where they are.
+    pub(super) fn of(turns: Option<&WholeTurns>, turning: Option<&Turning>) -> Self {
+        let table = turns.is_some_and(|turns| turns.standing()[0] > STANDS);
+        let gyro =
+            turning.is_some_and(|turning| turning.regression(&Hypothesis::AS_READ).certain());
+        match (table, gyro) {
+            (true, false) => Self::Gyro,
+            (false, true) => Self::Table,
+            _ => Self::Either,
+        }
+    }
+}
+
 impl Spin {
     /// `None` without a table that turns.
     pub(super) fn of(recording: &Recording, table_angle: Option<&[f64]>) -> Option<Self> {
         let angle = table_angle?;
         let samples = recording.increments.get(1..)?;
         let table: Vec<f64> = angle.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let square: f64 = table.iter().map(|turn| turn * turn).sum();
-        let turned: f64 = table.iter().map(|turn| turn.abs()).sum();
-        if turned < LEAST_TURN {
-            return None;
-        }
-        // Regression of each gyro on the table, sample by sample; a table at rest says nothing.
-        let mut product = Vector3::zeros();
-        for (sample, turn) in samples.iter().zip(&table) {
-            product += sample.angle.components() * *turn;
-        }
         // A log may be wrong for some seconds, so that what most seconds say counts.
         let (mut window, mut windows) = ((0.0, 0.0, 0.0), Vec::new());
         for (sample, turn) in samples.iter().zip(&table) {
@@ -76,6 +124,18 @@ impl Spin {
                 windows.push(window);
                 window = (0.0, 0.0, 0.0);
             }
+        }
+        let (least, most) = angle
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)));
+        if most - least < LEAST_TURN && !follows(&windows) {
+            return None;
+        }
+        // Regression of each gyro on the table, sample by sample; a table at rest says nothing.
+        let square: f64 = table.iter().map(|turn| turn * turn).sum();
+        let mut product = Vector3::zeros();
+        for (sample, turn) in samples.iter().zip(&table) {
+            product += sample.angle.components() * *turn;
         }
         let fastest =
             windows.iter().fold(0.0, |most: f64, (_, turn, time)| most.max((turn / time).abs()));
@@ -98,30 +158,23 @@ impl Spin {
         recording: &Recording,
         timing: &Timing,
         expected: &Expected,
+        suspect: Suspect,
     ) -> Option<Suspicion> {
         let axis = self.all.iamax();
         // A sensor whose z axis follows the table at all does so best, whatever its unit.
         if axis != 2 && self.all[axis].abs() > 10.0 * self.all.z.abs() {
             return Some(Suspicion::SpinAxis { channel: CHANNELS[axis], ratio: self.all[axis] });
         }
-        let cause = nearest_factor(
-            self.ratio,
-            &[
-                (-1.0, "the table's sense is opposite to the gyro's"),
-                (1.0 / DEG, "readings in deg were declared as rad, or the table's unit is wrong"),
-                (DEG, "readings in rad were declared as deg, or the table's unit is wrong"),
-                (DEG / DEG_PER_HOUR, "readings in deg/h were declared as deg/s"),
-                (DEG_PER_HOUR / DEG, "readings in deg/s were declared as deg/h"),
-                (1.0 / ARCSEC, "readings in arcsec were declared as rad, or in deg/h as rad/s"),
-                (ARCSEC, "readings in rad were declared as arcsec, or in rad/s as deg/h"),
-                (timing.interval, "angle increments were declared as rates"),
-                (1.0 / timing.interval, "rates were declared as angle increments"),
-            ],
-            &[
-                (0.9, "a table angle in gon was declared as deg, or gyros in deg as gon"),
-                (1.0 / 0.9, "a table angle in deg was declared as gon, or gyros in gon as deg"),
-            ],
-        );
+        let mut mistakes = match suspect {
+            Suspect::Table => Vec::new(),
+            _ => mistakes(&ReadingUnit::GYRO, expected.gyro.unit, timing, "readings"),
+        };
+        if suspect != Suspect::Gyro {
+            mistakes.extend(table_mistakes(recording, expected, timing));
+        }
+        let cause = "the table's sense is opposite to the gyro's".into();
+        mistakes.push(Mistake { factor: -1.0, cause });
+        let cause = explained(self.ratio, &mistakes);
         match cause {
             Ok(()) => self.profile_suspicion(recording, expected),
             Err(cause) => Some(Suspicion::SpinScale { ratio: self.ratio, cause }),

@@ -13,20 +13,28 @@ pub enum Suspicion {
         /// What the station has \[m/s²\].
         expected: f64,
         /// The mistake that would explain it.
-        cause: Option<&'static str>,
+        cause: Option<String>,
     },
     /// The turn that the gyro counts is not the table's.
     SpinScale {
         /// The gyro's turn over the table's.
         ratio: f64,
         /// The mistake that would explain it.
-        cause: Option<&'static str>,
+        cause: Option<String>,
     },
     /// The accelerometers follow the table's turn and the gyros do not: their columns are exchanged.
     Triads {
         /// The closest that a gyro follows the table's rate, as a correlation.
         gyro: f64,
         /// The same of an accelerometer.
+        accel: f64,
+    },
+    /// While the table turns the gyros show a vector that stands, which is gravity, and the
+    /// accelerometers none: their columns are exchanged.
+    TurningTriads {
+        /// What of the gyros' readings stands across the table's axis, as a share.
+        gyro: f64,
+        /// The same of the accelerometers.
         accel: f64,
     },
     /// Another axis than z counts the table's turn.

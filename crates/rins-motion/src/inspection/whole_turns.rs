@@ -10,6 +10,9 @@ use crate::recording::Recording;
 /// A table that goes back by more than this \[rad\] has reversed; an encoder's noise is less.
 const REVERSED: f64 = 0.1;
 
+/// The least share of gravity that stands across a tilted axis.
+pub(super) const STANDS: f64 = 0.05;
+
 /// A table that turns slower than this \[rad/s\] adds little to gravity wherever the IMU sits on it.
 const SLOW: f64 = 1.0;
 
@@ -27,10 +30,12 @@ pub(super) struct WholeTurns {
     pub(super) force: Option<f64>,
 }
 
-/// One turn's means of the specific force and of the angular rate.
+/// One turn's means of the specific force, of the angular rate, and of their magnitudes.
 struct Turn {
     force: Modulated,
     rate: Modulated,
+    force_norm: f64,
+    rate_norm: f64,
 }
 
 /// A vector's mean times the table angle's cosine, its sine, and alone.
@@ -57,6 +62,8 @@ impl Modulated {
 struct Open {
     force: Modulated,
     rate: Modulated,
+    force_norm: f64,
+    rate_norm: f64,
     turned: f64,
     farthest: f64,
     lasting: f64,
@@ -68,7 +75,7 @@ impl WholeTurns {
         let angle = angle?;
         let samples = recording.increments.get(1..)?;
         let (mut turns, mut open, mut forces) = (Vec::new(), Open::default(), Vec::new());
-        let (mut fastest, mut time, mut noise) = (0.0_f64, 0.0, 0.0);
+        let (mut fastest, mut time, mut noise) = (0.0_f64, 0.0, Vec::new());
         let mut last: Option<Vector3<f64>> = None;
         for (pair, sample) in angle.windows(2).zip(samples) {
             let (turned, middle) = (pair[1] - pair[0], f64::midpoint(pair[0], pair[1]));
@@ -77,6 +84,8 @@ impl WholeTurns {
             let force = *rates.specific_force.components();
             open.force.add(&force, middle, turned);
             open.rate.add(&rate, middle, turned);
+            open.force_norm += force.norm() * turned;
+            open.rate_norm += rate.norm() * turned;
             open.turned += turned;
             open.lasting += sample.interval;
             if open.turned.abs() >= open.farthest.abs() {
@@ -91,22 +100,41 @@ impl WholeTurns {
                 forces.push(force.norm());
             }
             if let Some(last) = last {
-                noise += (rate - last).xy().norm_squared() / 4.0 * sample.interval;
+                noise.push((rate - last).xy().norm_squared() / 4.0 * sample.interval);
             }
             last = Some(rate);
             if open.turned.abs() >= TAU {
                 time += open.lasting;
                 let mean = |sum: Modulated| Modulated(sum.0.map(|sum| sum / open.turned));
-                turns.push(Turn { force: mean(open.force), rate: mean(open.rate) });
+                turns.push(Turn {
+                    force: mean(open.force),
+                    rate: mean(open.rate),
+                    force_norm: open.force_norm / open.turned,
+                    rate_norm: open.rate_norm / open.turned,
+                });
                 open = Open::default();
             }
         }
         if turns.is_empty() {
             return None;
         }
-        let density_squared = noise / samples.len() as f64;
-        let white = (2.0 * density_squared / time).sqrt();
+        let white = (2.0 * usual_mean(noise) / time).sqrt();
         Some(Self { fastest, white, force: super::median(forces), turns })
+    }
+
+    /// What of the specific force and of the angular rate stands across the table's axis, as shares of
+    /// their magnitudes: of what turns with the body nothing.
+    pub(super) fn standing(&self) -> [f64; 2] {
+        let share = |of: fn(&Turn) -> (Modulated, f64)| {
+            let (mut standing, mut all) = (Vector2::zeros(), 0.0);
+            for turn in &self.turns {
+                let (mean, magnitude) = of(turn);
+                standing += mean.on_table(&SignedAxes::IDENTITY, 1.0).xy();
+                all += magnitude;
+            }
+            standing.norm() / all
+        };
+        [share(|turn| (turn.force, turn.force_norm)), share(|turn| (turn.rate, turn.rate_norm))]
     }
 
     /// The mean specific force along the table's axes \[m/s²\].
@@ -128,4 +156,14 @@ impl WholeTurns {
         let scatter = (square / (n.max(2) - 1) as f64 / n as f64).sqrt();
         (mean, scatter.max(self.white))
     }
+}
+
+/// The mean of squares of two normal deviates by the lower three quarters of them: what a table's
+/// ramps add where gyros are read along wrong axes is no noise.
+fn usual_mean(mut squares: Vec<f64>) -> f64 {
+    squares.sort_by(f64::total_cmp);
+    squares.truncate(squares.len() / 4 * 3);
+    // Of an exponential distribution's lower three quarters the mean is 1 - ln(4) / 3.
+    let share = 1.0 - 4.0_f64.ln() / 3.0;
+    squares.iter().sum::<f64>() / squares.len().max(1) as f64 / share
 }

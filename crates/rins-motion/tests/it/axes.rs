@@ -196,7 +196,7 @@ proptest! {
 #[test]
 fn bias_larger_than_the_earths_rate_is_no_wrong_axis() {
     let recording = record(usual(), CHIP, 11);
-    let optimistic = ExpectedTriad { bias_sigma: Some(1e-9), range: None };
+    let optimistic = ExpectedTriad { bias_sigma: Some(1e-9), ..ExpectedTriad::default() };
     assert_unsuspected(&recording, &Expected { gyro: optimistic, ..expected(CHIP) });
 }
 

@@ -77,10 +77,10 @@ fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
         // As a sensor comes from the factory.
         (1.03, None),
         (0.93, None),
-        (1.0 / 0.9, Some("gon was declared as deg")),
-        (0.9, Some("deg was declared as gon")),
+        (1.0 / 0.9, Some("gon were declared as deg")),
+        (0.9, Some("deg were declared as gon")),
         (-1.0, Some("sense is opposite")),
-        (DEG, Some("deg were declared as rad")),
+        (DEG, Some("angle in rad were declared as deg")),
     ] {
         let turned = with_table_angle(&recording, |angle| angle * factor);
         let inspection = inspect(&turned, &Expected { axis: None, ..known });
@@ -91,7 +91,7 @@ fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
             .suspicions
             .iter()
             .filter_map(|suspicion| match suspicion {
-                Suspicion::SpinScale { cause, .. } => Some(cause.unwrap_or_default()),
+                Suspicion::SpinScale { cause, .. } => Some(cause.as_deref().unwrap_or_default()),
                 _ => None,
             })
             .collect();

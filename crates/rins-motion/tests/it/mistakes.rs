@@ -4,7 +4,10 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EulerAngles, InFrame, Increments};
-use rins_motion::{Correction, Expected, ExpectedAxis, Recording, SignedAxes, Suspicion, inspect};
+use rins_motion::{
+    Correction, Expected, ExpectedAxis, ExpectedTriad, ReadingOf, ReadingUnit, Recording,
+    SignedAxes, Suspicion, inspect,
+};
 use rins_testing::assert_close;
 
 use crate::axes::{corrections, read_as, undone};
@@ -66,56 +69,64 @@ fn scaled(recording: &Recording, gyro: f64, accel: f64, table: f64) -> Recording
     Recording { increments: increments.collect(), table_angle, ..recording.clone() }
 }
 
-/// A unit that was meant and the one that was said, as the factor by which readings are then wrong,
-/// and what the cause is to say.
-const GYRO_UNITS: [(f64, &str); 8] = [
-    (1.0 / DEG, "readings in deg were declared as rad"),
-    (DEG, "readings in rad were declared as deg"),
-    (DEG / DEG_PER_HOUR, "readings in deg/h were declared as deg/s"),
-    (DEG_PER_HOUR / DEG, "readings in deg/s were declared as deg/h"),
-    (1.0 / DEG_PER_HOUR, "readings in arcsec were declared as rad, or in deg/h as rad/s"),
-    (DEG_PER_HOUR, "readings in rad were declared as arcsec, or in rad/s as deg/h"),
-    (INTERVAL, "angle increments were declared as rates"),
-    (1.0 / INTERVAL, "rates were declared as angle increments"),
-];
-
-const ACCEL_UNITS: [(f64, &str); 8] = [
-    (STANDARD_GRAVITY, "readings in m/s^2 were declared as g"),
-    (1.0 / STANDARD_GRAVITY, "readings in g were declared as m/s^2"),
-    (1e3, "readings in mg were declared as g"),
-    (1e-3, "readings in g were declared as mg"),
-    (1.0 / (1e3 * MICRO_G), "readings in mg were declared as m/s^2"),
-    (1e3 * MICRO_G, "readings in m/s^2 were declared as mg"),
-    (INTERVAL, "velocity increments were declared as specific force"),
-    (1.0 / INTERVAL, "specific force was declared as velocity increments"),
-];
-
-fn causes(recording: &Recording) -> Vec<&'static str> {
-    let found = inspect(recording, &expected(NAVIGATION)).suspicions;
-    let cause = |suspicion: &Suspicion| match suspicion {
-        Suspicion::Gravity { cause, .. } | Suspicion::SpinScale { cause, .. } => *cause,
+fn causes(recording: &Recording, expected: &Expected) -> Vec<String> {
+    let cause = |suspicion: Suspicion| match suspicion {
+        Suspicion::Gravity { cause, .. } | Suspicion::SpinScale { cause, .. } => cause,
         _ => None,
     };
-    found.iter().filter_map(cause).collect()
+    inspect(recording, expected).suspicions.into_iter().filter_map(cause).collect()
+}
+
+/// What one of a unit adds over an interval, in SI units.
+fn over(unit: ReadingUnit) -> f64 {
+    if unit.of == ReadingOf::Rate { unit.factor * INTERVAL } else { unit.factor }
+}
+
+/// Fails unless each unit of a list taken for each other one is named, and nothing else is; `wrong`
+/// makes what is then read, of a factor.
+fn assert_units_named(
+    units: &[ReadingUnit],
+    said: impl Fn(ReadingUnit) -> Expected,
+    wrong: impl Fn(f64) -> Recording,
+) {
+    for &meant in units {
+        for &unit in units.iter().filter(|unit| **unit != meant) {
+            let told = causes(&wrong(over(unit) / over(meant)), &said(unit));
+            let pair = format!("in {} were declared as {}", meant.symbol, unit.symbol);
+            assert_eq!(told, [format!("readings {pair}")]);
+        }
+    }
 }
 
 #[test]
 fn every_unit_taken_for_another_is_named() {
-    let recording = record(usual(), NAVIGATION, 21);
-    for (factor, cause) in GYRO_UNITS {
-        let told = causes(&scaled(&recording, factor, 1.0, 1.0));
-        assert!(matches!(told[..], [told] if told.starts_with(cause)), "{cause}: {told:?}");
-    }
-    for (factor, cause) in ACCEL_UNITS {
-        assert_eq!(causes(&scaled(&recording, 1.0, factor, 1.0)), [cause]);
-    }
-    for (factor, cause) in [
-        (DEG, "readings in deg were declared as rad, or the table's unit is wrong"),
-        (1.0 / DEG, "readings in rad were declared as deg, or the table's unit is wrong"),
-        (-1.0, "the table's sense is opposite to the gyro's"),
-        (1.0 / 0.9, "a table angle in gon was declared as deg, or gyros in deg as gon"),
-    ] {
-        assert_eq!(causes(&scaled(&recording, 1.0, 1.0, factor)), [cause], "{factor}");
+    let steady = record(profile(&[(10.0, 130.0)]), NAVIGATION, 28);
+    for recording in [record(usual(), NAVIGATION, 21), steady.slice(500, steady.len())] {
+        let known = expected(NAVIGATION);
+        let gyro =
+            |unit| Expected { gyro: ExpectedTriad { unit: Some(unit), ..known.gyro }, ..known };
+        assert_units_named(&ReadingUnit::GYRO, gyro, |f| scaled(&recording, f, 1.0, 1.0));
+        let accel =
+            |unit| Expected { accel: ExpectedTriad { unit: Some(unit), ..known.accel }, ..known };
+        assert_units_named(&ReadingUnit::ACCEL, accel, |f| scaled(&recording, 1.0, f, 1.0));
+        let table = |unit| Expected {
+            gyro: ExpectedTriad { unit: Some(ReadingUnit::GYRO[0]), ..known.gyro },
+            table_unit: Some(unit),
+            ..known
+        };
+        for (place, meant) in ReadingUnit::TABLE_ANGLE.into_iter().enumerate() {
+            for said in ReadingUnit::TABLE_ANGLE.into_iter().skip(place + 1) {
+                for (meant, said) in [(meant, said), (said, meant)] {
+                    let wrong = scaled(&recording, 1.0, 1.0, said.factor / meant.factor);
+                    let told = causes(&wrong, &table(said));
+                    let pair =
+                        format!("angle in {} were declared as {}", meant.symbol, said.symbol);
+                    assert!(told.len() == 1 && told[0].contains(&pair), "{pair}: {told:?}");
+                }
+            }
+        }
+        let told = causes(&scaled(&recording, 1.0, 1.0, -1.0), &known);
+        assert_eq!(told, ["the table's sense is opposite to the gyro's"]);
     }
 }
 
@@ -136,6 +147,21 @@ fn exchanged_triads_are_named_whatever_their_units() {
         let named = |suspicion: &Suspicion| matches!(suspicion, Suspicion::Triads { gyro, accel } if *accel > 0.99 && *gyro < 0.3);
         assert!(found.iter().any(named), "{found:?}");
     }
+}
+
+/// The same where the table turns at one rate, with which nothing then varies.
+#[test]
+fn exchanged_triads_are_named_at_one_rate() {
+    let run = record(profile(&[(10.0, 130.0)]), NAVIGATION, 29);
+    let mut wrong = run.slice(500, run.len());
+    for sample in &mut wrong.increments {
+        let (angle, velocity) = (*sample.angle.components(), *sample.velocity.components());
+        sample.angle = InFrame::from_components(velocity);
+        sample.velocity = InFrame::from_components(angle);
+    }
+    let found = inspect(&wrong, &expected(NAVIGATION)).suspicions;
+    let [Suspicion::TurningTriads { gyro, accel }] = found[..] else { panic!("{found:?}") };
+    assert!(gyro > 0.3 && accel < 0.01, "{gyro} {accel}");
 }
 
 /// Of a hundred runs without a mistake, in all attitudes and places, none is suspected.

@@ -98,11 +98,12 @@ pub(crate) fn record_tilted(
 
 /// What is known of such a run beforehand.
 pub(crate) fn expected(grade: Grade) -> Expected {
-    let triad = |bias: f64| ExpectedTriad { bias_sigma: Some(2.0 * bias), range: None };
+    let triad = |bias: f64| ExpectedTriad { bias_sigma: Some(2.0 * bias), range: None, unit: None };
     Expected {
         station: Some(station(PAPER_LATITUDE)),
         axis: Some(ExpectedAxis { angles: ANGLES, sigma: 0.1 * DEG }),
         table_latency: 0.0,
+        table_unit: None,
         gyro: triad(grade.gyro_bias),
         accel: triad(grade.accel_bias),
     }
