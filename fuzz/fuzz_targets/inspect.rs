@@ -7,7 +7,7 @@ use rins_motion::{Expected, ExpectedAxis, ExpectedTriad, inspect};
 
 libfuzzer_sys::fuzz_target!(|table: Table| {
     let Some(loaded) = rins_fuzz::csv(table.choice, table.text().as_bytes()) else { return };
-    let triad = ExpectedTriad { bias_sigma: Some(1e-3), range: Some(20.0) };
+    let triad = ExpectedTriad { bias_sigma: Some(1e-3), range: Some(20.0), unit: None };
     let angles = EulerAngles { roll: 0.5, pitch: 0.3, yaw: 0.7 };
     let seen = inspect(
         &loaded.recording,
@@ -15,6 +15,7 @@ libfuzzer_sys::fuzz_target!(|table: Table| {
             station: Some(loaded.station),
             axis: Some(ExpectedAxis { angles, sigma: 1e-3 }),
             table_latency: 0.0,
+            table_unit: None,
             gyro: triad,
             accel: triad,
         },

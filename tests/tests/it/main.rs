@@ -13,6 +13,7 @@ mod hostile;
 mod identifiability;
 mod interrupted;
 mod measured;
+mod mistakes;
 mod monte_carlo;
 mod no_room;
 mod observe;

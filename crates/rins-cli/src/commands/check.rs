@@ -1,7 +1,9 @@
 //! `rins check`: what a run holds, and what looks wrong with it.
 
+mod mends;
 mod oddities;
 mod shows;
+mod units;
 mod verdicts;
 mod words;
 
@@ -14,7 +16,9 @@ use rins_io::Loaded;
 use rins_motion::{CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect};
 use serde_json::{Value, json};
 
+pub(crate) use self::mends::{mends, mends_in_words};
 use self::oddities::oddities;
+use self::units::said_units;
 use self::verdicts::{Verdict, verdicts};
 pub(crate) use self::words::suspicion_in_words;
 use crate::commands::align::table;
@@ -42,6 +46,9 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     for oddity in &oddities {
         let _ = writeln!(text, "  ! {oddity}");
     }
+    if let Some(mend) = mends_in_words(&mends(&inspection, &loaded.rig)) {
+        let _ = writeln!(text, "  > {mend}");
+    }
     if oddities.is_empty() {
         text.push_str("  nothing odd\n");
     }
@@ -60,9 +67,11 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
 /// What a run holds, held against all that its rig says.
 pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
     let rig = &loaded.rig;
-    let triad = |spec: &rins_imu::TriadSpec| ExpectedTriad {
-        bias_sigma: Some(spec.bias_sigma),
-        range: spec.range,
+    let units = said_units(&rig.log);
+    let triad = |spec: Option<rins_imu::TriadSpec>, unit| ExpectedTriad {
+        bias_sigma: spec.map(|spec| spec.bias_sigma),
+        range: spec.and_then(|spec| spec.range),
+        unit,
     };
     let axis = |attitude: rins_io::InitialAttitude| ExpectedAxis {
         angles: attitude.angles,
@@ -72,8 +81,9 @@ pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
         station: Some(loaded.station),
         axis: rig.attitude.map(axis),
         table_latency: rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default(),
-        gyro: rig.imu.map(|imu| triad(&imu.gyro)).unwrap_or_default(),
-        accel: rig.imu.map(|imu| triad(&imu.accel)).unwrap_or_default(),
+        table_unit: units.table,
+        gyro: triad(rig.imu.map(|imu| imu.gyro), units.gyro),
+        accel: triad(rig.imu.map(|imu| imu.accel), units.accel),
     };
     inspect(&loaded.recording, &expected)
 }
@@ -253,6 +263,9 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
         .iter()
         .map(|suspicion| Item::Note(Tone::Bad, suspicion_in_words(suspicion)))
         .collect();
+    if let Some(mend) = mends_in_words(&mends(inspection, &loaded.rig)) {
+        items.push(Item::Note(Tone::Bad, format!("To mend it: {mend}.")));
+    }
     items.push(Item::Table(table(&rows)));
     if inspection.rests.len() > 1 {
         items.push(Item::Table(table(&rests(inspection, loaded))));
@@ -354,6 +367,13 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         .map(|(index, length)| json!({"at_s": times[*index], "length_s": length}))
         .collect();
     let suspicions: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
+    let mends: Vec<Value> = mends(inspection, &loaded.rig)
+        .iter()
+        .map(|mend| {
+            let names = |axes: &Option<rins_io::Axes>| axes.map(|axes| axes.names());
+            json!({"gyro_axes": names(&mend.gyro), "accel_axes": names(&mend.accel)})
+        })
+        .collect();
     json!({
         "schema": 1,
         "command": "check",
@@ -368,6 +388,7 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         "earth_rate_visible": inspection.earth_rate_visible,
         "expected_gravity_m_s2": loaded.station.gravity,
         "suspicions": suspicions,
+        "mends": mends,
         "oddities": oddities,
         "verdicts": verdicts(inspection, loaded).iter().map(Verdict::json).collect::<Vec<_>>(),
         "repairs": repairs(&loaded.rig, &loaded.summary),

@@ -1,6 +1,9 @@
 //! Which sensor axis is which body axis.
 
 use nalgebra::Vector3;
+use rins_motion::SignedAxes;
+
+const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// Three axes picked from three others, each once, with signs.
 ///
@@ -53,6 +56,25 @@ impl Axes {
         Vector3::from_fn(|row, _| self.sign[row] * vector[self.source[row]])
     }
 
+    /// The axes by which what these have mixed up is as it was.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let mut inverse = *self;
+        for row in 0..3 {
+            inverse.source[self.source[row]] = row;
+            inverse.sign[self.source[row]] = self.sign[row];
+        }
+        inverse
+    }
+
+    /// Each axis as a rig file names it.
+    pub fn names(&self) -> [String; 3] {
+        core::array::from_fn(|row| {
+            let sign = if self.sign[row] < 0.0 { "-" } else { "" };
+            format!("{sign}{}", NAMES[self.source[row]])
+        })
+    }
+
     /// These axes picked from `first`, not from the sensor's.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
@@ -62,12 +84,18 @@ impl Axes {
     }
 }
 
+impl From<SignedAxes> for Axes {
+    fn from(SignedAxes { source, sign }: SignedAxes) -> Self {
+        Self { source, sign }
+    }
+}
+
 fn axis(name: &str) -> Option<(usize, f64)> {
     let (sign, letter) = match name.strip_prefix('-') {
         Some(letter) => (-1.0, letter),
         None => (1.0, name.strip_prefix('+').unwrap_or(name)),
     };
-    let source = ["x", "y", "z"].iter().position(|axis| *axis == letter)?;
+    let source = NAMES.iter().position(|axis| *axis == letter)?;
     Some((source, sign))
 }
 
@@ -103,6 +131,16 @@ mod tests {
         let first = Axes::parse(["-y", "x", "-z"]).unwrap();
         let second = Axes::parse(["z", "-y", "x"]).unwrap();
         assert_eq!(matrix(&second.after(&first)), matrix(&second) * matrix(&first));
+    }
+
+    #[test]
+    fn an_inverse_undoes_and_names_are_read() {
+        for names in [["-y", "x", "-z"], ["z", "-x", "y"], ["-x", "-z", "y"]] {
+            let axes = Axes::parse(names).unwrap();
+            assert_eq!(axes.names(), names);
+            assert_eq!(axes.inverse().after(&axes), Axes::IDENTITY);
+            assert_eq!(axes.after(&axes.inverse()), Axes::IDENTITY);
+        }
     }
 
     #[test]

@@ -14,7 +14,7 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
     (
         "increments taken for rates",
         Replace(RIG, "unit = \"m/s\"", "unit = \"m/s^2\""),
-        "velocity increments were declared as specific force",
+        "readings in m/s were declared as m/s^2",
     ),
     (
         "m/s taken for g",
@@ -34,7 +34,7 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
     (
         "angle increments taken for rates",
         Replace(RIG, "unit = \"rad\"", "unit = \"rad/s\""),
-        "angle increments were declared as rates",
+        "readings in rad were declared as rad/s",
     ),
     (
         "radians taken for degrees",
@@ -44,7 +44,7 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
     (
         "a table in degrees",
         Replace(RIG, "\"table_angle\", unit = \"rad\"", "\"table_angle\", unit = \"deg\""),
-        "the table's unit is wrong",
+        "readings of the table's angle in rad were declared as deg",
     ),
     (
         "a gyro triad upside down",

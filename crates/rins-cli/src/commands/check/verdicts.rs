@@ -163,7 +163,10 @@ fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     let is_unit = |s: &Suspicion| {
         matches!(
             s,
-            Suspicion::Gravity { .. } | Suspicion::SpinScale { .. } | Suspicion::Triads { .. }
+            Suspicion::Gravity { .. }
+                | Suspicion::SpinScale { .. }
+                | Suspicion::Triads { .. }
+                | Suspicion::TurningTriads { .. }
         )
     };
     let is_axis = |s: &Suspicion| {

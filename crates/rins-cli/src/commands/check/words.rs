@@ -4,14 +4,14 @@ use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_motion::{Correction, SignedAxes, Suspicion};
 
 /// How many corrections that explain the same are told.
-const TOLD: usize = 4;
+pub(super) const TOLD: usize = 4;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// A suspicion as a person reads it.
 pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
-    let because = |cause: Option<&'static str>| {
-        cause.map_or_else(
+    let because = |cause: &Option<String>| {
+        cause.as_ref().map_or_else(
             || "no single unit mistake explains it; check units, scale and axes".to_owned(),
             |cause| format!("that is as if {cause}"),
         )
@@ -19,14 +19,20 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
     let seen = match suspicion {
         Suspicion::Gravity { seen, expected, cause } => format!(
             "the specific force is {seen:.5} m/s^2 where gravity is {expected:.5}: {}",
-            because(*cause)
+            because(cause)
         ),
         Suspicion::SpinScale { ratio, cause } => {
-            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(*cause))
+            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(cause))
         }
         Suspicion::Triads { gyro, accel } => format!(
             "an accelerometer follows the table's rate (correlation {accel:.3}) and no gyro does ({gyro:.3} at most): \
              the columns of gyro and accel are exchanged"
+        ),
+        Suspicion::TurningTriads { gyro, accel } => format!(
+            "while the table turns, {:.0} % of what the gyros show stands across its axis and {:.1} % of what the \
+             accelerometers show, as if that were gravity: the columns of gyro and accel are exchanged",
+            gyro * 100.0,
+            accel * 100.0
         ),
         Suspicion::SpinAxis { channel, ratio } => format!(
             "{channel} counts {ratio:.4} of the table's turn and gyro.z does not: the axes are exchanged; set `axes` \

@@ -1,0 +1,41 @@
+//! The units that a rig file says readings are in.
+
+use rins_io::{LogFormat, LogSpec, Reading, TriadColumns};
+use rins_motion::{ReadingOf, ReadingUnit};
+
+/// The units of the usual ones that a rig file names.
+#[derive(Default)]
+pub(super) struct SaidUnits {
+    pub(super) gyro: Option<ReadingUnit>,
+    pub(super) accel: Option<ReadingUnit>,
+    pub(super) table: Option<ReadingUnit>,
+}
+
+/// What a log's readings are said to be in; a PSINS text log says that itself.
+pub(super) fn said_units(log: &LogSpec) -> SaidUnits {
+    let LogFormat::Columns(columns) = &log.format else { return SaidUnits::default() };
+    let angle = columns.table_angle.as_ref().map(|angle| Reading::Increment(angle.factor));
+    let rate = columns.table_rate.as_ref().map(|rate| Reading::Rate(rate.factor));
+    SaidUnits {
+        gyro: of_triad(&ReadingUnit::GYRO, &columns.gyro),
+        accel: of_triad(&ReadingUnit::ACCEL, &columns.accel),
+        table: angle
+            .and_then(|angle| named(&ReadingUnit::TABLE_ANGLE, angle))
+            .or_else(|| rate.and_then(|rate| named(&ReadingUnit::TABLE_RATE, rate))),
+    }
+}
+
+/// Raw counts are in no unit: their scale may be as wrong as that.
+fn of_triad(units: &[ReadingUnit], triad: &TriadColumns) -> Option<ReadingUnit> {
+    let plain = triad.scale.iter().all(|scale| (scale - 1.0).abs() <= 0.0);
+    named(units, triad.reading).filter(|_| plain)
+}
+
+fn named(units: &[ReadingUnit], reading: Reading) -> Option<ReadingUnit> {
+    let (of, factor) = match reading {
+        Reading::Rate(factor) => (ReadingOf::Rate, factor),
+        Reading::Increment(factor) => (ReadingOf::Increment, factor),
+    };
+    let is = |unit: &&ReadingUnit| unit.of == of && (unit.factor / factor - 1.0).abs() < 1e-9;
+    units.iter().find(is).copied()
+}
