@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;
+use std::hash::{DefaultHasher, Hasher};
 
 use rayon::prelude::*;
 use rins_calibration::{AxisAttitude, Setup, TableSpec};
@@ -49,7 +50,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let chunks: Vec<_> = campaign.chunks().collect();
     let runs: Vec<Vec<RunResult>> =
         chunks.into_par_iter().map(|chunk| prepared.run(chunk.runs)).collect();
-    let statistics = Statistics::of(&campaign.cells[0].truth(), &runs.concat())
+    let runs = runs.concat();
+    println!("{:016x} of all estimates and covariances, on any machine", fingerprint(&runs));
+    let statistics = Statistics::of(&campaign.cells[0].truth(), &runs)
         .ok_or("fewer than two runs have estimates")?;
     for (id, parameter) in PARAMETERS.iter().zip(&statistics.parameters) {
         let ratio = parameter.spread / parameter.claimed;
@@ -58,4 +61,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [least, most] = statistics.nees_bounds;
     println!("NEES {:.3}, honest between {least:.3} and {most:.3}", statistics.nees);
     Ok(())
+}
+
+/// A number that one other bit anywhere would change.
+fn fingerprint(runs: &[RunResult]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for found in runs.iter().flatten() {
+        let numbers = found.value.iter().chain(&found.covariance).chain([&found.nis_ratio]);
+        numbers.for_each(|number| hasher.write_u64(number.to_bits()));
+    }
+    hasher.finish()
 }

@@ -1,6 +1,7 @@
 //! How far free inertial navigation drifts over what was held out.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use rins_calibration::navigate_freely;
 use rins_estimation::{Fit, Run, linearise};
@@ -26,7 +27,7 @@ pub struct Drift {
 
 /// A run as an IMU without the errors of a fitted model would have recorded it.
 struct Undone {
-    recording: Recording,
+    recording: Arc<Recording>,
     angles: Vec<f64>,
     nav_from_table: Dcm<Nav, Table>,
 }
@@ -34,7 +35,7 @@ struct Undone {
 impl Undone {
     fn of(run: &Run, fit: &Fit, place: usize) -> Result<Self, NotUndone> {
         let around = fit.linear[place].track().surroundings;
-        let recording = compensated(&fit.models[place], around, &run.recording)?;
+        let recording = Arc::new(compensated(&fit.models[place], around, &run.recording)?);
         let clean = Run { rig: run.rig, recording, left_out: Vec::new(), turn_on: run.turn_on };
         let angles = linearise(&clean, &Model::default(), &[]).track().angles().to_vec();
         Ok(Self { recording: clean.recording, angles, nav_from_table: around.nav_from_table })

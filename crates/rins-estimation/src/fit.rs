@@ -335,6 +335,8 @@ impl<'a> Problem<'a> {
             }
         }
         self.take_values();
+        // A day's run would not fit into memory twice.
+        self.linear.clear();
         self.linear = self.linearised();
         largest
     }

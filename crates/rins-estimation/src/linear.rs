@@ -15,6 +15,9 @@ use crate::space::SHOWN;
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (0.1, 0.5);
 
+/// No more epochs than this, however long the run is: those of a day last two seconds.
+const MOST_EPOCHS: f64 = 40_000.0;
+
 /// In a piece of an epoch the table turns by no more than this \[rad\].
 const TURN_OF_PIECE: f64 = 0.04;
 
@@ -25,7 +28,7 @@ const LEAST_TURN: f64 = 1e-6;
 const FEWEST_PIECES: usize = 4;
 
 /// A thread makes at least as many columns.
-const FEWEST_COLUMNS: usize = 32;
+const FEWEST_COLUMNS: usize = 12;
 
 /// A stretch of samples, taken as one.
 ///
@@ -117,7 +120,7 @@ fn linearised(run: &Run, model: &Model, free: &[(usize, usize)], pieces: Pieces)
     let (surroundings, model) = with_attitude(run, model);
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
-    let length = (duration / 1000.0).clamp(EPOCH.0, EPOCH.1);
+    let length = (duration / 1000.0).clamp(EPOCH.0, EPOCH.1).max(duration / MOST_EPOCHS);
     let interval = duration / (recording.len() - 1) as f64;
     let block = whole(length / interval);
     let track = path::track(run, surroundings, block);

@@ -1,6 +1,7 @@
 //! A run to be explained: a recording, and what its readings are compared with.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use rins_frames::{Dcm, Nav, Table};
 use rins_motion::{Recording, Station};
@@ -44,8 +45,8 @@ pub struct Rig {
 pub struct Run {
     /// The rig.
     pub rig: Rig,
-    /// The samples.
-    pub recording: Recording,
+    /// The samples; a copy of the run shares them.
+    pub recording: Arc<Recording>,
     /// The samples that play no part in an estimate, apart and in order.
     pub left_out: Vec<Range<usize>>,
     /// Which of several switchings-on it belongs to, if not to one of its own.
@@ -92,7 +93,8 @@ impl Run {
     ///
     /// # Errors
     /// [`RunError`] if it is too short, lacks the reference, or a figure of the rig is impossible.
-    pub fn new(rig: Rig, recording: Recording) -> Result<Self, RunError> {
+    pub fn new(rig: Rig, recording: impl Into<Arc<Recording>>) -> Result<Self, RunError> {
+        let recording = recording.into();
         if recording.len() < FEWEST_SAMPLES {
             return Err(RunError::TooShort { samples: recording.len() });
         }

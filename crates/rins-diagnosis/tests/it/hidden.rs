@@ -1,5 +1,7 @@
 //! One effect, two, and none.
 
+use std::sync::Arc;
+
 use rins_diagnosis::{Along, Diagnosis, Structure, chance, diagnose, limits};
 use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
@@ -208,7 +210,7 @@ fn what_no_effect_explains_is_described_and_not_named() {
     const ORDER: f64 = 1.37;
     let mut run = run(&RATES, Model::default(), 0.0, 90);
     let angles = run.recording.table_angle.clone().unwrap();
-    for (sample, angle) in run.recording.increments.iter_mut().zip(angles) {
+    for (sample, angle) in Arc::make_mut(&mut run.recording).increments.iter_mut().zip(angles) {
         let rate = AMPLITUDE * (ORDER * angle).cos();
         sample.angle += InFrame::new(0.0, rate * sample.interval, 0.0);
     }
@@ -232,7 +234,8 @@ fn an_effect_that_comes_and_goes_is_inconstant() {
     let with = run(&RATES, effect, 0.0, 91);
     let mut sometimes = run(&RATES, Model::default(), 0.0, 91);
     let half = sometimes.recording.increments.len() / 2;
-    sometimes.recording.increments[..half].copy_from_slice(&with.recording.increments[..half]);
+    Arc::make_mut(&mut sometimes.recording).increments[..half]
+        .copy_from_slice(&with.recording.increments[..half]);
     let diagnosis = found(&sometimes, NoiseKnowledge::Given);
     let inconstant =
         diagnosis.unexplained.iter().any(|one| one.structure == Structure::Inconstant(Along::Time));

@@ -1,5 +1,7 @@
 //! What is left out of a run plays no part, and is foretold from what is not.
 
+use std::sync::Arc;
+
 use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit, foretold, linearise};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
@@ -35,12 +37,13 @@ fn apart(one: &Fit, other: &Fit) -> f64 {
 fn what_is_left_out_may_be_anything() {
     let run = turned();
     let mut spoiled = run.clone();
+    let recording = Arc::make_mut(&mut spoiled.recording);
     for sample in SPAN {
-        let increments = &mut spoiled.recording.increments[sample];
+        let increments = &mut recording.increments[sample];
         let interval = increments.interval;
         increments.angle += InFrame::new(3.0, -2.0, 4.0) * (DEG_PER_HOUR * interval);
         increments.velocity += InFrame::new(0.0, 500.0, 300.0) * (MICRO_G * interval);
-        spoiled.recording.table_angle.as_mut().unwrap()[sample] += 20.0 * ARCSEC;
+        recording.table_angle.as_mut().unwrap()[sample] += 20.0 * ARCSEC;
     }
     let without = |run: &Run| fitted(&run.clone().leaving_out(vec![SPAN]));
     let (honest, harmless) = (without(&run), without(&spoiled));

@@ -15,6 +15,7 @@ fn any_run() -> Run {
 #[test]
 fn run_lacks_its_reference_is_too_short_or_level() {
     let Run { rig, recording, .. } = any_run();
+    let recording = Recording::clone(&recording);
     let of = |rig, recording| Run::new(rig, recording).unwrap_err();
     let short = recording.slice(0, 50);
     assert_eq!(of(rig, short), RunError::TooShort { samples: 50 });

@@ -1,5 +1,7 @@
 //! A rest on a base that sways: what sways is not taken for noise of the sensors.
 
+use std::sync::Arc;
+
 use nalgebra::{Rotation3, Vector3};
 use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, fit};
 use rins_frames::InFrame;
@@ -31,7 +33,7 @@ fn swaying() -> Run {
     let around = Surroundings::new(run.rig.station, run.rig.nav_from_table);
     let mut deviates = Seed::new(7).stream(Sensor::Encoder);
     let mut attitude = Rotation3::<f64>::identity();
-    for sample in &mut run.recording.increments {
+    for sample in &mut Arc::make_mut(&mut run.recording).increments {
         let t = sample.interval;
         let turn = Vector3::from(SWAY.map(|density| density * t.sqrt() * deviates.sample()));
         let middle = attitude * Rotation3::new(turn * 0.5);

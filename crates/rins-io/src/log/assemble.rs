@@ -40,7 +40,6 @@ pub(super) fn read(
     clock.summary.time_origin = files.instants.map_or(0.0, |instants| instants.origin());
     files.compare(clock.summary.nominal_interval)?;
 
-    let times = if times.is_empty() { clock.ends.clone() } else { times.clone() };
     let gyro = files.gyro(spec)?;
     let accel = files.accel(spec)?;
     let gyro = Channel { spec: &spec.gyro, values: gyro, axes: rig.spin.after(&rig.log.gyro_axes) };
@@ -71,6 +70,8 @@ pub(super) fn read(
         interval,
     });
     let increments = increments.collect();
+    let uncut = if times.is_empty() { clock.ends.clone() } else { Vec::new() };
+    let times = if times.is_empty() { &uncut } else { times };
     clock.keep(kept.clone());
 
     let table_angle = match &spec.table_angle {
@@ -81,7 +82,7 @@ pub(super) fn read(
                 let problem = LogProblem::AmbiguousAngle { turns };
                 LogError::at(&file.path, file.columns.lines[row], problem)
             })?;
-            Some(at(&times, &angles, &clock.ends))
+            Some(at(times, &angles, &clock.ends))
         }
         None => None,
     };
@@ -98,7 +99,7 @@ pub(super) fn read(
     let temperature = match &spec.temperature {
         Some(TemperatureColumn { file: None, column, offset }) => {
             let values = files.file(&rig.log.path).temperatures(column, *offset)?;
-            Some(at(&times, &values, &clock.ends))
+            Some(at(times, &values, &clock.ends))
         }
         Some(column) => {
             let own = temperature(column, files.instants, &clock.ends)?;
@@ -128,7 +129,7 @@ struct Channel<'s> {
 }
 
 impl Channel<'_> {
-    fn increments(&self, clock: &Clock, gaps: Option<Gaps>) -> Result<Vec<Vector3<f64>>, IoError> {
+    fn increments(self, clock: &Clock, gaps: Option<Gaps>) -> Result<Vec<Vector3<f64>>, IoError> {
         let mut scale = clock.intervals.clone();
         if let Reading::Increment(_) = self.spec.reading {
             scale.fill(1.0);
@@ -147,8 +148,11 @@ impl Channel<'_> {
                 }
             }
         }
-        let turned = self.values.iter().map(|value| self.axes.apply(value));
-        Ok(turned.zip(scale).map(|(value, scale)| value * scale).collect())
+        let mut values = self.values;
+        for (value, scale) in values.iter_mut().zip(scale) {
+            *value = self.axes.apply(value) * scale;
+        }
+        Ok(values)
     }
 }
 

@@ -33,6 +33,9 @@ pub(super) struct Clock {
 impl Clock {
     /// Keeps the samples of `range` only.
     pub(super) fn keep(&mut self, range: Range<usize>) {
+        if range == (0..self.ends.len()) {
+            return;
+        }
         self.ends = self.ends[range.clone()].to_vec();
         self.intervals = self.intervals[range.clone()].to_vec();
         self.summary.samples = range.len();

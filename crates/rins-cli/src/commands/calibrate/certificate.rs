@@ -1,5 +1,7 @@
 //! What a calibration found, and all that follows from it.
 
+use std::sync::Arc;
+
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
@@ -160,7 +162,7 @@ impl CertifiedRun {
         let model = &fit.models[run];
         let nav_from_table = prepared.run.rig.nav_from_table * attitude_of(model);
         let recorded = &prepared.run.recording;
-        let undone = undone(&prepared.run, model).unwrap_or_else(|_| recorded.clone());
+        let undone = undone(&prepared.run, model).map_or_else(|_| Arc::clone(recorded), Arc::new);
         let track = fit.linear[run].track();
         let navigate = |recording: &Recording| {
             navigate_freely(recording, track.angles(), nav_from_table, station, None)

@@ -37,7 +37,7 @@ const LEAST_SPIN: f64 = 2.0 * std::f64::consts::TAU;
 pub(crate) struct Prepared {
     /// What it is called: the path of its rig file.
     pub(crate) name: String,
-    /// The files' content.
+    /// The files' content; where the whole log is used its samples are those of `run`, and not here.
     pub(crate) loaded: Loaded,
     /// What the data sheet says.
     pub(crate) imu: ImuSpec,
@@ -67,7 +67,10 @@ impl Attitude {
 
 /// What is known of the table, as far as the samples go.
 struct Axis {
-    recording: Recording,
+    /// The part of the log that is used, if not all of it is.
+    part: Option<Recording>,
+    /// The table's angles brought forward by its latency, if it has one.
+    brought_forward: Option<Vec<f64>>,
     reference: Reference,
     nav_from_table: Dcm<Nav, Table>,
     /// Other rests, and how each stands.
@@ -78,10 +81,11 @@ struct Axis {
 
 impl Prepared {
     /// Makes a rig ready.
-    pub(crate) fn of(path: &Path, loaded: Loaded, noise: NoiseChoice) -> anyhow::Result<Self> {
+    pub(crate) fn of(path: &Path, mut loaded: Loaded, noise: NoiseChoice) -> anyhow::Result<Self> {
         let mut setup = setup(&loaded)?;
         refuse_mistaken(&loaded)?;
-        let log = || loaded.rig.log.path.display().to_string();
+        let name = loaded.rig.log.path.display().to_string();
+        let log = || name.clone();
         let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
         let axis = axis(&loaded, &setup).with_context(log)?;
         let turned = matches!(axis.reference, Reference::Encoder { .. });
@@ -99,7 +103,13 @@ impl Prepared {
             wobble: setup.table.wobble,
             velocity: setup.velocity_noise,
         };
-        let run = Run::new(rig, axis.recording).with_context(log)?;
+        // A day's samples are kept once.
+        let whole = || std::mem::take(&mut loaded.recording);
+        let mut recording = axis.part.unwrap_or_else(whole);
+        if let Some(angles) = axis.brought_forward {
+            recording.table_angle = Some(angles);
+        }
+        let run = Run::new(rig, recording).with_context(log)?;
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
             Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
         });
@@ -129,21 +139,29 @@ impl Prepared {
 }
 
 fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
-    let mut recording = loaded.recording.clone();
+    let recording = &loaded.recording;
     let reference = match (&recording.table_angle, &recording.table_rate) {
         (Some(_), _) => Reference::Encoder { noise: setup.table.angle_noise },
         (None, Some(_)) => Reference::Command { noise: setup.table.rate_noise },
         (None, None) => return unread(loaded),
     };
-    let angles = table_angles(&recording, setup.table.latency).unwrap_or_default();
-    if recording.table_angle.is_some() {
-        recording.table_angle = Some(angles[1..].to_vec());
-    }
+    let angles = table_angles(recording, setup.table.latency).unwrap_or_default();
+    let late = recording.table_angle.is_some() && setup.table.latency != 0.0;
+    let brought_forward = late.then(|| angles[1..].to_vec());
+    let part = None;
     if let Some(given) = loaded.rig.attitude {
         let nav_from_table = given.angles.dcm();
         let attitude = Attitude::within(given.sigma);
         let (others, remarks) = (Vec::new(), Vec::new());
-        return Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks });
+        return Ok(Axis {
+            part,
+            brought_forward,
+            reference,
+            nav_from_table,
+            others,
+            attitude,
+            remarks,
+        });
     }
     let rest = found(loaded).context("the rig gives no [attitude], and none can be found")?;
     let table_from_body = Dcm::<Table, Body>::about_z(angles[rest.span.start]);
@@ -155,7 +173,7 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
         loaded.recording.times[rest.span.end - 1]
     )];
     let others = Vec::new();
-    Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks })
+    Ok(Axis { part, brought_forward, reference, nav_from_table, others, attitude, remarks })
 }
 
 /// A run whose table nothing reads: it turns by gravity, or rests.
@@ -181,8 +199,16 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
         let wide = Some(AXIS_BY_GRAVITY);
         let attitude = Attitude { sigma: [wide, wide, None] };
         let reference = Reference::Gravity;
-        let (recording, others) = (turning, Vec::new());
-        return Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks });
+        let (part, brought_forward, others) = (Some(turning), None, Vec::new());
+        return Ok(Axis {
+            part,
+            brought_forward,
+            reference,
+            nav_from_table,
+            others,
+            attitude,
+            remarks,
+        });
     }
     if let Some(rests) = Rests::of(loaded)? {
         return Ok(turned_over(loaded, &rests));
@@ -201,9 +227,9 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
             (nav_from_table, aligned(&nav_from_table, rest.sigma))
         }
     };
-    let recording = recording.slice(rest.span.start, rest.span.end);
-    let (reference, others) = (Reference::Rest, Vec::new());
-    Ok(Axis { recording, reference, nav_from_table, others, attitude, remarks })
+    let part = Some(recording.slice(rest.span.start, rest.span.end));
+    let (brought_forward, reference, others) = (None, Reference::Rest, Vec::new());
+    Ok(Axis { part, brought_forward, reference, nav_from_table, others, attitude, remarks })
 }
 
 /// A run of many rests, each with an attitude of its own.
@@ -221,7 +247,8 @@ fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
     let sigmas = rests.found.iter().map(|found| aligned(&stood(found).1, found.sigma).sigma);
     let wide = sigmas.fold([None; 3], |wide, of| [0, 1, 2].map(|axis| wider(wide[axis], of[axis])));
     Axis {
-        recording,
+        part: Some(recording),
+        brought_forward: None,
         reference: Reference::Rest,
         nav_from_table,
         others,
