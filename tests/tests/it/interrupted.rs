@@ -9,17 +9,65 @@ use std::time::{Duration, Instant};
 use rins_tests::rins;
 use tempfile::TempDir;
 
+use crate::monte_carlo::scenario;
 use crate::support::rins_in;
 
-/// How often each command is killed.
+/// How often each command is killed where `RINS_KILLS` does not say.
 const KILLS: u32 = 6;
 
+fn kills() -> u32 {
+    std::env::var("RINS_KILLS").map_or(KILLS, |kills| kills.parse().unwrap())
+}
+
+/// Kills a command after a part of the time that it takes; whether it was still at work.
+fn kill_after(mut command: Command, lasting: Duration, part: f64) -> bool {
+    let mut child = command.spawn().unwrap();
+    std::thread::sleep(lasting.mul_f64(part));
+    let _ = child.kill();
+    child.wait().unwrap().code().is_none()
+}
+
+/// The parts of its time after which a command is killed: more often towards the end, where results
+/// are put in their place.
+fn parts() -> impl Iterator<Item = f64> {
+    let kills = kills();
+    (1..=kills).map(move |kill| (f64::from(kill) / f64::from(kills)).sqrt())
+}
+
+/// Says how often a command was killed at work; fails if that was hardly ever.
+#[expect(clippy::print_stderr, reason = "a test that is asked for figures gives them")]
+fn assert_at_work(arguments: &str, at_work: u32) {
+    eprintln!("{arguments}: killed {at_work} of {} times while at work", kills());
+    assert!(4 * at_work >= kills(), "{arguments}: {at_work} of {} times at work", kills());
+}
+
+/// A scenario of a minute, and its run.
 fn run() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
-    for name in ["rig.toml", "run.csv", "scenario.toml"] {
-        fs::copy(demo.join(name), folder.path().join(name)).unwrap();
+    let scenario = fs::read_to_string(demo.join("scenario.toml")).unwrap();
+    assert!(scenario.contains("\"360 s\""));
+    let short = scenario.replace("\"360 s\"", "\"60 s\"");
+    fs::write(folder.path().join("scenario.toml"), short).unwrap();
+    assert_eq!(rins_in(folder.path(), "simulate scenario.toml -o run").code, Some(0));
+    folder
+}
+
+/// The same folder once more.
+fn copy(from: &Path) -> TempDir {
+    fn all(from: &Path, to: &Path) {
+        for entry in fs::read_dir(from).unwrap().map(|entry| entry.unwrap()) {
+            let to = to.join(entry.file_name());
+            if entry.file_type().unwrap().is_dir() {
+                fs::create_dir(&to).unwrap();
+                all(&entry.path(), &to);
+            } else {
+                fs::copy(entry.path(), to).unwrap();
+            }
+        }
     }
+    let folder = tempfile::tempdir().unwrap();
+    all(from, folder.path());
     folder
 }
 
@@ -30,9 +78,9 @@ fn command(folder: &Path, arguments: &str) -> Command {
     command
 }
 
-/// What is to be seen in a folder, and how long each file is. Hidden names are those of work that
-/// was not finished.
-fn seen(folder: &Path) -> Vec<(String, u64)> {
+/// What is to be seen in a folder, and what each file holds. Hidden names are those of work that was
+/// not finished.
+fn seen(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut seen = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(folder) = folders.pop() {
@@ -43,8 +91,10 @@ fn seen(folder: &Path) -> Vec<(String, u64)> {
             }
             if entry.file_type().unwrap().is_dir() {
                 folders.push(entry.path());
+                seen.push((name, Vec::new()));
+            } else {
+                seen.push((name, fs::read(entry.path()).unwrap()));
             }
-            seen.push((name, entry.metadata().map_or(0, |data| data.len())));
         }
     }
     seen.sort();
@@ -59,33 +109,32 @@ fn killed(arguments: &str, prepare: &str) {
         assert_eq!(rins_in(whole.path(), prepare).code, Some(0), "{prepare}");
     }
     let before = seen(whole.path());
+    let ready = copy(whole.path());
     let start = Instant::now();
     assert!(command(whole.path(), arguments).status().unwrap().success(), "{arguments}");
     let lasting = start.elapsed();
     let after = seen(whole.path());
     assert_ne!(before, after, "{arguments}");
-    for kill in 0..KILLS {
-        let folder = run();
-        if !prepare.is_empty() {
-            assert_eq!(rins_in(folder.path(), prepare).code, Some(0));
-        }
-        let mut child = command(folder.path(), arguments).spawn().unwrap();
-        // More often towards the end, where results are put in their place.
-        let part = (f64::from(kill + 1) / f64::from(KILLS)).sqrt();
-        std::thread::sleep(Duration::from_secs_f64(lasting.as_secs_f64() * part));
-        let _ = child.kill();
-        child.wait().unwrap();
+    let mut at_work = 0;
+    for part in parts() {
+        let folder = copy(ready.path());
+        at_work += u32::from(kill_after(command(folder.path(), arguments), lasting, part));
         let seen = seen(folder.path());
         // Of two files that belong together one may be there; whatever is there is whole.
-        let whole = |file: &(String, u64)| before.contains(file) || after.contains(file);
-        assert!(seen.iter().all(whole), "{arguments} killed after {part:.2} left {seen:?}");
+        let whole = |file: &&(String, Vec<u8>)| !before.contains(file) && !after.contains(file);
+        let odd: Vec<&str> = seen.iter().filter(whole).map(|(name, _)| name.as_str()).collect();
+        assert!(odd.is_empty(), "{arguments} killed after {part:.3} left {odd:?}");
         // Only what is to be replaced may be gone: it then stands under a hidden name.
-        let kept = |(name, _): &(String, u64)| seen.iter().any(|(seen, _)| seen == name);
-        assert!(arguments.ends_with("--force") || before.iter().all(kept), "{seen:?}");
+        let kept = |(name, _): &(String, Vec<u8>)| seen.iter().any(|(seen, _)| seen == name);
+        assert!(
+            arguments.ends_with("--force") || before.iter().all(kept),
+            "{arguments}: {part:.3}"
+        );
         let again = arguments.trim_end_matches(" --force");
         let finished = rins_in(folder.path(), &format!("{again} --force"));
         assert_eq!(finished.code, Some(0), "{}", finished.err);
     }
+    assert_at_work(arguments, at_work);
 }
 
 #[test]
@@ -95,15 +144,61 @@ fn a_simulation_is_there_or_not() {
 
 #[test]
 fn a_conversion_is_there_or_not() {
-    killed("convert rig.toml -o new.parquet", "");
+    killed("convert run/rig.toml -o new.parquet", "");
 }
 
 #[test]
 fn a_draft_is_there_or_not() {
-    killed("init run.csv -o new.toml", "");
+    killed("init run/run.csv -o new.toml", "");
 }
 
 #[test]
 fn a_result_that_is_replaced_is_the_old_one_or_the_new() {
-    killed("check rig.toml -o out --force", "simulate scenario.toml -o out");
+    killed("check run/rig.toml -o out --force", "simulate scenario.toml -o out");
+}
+
+#[test]
+fn a_calibration_is_there_or_not() {
+    killed("calibrate run/rig.toml --model paper12 -o out", "");
+}
+
+#[test]
+fn a_log_is_compensated_or_not() {
+    let calibrate = "calibrate run/rig.toml --model paper12 -o cal";
+    killed("apply run/rig.toml --calibration cal/calibration.toml -o clean.csv", calibrate);
+}
+
+/// Killed again and again and continued each time, a campaign ends with the bytes of one that was left
+/// alone.
+#[test]
+fn a_campaign_that_is_killed_time_and_again_loses_nothing() {
+    const CAMPAIGN: &str = "monte-carlo scenario.toml --runs 150 --seed 3";
+    let whole = tempfile::tempdir().unwrap();
+    scenario(whole.path());
+    let folder = copy(whole.path());
+    let mut alone = command(whole.path(), &format!("{CAMPAIGN} -o c.parquet"));
+    let start = Instant::now();
+    assert!(alone.status().unwrap().success());
+    let lasting = start.elapsed();
+    let results = fs::read(whole.path().join("c.parquet")).unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let (mut at_work, mut journals) = (0, 0);
+    for part in parts() {
+        let resume = if path("c.parquet.part").exists() { " --resume" } else { "" };
+        let campaign = command(folder.path(), &format!("{CAMPAIGN} -o c.parquet --force{resume}"));
+        at_work += u32::from(kill_after(campaign, lasting, part));
+        journals += u32::from(path("c.parquet.part").exists());
+        if let Ok(bytes) = fs::read(path("c.parquet")) {
+            assert!(bytes == results, "killed after {part:.3}");
+            // Once more from the beginning.
+            fs::remove_file(path("c.parquet")).unwrap();
+            let _ = fs::remove_file(path("c.parquet.part"));
+        }
+    }
+    assert!(journals > 0, "no campaign was killed between its beginning and its end");
+    let resume = if path("c.parquet.part").exists() { " --resume" } else { "" };
+    let finished = rins_in(folder.path(), &format!("{CAMPAIGN} -o c.parquet --force{resume}"));
+    assert_eq!(finished.code, Some(0), "{}", finished.err);
+    assert!(fs::read(path("c.parquet")).unwrap() == results);
+    assert_at_work(CAMPAIGN, at_work);
 }

@@ -12,7 +12,7 @@ use tempfile::tempdir;
 use crate::support::{list, number, result_in, rins_in};
 
 /// The paper's simulation for 36 s, at two rates and without biases.
-fn scenario(folder: &Path) {
+pub(crate) fn scenario(folder: &Path) {
     let paper = rins_tests::workspace().join("scenarios/paper/simulation.toml");
     let text = fs::read_to_string(paper).unwrap();
     let short = text.replace("\"360 s\"", "\"36 s\"").replace(
