@@ -123,7 +123,7 @@ fn linearised(run: &Run, model: &Model, free: &[(usize, usize)], pieces: Pieces)
     let length = (duration / 1000.0).clamp(EPOCH.0, EPOCH.1).max(duration / MOST_EPOCHS);
     let interval = duration / (recording.len() - 1) as f64;
     let block = whole(length / interval);
-    let track = path::track(run, surroundings, block);
+    let track = path::track(run, surroundings, &model, block);
     let readings = path::readings(run);
     let epochs = spans(run, block);
     let piece = match pieces {

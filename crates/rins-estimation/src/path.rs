@@ -1,15 +1,30 @@
 //! The way the table went, as far as it is known before anything is estimated.
 
 use nalgebra::Vector2;
-use rins_terms::{Surroundings, Track};
+use rins_terms::{Model, Surroundings, Track};
 
 use crate::run::{Reference, Run};
+
+/// An error of the angle whose square is without effect \[rad\].
+const SMALL_ERROR: f64 = 1e-4;
 
 /// The track about which a run is made linear, and what of the reference differs from it.
 ///
 /// The z gyro gives its details, the reference its slow part: neither the gyro's drift nor the
 /// encoder's noise is in it.
-pub(crate) fn track(run: &Run, surroundings: Surroundings, block: usize) -> Track {
+pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block: usize) -> Track {
+    let track = through(run, surroundings, &[], block);
+    let Reference::Encoder { .. } = run.rig.reference else { return track };
+    let error = |moment| model.signals(&moment).angle.re;
+    let errors: Vec<f64> = track.moments().map(error).collect();
+    if errors.iter().all(|error| error.abs() < SMALL_ERROR) {
+        return track;
+    }
+    through(run, surroundings, &errors, block)
+}
+
+/// The track if what is read is wrong by these angles, or right if there are none.
+fn through(run: &Run, surroundings: Surroundings, errors: &[f64], block: usize) -> Track {
     let recording = &run.recording;
     let gyro = integrated_gyro(run, &surroundings);
     let correction = match run.rig.reference {
@@ -17,7 +32,9 @@ pub(crate) fn track(run: &Run, surroundings: Surroundings, block: usize) -> Trac
         Reference::Gravity => correction_by_gravity(run, &surroundings, &gyro),
         Reference::Encoder { .. } | Reference::Command { .. } => {
             let read = readings(run).unwrap_or_default();
-            let differences: Vec<f64> = read.iter().zip(&gyro[1..]).map(|(r, g)| r - g).collect();
+            let errors = errors.iter().copied().chain(std::iter::repeat(0.0));
+            let differences: Vec<f64> =
+                read.iter().zip(&gyro[1..]).zip(errors).map(|((r, g), e)| r - g - e).collect();
             smoothed(&differences, block)
         }
     };

@@ -5,6 +5,7 @@ use rins_frames::units::DEG;
 
 use super::Expected;
 use super::correction::Hypothesis;
+use super::lag::TableLag;
 use super::suspicion::Suspicion;
 use super::timing::Timing;
 use super::turning::Turning;
@@ -34,6 +35,9 @@ const LARGEST_APART: f64 = 0.5 * DEG;
 
 /// ... and that much more for each radian turned: a scale error that depends on the rate.
 const LARGEST_NONLINEARITY: f64 = 2e-3;
+
+/// A time stamp may mean the start, the middle or the end of a sample, and of the one before.
+const MOST_SAMPLES_LATE: f64 = 2.0;
 
 /// What the gyros count of the table's turn.
 pub(super) struct Spin {
@@ -106,6 +110,15 @@ impl Suspect {
             _ => Self::Either,
         }
     }
+}
+
+/// By how much the table's angle is late, if that is a matter of which instant of a sample a time stamp means \[s\]: it
+/// is told by itself, and no sign of a table that moved otherwise.
+fn convention(recording: &Recording) -> f64 {
+    let interval = median(recording.increments.iter().map(|sample| sample.interval).collect());
+    let most = MOST_SAMPLES_LATE * interval.unwrap_or_default();
+    TableLag::of(recording)
+        .map_or(0.0, |lag| if lag.latency.abs() <= most { lag.latency } else { 0.0 })
 }
 
 impl Spin {
@@ -184,12 +197,19 @@ impl Spin {
     /// Whether, with ratio and bias allowed for, both turn at the same time.
     fn profile_suspicion(&self, recording: &Recording, expected: &Expected) -> Option<Suspicion> {
         let samples = recording.increments.get(1..)?;
+        let late = convention(recording);
+        let mut before = 0.0;
         let mut apart = Vec::with_capacity(self.table.len() + 1);
         apart.push((recording.times.first().copied()?, 0.0, 0.0));
         for (sample, turn) in samples.iter().zip(&self.table) {
             let (time, gained, turned) = *apart.last()?;
-            let gain =
-                sample.angle.components().z - self.ratio * turn - self.bias * sample.interval;
+            // An angle that is read late misses what the table gained in rate since.
+            let rate = turn / sample.interval;
+            let turn_in_time = turn + late * (rate - before);
+            before = rate;
+            let gain = sample.angle.components().z
+                - self.ratio * turn_in_time
+                - self.bias * sample.interval;
             apart.push((time + sample.interval, gained + gain, turned + turn.abs()));
         }
         // Each stretch: its end, how long it lasts, what was gained and what the table turned.
