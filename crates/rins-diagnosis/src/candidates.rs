@@ -76,14 +76,14 @@ fn offers(run: &Run, need: Need) -> bool {
 fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let chosen = Chosen::new(term).estimated();
     let place = |name: &str| term.settings.iter().position(|setting| setting.name == name);
-    let of = |place: usize, values: &[f64], step: Option<f64>| {
+    let of = |place: usize, values: &[f64], step: &dyn Fn(f64) -> Option<f64>| {
         let fits = |value: &&f64| allows(&term.settings[place], **value);
         let fitting: Vec<f64> = values.iter().filter(fits).copied().collect();
         let looks = fitting.len() as f64;
         let candidate = |value: f64| {
             let mut chosen = chosen.clone();
             chosen.settings[place] = value;
-            Candidate { chosen, looks, step: step.map(|step| (place, step)) }
+            Candidate { chosen, looks, step: step(value).map(|step| (place, step)) }
         };
         fitting.into_iter().map(candidate).collect()
     };
@@ -92,11 +92,11 @@ fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     } else if let Some(place) = place("time") {
         let step = duration / f64::from(EVENTS);
         let times: Vec<f64> = (0..EVENTS).map(|event| step * (f64::from(event) + 0.5)).collect();
-        of(place, &times, Some(step))
+        of(place, &times, &|_| Some(step))
     } else if let Some(place) = place("time_constant") {
-        of(place, &TIME_CONSTANTS.map(|part| part * duration), None)
+        of(place, &TIME_CONSTANTS.map(|part| part * duration), &Some)
     } else if let Some(place) = place("order") {
-        of(place, &ORDERS, None)
+        of(place, &ORDERS, &|_| None)
     } else {
         vec![Candidate { chosen, looks: 1.0, step: None }]
     }
@@ -120,12 +120,14 @@ impl Candidate {
         (-4..=4).map(moved).filter(|other| allows(setting, other.chosen.settings[place])).collect()
     }
 
-    /// The same effect where another one happens, if both are events.
+    /// The same effect when another one happens, or as slowly, if both are events or settle.
     pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
-        let time = |term: &Term| term.settings.iter().position(|setting| setting.name == "time");
-        let place = time(self.chosen.term)?;
-        let mut moved = self.clone();
-        moved.chosen.settings[place] = other.settings[time(other.term)?];
-        Some(moved)
+        ["time", "time_constant"].into_iter().find_map(|name| {
+            let place = |term: &Term| term.settings.iter().position(|setting| setting.name == name);
+            let own = place(self.chosen.term)?;
+            let mut moved = self.clone();
+            moved.chosen.settings[own] = other.settings[place(other.term)?];
+            Some(moved)
+        })
     }
 }

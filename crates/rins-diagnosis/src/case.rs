@@ -116,7 +116,7 @@ impl Case<'_> {
         Ok(Some(best))
     }
 
-    /// An event at the time where it fits best.
+    /// An event when it fits best, and what settles as slowly as fits best.
     fn refined(
         &self,
         present: &Fit,
@@ -124,10 +124,10 @@ impl Case<'_> {
         trial: &Trial,
     ) -> Result<(Candidate, Trial), Indefinite> {
         let mut best = (candidate.clone(), trial.clone());
+        let noises = self.noises(present);
         for part in FINER {
             let list = best.0.neighbours(part);
-            let noises = std::slice::from_ref(&present.noise);
-            let survey = Survey::of(self.runs, present, self.imu, &list, noises)?;
+            let survey = Survey::of(self.runs, present, self.imu, &list, &noises)?;
             let Some(context) = Context::of(&survey, &[], &[]) else { break };
             for found in trials(&survey, &context, &list) {
                 if found.evidence > best.1.evidence {
