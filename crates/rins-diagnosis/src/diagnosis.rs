@@ -12,7 +12,7 @@ use crate::trial::{Context, Trial, trials};
 use crate::unexplained::{Unexplained, described};
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
-pub(crate) const FALSE_ALARMS: f64 = 0.01;
+pub const FALSE_ALARMS: f64 = 0.01;
 
 /// The most effects that are looked for.
 const MOST_CAUSES: usize = 8;

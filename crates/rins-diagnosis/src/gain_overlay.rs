@@ -3,6 +3,10 @@
 use rins_estimation::{Fit, Run};
 use rins_frames::{InFrame, Increments};
 use rins_terms::{Making, Model, Track};
+use rustfft::num_complex::Complex;
+
+/// A table that turns more slowly has no order to speak of \[rad/s\].
+const TURNING: f64 = 1e-2;
 
 /// What was measured less what a fitted model says, sample by sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +52,35 @@ impl Overlay {
             angles: track.moments().map(|moment| moment.mean.angle).collect(),
             rates: track.moments().map(|moment| moment.mean.rate).collect(),
         }
+    }
+}
+
+impl Overlay {
+    /// The mean amplitude of each of `orders` in the residuals across the axis while the table turns: of gyros
+    /// \[rad/s\], and of accelerometers \[m/s²\].
+    ///
+    /// An order `n` is the part `c exp(i n ζ)` of `x + i y`: what stands still in the body has order 0, in the axis
+    /// frame -1, and what differs between x and y mirrors that at +1.
+    pub fn orders(&self, orders: &[f64]) -> Vec<[f64; 2]> {
+        let turning = self.rates.iter().map(|rate| rate.abs() > TURNING);
+        let moments: Vec<(&[f64; 6], f64)> = self
+            .residuals
+            .iter()
+            .zip(&self.angles)
+            .zip(turning)
+            .filter_map(|((residual, angle), turns)| turns.then_some((residual, *angle)))
+            .collect();
+        let of = |order: &f64| {
+            let mut sums = [Complex::new(0.0, 0.0); 2];
+            for (residual, angle) in &moments {
+                let turned = Complex::from_polar(1.0, -order * angle);
+                for (sum, first) in sums.iter_mut().zip([0, 3]) {
+                    *sum += Complex::new(residual[first], residual[first + 1]) * turned;
+                }
+            }
+            sums.map(|sum| sum.norm() / moments.len().max(1) as f64)
+        };
+        orders.iter().map(of).collect()
     }
 }
 

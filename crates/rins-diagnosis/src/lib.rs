@@ -31,7 +31,7 @@ mod gain_overlay;
 mod gain_spans;
 
 pub use candidates::{Candidate, candidates};
-pub use diagnosis::{Cause, Diagnosis, DiagnosisError, Rival, diagnose};
+pub use diagnosis::{Cause, Diagnosis, DiagnosisError, FALSE_ALARMS, Rival, diagnose};
 pub use gain::{Foresight, Gain, GainError, GainVerdict};
 pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;

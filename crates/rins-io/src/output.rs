@@ -54,13 +54,15 @@ pub enum OutputProblem {
 const MARKS: [&str; 2] = ["result.json", "truth.json"];
 
 /// What a folder of ours may hold besides.
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 11] = [
     "result.json",
     "report.html",
     "run.csv",
     "rig.toml",
     "truth.json",
     "calibration.toml",
+    "extended-calibration.toml",
+    "extended-model.toml",
     "model.toml",
     "scenario.toml",
     "log.csv",

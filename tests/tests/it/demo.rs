@@ -31,8 +31,16 @@ fn demo_leaves_a_result_that_others_can_read() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort();
-    let expected =
-        ["calibration.toml", "model.toml", "report.html", "result.json", "rig.toml", "run.csv"];
+    let expected = [
+        "calibration.toml",
+        "extended-calibration.toml",
+        "extended-model.toml",
+        "model.toml",
+        "report.html",
+        "result.json",
+        "rig.toml",
+        "run.csv",
+    ];
     assert_eq!(names, expected);
     for (name, opening) in [("report.html", "<!"), ("run.csv", "time,"), ("result.json", "{")] {
         let content = fs::read_to_string(folder.path().join("rins-demo").join(name)).unwrap();
@@ -53,8 +61,7 @@ fn demo_leaves_a_result_that_others_can_read() {
     assert!(before > 100.0 * after, "{before} m/s before, {after} m/s after");
 }
 
-/// The embedded run was made with the paper's errors: 60″ and 300 ppm,
-/// and a bias of 0.05 deg/h that looks like 0.2866″ and 1.3895 ppm more at 10 deg/s.
+/// The embedded run was made with the paper's errors, 60″ and 300 ppm, and its table angle is read 0.1 ms late.
 #[test]
 fn demo_prints_one_object_that_tells_the_truth() {
     let folder = tempfile::tempdir().unwrap();
@@ -62,15 +69,21 @@ fn demo_prints_one_object_that_tells_the_truth() {
     assert_eq!(result["command"], "demo");
     let parameters = list(&result, "/parameters");
     assert_eq!(parameters.len(), 3);
-    for (parameter, truth, floor) in [
-        (&parameters[0], 60.2866, 0.03),
-        (&parameters[1], 60.2866, 0.03),
-        (&parameters[2], 301.3895, 0.1),
-    ] {
+    for (parameter, truth, floor) in
+        [(&parameters[0], 60.0, 0.03), (&parameters[1], 60.0, 0.03), (&parameters[2], 300.0, 0.1)]
+    {
         let (value, sigma) = (number(parameter, "/value"), number(parameter, "/sigma"));
         let within = 4.0 * sigma.max(floor);
         assert!((value - truth).abs() < within, "{truth} found as {value} ± {sigma}");
     }
+    let diagnosis = &result["diagnosis"];
+    assert_eq!(diagnosis["verdict"], "named", "{}", diagnosis["causes"]);
+    let [cause] = list(diagnosis, "/causes") else { panic!("{diagnosis}") };
+    assert_eq!(cause["effect"], "encoder_latency");
+    let (delay, sigma) =
+        (number(cause, "/parameters/0/value"), number(cause, "/parameters/0/sigma"));
+    assert!((delay - 0.1).abs() < 4.0 * sigma && sigma < 0.001, "{delay} ± {sigma} ms");
+    assert_eq!(diagnosis["gain"]["verdict"], "improved", "{}", diagnosis["gain"]);
 }
 
 #[cfg(unix)]
@@ -83,7 +96,7 @@ fn next_steps_of_the_demo_work_as_they_are_printed() {
         let text = String::from_utf8(demo.output().unwrap().stdout).unwrap();
         let steps: Vec<&str> =
             text.lines().map(str::trim).filter(|line| line.starts_with("rins ")).collect();
-        assert_eq!(steps.len(), 3, "{text}");
+        assert_eq!(steps.len(), 4, "{text}");
         for step in steps {
             let (code, error) = in_shell(step, folder.path());
             assert_eq!((code, error.as_str()), (Some(0), ""), "{step}");

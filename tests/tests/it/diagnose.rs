@@ -109,6 +109,25 @@ fn hidden_effects_are_named_with_their_size() {
     }
 }
 
+/// The paper's Table 4: the attitude that the table gives is that of half a sample before, and nobody has said so.
+#[test]
+fn a_read_out_that_lags_by_half_a_sample_is_told_in_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = "\n[[truth.effects]]\nid = \"readout_lag\"\ndelay = \"10 ms\"\n";
+    fs::write(folder.path().join("scenario.toml"), scenario(truth)).unwrap();
+    result_in(folder.path(), "simulate scenario.toml -o run");
+    let rate = fs::read_to_string(folder.path().join("run/rig.toml")).unwrap();
+    assert!(rate.contains("rate = \"50 Hz\"") && !rate.contains("ms"), "{rate}");
+    let result = result_in(folder.path(), "diagnose run/rig.toml --bootstrap 500 -o out");
+    let [cause] = list(&result, "/causes") else { panic!("{}", result["causes"]) };
+    assert_eq!(cause["effect"], "encoder_latency");
+    let samples = number(cause, "/parameters/0/samples");
+    assert!((samples - 0.5).abs() < 1e-3, "{samples}");
+    assert!(number(&result, "/chance/named") < 0.03, "{}", result["chance"]);
+    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(page.contains("(0.500 samples)") && page.contains("Order of the table angle"));
+}
+
 /// What is written is what the other commands take, on another run of the same IMU too.
 #[test]
 fn extended_model_calibrates_and_navigates_another_run() {

@@ -65,7 +65,10 @@ fn a_good_run_has_nothing_odd() {
         assert!(["good", "fact"].contains(&word) && !says.is_empty(), "{item}: {word}: {says}");
     }
     let (_, shows) = verdict(&check, "what it can show");
-    assert!(shows.contains("rins align: level and north") && shows.contains("at one rate, 10.0"));
+    assert!(
+        shows.contains("rins align: level and north")
+            && shows.contains("at the rates 20.01, -20.00 deg/s")
+    );
     let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     assert!(
         ITEMS.iter().all(|item| page.contains(&item.replace('\'', "&#39;")) || page.contains(item))

@@ -6,6 +6,7 @@ use anyhow::Context;
 
 use crate::args::Demo;
 use crate::commands::calibrate::{calibrated, outcome};
+use crate::commands::diagnose::diagnosed;
 use crate::outcome::Outcome;
 
 /// The rig file of the embedded run.
@@ -27,6 +28,17 @@ pub(crate) fn run(demo: &Demo) -> anyhow::Result<Outcome> {
     let calibration = calibrated(&loaded)?;
     let mut outcome = outcome(&calibration, &loaded, Path::new("the embedded demo run"))?;
     outcome.json["command"] = "demo".into();
+    // There is more in the run than the paper's filter has states for.
+    let diagnosis = diagnosed(Path::new("the embedded demo run"), loaded)?.outcome();
+    outcome.json["diagnosis"] = diagnosis.json;
+    outcome.text.push('\n');
+    outcome.text.push_str(&diagnosis.text);
+    if let (Some(report), Some(further)) = (&mut outcome.report, diagnosis.report) {
+        report.summary.extend(further.summary);
+        report.sections.extend(further.sections);
+    }
+    let further = diagnosis.files.into_iter();
+    outcome.files.extend(further.map(|(name, content)| (format!("extended-{name}"), content)));
     outcome.files.push(("rig.toml".into(), RIG.into()));
     outcome.files.push(("run.csv".into(), LOG.into()));
     outcome.text.push_str(&next(&demo.output));
@@ -35,12 +47,13 @@ pub(crate) fn run(demo: &Demo) -> anyhow::Result<Outcome> {
 
 /// What to try next on the files in `folder`, ready to be pasted into a shell.
 fn next(folder: &Path) -> String {
-    let [rig, calibration] = ["rig.toml", "calibration.toml"]
+    let [rig, calibration] = ["rig.toml", "extended-calibration.toml"]
         .map(|name| quoted(&folder.join(name).display().to_string()));
     format!(
         "\n  The run and its rig file lie beside the report. Try next:\n    \
          rins check {rig}\n    \
          rins calibrate {rig} -o my-calibration\n    \
+         rins diagnose {rig}\n    \
          rins navigate {rig} --calibration {calibration}\n"
     )
 }

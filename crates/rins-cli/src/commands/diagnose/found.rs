@@ -4,9 +4,10 @@ use std::time::Instant;
 
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
-use rins_diagnosis::{Cause, Limit, Overlay, Unexplained, diagnose, limits};
-use rins_estimation::{Estimate, Fit};
-use rins_imu::ImuSpec;
+use rins_diagnosis::{Cause, Limit, Overlay, Unexplained, chance, diagnose, limits};
+use rins_estimation::{Estimate, Fit, Indefinite};
+use rins_imu::{ImuSpec, Seed};
+use rins_terms::Unit;
 
 use crate::commands::calibrate::{Case, Certificate, Prepared};
 use crate::commands::diagnose::json;
@@ -19,7 +20,7 @@ use crate::view::{diagnosis_report, diagnosis_text};
 /// An amplitude beyond the largest usual one by more than this many of its sigmas is not plausible.
 const BEYOND: f64 = 2.0;
 
-/// An estimate that moves by so many of its sigmas has been wrong before.
+/// An estimate was wrong that moves by so many sigmas of such moves by chance, and by its own sigma at least.
 const MOVED: f64 = 3.0;
 
 /// What is said of a run on the whole.
@@ -50,12 +51,21 @@ pub(crate) struct Found {
     pub(crate) untestable: Vec<Untestable>,
     /// The amplitudes that the run would have shown of what was not found.
     pub(crate) limits: Vec<Limit>,
+    /// How often chance alone would have named something, if it was asked.
+    pub(crate) by_chance: Option<ByChance>,
     /// What is left of each run, before and after.
     pub(crate) overlays: Vec<[Overlay; 2]>,
     /// The calibration with the extended model.
     pub(crate) certificate: Certificate,
     /// How long it took \[s\].
     pub(crate) seconds: f64,
+}
+
+/// How often chance alone names something.
+pub(crate) struct ByChance {
+    pub(crate) draws: u32,
+    /// In which share of them.
+    pub(crate) share: f64,
 }
 
 /// A cause, and what its amplitude is worth.
@@ -81,11 +91,24 @@ impl Shift {
     pub(crate) fn sigmas(&self) -> f64 {
         (self.after.value - self.before.value) / self.before.sigma
     }
+
+    /// Whether it moved by more than it would if the causes were not there, and by something that counts.
+    ///
+    /// With more parameters an estimate moves by chance too: with the variance that it gains (Hausman 1978).
+    fn counts(&self) -> bool {
+        let moved = (self.after.value - self.before.value).abs();
+        let by_chance = (self.after.sigma.powi(2) - self.before.sigma.powi(2)).max(0.0).sqrt();
+        moved > MOVED * by_chance && moved > self.before.sigma
+    }
 }
 
 impl Found {
     /// Diagnoses the runs of a case.
-    pub(crate) fn of(case: Case, held_out: Option<&Prepared>) -> anyhow::Result<Self> {
+    pub(crate) fn of(
+        case: Case,
+        held_out: Option<&Prepared>,
+        bootstrap: Option<u32>,
+    ) -> anyhow::Result<Self> {
         let started = Instant::now();
         let runs = case.given();
         let spinner = progress::spinner("estimating the model");
@@ -116,6 +139,11 @@ impl Found {
         let shifts = shifts(&diagnosis.before, &diagnosis.after);
         let untestable = untestable(&runs, &case.model, &diagnosis.not_testable);
         let limits = limits(&runs, &diagnosis.after, &imu).with_context(|| case.names())?;
+        let by_chance = bootstrap.map(|draws| {
+            let share = chance(&runs, &diagnosis.after, &imu, draws, Seed::new(1))?;
+            Ok::<_, Indefinite>(ByChance { draws, share })
+        });
+        let by_chance = by_chance.transpose().with_context(|| case.names())?;
         let left = |place| {
             [&diagnosis.before, &diagnosis.after].map(|fit| Overlay::of(&runs[place], fit, place))
         };
@@ -131,6 +159,7 @@ impl Found {
             shifts,
             untestable,
             limits,
+            by_chance,
             overlays,
             certificate,
             seconds,
@@ -147,6 +176,12 @@ impl Found {
             files: self.certificate.files(),
             ..Outcome::default()
         }
+    }
+
+    /// A delay in samples of the first run, in which a convention of time stamps names itself.
+    pub(crate) fn in_samples(&self, estimate: &Estimate) -> Option<f64> {
+        let interval = self.certificate.runs[0].prepared.run.recording.increments[0].interval;
+        (estimate.parameter.unit == Unit::MILLISECOND).then(|| estimate.value / interval)
     }
 
     /// What the diagnosis is called.
@@ -189,7 +224,7 @@ fn same(a: &Estimate, b: &Estimate) -> bool {
     a.parameter.id == b.parameter.id && a.run == b.run
 }
 
-/// The estimates that moved by more than their sigmas allow, most of these first.
+/// The estimates that were wrong, most of their sigmas first.
 fn shifts(before: &Fit, after: &Fit) -> Vec<Shift> {
     let mut shifts: Vec<Shift> = before
         .parameters
@@ -198,7 +233,7 @@ fn shifts(before: &Fit, after: &Fit) -> Vec<Shift> {
             let after = after.parameters.iter().find(|after| same(before, after))?;
             Some(Shift { before: before.clone(), after: after.clone() })
         })
-        .filter(|shift| shift.sigmas().abs() > MOVED)
+        .filter(Shift::counts)
         .collect();
     shifts.sort_by(|a, b| b.sigmas().abs().total_cmp(&a.sigmas().abs()));
     shifts

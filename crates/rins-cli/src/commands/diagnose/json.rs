@@ -1,6 +1,6 @@
 //! A diagnosis for a machine.
 
-use rins_diagnosis::Unexplained;
+use rins_diagnosis::{FALSE_ALARMS, Unexplained};
 use rins_estimation::Estimate;
 use serde_json::{Map, Value, json};
 
@@ -50,6 +50,11 @@ pub(super) fn diagnosis(found: &Found) -> Value {
         "gain": found.gain.json(),
         "shifts": shifts,
         "not_testable": untestable,
+        "chance": found.by_chance.as_ref().map(|chance| json!({
+            "draws": chance.draws,
+            "named": chance.share,
+            "allowed": FALSE_ALARMS,
+        })),
         "noise": noise_json(certificate),
         "consistency": consistency_json(&certificate.consistency),
         "model": "model.toml",
@@ -69,6 +74,7 @@ fn cause(found: &Found, named: &Named) -> Value {
             let (low, high) = cause.term.parameters[estimate.parameter.parameter].range(imu);
             let mut value = value(estimate);
             value["usual"] = json!([low / unit.factor, high / unit.factor]);
+            value["samples"] = found.in_samples(estimate).into();
             value
         })
         .collect();

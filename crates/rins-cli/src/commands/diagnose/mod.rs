@@ -7,12 +7,21 @@ mod testable;
 
 use std::path::Path;
 
-pub(crate) use self::found::{Found, Named, Verdict};
+use rins_io::Loaded;
+
+pub(crate) use self::found::{ByChance, Found, Named, Verdict};
 pub(crate) use self::measured::Measured;
-use crate::args::Diagnose;
+use crate::args::{Diagnose, ModelChoice, NoiseChoice};
 use crate::commands::calibrate::{Case, NamedModel, Prepared};
 use crate::commands::setup::load;
 use crate::outcome::Outcome;
+
+/// A diagnosis of one run as it comes, without an output.
+pub(crate) fn diagnosed(rig: &Path, loaded: Loaded) -> anyhow::Result<Found> {
+    let noise = NoiseChoice::Likely;
+    let run = Prepared::of(rig, loaded, noise)?.of_longest_rest();
+    Found::of(Case::of(vec![run], NamedModel::of(&ModelChoice::Full)?, noise)?, None, None)
+}
 
 pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     let named = NamedModel::of(&arguments.model)?;
@@ -27,7 +36,7 @@ pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     if let Some(other) = &other {
         case.ensure_same_imu(other)?;
     }
-    let found = Found::of(case, other.as_ref())?;
+    let found = Found::of(case, other.as_ref(), arguments.bootstrap)?;
     let mut outcome = found.outcome();
     for run in &found.certificate.runs {
         outcome = outcome.of_log(&run.prepared.loaded);

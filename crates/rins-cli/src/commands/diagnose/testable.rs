@@ -18,6 +18,8 @@ pub(crate) fn untestable(runs: &[Run], model: &Model, unseen: &[&str]) -> Vec<Un
         term.is_signal()
             && !model.terms.iter().any(|chosen| chosen.term.id == term.id)
             && !tried.iter().any(|candidate| candidate.chosen.term.id == term.id)
+            // What has a frequency is tried where the innovations are strongest.
+            && !term.settings.iter().any(|setting| setting.name == "frequency")
     };
     let terms = catalogue::CATALOGUE.iter().copied();
     terms
@@ -36,6 +38,9 @@ pub(crate) fn untestable(runs: &[Run], model: &Model, unseen: &[&str]) -> Vec<Un
 
 /// Why an effect that was tried does not show.
 fn unseen_for(term: &Term) -> String {
+    if term.id == catalogue::GYRO_DEAD_ZONE.id {
+        return "it is not searched for: what it does grows with the square of its width".into();
+    }
     let needs: Vec<&str> = term.needs.iter().map(|need| in_words(*need)).collect();
     if needs.is_empty() {
         format!(
@@ -57,9 +62,6 @@ fn missing(runs: &[Run], term: &Term) -> String {
     match term.needs.iter().find(lacks) {
         Some(need) => format!("it would take {}", in_words(*need)),
         None if term.needs.contains(&Need::Temperature) => "the temperature did not change".into(),
-        None if term.settings.iter().any(|setting| setting.name == "frequency") => {
-            "its frequency is not known, and is not searched for".into()
-        }
         None => term.told_apart_by.into(),
     }
 }

@@ -21,6 +21,9 @@ const CHANNELS: [(&str, &str, f64); 6] = [
 /// Over how many parts of a run, and of a revolution, residuals are averaged.
 const PARTS: (usize, usize) = (240, 72);
 
+/// Orders of the table angle are shown up to this one, both ways.
+const HIGHEST_ORDER: u8 = 8;
+
 /// A table that turns more slowly has no table angle to speak of \[rad/s\].
 const TURNING: f64 = 1e-2;
 
@@ -44,7 +47,9 @@ pub(super) fn overlay_sections(found: &Found) -> Vec<Section> {
 
 const INTRO: &str = "The run was simulated with the model as it was given and with the extended one, along the way that the \
                      table went, and taken from what was measured: first in time, then in table angle while the table turns. \
-                     Each point is a mean. A right model leaves noise around zero, a constant offset in body axes included.";
+                     Each point is a mean. A right model leaves noise around zero, a constant offset in body axes included. Last, the \
+                     amplitude of each order of the table angle: what stands still in the body has order 0, in the axis \
+                     frame -1, and what differs between x and y shows at +1.";
 
 fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
     let from = times.first().copied().unwrap_or_default();
@@ -90,7 +95,34 @@ fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
         items.push(plot("Time [s]", PARTS.0, duration, from, &in_time));
         items.push(plot("Table angle [deg]", PARTS.1, TAU / DEG, 0.0, &in_angle));
     }
+    items.extend(order_spectra(overlays));
     items
+}
+
+/// What is left across the axis at each order of the table angle, with its sense.
+fn order_spectra(overlays: &[Overlay; 2]) -> Vec<Item> {
+    let halves = i32::from(2 * HIGHEST_ORDER);
+    let orders: Vec<f64> = (-halves..=halves).map(|half| 0.5 * f64::from(half)).collect();
+    let spectra = overlays.each_ref().map(|overlay| overlay.orders(&orders));
+    let triads =
+        [("Gyros x + iy", "deg/h", DEG_PER_HOUR), ("Accelerometers x + iy", "µg", MICRO_G)];
+    let plot = |(triad, (name, unit, factor)): (usize, (&str, &str, f64))| {
+        let series = [("before", Style::Points), ("after", Style::Line)].iter().zip(&spectra);
+        let series = series.map(|((name, style), spectrum)| Series {
+            name: (*name).into(),
+            x: orders.clone(),
+            y: spectrum.iter().map(|of| of[triad] / factor).collect(),
+            style: *style,
+        });
+        Item::Plot(Plot {
+            title: name.into(),
+            x_label: "Order of the table angle".into(),
+            y_label: format!("Amplitude [{unit}]"),
+            series: series.collect(),
+            ..Plot::default()
+        })
+    };
+    triads.into_iter().enumerate().map(plot).collect()
 }
 
 /// The part of so many that a share lies in.

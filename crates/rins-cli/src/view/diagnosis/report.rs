@@ -169,7 +169,7 @@ fn shifts(found: &Found) -> Section {
     };
     Section {
         heading: "What it did to the estimates".into(),
-        intro: "Estimates that move by more than 3 of the sigmas that they had without the causes."
+        intro: "Estimates that move by more than the sigma that they had without the causes, and by 3 sigma of such moves by chance."
             .into(),
         items,
     }

@@ -4,7 +4,7 @@ use rins_diagnosis::Unexplained;
 
 use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
-use crate::commands::diagnose::{Found, Named, Verdict};
+use crate::commands::diagnose::{ByChance, Found, Named, Verdict};
 use crate::number::{estimate, figure};
 use crate::view::settings_in_words;
 
@@ -26,6 +26,13 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
             named.cause.term.name
         )
     }));
+    if let Some(ByChance { draws, share }) = found.by_chance {
+        sentences.push(format!(
+            "Of {draws} runs drawn that hold nothing beyond the extended model, something would have been named in {} %; \
+             1 % is allowed.",
+            figure(100.0 * share, 2)
+        ));
+    }
     if !found.untestable.is_empty() {
         sentences.push(format!(
             "{} effects of the catalogue could not have been seen in this run: that they are not named does not mean that \
@@ -60,7 +67,7 @@ fn headline(found: &Found) -> String {
                 "{} ({}), {}, {:.0} sigma, odds of chance {}",
                 named.cause.term.name,
                 named.cause.term.cause,
-                amplitude(named),
+                amplitude(found, named),
                 named.sigmas,
                 probability(named.cause.ln_p)
             )
@@ -100,7 +107,7 @@ fn remainder(found: &Found, one: &Unexplained) -> String {
 }
 
 /// A cause's amplitude: its parameters that are not zero, with their sigma.
-fn amplitude(named: &Named) -> String {
+fn amplitude(found: &Found, named: &Named) -> String {
     let cause = &named.cause;
     let largest = cause
         .parameters
@@ -117,7 +124,10 @@ fn amplitude(named: &Named) -> String {
             let (unit, name) = (own.parameter.unit, &own.parameter.id);
             let name = name.rsplit('.').next().unwrap_or(name);
             let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
-            format!("{name} = {value} ± {sigma} {}", unit.symbol)
+            let samples = found
+                .in_samples(own)
+                .map_or_else(String::new, |count| format!(" ({} samples)", figure(count, 3)));
+            format!("{name} = {value} ± {sigma} {}{samples}", unit.symbol)
         })
         .collect();
     let settings = settings_in_words(cause.term, &cause.settings);
@@ -150,8 +160,7 @@ fn figure_of_odds(odds: f64) -> String {
 /// What the causes did to the estimates as long as they were not in the model.
 fn damage(found: &Found) -> String {
     if found.shifts.is_empty() {
-        return "No estimate of the model was off by more than 3 of its sigmas for want of it."
-            .into();
+        return "No estimate of the model was off by more than its sigma for want of it.".into();
     }
     let told: Vec<String> = found
         .shifts
