@@ -46,8 +46,8 @@ fn run() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
     let scenario = fs::read_to_string(demo.join("scenario.toml")).unwrap();
-    assert!(scenario.contains("\"360 s\""));
-    let short = scenario.replace("\"360 s\"", "\"60 s\"");
+    assert!(scenario.contains("\"180 s\""));
+    let short = scenario.replace("\"180 s\"", "\"30 s\"");
     fs::write(folder.path().join("scenario.toml"), short).unwrap();
     assert_eq!(rins_in(folder.path(), "simulate scenario.toml -o run").code, Some(0));
     folder

@@ -267,7 +267,11 @@ const READINGS: &[Row] = &[
         "a table in degrees that is calibrated",
         CALIBRATE,
         Replace("rig.toml", "\"table_angle\", unit = \"rad\"", "\"table_angle\", unit = \"deg\""),
-        &["rig.toml: the z gyro counts 57.", "of the table's turn", "the table's unit is wrong"],
+        &[
+            "rig.toml: the z gyro counts 57.",
+            "of the table's turn",
+            "the table's angle in rad were declared as deg",
+        ],
     ),
     (
         "a gyro triad upside down that is calibrated",
