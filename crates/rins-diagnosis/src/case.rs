@@ -36,14 +36,13 @@ pub(crate) struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// The given model with causes, fitted; priors are about what was expected, not about what was found.
-    pub(crate) fn fit(&self, causes: &[Chosen]) -> Result<Fit, FitError> {
-        let mut model = self.given.clone();
-        model.terms.extend(causes.iter().cloned());
-        fit(self.runs, &model, self.imu, self.knowledge, |_| ())
+    /// The given model, fitted.
+    pub(crate) fn fit(&self) -> Result<Fit, FitError> {
+        fit(self.runs, self.given, self.imu, self.knowledge, |_| ())
     }
 
-    /// The same where much the same has been fitted.
+    /// The given model with causes, fitted where much the same has been; priors are about what was expected, not about
+    /// what was found.
     pub(crate) fn fit_near(&self, near: &Fit, causes: &[Chosen]) -> Result<Fit, FitError> {
         let mut model = self.given.clone();
         model.terms.extend(causes.iter().cloned());

@@ -101,7 +101,7 @@ pub fn diagnose(
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
     let case = Case { runs, given: model, imu, knowledge };
-    let before = case.fit(&[])?;
+    let before = case.fit()?;
     let mut present = before.clone();
     // Lines that are faster than an epoch would come back as slow ones.
     let fast = case.fast_lines(&before);

@@ -5,7 +5,7 @@ use rins_frames::{InFrame, Increments};
 use rins_terms::{Making, Model, Track};
 use rustfft::num_complex::Complex;
 
-/// A table that turns more slowly has no order to speak of \[rad/s\].
+/// A table that turns more slowly has no angle or order to speak of \[rad/s\].
 const TURNING: f64 = 1e-2;
 
 /// What was measured less what a fitted model says, sample by sample.
@@ -56,20 +56,21 @@ impl Overlay {
 }
 
 impl Overlay {
+    /// Where the table turned, sample by sample: its angle \[rad\], or nothing while it stood.
+    pub fn turned(&self) -> impl Iterator<Item = Option<f64>> {
+        let each = self.angles.iter().zip(&self.rates);
+        each.map(|(angle, rate)| (rate.abs() > TURNING).then_some(*angle))
+    }
+
     /// The mean amplitude of each of `orders` in the residuals across the axis while the table turns: of gyros
     /// \[rad/s\], and of accelerometers \[m/s²\].
     ///
     /// An order `n` is the part `c exp(i n ζ)` of `x + i y`: what stands still in the body has order 0, in the axis
     /// frame -1, and what differs between x and y mirrors that at +1.
     pub fn orders(&self, orders: &[f64]) -> Vec<[f64; 2]> {
-        let turning = self.rates.iter().map(|rate| rate.abs() > TURNING);
-        let moments: Vec<(&[f64; 6], f64)> = self
-            .residuals
-            .iter()
-            .zip(&self.angles)
-            .zip(turning)
-            .filter_map(|((residual, angle), turns)| turns.then_some((residual, *angle)))
-            .collect();
+        let each = self.residuals.iter().zip(self.turned());
+        let moments: Vec<(&[f64; 6], f64)> =
+            each.filter_map(|(residual, angle)| Some((residual, angle?))).collect();
         let of = |order: &f64| {
             let mut sums = [Complex::new(0.0, 0.0); 2];
             for (residual, angle) in &moments {

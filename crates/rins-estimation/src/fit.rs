@@ -113,21 +113,17 @@ fn fitted(
     }
     let (NoiseKnowledge::Given(strengths) | NoiseKnowledge::Likely(strengths)) = knowledge;
     let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
-    let mut problem = Problem::new(runs, model, free);
+    let mut problem = Problem::new((runs, near), model, free);
     let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut iterations = Vec::new();
     let (mut around, mut inverse_curvature) = (Vec::new(), None);
-    if let Some(near) = near {
-        problem.start_near(near);
-    }
     if find_noise {
         let sheet = noise.clone();
-        let known = near.and_then(|near| Some((near, near.inverse_curvature.as_ref()?)));
-        if let Some((near, _)) = known {
+        let inverse = near.and_then(|near| near.inverse_curvature.as_ref());
+        if let (Some(near), Some(_)) = (near, inverse) {
             noise.clone_from(&near.noise);
         }
         problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
-        let inverse = known.map(|(_, inverse)| inverse);
         let likely = likely_noise(&problem.linear, &sheet, &noise, inverse, |linear, noise| {
             let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
             Some(posterior.log_likelihood)
@@ -182,7 +178,7 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    fn new(runs: &'a [Run], model: &Model, free: Vec<Free>) -> Self {
+    fn new((runs, near): (&'a [Run], Option<&Fit>), model: &Model, free: Vec<Free>) -> Self {
         let Layout { all, places } = Layout::of(&free, runs);
         let value = |&(index, _): &(usize, Option<usize>)| {
             let Free { term, parameter, .. } = free[index];
@@ -202,6 +198,9 @@ impl<'a> Problem<'a> {
             linear: Vec::new(),
             last: None,
         };
+        if let Some(near) = near {
+            problem.start_near(near);
+        }
         problem.linear = problem.linearised();
         problem
     }
@@ -222,7 +221,6 @@ impl<'a> Problem<'a> {
             }
         }
         self.take_values();
-        self.linear = self.linearised();
     }
 
     /// Puts the values into the models.

@@ -7,6 +7,9 @@ use crate::recording::Recording;
 /// The table's rate must change by this much \[rad/s\], rms, for a lag to show.
 const LEAST_CHANGE: f64 = 1e-3;
 
+/// A time stamp may mean the start, the middle or the end of a sample, and of the one before.
+const MOST_SAMPLES_LATE: f64 = 2.0;
+
 /// The angle of the z gyro against that of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableLag {
@@ -63,5 +66,11 @@ impl TableLag {
         let latency = found.y / size.y / ratio;
         let sigma = (scatter * inverse[(1, 1)]).sqrt() / size.y / ratio.abs();
         (latency.is_finite() && sigma.is_finite()).then_some(Self { latency, sigma, ratio })
+    }
+
+    /// The latency, if it is a matter of which instant of a sample a time stamp means, samples being `interval` long \[s\]: it
+    /// is told by itself, and no sign of a table that moved otherwise.
+    pub(super) fn by_convention(&self, interval: f64) -> Option<f64> {
+        (self.latency.abs() <= MOST_SAMPLES_LATE * interval).then_some(self.latency)
     }
 }

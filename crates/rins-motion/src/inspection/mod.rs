@@ -173,7 +173,9 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         .map(|rest| rest.mean.rates.specific_force.norm())
         .or_else(|| whole_turns.as_ref().and_then(|turns| turns.force));
     let gravity = force.and_then(|force| gravity_suspicion(force, expected, &timing));
-    let spin = Spin::of(recording, table_angle.as_deref());
+    let table_lag = TableLag::of(recording);
+    let late = table_lag.and_then(|lag| lag.by_convention(timing.interval)).unwrap_or_default();
+    let spin = Spin::of(recording, table_angle.as_deref(), late);
     let turning = Turning::of(recording, &stands);
     let suspect = Suspect::of(whole_turns.as_ref(), turning.as_ref());
     let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected, suspect));
@@ -214,7 +216,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         turns: recording.increments.iter().map(|s| s.angle.components().z.abs()).sum::<f64>()
             / std::f64::consts::TAU,
         spin_ratio: spin.map(|spin| spin.ratio),
-        table_lag: TableLag::of(recording),
+        table_lag,
         turns_whole: whole_turns.is_some(),
         resolution: std::array::from_fn(|index| channel::resolution(&channels[index])),
         longest_repeat,

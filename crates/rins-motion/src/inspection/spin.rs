@@ -5,7 +5,6 @@ use rins_frames::units::DEG;
 
 use super::Expected;
 use super::correction::Hypothesis;
-use super::lag::TableLag;
 use super::suspicion::Suspicion;
 use super::timing::Timing;
 use super::turning::Turning;
@@ -36,9 +35,6 @@ const LARGEST_APART: f64 = 0.5 * DEG;
 /// ... and that much more for each radian turned: a scale error that depends on the rate.
 const LARGEST_NONLINEARITY: f64 = 2e-3;
 
-/// A time stamp may mean the start, the middle or the end of a sample, and of the one before.
-const MOST_SAMPLES_LATE: f64 = 2.0;
-
 /// What the gyros count of the table's turn.
 pub(super) struct Spin {
     /// The turn over the table's, of the gyro z, its bias left out.
@@ -49,6 +45,8 @@ pub(super) struct Spin {
     table: Vec<f64>,
     /// The mean rate of gyro z while the table stands \[rad/s\].
     bias: f64,
+    /// By how much the table's angle is late by a convention of time stamps \[s\].
+    late: f64,
 }
 
 /// The angle of the table at the end of each interval \[rad\]: as read, or as commanded.
@@ -112,18 +110,13 @@ impl Suspect {
     }
 }
 
-/// By how much the table's angle is late, if that is a matter of which instant of a sample a time stamp means \[s\]: it
-/// is told by itself, and no sign of a table that moved otherwise.
-fn convention(recording: &Recording) -> f64 {
-    let interval = median(recording.increments.iter().map(|sample| sample.interval).collect());
-    let most = MOST_SAMPLES_LATE * interval.unwrap_or_default();
-    TableLag::of(recording)
-        .map_or(0.0, |lag| if lag.latency.abs() <= most { lag.latency } else { 0.0 })
-}
-
 impl Spin {
-    /// `None` without a table that turns.
-    pub(super) fn of(recording: &Recording, table_angle: Option<&[f64]>) -> Option<Self> {
+    /// `None` without a table that turns. Its angle is `late` by a convention of time stamps \[s\].
+    pub(super) fn of(
+        recording: &Recording,
+        table_angle: Option<&[f64]>,
+        late: f64,
+    ) -> Option<Self> {
         let angle = table_angle?;
         let samples = recording.increments.get(1..)?;
         let table: Vec<f64> = angle.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -158,7 +151,7 @@ impl Spin {
         let turning = windows.iter().filter(|(_, turn, time)| (turn / time).abs() > 0.5 * fastest);
         let ratio = median(turning.map(|(gyro, turn, time)| (gyro - bias * time) / turn).collect());
         let all = product / square;
-        Some(Self { ratio: ratio.unwrap_or(all.z), all, table, bias })
+        Some(Self { ratio: ratio.unwrap_or(all.z), all, table, bias, late })
     }
 
     /// Whether gyros and table count alike but for axes and signs.
@@ -197,15 +190,15 @@ impl Spin {
     /// Whether, with ratio and bias allowed for, both turn at the same time.
     fn profile_suspicion(&self, recording: &Recording, expected: &Expected) -> Option<Suspicion> {
         let samples = recording.increments.get(1..)?;
-        let late = convention(recording);
-        let mut before = 0.0;
+        let first = samples.first().zip(self.table.first());
+        let mut before = first.map_or(0.0, |(sample, turn)| turn / sample.interval);
         let mut apart = Vec::with_capacity(self.table.len() + 1);
         apart.push((recording.times.first().copied()?, 0.0, 0.0));
         for (sample, turn) in samples.iter().zip(&self.table) {
             let (time, gained, turned) = *apart.last()?;
             // An angle that is read late misses what the table gained in rate since.
             let rate = turn / sample.interval;
-            let turn_in_time = turn + late * (rate - before);
+            let turn_in_time = turn + self.late * (rate - before);
             before = rate;
             let gain = sample.angle.components().z
                 - self.ratio * turn_in_time

@@ -79,6 +79,21 @@ struct Axis {
     remarks: Vec<String>,
 }
 
+impl Axis {
+    /// Over the whole log, with nothing beside it.
+    fn of(reference: Reference, nav_from_table: Dcm<Nav, Table>, attitude: Attitude) -> Self {
+        Self {
+            part: None,
+            brought_forward: None,
+            reference,
+            nav_from_table,
+            others: Vec::new(),
+            attitude,
+            remarks: Vec::new(),
+        }
+    }
+}
+
 impl Prepared {
     /// Makes a rig ready.
     pub(crate) fn of(path: &Path, mut loaded: Loaded, noise: NoiseChoice) -> anyhow::Result<Self> {
@@ -148,20 +163,9 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
     let angles = table_angles(recording, setup.table.latency).unwrap_or_default();
     let late = recording.table_angle.is_some() && setup.table.latency != 0.0;
     let brought_forward = late.then(|| angles[1..].to_vec());
-    let part = None;
     if let Some(given) = loaded.rig.attitude {
-        let nav_from_table = given.angles.dcm();
-        let attitude = Attitude::within(given.sigma);
-        let (others, remarks) = (Vec::new(), Vec::new());
-        return Ok(Axis {
-            part,
-            brought_forward,
-            reference,
-            nav_from_table,
-            others,
-            attitude,
-            remarks,
-        });
+        let axis = Axis::of(reference, given.angles.dcm(), Attitude::within(given.sigma));
+        return Ok(Axis { brought_forward, ..axis });
     }
     let rest = found(loaded).context("the rig gives no [attitude], and none can be found")?;
     let table_from_body = Dcm::<Table, Body>::about_z(angles[rest.span.start]);
@@ -172,8 +176,7 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
         rest.start,
         loaded.recording.times[rest.span.end - 1]
     )];
-    let others = Vec::new();
-    Ok(Axis { part, brought_forward, reference, nav_from_table, others, attitude, remarks })
+    Ok(Axis { brought_forward, remarks, ..Axis::of(reference, nav_from_table, attitude) })
 }
 
 /// A run whose table nothing reads: it turns by gravity, or rests.
@@ -198,17 +201,8 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
         )];
         let wide = Some(AXIS_BY_GRAVITY);
         let attitude = Attitude { sigma: [wide, wide, None] };
-        let reference = Reference::Gravity;
-        let (part, brought_forward, others) = (Some(turning), None, Vec::new());
-        return Ok(Axis {
-            part,
-            brought_forward,
-            reference,
-            nav_from_table,
-            others,
-            attitude,
-            remarks,
-        });
+        let axis = Axis::of(Reference::Gravity, nav_from_table, attitude);
+        return Ok(Axis { part: Some(turning), remarks, ..axis });
     }
     if let Some(rests) = Rests::of(loaded)? {
         return Ok(turned_over(loaded, &rests));
@@ -228,8 +222,7 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
         }
     };
     let part = Some(recording.slice(rest.span.start, rest.span.end));
-    let (brought_forward, reference, others) = (None, Reference::Rest, Vec::new());
-    Ok(Axis { part, brought_forward, reference, nav_from_table, others, attitude, remarks })
+    Ok(Axis { part, remarks, ..Axis::of(Reference::Rest, nav_from_table, attitude) })
 }
 
 /// A run of many rests, each with an attitude of its own.
@@ -246,15 +239,8 @@ fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
     // One prior for all: the widest.
     let sigmas = rests.found.iter().map(|found| aligned(&stood(found).1, found.sigma).sigma);
     let wide = sigmas.fold([None; 3], |wide, of| [0, 1, 2].map(|axis| wider(wide[axis], of[axis])));
-    Axis {
-        part: Some(recording),
-        brought_forward: None,
-        reference: Reference::Rest,
-        nav_from_table,
-        others,
-        attitude: Attitude { sigma: wide },
-        remarks: vec![rests.in_words()],
-    }
+    let axis = Axis::of(Reference::Rest, nav_from_table, Attitude { sigma: wide });
+    Axis { part: Some(recording), others, remarks: vec![rests.in_words()], ..axis }
 }
 
 /// What an alignment's 1σ about east, north and up are about the axes of the axis frame, widened since the

@@ -24,9 +24,6 @@ const PARTS: (usize, usize) = (240, 72);
 /// Orders of the table angle are shown up to this one, both ways.
 const HIGHEST_ORDER: u8 = 8;
 
-/// A table that turns more slowly has no table angle to speak of \[rad/s\].
-const TURNING: f64 = 1e-2;
-
 /// One section a run.
 pub(super) fn overlay_sections(found: &Found) -> Vec<Section> {
     let runs = &found.certificate.runs;
@@ -59,10 +56,8 @@ fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
         times.iter().map(of).take(overlay.residuals.len()).collect()
     };
     let in_angle = |overlay: &Overlay| -> Vec<Option<usize>> {
-        let of = |(angle, rate): (&f64, &f64)| {
-            (rate.abs() > TURNING).then(|| part(angle.rem_euclid(TAU) / TAU, PARTS.1))
-        };
-        overlay.angles.iter().zip(&overlay.rates).map(of).collect()
+        let of = |angle: f64| part(angle.rem_euclid(TAU) / TAU, PARTS.1);
+        overlay.turned().map(|angle| angle.map(of)).collect()
     };
     let middle = |place: usize, parts: usize| (place as f64 + 0.5) / parts as f64;
     let mut items = Vec::new();
