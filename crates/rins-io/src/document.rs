@@ -64,6 +64,11 @@ impl Node {
 impl Document {
     /// Reads and parses the file at `path`.
     pub(crate) fn read(path: &Path) -> Result<Self, IoError> {
+        Self::parse(&Self::text(path)?, path)
+    }
+
+    /// The text of the file at `path`.
+    pub(crate) fn text(path: &Path) -> Result<String, IoError> {
         let failed = || IoError::file("read", path);
         let mut bytes = Vec::new();
         let file = File::open(path).map_err(failed())?;
@@ -74,10 +79,8 @@ impl Document {
         if bytes.len() as u64 > LARGEST {
             return Err(refuse(KeyProblem::TooLarge { most: LARGEST }).into());
         }
-        match String::from_utf8(bytes) {
-            Ok(text) => Self::parse(&text, path),
-            Err(_) => Err(refuse(KeyProblem::Syntax { message: "not UTF-8 text".into() }).into()),
-        }
+        String::from_utf8(bytes)
+            .map_err(|_| refuse(KeyProblem::Syntax { message: "not UTF-8 text".into() }).into())
     }
 
     /// Parses `text`, which stands in the file at `path`.

@@ -32,6 +32,7 @@ mod rig;
 mod run;
 mod scenario;
 mod section;
+mod sound_parquet;
 mod source;
 mod suggestion;
 mod term;

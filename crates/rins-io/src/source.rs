@@ -1,9 +1,9 @@
 //! Where a log's bytes come from: the disk or, in a build for fuzzing, memory.
 
 #[cfg(not(fuzzing))]
-pub(crate) use disk::{Source, chunks, length, open};
+pub(crate) use disk::{Chunks, Source, chunks, length, open};
 #[cfg(fuzzing)]
-pub(crate) use memory::{Source, chunks, length, open};
+pub(crate) use memory::{Chunks, Source, chunks, length, open};
 
 #[cfg(fuzzing)]
 pub(crate) mod memory;
@@ -22,8 +22,11 @@ mod disk {
         File::open(path)
     }
 
+    /// What is read in any order.
+    pub(crate) type Chunks = File;
+
     /// The bytes in any order.
-    pub(crate) fn chunks(path: &Path) -> io::Result<File> {
+    pub(crate) fn chunks(path: &Path) -> io::Result<Chunks> {
         File::open(path)
     }
 

@@ -3,25 +3,35 @@
 /// The candidate that is nearest to `word`, if one is near: by letters changed, added, left out or
 /// swapped with their neighbour, of which at most a third of the word (and at least one) may be.
 pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
-    let allowed = (word.chars().count() / 3).max(1);
+    let word = letters(word);
+    let allowed = (word.len() / 3).max(1);
     candidates
         .into_iter()
-        .map(|candidate| (distance(word, candidate), candidate))
-        // A candidate that shares no letter is as near as any other.
-        .filter(|&(distance, candidate)| {
-            distance <= allowed && distance < candidate.chars().count()
+        .filter_map(|candidate| {
+            let letters = letters(candidate);
+            // A letter more or less is a slip each: most candidates are told by their length.
+            if letters.len().abs_diff(word.len()) > allowed {
+                return None;
+            }
+            let distance = distance(&word, &letters);
+            // A candidate that shares no letter is as near as any other.
+            (distance <= allowed && distance < letters.len()).then_some((distance, candidate))
         })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
 
-/// The optimal string alignment distance, letter case ignored.
-fn distance(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.to_lowercase().chars().take(64).collect();
-    let b: Vec<char> = b.to_lowercase().chars().take(64).collect();
+/// The letters of a word, case ignored; of a text that is no word, so many that none is near it.
+fn letters(word: &str) -> Vec<char> {
+    word.chars().flat_map(char::to_lowercase).take(256).collect()
+}
+
+/// The optimal string alignment distance.
+fn distance(a: &[char], b: &[char]) -> usize {
     let mut rows = vec![(0..=b.len()).collect::<Vec<_>>()];
     for i in 1..=a.len() {
-        let mut row = vec![i];
+        let mut row = Vec::with_capacity(b.len() + 1);
+        row.push(i);
         for j in 1..=b.len() {
             let changed = usize::from(a[i - 1] != b[j - 1]);
             let mut least =
@@ -52,5 +62,6 @@ mod tests {
     fn a_far_word_gets_no_suggestion() {
         assert_eq!(nearest("colour", ["latitude", "height"]), None);
         assert_eq!(nearest("q", ["s", "m"]), None);
+        assert_eq!(nearest(&"latitude".repeat(100_000), ["latitude", "height"]), None);
     }
 }

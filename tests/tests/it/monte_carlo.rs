@@ -131,6 +131,28 @@ fn parts_that_do_not_belong_together_are_refused() {
 }
 
 #[test]
+fn campaigns_that_memory_does_not_hold_are_refused() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    scenario(folder);
+    let text = fs::read_to_string(folder.join("scenario.toml")).unwrap();
+    let (base, _) = text.split_once("\n[grid]\n").unwrap();
+    let grid = "[grid]\n\"site.height\" = { from = \"0 m\", to = \"1000 m\", steps = 1000 }\n";
+    fs::write(folder.join("long.toml"), format!("{}\n{grid}", base.replace("36 s", "1 h")))
+        .unwrap();
+    for (arguments, words) in [
+        ("scenario.toml --runs 100000000", "make shards of them, such as --shard 1/10"),
+        ("long.toml --runs 100000000 --shard 1/10000", "more than 10000000000 runs"),
+        ("long.toml --runs 64", "make several campaigns of them"),
+    ] {
+        let refused = rins_in(folder, &format!("monte-carlo {arguments} -o x.parquet"));
+        assert_eq!(refused.code, Some(1), "{arguments}: {}", refused.err);
+        assert!(refused.err.contains(words), "{arguments}: {}", refused.err);
+        assert!(refused.err.contains("toml"), "{arguments}: {}", refused.err);
+    }
+}
+
+#[test]
 fn a_grid_that_is_none_is_refused_with_its_line() {
     let folder = tempdir().unwrap();
     let folder = folder.path();

@@ -28,7 +28,9 @@ fn joined(mut parts: Vec<(PathBuf, Part)>) -> anyhow::Result<Part> {
     let of = first.identity.shard.1;
     for (expected, (path, part)) in (1..).zip(&parts) {
         anyhow::ensure!(
-            part.identity.whole() == identity && part.identity.shard.1 == of,
+            part.identity.whole() == identity
+                && part.identity.shard.1 == of
+                && part.keys == first.keys,
             "{}: not of the campaign of {}",
             path.display(),
             first_path.display()
@@ -48,7 +50,7 @@ fn joined(mut parts: Vec<(PathBuf, Part)>) -> anyhow::Result<Part> {
     );
     let keys = first.keys.clone();
     let n_cells = parts.iter().map(|(_, part)| part.values.len()).max().unwrap_or_default();
-    let mut values = vec![vec![String::new(); keys.len()]; n_cells];
+    let mut values = vec![Vec::new(); n_cells];
     let mut rows = Vec::new();
     for (_, part) in parts {
         for row in &part.rows {

@@ -3,6 +3,7 @@
 pub(crate) mod align;
 pub(crate) mod apply;
 pub(crate) mod calibrate;
+mod campaign_size;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod convert;

@@ -15,6 +15,7 @@ use rins_io::{Identity, Journal, Overwrite, Part, Record, Rig, Row, ScenarioGrid
 use rins_simulation::{Scenario, simulate};
 
 use crate::args::MonteCarlo;
+use crate::commands::campaign_size::refuse_too_large;
 use crate::commands::setup::{setup_at, shown};
 use crate::outcome::Outcome;
 use crate::progress;
@@ -26,6 +27,8 @@ const SYNCHRONISED_EVERY: Duration = Duration::from_secs(1);
 pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Result<Outcome> {
     let MonteCarlo { scenario, runs, seed, output, shard, .. } = arguments;
     let grid = ScenarioGrid::read(scenario)?;
+    let shard = shard.unwrap_or((1, 1));
+    refuse_too_large(&grid, *runs, shard.1).with_context(|| shown(scenario))?;
     let seed = seed.unwrap_or_else(|| grid.cells[0].file.scenario.seed.seed);
     let cells: Vec<Cell> = grid
         .cells
@@ -39,16 +42,16 @@ pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Resul
         .zip(&grid.cells)
         .map(|(cell, one)| cell.prepare().with_context(|| place(scenario, &grid, &one.values)))
         .collect::<anyhow::Result<_>>()?;
-    let shard = shard.unwrap_or((1, 1));
     let identity = Identity { scenario: grid.text.clone(), runs: *runs, seed, shard };
     anyhow::ensure!(
         overwrite == Overwrite::Force || !output.exists(),
         "{}: exists already; choose another name, or --force to replace it",
         output.display()
     );
-    let (mut journal, done) = open(arguments, &identity)?;
+    let (mut journal, mut done) = open(arguments, &identity)?;
     let chunks: Vec<Chunk> =
         campaign.chunks().filter(|chunk| chunk.index % shard.1 == shard.0 - 1).collect();
+    keep_whole(&mut done, &chunks);
     let done = finish(&chunks, &prepared, done, &mut journal, arguments.threads)?;
     journal.synchronise()?;
     anyhow::ensure!(
@@ -86,6 +89,16 @@ fn cell(file: &rins_io::ScenarioFile, seed: u64) -> anyhow::Result<Cell> {
 
 /// The finished chunks by their index.
 type Done = BTreeMap<u64, Vec<RunResult>>;
+
+/// Forgets what a journal says of chunks that are not these, or have other runs: they are made again.
+fn keep_whole(done: &mut Done, chunks: &[Chunk]) {
+    let mut found = std::mem::take(done);
+    done.extend(chunks.iter().filter_map(|chunk| {
+        let runs = found.remove(&chunk.index)?;
+        let whole = runs.len() as u64 == chunk.runs.end - chunk.runs.start;
+        whole.then_some((chunk.index, runs))
+    }));
+}
 
 /// The journal beside the results, and what it holds.
 fn open(arguments: &MonteCarlo, identity: &Identity) -> anyhow::Result<(Journal, Done)> {

@@ -7,7 +7,10 @@ use crate::error::{IoError, KeyError, KeyProblem};
 use crate::scenario::ScenarioFile;
 
 /// The most scenarios of a grid.
-const MOST_CELLS: usize = 100_000;
+pub(super) const MOST_CELLS: usize = 100_000;
+
+/// The most text that all scenarios of a grid may be, which is held some ten times over \[bytes\].
+const MOST_TEXT: usize = 1 << 27;
 
 /// A scenario file, and those that its `[grid]` makes of it.
 ///
@@ -74,10 +77,7 @@ impl ScenarioGrid {
     /// # Errors
     /// [`IoError::File`] if it cannot be read; else as [`ScenarioGrid::parse`].
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        // Read as a document first, which refuses what is too large or no text.
-        Document::read(path)?;
-        let text = std::fs::read_to_string(path).map_err(IoError::file("read", path))?;
-        Self::parse(&text, path)
+        Self::parse(&Document::text(path)?, path)
     }
 
     /// The scenarios that `text` describes, as if it stood in the file at `path`.
@@ -98,6 +98,14 @@ impl ScenarioGrid {
             let reason = format!("more than {MOST_CELLS} combinations");
             return Err(refusal(path, "", None, KeyProblem::Conflict { reason }));
         };
+        if cells > 1 && cells.saturating_mul(text.len()) > MOST_TEXT {
+            let most = MOST_TEXT >> 20;
+            let reason = format!(
+                "{cells} scenarios of {} bytes are more than {most} MiB; make several campaigns of them",
+                text.len()
+            );
+            return Err(refusal(path, "", None, KeyProblem::Conflict { reason }));
+        }
         let cell = |mut place: usize| {
             let mut values = Vec::new();
             for axis in axes.iter().rev() {

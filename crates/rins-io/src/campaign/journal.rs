@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
 use rins_calibration::Estimate;
@@ -10,6 +10,7 @@ use rins_campaign::{RunFailure, RunResult};
 
 use super::table::Identity;
 use crate::error::IoError;
+use crate::output::{Overwrite, write_file};
 
 /// A campaign's journal, which outlives an interruption.
 ///
@@ -24,6 +25,12 @@ pub struct Journal {
 /// The finished chunks of a journal, by their index.
 type Done = Vec<(u64, Vec<RunResult>)>;
 
+/// The letters of a failure's reason that are kept.
+const LONGEST_REASON: usize = 1 << 13;
+
+/// The longest line of a chunk \[bytes\].
+const LONGEST_LINE: u64 = 1 << 16;
+
 /// The numbers of a run: three estimates, their covariance, and the NIS.
 const NUMBERS: usize = 13;
 
@@ -31,13 +38,14 @@ impl Journal {
     /// A new journal at `path`, where there must be no other.
     ///
     /// # Errors
-    /// [`IoError::File`] if there is one, or the system refuses.
+    /// [`IoError::Output`] if there is one, [`IoError::File`] if the system refuses; there is then none
+    /// of this campaign.
     pub fn create(path: &Path, identity: &Identity) -> Result<Self, IoError> {
         let failed = || IoError::file("write", path);
-        let mut file =
-            OpenOptions::new().write(true).create_new(true).open(path).map_err(failed())?;
-        writeln!(file, "{}", identity.line()).map_err(failed())?;
-        file.sync_all().map_err(failed())?;
+        write_file(path, Overwrite::Refuse, |out| {
+            writeln!(out, "{}", identity.line()).map_err(failed())
+        })?;
+        let file = OpenOptions::new().append(true).open(path).map_err(failed())?;
         Ok(Self { path: path.into(), file })
     }
 
@@ -76,7 +84,9 @@ impl Journal {
                 }
                 Err(failure) => {
                     text += "failed ";
-                    text += &failure.reason.replace(['\n', '\r'], " ");
+                    text.extend(
+                        failure.reason.replace(['\n', '\r'], " ").chars().take(LONGEST_REASON),
+                    );
                     text.push('\n');
                 }
             }
@@ -106,9 +116,13 @@ impl Journal {
 /// The finished chunks, and where the last of them ends; `None` if the first line is another.
 fn parse(mut reader: impl BufRead, identity: &str) -> io::Result<Option<(Done, u64)>> {
     let mut line = String::new();
+    let longest = LONGEST_LINE.max(identity.len() as u64 + 1);
     let mut next = |line: &mut String| {
-        line.clear();
-        reader.read_line(line).map(|length| length as u64)
+        let mut bytes = Vec::new();
+        let length = reader.by_ref().take(longest).read_until(b'\n', &mut bytes)?;
+        // What was cut within a letter is no line, as what was cut elsewhere is none.
+        *line = String::from_utf8(bytes).unwrap_or_default();
+        io::Result::Ok(length as u64)
     };
     let mut place = next(&mut line)?;
     if line.strip_suffix('\n') != Some(identity) {

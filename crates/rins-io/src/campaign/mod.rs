@@ -2,8 +2,10 @@
 
 mod grid;
 mod journal;
+mod read;
 mod table;
 
 pub use grid::{GridCell, ScenarioGrid};
 pub use journal::Journal;
-pub use table::{Identity, Part, Record, Row, read_part, write_part};
+pub use read::read_part;
+pub use table::{Identity, Part, Record, Row, write_part};

@@ -1,4 +1,4 @@
-//! The results of a campaign as Parquet: a row for each run and parameter.
+//! The results of a campaign, and how they are written as Parquet: a row for each run and parameter.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -8,9 +8,7 @@ use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
-use parquet::record::RowAccessor;
 use parquet::schema::types::Type;
 
 use crate::error::IoError;
@@ -62,7 +60,7 @@ impl Identity {
         .into()
     }
 
-    fn from_metadata(metadata: &[KeyValue]) -> Option<Self> {
+    pub(super) fn from_metadata(metadata: &[KeyValue]) -> Option<Self> {
         let get = |key: &str| {
             metadata.iter().find(|pair| pair.key == key).and_then(|pair| pair.value.as_deref())
         };
@@ -114,21 +112,21 @@ pub struct Part {
     pub identity: Identity,
     /// The keys of the grid.
     pub keys: Vec<String>,
-    /// What stands at the keys, for each scenario of the grid.
+    /// What stands at the keys, for each scenario of the grid; nothing for one without rows.
     pub values: Vec<Vec<String>>,
     /// The rows, by scenario, run and parameter.
     pub rows: Vec<Row>,
 }
 
 /// The columns of whole numbers.
-const INTEGERS: [&str; 2] = ["cell", "run"];
+pub(super) const INTEGERS: [&str; 2] = ["cell", "run"];
 /// The columns of texts, which follow those of the grid.
-const TEXTS: [&str; 2] = ["parameter", "unit"];
+pub(super) const TEXTS: [&str; 2] = ["parameter", "unit"];
 /// The columns of numbers.
-const NUMBERS: [&str; 7] =
+pub(super) const NUMBERS: [&str; 7] =
     ["truth", "estimate", "sigma", "covariance_1", "covariance_2", "covariance_3", "nis_ratio"];
 /// The last column.
-const FAILURE: &str = "failure";
+pub(super) const FAILURE: &str = "failure";
 
 /// Writes results, whole or not at all.
 ///
@@ -241,61 +239,4 @@ impl Row {
 /// The place of a parameter among the three.
 fn place(parameter: &str) -> Option<usize> {
     rins_campaign::PARAMETERS.iter().position(|id| *id == parameter)
-}
-
-/// Reads results.
-///
-/// # Errors
-/// [`IoError::File`] if the system refuses, or the file is no campaign's of this version.
-pub fn read_part(path: &Path) -> Result<Part, IoError> {
-    let failed = || IoError::file("read", path);
-    let file = std::fs::File::open(path).map_err(failed())?;
-    decode(file).map_err(|error| failed()(std::io::Error::other(error)))
-}
-
-fn decode(file: std::fs::File) -> Result<Part, ParquetError> {
-    let reader = SerializedFileReader::new(file)?;
-    let metadata = reader.metadata().file_metadata();
-    let identity =
-        metadata
-            .key_value_metadata()
-            .and_then(|pairs| Identity::from_metadata(pairs))
-            .ok_or_else(|| ParquetError::General("no campaign of this version of rins".into()))?;
-    let columns = metadata.schema_descr().columns();
-    let names: Vec<String> = columns.iter().map(|column| column.name().into()).collect();
-    let fixed = INTEGERS.len() + TEXTS.len() + NUMBERS.len() + 1;
-    let n_keys = names.len().checked_sub(fixed).ok_or_else(missing)?;
-    let keys = names[INTEGERS.len()..INTEGERS.len() + n_keys].to_vec();
-    let mut values: Vec<Vec<String>> = Vec::new();
-    let mut rows = Vec::new();
-    for row in reader.get_row_iter(None)? {
-        let row = row?;
-        let whole = |place: usize| -> Result<u64, ParquetError> {
-            u64::try_from(row.get_long(place)?).map_err(|_| missing())
-        };
-        let text = |place: usize| row.get_string(place).cloned();
-        let first = INTEGERS.len() + n_keys + TEXTS.len();
-        let number = |place: usize| row.get_double(first + place);
-        let cell = whole(0)?;
-        let place = usize::try_from(cell).map_err(|_| missing())?;
-        if place >= values.len() {
-            // Rows are in the order of cells; those of which a shard has no run stay empty.
-            values.resize(place + 1, vec![String::new(); n_keys]);
-            values[place] = (0..n_keys).map(|key| text(2 + key)).collect::<Result<_, _>>()?;
-        }
-        rows.push(Row {
-            cell,
-            run: whole(1)?,
-            parameter: text(INTEGERS.len() + n_keys)?,
-            unit: text(INTEGERS.len() + n_keys + 1)?,
-            record: Record {
-                truth: number(0)?,
-                estimate: number(1)?,
-                covariances: [number(3)?, number(4)?, number(5)?],
-                nis_ratio: number(6)?,
-            },
-            failure: text(first + NUMBERS.len())?,
-        });
-    }
-    Ok(Part { identity, keys, values, rows })
 }

@@ -24,7 +24,7 @@ pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
 pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided};
-pub(crate) use table::Head;
+pub(crate) use table::{Head, MOST_COLUMNS, most_rows};
 pub use table::{LogHead, peek};
 
 use crate::error::{IoError, LogError};

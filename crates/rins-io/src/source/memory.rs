@@ -22,7 +22,9 @@ pub(crate) fn open(path: &Path) -> io::Result<Source> {
     chunks(path).map(Cursor::new)
 }
 
-pub(crate) fn chunks(path: &Path) -> io::Result<Bytes> {
+pub(crate) type Chunks = Bytes;
+
+pub(crate) fn chunks(path: &Path) -> io::Result<Chunks> {
     let found = FILES.with_borrow(|files| files.get(path).cloned());
     found.ok_or_else(|| io::ErrorKind::NotFound.into())
 }

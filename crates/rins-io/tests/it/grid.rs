@@ -39,3 +39,15 @@ fn more_scenarios_than_can_be_counted_are_refused() {
         assert!(error.contains("more than 100000 combinations"), "{axes}: {error}");
     }
 }
+
+/// A few values of long scenarios are as much as many of short ones.
+#[test]
+fn scenarios_that_fill_memory_together_are_refused() {
+    let comment = format!("# {}\n", "x".repeat(1 << 19));
+    let grid = "\"site.height\" = { from = \"0 m\", to = \"1 m\", steps = 1000 }\n";
+    let text = format!("{comment}{SCENARIO}{grid}");
+    let error = ScenarioGrid::parse(&text, Path::new("s.toml")).unwrap_err().to_string();
+    assert!(error.contains("1000 scenarios of 52") && error.contains("128 MiB"), "{error}");
+    let text = format!("{SCENARIO}{grid}");
+    assert_eq!(ScenarioGrid::parse(&text, Path::new("s.toml")).unwrap().cells.len(), 1000);
+}

@@ -9,6 +9,7 @@
 )]
 
 mod calibration;
+mod campaign;
 mod convert;
 mod damaged;
 mod draft;

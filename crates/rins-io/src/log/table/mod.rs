@@ -12,6 +12,7 @@ use std::path::Path;
 use self::text::Header;
 pub(crate) use text::Head;
 pub use text::{LogHead, peek};
+pub(crate) use typed::most_rows;
 
 use super::instant::Instants;
 use super::problem::LogProblem;
@@ -22,7 +23,7 @@ use crate::section::quoted;
 use crate::suggestion::nearest;
 
 /// The most columns that are read.
-const MOST_COLUMNS: usize = 4096;
+pub(crate) const MOST_COLUMNS: usize = 4096;
 
 /// The most rows that are read: 93 hours at 200 Hz, which fill some ten gigabytes of memory.
 const MOST_ROWS: u64 = 1 << 26;

@@ -1,88 +1,52 @@
 //! Columns of Parquet files.
 
-mod pages;
-mod whole;
-
 use std::path::Path;
 
 use parquet::basic::{ConvertedType, Type};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::ColumnChunkMetaData;
-use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
-use self::pages::SoundPages;
-use self::whole::Whole;
-use super::typed::{Numbers, most_rows, together};
-use super::{Columns, MOST_COLUMNS, Wanted, place};
+use super::typed::{Numbers, together};
+use super::{Columns, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
-use crate::source;
+use crate::sound_parquet::SoundParquet;
 
 /// The rows that are read at a time.
 const BATCH: usize = 1 << 16;
 
-/// By how much a page may grow when it is decompressed, over what any file may have.
-const MOST_GROWTH: i64 = 256;
-
 /// Reads columns of the Parquet file at `path`, row group by row group.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
-    let failed = || IoError::file("read", path);
-    let file = source::chunks(path).map_err(failed())?;
-    let length = source::length(path).map_err(failed())?;
-    if length == 0 {
-        return Err(LogError::of(path, LogProblem::Empty));
-    }
-    let damaged = |error: ParquetError| LogError::of(path, damage(&error));
-    let reader = SerializedFileReader::new(Whole(file)).map_err(damaged)?;
-    let metadata = reader.metadata();
-    let schema = metadata.file_metadata().schema_descr();
+    let file = SoundParquet::open(path)?;
+    let (rows, most) = (file.rows(), file.most_rows());
     let refuse = |problem| LogError::of(path, problem);
-    if schema.num_columns() > MOST_COLUMNS {
-        return Err(refuse(LogProblem::ManyColumns { most: MOST_COLUMNS }));
-    }
-    let most = most_rows(length);
-    let rows: i64 = metadata.row_groups().iter().map(|group| group.num_rows().max(0)).sum();
-    if rows.unsigned_abs() > most {
-        return Err(refuse(LogProblem::ManyRows { most }));
-    }
-    let present: Vec<String> =
-        schema.columns().iter().map(|column| column.path().string()).collect();
+    let present: Vec<String> = file.columns().iter().map(|column| column.path().string()).collect();
     let Wanted { names, time } = wanted;
     let asked = names.iter().copied().chain(time.as_ref().map(|(name, _)| *name));
     let mut lists = Vec::with_capacity(names.len() + 1);
     for name in asked {
         let place = place(name, &present).map_err(refuse)?;
-        let kind = Kind::of(&schema.column(place)).ok_or_else(|| {
-            let found = schema.column(place).physical_type().to_string();
+        let column = &file.columns()[place];
+        let kind = Kind::of(column).ok_or_else(|| {
+            let found = column.physical_type().to_string();
             refuse(LogProblem::WrongColumn { column: name.into(), found })
         })?;
         let mut list = kind.empty();
-        for (index, group) in metadata.row_groups().iter().enumerate() {
-            let chunk = group.columns().get(place).ok_or_else(|| {
-                damaged(ParquetError::General("a row group lacks a column".into()))
-            })?;
-            refuse_unsound(chunk, length).map_err(refuse)?;
-            let pages = reader
-                .get_row_group(index)
-                .and_then(|group| group.get_column_page_reader(place))
-                .map_err(damaged)?;
-            let pages = Box::new(SoundPages::new(pages, &schema.column(place), most));
-            let pages = get_column_reader(schema.column(place), pages);
+        for group in 0..file.groups() {
             let before = list.len();
-            match read_chunk(pages, kind, most, &mut list) {
+            match read_part(file.column(group, place)?, kind, most, &mut list) {
                 Ok(Some(null)) => {
                     let problem = LogProblem::EmptyField { column: name.into() };
                     return Err(LogError::at(path, (before + null) as u64 + 1, problem));
                 }
                 Ok(None) => {}
-                Err(error) => return Err(damaged(error)),
+                Err(error) => return Err(file.damaged(&error)),
             }
         }
-        if i64::try_from(list.len()) != Ok(rows) {
-            return Err(damaged(ParquetError::General(format!(
+        if list.len() as u64 != rows {
+            return Err(file.damaged(&ParquetError::General(format!(
                 "column {name:?} has {} of {rows} rows",
                 list.len()
             ))));
@@ -95,27 +59,6 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     });
     let numbers = lists.into_iter().map(Numbers::plain).collect();
     together(path, names, numbers, stamps)
-}
-
-/// What the parser says, as one line.
-fn damage(error: &ParquetError) -> LogProblem {
-    let text = error.to_string();
-    LogProblem::Damaged { format: "Parquet", message: text.lines().collect::<Vec<_>>().join(", ") }
-}
-
-/// Refuses a column that lies nowhere, or that says that a few bytes hold very many.
-fn refuse_unsound(chunk: &ColumnChunkMetaData, length: u64) -> Result<(), LogProblem> {
-    let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
-    // The parser takes these for granted.
-    if start < 0 || chunk.compressed_size() < 0 {
-        let message = "a column's place in the file is negative".into();
-        return Err(LogProblem::Damaged { format: "Parquet", message });
-    }
-    let most = i64::try_from(length).unwrap_or(i64::MAX).saturating_mul(MOST_GROWTH);
-    if chunk.uncompressed_size() > most.max(1 << 24) {
-        return Err(LogProblem::ManyRows { most: most_rows(length) });
-    }
-    Ok(())
 }
 
 /// How numbers are kept in a column.
@@ -154,7 +97,7 @@ impl Kind {
 }
 
 /// Adds a row group's numbers to `list`; the index of the first that is missing, if one is.
-fn read_chunk(
+fn read_part(
     pages: ColumnReader,
     kind: Kind,
     most: u64,

@@ -15,7 +15,7 @@ const ALWAYS_ROWS: u64 = 1 << 20;
 ///
 /// Compressed formats can say of a few bytes that they are billions of rows; no sensor that is
 /// alive takes less than a byte to say its seven numbers.
-pub(super) fn most_rows(length: u64) -> u64 {
+pub(crate) fn most_rows(length: u64) -> u64 {
     length.clamp(ALWAYS_ROWS, MOST_ROWS)
 }
 

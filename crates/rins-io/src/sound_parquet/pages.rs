@@ -9,6 +9,8 @@ use parquet::schema::types::ColumnDescriptor;
 pub(super) struct SoundPages {
     pages: Box<dyn PageReader>,
     has_dictionary: bool,
+    /// Whether they hold texts and no numbers.
+    texts: bool,
     /// The bytes of a number, and the bits of a level, none where nothing may be missing.
     number: usize,
     level: usize,
@@ -23,11 +25,12 @@ impl SoundPages {
             _ => 8,
         };
         let level = (16 - column.max_def_level().leading_zeros()) as usize;
-        Self { pages, has_dictionary: false, number, level, left: most }
+        let texts = column.physical_type() == Type::BYTE_ARRAY;
+        Self { pages, has_dictionary: false, texts, number, level, left: most }
     }
 
-    /// How many bytes of a page its numbers take; `None` if its levels are longer than it is.
-    fn of_numbers(&self, page: &Page) -> Option<usize> {
+    /// How many bytes of a page its values take; `None` if its levels are longer than it is.
+    fn of_values(&self, page: &Page) -> Option<usize> {
         let length = page.buffer().len();
         let levels = match page {
             Page::DataPageV2 { def_levels_byte_len, rep_levels_byte_len, .. } => {
@@ -46,10 +49,28 @@ impl SoundPages {
         length.checked_sub(levels)
     }
 
+    /// Whether a page holds as many texts as it says, each behind its length.
+    fn holds_its_texts(&self, page: &Page) -> bool {
+        let Some(length) = self.of_values(page) else { return false };
+        let mut rest = &page.buffer()[page.buffer().len() - length..];
+        matches!(page.encoding(), Encoding::PLAIN | Encoding::PLAIN_DICTIONARY)
+            && (0..page.num_values()).all(|_| {
+                let Some((length, after)) = rest.split_first_chunk() else { return false };
+                let text = usize::try_from(u32::from_le_bytes(*length)).ok();
+                let after = text.and_then(|length| after.get(length..));
+                rest = after.unwrap_or_default();
+                after.is_some()
+            })
+    }
+
     fn refuse_unsound(&mut self, page: &Page) -> Result<()> {
         let damaged = |message: &str| Err(ParquetError::General(message.into()));
         let by_dictionary =
             matches!(page.encoding(), Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY);
+        let is_dictionary = matches!(page, Page::DictionaryPage { .. });
+        if self.texts && (is_dictionary || !by_dictionary) && !self.holds_its_texts(page) {
+            return damaged("a page of fewer texts than it says, or of an unknown encoding");
+        }
         match page {
             Page::DictionaryPage { .. } => {
                 self.has_dictionary = true;
@@ -71,7 +92,7 @@ impl SoundPages {
             }
         }
         if page.encoding() == Encoding::BYTE_STREAM_SPLIT {
-            let room = self.of_numbers(page).map_or(0, |length| length / self.number);
+            let room = self.of_values(page).map_or(0, |length| length / self.number);
             if (room as u64) < u64::from(page.num_values()) {
                 return damaged("a page of fewer numbers than it says");
             }

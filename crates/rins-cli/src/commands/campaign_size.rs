@@ -1,0 +1,39 @@
+//! Campaigns that a computer's memory does not hold are refused before anything is made.
+
+use rins_io::ScenarioGrid;
+
+/// The most runs whose results are held at once, in some ten gigabytes.
+const MOST_RUNS: u64 = 20_000_000;
+
+/// The most runs of all shards.
+const MOST_IN_ALL: u64 = 10_000_000_000;
+
+/// The most samples that the scenarios' runs without noise may have together, as one run may.
+const MOST_SAMPLES: f64 = 1e8;
+
+/// Refuses a campaign of `runs` of each scenario, of which one shard `of` so many is made here.
+pub(super) fn refuse_too_large(grid: &ScenarioGrid, runs: u64, of: u64) -> anyhow::Result<()> {
+    let cells = grid.cells.len() as u64;
+    let all = cells.saturating_mul(runs);
+    anyhow::ensure!(
+        all <= MOST_IN_ALL,
+        "{cells} scenarios of {runs} runs each are more than {MOST_IN_ALL} runs"
+    );
+    let here = all.div_ceil(of);
+    anyhow::ensure!(
+        here <= MOST_RUNS,
+        "{here} runs are more than the {MOST_RUNS} that are held at once; make shards of them, such as --shard 1/{}",
+        all.div_ceil(MOST_RUNS)
+    );
+    let samples: f64 = grid
+        .cells
+        .iter()
+        .map(|cell| &cell.file.scenario)
+        .map(|scenario| scenario.profile.duration() / scenario.interval)
+        .sum();
+    anyhow::ensure!(
+        cells == 1 || samples <= MOST_SAMPLES,
+        "runs of {cells} scenarios have {samples:.3e} samples, which are more than {MOST_SAMPLES:.0e}; make several campaigns of them"
+    );
+    Ok(())
+}

@@ -1,0 +1,226 @@
+//! The results of a campaign, read from Parquet.
+
+use std::path::Path;
+
+use parquet::basic::{Repetition, Type};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::{ByteArray, DataType};
+use parquet::errors::ParquetError;
+use parquet::schema::types::ColumnDescriptor;
+use rins_campaign::PARAMETERS;
+
+use super::grid::MOST_CELLS;
+use super::table::{FAILURE, INTEGERS, Identity, NUMBERS, Part, Record, Row, TEXTS};
+use crate::error::IoError;
+use crate::sound_parquet::SoundParquet;
+
+/// The values that are held of all columns together while they are put into rows.
+const BATCH: usize = 1 << 16;
+
+/// The most values, rows times columns, that any file may have, however small it is.
+const MOST_VALUES: u64 = 1 << 28;
+
+/// The most that the grid's values and the reasons of failures may take in memory, however short
+/// the file is that repeats them \[bytes\].
+const MOST_TEXT: usize = 1 << 28;
+
+/// The longest unit \[bytes\].
+const LONGEST_UNIT: usize = 32;
+
+/// Reads results.
+///
+/// # Errors
+/// [`IoError::File`] if the system refuses, [`IoError::Log`] if the file is no campaign's of this
+/// version.
+pub fn read_part(path: &Path) -> Result<Part, IoError> {
+    let file = SoundParquet::open(path)?;
+    let damaged = |error| file.damaged(&error);
+    let identity = Identity::from_metadata(file.key_values())
+        .ok_or_else(|| damaged(wrong("no campaign of this version of rins")))?;
+    let layout = Layout::of(&file).map_err(damaged)?;
+    let columns = file.columns().len();
+    if file.rows().saturating_mul(columns as u64) > MOST_VALUES.max(file.length()) {
+        return Err(damaged(wrong("more rows than its length can hold")));
+    }
+    let mut part = Part { identity, keys: layout.keys, values: Vec::new(), rows: Vec::new() };
+    let mut room = MOST_TEXT.max(usize::try_from(file.length()).unwrap_or(usize::MAX));
+    for group in 0..file.groups() {
+        let mut readers =
+            (0..columns).map(|place| file.column(group, place)).collect::<Result<Vec<_>, _>>()?;
+        loop {
+            let batch = readers
+                .iter_mut()
+                .map(|reader| Values::read(reader, (BATCH / columns).max(1)))
+                .collect::<Result<Vec<_>, _>>()
+                .map_err(damaged)?;
+            let rows = batch[0].len();
+            if batch.iter().any(|values| values.len() != rows) {
+                return Err(damaged(wrong("columns of different lengths")));
+            }
+            if rows == 0 {
+                break;
+            }
+            for row in 0..rows {
+                let at = Place { batch: &batch, row };
+                let row = read_row(&mut part, &at, &mut room).map_err(damaged)?;
+                part.rows.push(row);
+            }
+        }
+    }
+    Ok(part)
+}
+
+fn wrong(what: &str) -> ParquetError {
+    ParquetError::General(what.into())
+}
+
+/// Which columns a file of results has.
+struct Layout {
+    keys: Vec<String>,
+}
+
+impl Layout {
+    fn of(file: &SoundParquet) -> Result<Self, ParquetError> {
+        let columns = file.columns();
+        let fixed = INTEGERS.len() + TEXTS.len() + NUMBERS.len() + 1;
+        let n_keys = columns.len().checked_sub(fixed).ok_or_else(|| wrong("too few columns"))?;
+        let keys: Vec<String> = columns[INTEGERS.len()..INTEGERS.len() + n_keys]
+            .iter()
+            .map(|column| column.name().into())
+            .collect();
+        let texts = keys.iter().map(String::as_str).chain(TEXTS);
+        let expected = (INTEGERS.into_iter().map(|name| (name, Type::INT64)))
+            .chain(texts.map(|name| (name, Type::BYTE_ARRAY)))
+            .chain(NUMBERS.into_iter().map(|name| (name, Type::DOUBLE)))
+            .chain([(FAILURE, Type::BYTE_ARRAY)]);
+        for (column, (name, kind)) in columns.iter().zip(expected) {
+            if !is(column, name, kind) {
+                return Err(wrong(&format!("a campaign has a column {name:?} of {kind} here")));
+            }
+        }
+        Ok(Self { keys })
+    }
+}
+
+/// Whether a column has this name and type, and a value in each row.
+fn is(column: &ColumnDescriptor, name: &str, kind: Type) -> bool {
+    column.name() == name
+        && column.physical_type() == kind
+        && column.path().parts().len() == 1
+        && column.self_type().get_basic_info().repetition() == Repetition::REQUIRED
+}
+
+/// Values of a column, some rows of it.
+enum Values {
+    Integers(Vec<i64>),
+    Numbers(Vec<f64>),
+    Texts(Vec<ByteArray>),
+}
+
+impl Values {
+    fn read(reader: &mut ColumnReader, rows: usize) -> Result<Self, ParquetError> {
+        Ok(match reader {
+            ColumnReader::Int64ColumnReader(reader) => Self::Integers(next(reader, rows)?),
+            ColumnReader::DoubleColumnReader(reader) => Self::Numbers(next(reader, rows)?),
+            ColumnReader::ByteArrayColumnReader(reader) => Self::Texts(next(reader, rows)?),
+            _ => return Err(wrong("a column changes its type")),
+        })
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Integers(values) => values.len(),
+            Self::Numbers(values) => values.len(),
+            Self::Texts(values) => values.len(),
+        }
+    }
+}
+
+fn next<T: DataType>(
+    reader: &mut ColumnReaderImpl<T>,
+    rows: usize,
+) -> Result<Vec<T::T>, ParquetError> {
+    let mut values = Vec::new();
+    reader.read_records(rows, None, None, &mut values)?;
+    Ok(values)
+}
+
+/// A row of some that were read.
+struct Place<'b> {
+    batch: &'b [Values],
+    row: usize,
+}
+
+impl Place<'_> {
+    fn whole(&self, column: usize) -> Result<u64, ParquetError> {
+        match &self.batch[column] {
+            Values::Integers(values) => {
+                u64::try_from(values[self.row]).map_err(|_| wrong("a count below zero"))
+            }
+            _ => Err(wrong("a column changes its type")),
+        }
+    }
+
+    fn number(&self, column: usize) -> Result<f64, ParquetError> {
+        match &self.batch[column] {
+            Values::Numbers(values) => Ok(values[self.row]),
+            _ => Err(wrong("a column changes its type")),
+        }
+    }
+
+    fn text(&self, column: usize) -> Result<&str, ParquetError> {
+        match &self.batch[column] {
+            Values::Texts(values) => values[self.row].as_utf8(),
+            _ => Err(wrong("a column changes its type")),
+        }
+    }
+
+    /// A text that may be long, and takes its length from the `room` that there is.
+    fn long_text(&self, column: usize, room: &mut usize) -> Result<String, ParquetError> {
+        let text = self.text(column)?;
+        let left = room.checked_sub(text.len());
+        *room = left.ok_or_else(|| wrong("more text than its length can hold"))?;
+        Ok(text.into())
+    }
+}
+
+/// The row at a place, whose scenario `part` then knows.
+fn read_row(part: &mut Part, at: &Place<'_>, room: &mut usize) -> Result<Row, ParquetError> {
+    let n_keys = part.keys.len();
+    let cell = at.whole(0)?;
+    let place = usize::try_from(cell).ok().filter(|place| *place < MOST_CELLS);
+    let place = place.ok_or_else(|| wrong("a scenario beyond those that a grid can have"))?;
+    if place >= part.values.len() {
+        // Rows are in the order of scenarios.
+        part.values.resize(place + 1, Vec::new());
+        part.values[place] = (0..n_keys)
+            .map(|key| at.long_text(INTEGERS.len() + key, room))
+            .collect::<Result<_, _>>()?;
+    } else if place + 1 != part.values.len() {
+        return Err(wrong("rows that are not in the order of their scenarios"));
+    }
+    let texts = INTEGERS.len() + n_keys;
+    let first = texts + TEXTS.len();
+    let number = |place: usize| at.number(first + place);
+    let parameter = at.text(texts)?;
+    if !PARAMETERS.contains(&parameter) {
+        return Err(wrong("a parameter that no campaign estimates"));
+    }
+    let unit = at.text(texts + 1)?;
+    if unit.len() > LONGEST_UNIT {
+        return Err(wrong("a unit that is none"));
+    }
+    Ok(Row {
+        cell,
+        run: at.whole(1)?,
+        parameter: parameter.into(),
+        unit: unit.into(),
+        record: Record {
+            truth: number(0)?,
+            estimate: number(1)?,
+            covariances: [number(3)?, number(4)?, number(5)?],
+            nis_ratio: number(6)?,
+        },
+        failure: at.long_text(first + NUMBERS.len(), room)?,
+    })
+}

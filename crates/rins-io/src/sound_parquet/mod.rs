@@ -1,0 +1,133 @@
+//! Parquet files that are held against what the parser takes for granted of them.
+
+mod pages;
+mod whole;
+
+use std::path::{Path, PathBuf};
+
+use parquet::column::reader::{ColumnReader, get_column_reader};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{ColumnChunkMetaData, KeyValue};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescPtr;
+
+use self::pages::SoundPages;
+use self::whole::Whole;
+use crate::error::{IoError, LogError};
+use crate::log::{LogProblem, MOST_COLUMNS, most_rows};
+use crate::source;
+
+/// By how much a page may grow when it is decompressed, over what any file may have.
+const MOST_GROWTH: i64 = 256;
+
+/// A Parquet file, of which no page is read that is not what it says.
+pub(crate) struct SoundParquet {
+    path: PathBuf,
+    /// In bytes.
+    length: u64,
+    reader: SerializedFileReader<Whole<source::Chunks>>,
+}
+
+impl SoundParquet {
+    /// Opens the file at `path`.
+    ///
+    /// # Errors
+    /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is no Parquet file, or has more
+    /// rows or columns than any may have.
+    pub(crate) fn open(path: &Path) -> Result<Self, IoError> {
+        let failed = || IoError::file("read", path);
+        let file = source::chunks(path).map_err(failed())?;
+        let length = source::length(path).map_err(failed())?;
+        let refuse = |problem| LogError::of(path, problem);
+        if length == 0 {
+            return Err(refuse(LogProblem::Empty));
+        }
+        let reader =
+            SerializedFileReader::new(Whole(file)).map_err(|error| refuse(damage(&error)))?;
+        let sound = Self { path: path.into(), length, reader };
+        if sound.columns().len() > MOST_COLUMNS {
+            return Err(refuse(LogProblem::ManyColumns { most: MOST_COLUMNS }));
+        }
+        let most = sound.most_rows();
+        if sound.rows() > most {
+            return Err(refuse(LogProblem::ManyRows { most }));
+        }
+        Ok(sound)
+    }
+
+    /// The length of the file \[bytes\].
+    pub(crate) fn length(&self) -> u64 {
+        self.length
+    }
+
+    /// The most rows that a file of this length may have.
+    pub(crate) fn most_rows(&self) -> u64 {
+        most_rows(self.length)
+    }
+
+    /// How many rows it says it has.
+    pub(crate) fn rows(&self) -> u64 {
+        let groups = self.reader.metadata().row_groups().iter();
+        groups.fold(0, |rows, group| rows.saturating_add(group.num_rows().max(0).unsigned_abs()))
+    }
+
+    /// How many groups its rows are in.
+    pub(crate) fn groups(&self) -> usize {
+        self.reader.metadata().num_row_groups()
+    }
+
+    /// What its columns are.
+    pub(crate) fn columns(&self) -> &[ColumnDescPtr] {
+        self.reader.metadata().file_metadata().schema_descr().columns()
+    }
+
+    /// What stands beside its columns.
+    pub(crate) fn key_values(&self) -> &[KeyValue] {
+        let pairs = self.reader.metadata().file_metadata().key_value_metadata();
+        pairs.map_or(&[], Vec::as_slice)
+    }
+
+    /// What reads the part of a column that is in one group.
+    ///
+    /// # Errors
+    /// [`IoError::Log`] if it lies nowhere, or says that a few bytes hold very many values.
+    pub(crate) fn column(&self, group: usize, place: usize) -> Result<ColumnReader, IoError> {
+        let damaged = |error| self.damaged(&error);
+        let part =
+            self.reader.metadata().row_group(group).columns().get(place).ok_or_else(|| {
+                damaged(ParquetError::General("a row group lacks a column".into()))
+            })?;
+        refuse_unsound(part, self.length).map_err(|problem| LogError::of(&self.path, problem))?;
+        let group = self.reader.get_row_group(group).map_err(damaged)?;
+        let pages = group.get_column_page_reader(place).map_err(damaged)?;
+        let column = &self.columns()[place];
+        let pages = SoundPages::new(pages, column, self.most_rows());
+        Ok(get_column_reader(column.clone(), Box::new(pages)))
+    }
+
+    /// What the parser says, as an error of this file.
+    pub(crate) fn damaged(&self, error: &ParquetError) -> IoError {
+        LogError::of(&self.path, damage(error))
+    }
+}
+
+/// What the parser says, as one line.
+fn damage(error: &ParquetError) -> LogProblem {
+    let text = error.to_string();
+    LogProblem::Damaged { format: "Parquet", message: text.lines().collect::<Vec<_>>().join(", ") }
+}
+
+/// Refuses a column that lies nowhere, or that says that a few bytes hold very many.
+fn refuse_unsound(part: &ColumnChunkMetaData, length: u64) -> Result<(), LogProblem> {
+    let start = part.dictionary_page_offset().unwrap_or(part.data_page_offset());
+    // The parser takes these for granted.
+    if start < 0 || part.compressed_size() < 0 {
+        let message = "a column's place in the file is negative".into();
+        return Err(LogProblem::Damaged { format: "Parquet", message });
+    }
+    let most = i64::try_from(length).unwrap_or(i64::MAX).saturating_mul(MOST_GROWTH);
+    if part.uncompressed_size() > most.max(1 << 24) {
+        return Err(LogProblem::ManyRows { most: most_rows(length) });
+    }
+    Ok(())
+}

@@ -1,0 +1,160 @@
+//! Results of campaigns, whole and damaged, and their journals.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use rins_campaign::{PARAMETERS, RunFailure};
+use rins_io::{Identity, Journal, Overwrite, Part, Record, Row, read_part, write_part};
+use tempfile::tempdir;
+
+fn identity() -> Identity {
+    Identity { scenario: "a scenario".into(), runs: 2, seed: 3, shard: (1, 1) }
+}
+
+/// Two runs of each of some scenarios.
+fn part(cells: &[u64]) -> Part {
+    let row = |cell: u64, run: u64, place: usize| Row {
+        cell,
+        run,
+        parameter: PARAMETERS[place].into(),
+        unit: "arcsec".into(),
+        record: Record {
+            truth: 1.0,
+            estimate: 1.5 + run as f64,
+            covariances: [0, 1, 2].map(|other| f64::from(u8::from(other == place))),
+            nis_ratio: 0.9,
+        },
+        failure: if run == 1 { "why it failed".into() } else { String::new() },
+    };
+    let mut values = Vec::new();
+    let mut rows = Vec::new();
+    for &cell in cells {
+        if let Ok(place) = usize::try_from(cell)
+            && place < 1000
+        {
+            values.resize(place + 1, Vec::new());
+            values[place] = vec![format!("{cell} deg"), "a".into()];
+        }
+        rows.extend(
+            (0..2)
+                .flat_map(|run| (0..3).map(move |place| (run, place)))
+                .map(|(run, place)| row(cell, run, place)),
+        );
+    }
+    Part { identity: identity(), keys: vec!["roll".into(), "b".into()], values, rows }
+}
+
+#[test]
+fn results_are_read_as_they_were_written() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("part.parquet");
+    let written = part(&[0, 1, 4]);
+    write_part(&path, Overwrite::Refuse, &written).unwrap();
+    assert_eq!(read_part(&path).unwrap(), written);
+}
+
+#[test]
+fn scenarios_that_no_grid_has_are_refused() {
+    let folder = tempdir().unwrap();
+    for (cell, words) in [
+        (u64::MAX, "a scenario beyond those that a grid can have"),
+        (1 << 62, "a scenario beyond those that a grid can have"),
+        (100_000, "a scenario beyond those that a grid can have"),
+        (0, "not in the order of their scenarios"),
+    ] {
+        let path = folder.path().join("part.parquet");
+        write_part(&path, Overwrite::Force, &part(&[1, cell])).unwrap();
+        let said = read_part(&path).unwrap_err().to_string();
+        assert!(said.contains("part.parquet: ") && said.contains(words), "{cell}: {said}");
+    }
+}
+
+#[test]
+fn what_is_no_campaign_is_refused() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("part.parquet");
+    let mut other = part(&[0]);
+    other.rows[0].parameter = "gyro.bias.x".into();
+    write_part(&path, Overwrite::Force, &other).unwrap();
+    let said = read_part(&path).unwrap_err().to_string();
+    assert!(said.contains("a parameter that no campaign estimates"), "{said}");
+    for bytes in [&b""[..], b"PAR1", b"PAR1PAR1"] {
+        fs::write(&path, bytes).unwrap();
+        let said = read_part(&path).unwrap_err().to_string();
+        assert!(said.contains("part.parquet: "), "{said}");
+    }
+}
+
+/// Whatever byte of a file is another, and wherever it ends, it is read or refused, at once.
+#[test]
+fn damaged_results_are_read_or_refused() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("part.parquet");
+    write_part(&path, Overwrite::Refuse, &part(&[0, 1])).unwrap();
+    let whole = fs::read(&path).unwrap();
+    let damaged = |bytes: &[u8]| {
+        fs::write(&path, bytes).unwrap();
+        let start = Instant::now();
+        let refused = read_part(&path).is_err();
+        assert!(start.elapsed() < Duration::from_secs(5));
+        usize::from(refused)
+    };
+    let lengths = (0..whole.len()).step_by(7);
+    assert!(lengths.clone().all(|length| damaged(&whole[..length]) == 1));
+    let mut refused = 0;
+    for place in 0..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[place] ^= [0xff, 1 << (place % 8)][place % 2];
+        refused += damaged(&bytes);
+    }
+    assert!(refused > whole.len() / 4, "{refused} of {}", whole.len());
+}
+
+fn journal(path: &Path) -> Vec<u64> {
+    let (journal, done) = Journal::resume(path, &identity()).unwrap().unwrap();
+    drop(journal);
+    done.into_iter().map(|(index, _)| index).collect()
+}
+
+#[test]
+fn a_journal_goes_on_behind_its_last_whole_portion() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("results.parquet.part");
+    let reason = "a sigma of 3 µg/√Hz".to_owned();
+    let mut made = Journal::create(&path, &identity()).unwrap();
+    for chunk in [4, 7] {
+        made.add(chunk, &[Err(RunFailure { reason: reason.clone() })]).unwrap();
+    }
+    drop(made);
+    assert_eq!(journal(&path), [4, 7]);
+    // Cut anywhere, be it within a letter of the reason, it has what was whole before.
+    let whole = fs::read(&path).unwrap();
+    let lines: Vec<usize> =
+        (0..).zip(&whole).filter(|(_, byte)| **byte == b'\n').map(|(place, _)| place + 1).collect();
+    // A line says whose it is, and each portion has three.
+    let (first, second) = (lines[0], lines[3]);
+    for length in first..whole.len() {
+        fs::write(&path, &whole[..length]).unwrap();
+        let expected: &[u64] = if length < second { &[] } else { &[4] };
+        assert_eq!(journal(&path), expected, "{length}");
+        let left = fs::read(&path).unwrap();
+        assert!(left.is_empty() || whole.starts_with(&left) && left.ends_with(b"\n"), "{length}");
+    }
+    // A second one is never put in the place of the first.
+    assert!(Journal::create(&path, &identity()).is_err());
+}
+
+#[test]
+fn a_journal_of_one_long_line_is_not_read_into_memory() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("results.parquet.part");
+    drop(Journal::create(&path, &identity()).unwrap());
+    let file = fs::OpenOptions::new().write(true).open(&path).unwrap();
+    let first = file.metadata().unwrap().len();
+    file.set_len(1 << 40).unwrap();
+    let start = Instant::now();
+    assert_eq!(journal(&path), [0_u64; 0]);
+    assert_eq!(fs::metadata(&path).unwrap().len(), first);
+    assert!(start.elapsed() < Duration::from_secs(5));
+}
