@@ -106,8 +106,7 @@ impl Moment {
 
     /// A vector of the axis frame in body axes, in the middle of the interval.
     pub fn in_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
-        let (sin, cos) = self.mean.angle.sin_cos();
-        Vector3::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin, vector.z)
+        turned_back(vector, self.mean.angle.sin_cos())
     }
 
     /// The share of the interval that lies after `time` \[s\], between 0 and 1.
@@ -131,4 +130,9 @@ impl Moment {
     pub fn magnetic_field(&self) -> Vector3<f64> {
         self.in_body(&self.surroundings.magnetic_field)
     }
+}
+
+/// A vector of the axis frame in axes that are turned about z, by the angle whose sine and cosine are given.
+pub(crate) fn turned_back(vector: &Vector3<f64>, (sin, cos): (f64, f64)) -> Vector3<f64> {
+    Vector3::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin, vector.z)
 }

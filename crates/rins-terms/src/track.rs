@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::moment::{Instant, Moment, Surroundings};
+use crate::moment::{Instant, Moment, Surroundings, turned_back};
 
 /// A rate below which a table does not turn, and a change of rate that is none \[rad/s\].
 const LEAST_RATE: f64 = 5e-3;
@@ -97,7 +97,30 @@ impl Track {
 
     /// What is going on over each sample, in order.
     pub fn moments(&self) -> Moments<'_> {
-        Moments { track: self, sample: 0, sense: 0.0, rate_change: 0.0, settled_rate: 0.0 }
+        let first = if self.is_empty() { 0.0 } else { self.rate(0) };
+        Moments {
+            track: self,
+            sample: 0,
+            rates: [first; 2],
+            sense: 0.0,
+            rate_change: 0.0,
+            settled_rate: 0.0,
+        }
+    }
+
+    /// What is going on from each of these samples on; they are in order.
+    ///
+    /// The moments are those that [`moments`](Self::moments) comes to there, so that stretches of a long track can be
+    /// taken apart.
+    pub fn moments_from(&self, samples: impl IntoIterator<Item = usize>) -> Vec<Moments<'_>> {
+        let mut at = self.moments();
+        let from = |sample: usize| {
+            while at.sample < sample.min(self.len()) {
+                at.pass();
+            }
+            at.clone()
+        };
+        samples.into_iter().map(from).collect()
     }
 
     /// The moment that ends where the first sample begins: what the run starts from.
@@ -130,9 +153,27 @@ impl Track {
 pub struct Moments<'a> {
     track: &'a Track,
     sample: usize,
+    /// The mean rates over the sample before and over this one \[rad/s\].
+    rates: [f64; 2],
     sense: f64,
     rate_change: f64,
     settled_rate: f64,
+}
+
+impl Moments<'_> {
+    /// Goes on to the next sample.
+    fn pass(&mut self) {
+        let rate = self.rates[1];
+        if rate.abs() > LEAST_RATE {
+            self.sense = rate.signum();
+        }
+        if (rate - self.settled_rate).abs() > LEAST_RATE {
+            self.rate_change = (rate - self.settled_rate).signum();
+            self.settled_rate = rate;
+        }
+        self.sample += 1;
+        self.rates = [rate, self.track.rate(self.sample)];
+    }
 }
 
 impl Iterator for Moments<'_> {
@@ -141,19 +182,11 @@ impl Iterator for Moments<'_> {
     fn next(&mut self) -> Option<Moment> {
         let (track, sample) = (self.track, self.sample);
         let time = *track.times.get(sample)?;
-        self.sample += 1;
+        let before = self.rates[0];
+        self.pass();
+        let [rate, after] = self.rates;
         let interval = track.intervals[sample];
         let start = track.start();
-        let rate = track.rate(sample);
-        let before = track.rate(sample.saturating_sub(1));
-        let after = track.rate(sample + 1);
-        if rate.abs() > LEAST_RATE {
-            self.sense = rate.signum();
-        }
-        if (rate - self.settled_rate).abs() > LEAST_RATE {
-            self.rate_change = (rate - self.settled_rate).signum();
-            self.settled_rate = rate;
-        }
         let elapsed = time - track.time_before(sample);
         let warming_before = track.warming(sample.saturating_sub(1));
         let warming = track.warming(sample);
@@ -177,16 +210,6 @@ impl Iterator for Moments<'_> {
             warming,
             ..mean
         };
-        let surroundings = track.surroundings;
-        let mut moment = Moment {
-            interval,
-            duration: track.duration(),
-            mean,
-            end,
-            rate: Vector3::zeros(),
-            force: Vector3::zeros(),
-            surroundings,
-        };
         // The mean of a vector that turns at a constant rate is shorter than the vector.
         let half_turn = 0.5 * rate * interval;
         let shortening = if half_turn.abs() < 1e-4 {
@@ -194,15 +217,20 @@ impl Iterator for Moments<'_> {
         } else {
             half_turn.sin() / half_turn
         };
+        let direction = mean.angle.sin_cos();
         let mean_in_body = |vector: &Vector3<f64>| {
-            let v = moment.in_body(vector);
+            let v = turned_back(vector, direction);
             Vector3::new(v.x * shortening, v.y * shortening, v.z)
         };
-        let force = mean_in_body(&surroundings.specific_force);
-        let earth = mean_in_body(&surroundings.earth_rate);
-        moment.force = force;
-        moment.rate = earth + Vector3::z() * rate;
-        Some(moment)
+        Some(Moment {
+            interval,
+            duration: track.duration(),
+            mean,
+            end,
+            rate: mean_in_body(&track.surroundings.earth_rate) + Vector3::z() * rate,
+            force: mean_in_body(&track.surroundings.specific_force),
+            surroundings: track.surroundings,
+        })
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {

@@ -15,4 +15,5 @@ mod sensors;
 mod support;
 mod tilt;
 mod timing;
+mod track;
 mod triads;
