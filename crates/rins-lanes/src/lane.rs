@@ -27,6 +27,18 @@ impl<S: Simd> Lane<S> {
         Self { simd, values: simd.splat_f64s(value) }
     }
 
+    /// A vector of numbers, one a run.
+    #[inline(always)]
+    pub fn new(simd: S, values: S::f64s) -> Self {
+        Self { simd, values }
+    }
+
+    /// The vector of numbers.
+    #[inline(always)]
+    pub fn values(self) -> S::f64s {
+        self.values
+    }
+
     /// Replaces every number by a function of it, a vector at a time.
     #[inline(always)]
     pub fn map_slice(simd: S, numbers: &mut [f64], f: impl Fn(Self) -> Self) {
