@@ -1,89 +1,139 @@
 //! Epochs in the making: residuals sample by sample, derivatives piece by piece.
 
-use nalgebra::{Matrix3, Matrix3xX, Vector3};
-use rins_terms::{
-    Chosen, Dual64, Model, Moment, Moments, Signals, Surroundings, derivatives, values,
-};
+use nalgebra::{Matrix3, Vector3};
+use rins_terms::{Model, Moment, Moments, values};
 
+use crate::acting::Acting;
+use crate::gains::Growing;
 use crate::linear::{Epoch, Span};
 use crate::run::Run;
 use crate::sway::Sway;
 
-/// Epochs in the making.
-pub(crate) struct Build<'a> {
+/// What a run is compared with: a model, and the parameters by which derivatives are taken.
+pub(crate) struct Compared<'a> {
     run: &'a Run,
     /// The terms that do anything: hundreds may stand by to be tried.
-    present: Model,
-    /// Of each column the term, and its parameters with a derivative by one of them.
-    columns: Vec<(&'a Chosen, Vec<Dual64>)>,
+    present: Vec<Acting<'a>>,
+    /// Of each column the term, with a derivative by one of its parameters.
+    columns: Vec<Acting<'a>>,
     readings: Option<&'a [f64]>,
     sway: Option<Sway>,
     /// What turns a difference in readings into one in what was true, `(I + [S, M])⁻¹`, of gyros and accelerometers.
     inverse_gains: [Matrix3<f64>; 2],
-    /// What each column's reading differed by last.
-    last: Vec<Vector3<f64>>,
 }
 
-impl<'a> Build<'a> {
+impl<'a> Compared<'a> {
     pub(crate) fn new(
         run: &'a Run,
         model: &'a Model,
-        free: &'a [(usize, usize)],
+        free: &[(usize, usize)],
         readings: Option<&'a [f64]>,
     ) -> Self {
         let triads = model.split().0;
         let inverse_gains = [triads.gyro.matrix, triads.accel.matrix]
             .map(|matrix| (Matrix3::identity() + matrix).try_inverse().unwrap_or_default());
-        let mut present = model.clone();
-        present.terms.retain(|chosen| chosen.values.iter().any(|value| *value != 0.0));
-        let sway = Sway::of(run);
-        let column = |&(term, parameter): &(usize, usize)| {
-            let chosen = &model.terms[term];
-            let mut duals: Vec<Dual64> =
-                chosen.values.iter().map(|&value| Dual64::from_re(value)).collect();
-            duals[parameter].eps = 1.0;
-            (chosen, duals)
-        };
-        let columns = free.iter().map(column).collect();
-        let last = vec![Vector3::zeros(); free.len()];
-        Self { run, present, columns, readings, sway, inverse_gains, last }
+        Self {
+            run,
+            present: Acting::present(model),
+            columns: free
+                .iter()
+                .map(|&(term, parameter)| Acting::by(&model.terms[term], parameter))
+                .collect(),
+            readings,
+            sway: Sway::of(run),
+            inverse_gains,
+        }
+    }
+}
+
+/// Epochs in the making, one after the other.
+pub(crate) struct Build<'a> {
+    compared: &'a Compared<'a>,
+    /// What is going on over each sample, and over each piece.
+    fine: Moments<'a>,
+    pieces: Moments<'a>,
+    growing: Growing,
+}
+
+/// What the body does over an epoch, as far as noise is carried by it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Turning {
+    /// The integral of `C_b^s` \[s\].
+    pub(crate) turned: Matrix3<f64>,
+    /// The mean of that over the readings \[s\].
+    pub(crate) mean: Matrix3<f64>,
+    /// Its integral \[s²\].
+    pub(crate) twice: Matrix3<f64>,
+}
+
+impl<'a> Build<'a> {
+    /// From the moments of the first sample and of the first piece on.
+    pub(crate) fn new(compared: &'a Compared<'a>, fine: Moments<'a>, pieces: Moments<'a>) -> Self {
+        let growing = Growing::new(compared.columns.len());
+        Self { compared, fine, pieces, growing }
+    }
+
+    /// Takes a piece only to know what readings differ by at its end.
+    pub(crate) fn pass_piece(&mut self) {
+        if let Some(piece) = self.pieces.next() {
+            self.set_columns(&piece);
+            self.growing.begin();
+        }
     }
 
     /// An epoch: its residuals sample by sample, its columns piece by piece.
-    pub(crate) fn epoch(
-        &mut self,
-        span: &Span,
-        ends: impl Iterator<Item = usize>,
-        fine: &mut Moments<'_>,
-        pieces: &mut Moments<'_>,
-    ) -> Epoch {
-        let mut epoch = Epoch::empty(span, self.columns.len() + 1);
+    pub(crate) fn epoch(&mut self, span: &Span, ends: impl Iterator<Item = usize>) -> Epoch {
+        let mut turning = Turning::default();
+        let mut duration = 0.0;
         let mut first = span.samples.start;
-        for (end, piece) in ends.zip(pieces) {
+        let recording = &self.compared.run.recording;
+        for end in ends {
             let mut from_body = Matrix3::zeros();
-            for (sample, moment) in (first..end).zip(&mut *fine) {
-                from_body = self.residual(&mut epoch, sample, &moment);
+            for (sample, moment) in (first..end).zip(&mut self.fine) {
+                let interval = recording.increments[sample].interval;
+                from_body = self.compared.residual(&mut self.growing, sample, &moment);
+                turning.twice += (turning.turned + from_body * (0.5 * interval)) * interval;
+                turning.turned += from_body * interval;
+                turning.mean += turning.turned;
+                duration += interval;
             }
-            if end - first > 1 && self.sway.is_none() {
+            let Some(piece) = self.pieces.next() else { break };
+            if end - first > 1 && self.compared.sway.is_none() {
                 from_body = turned_by(piece.mean.angle);
             }
-            let begins = span.fresh && first == span.samples.start;
-            self.columns(&mut epoch, &from_body, &piece, (end - first, begins));
+            self.set_columns(&piece);
+            if span.fresh && first == span.samples.start {
+                self.growing.begin();
+            }
+            let turned = self.compared.inverse_gains.map(|inverse| from_body * inverse);
+            self.growing.add(&turned, &piece.surroundings, (piece.interval, end - first));
             first = end;
         }
-        let count = epoch.count();
-        epoch.mean_attitude /= count;
-        epoch.mean_turned /= count;
-        epoch.reading /= count;
-        epoch
+        let readings = span.samples.len() as f64;
+        turning.mean /= readings;
+        Epoch {
+            samples: (span.samples.start, span.samples.end),
+            duration,
+            fresh: span.fresh,
+            left_out: false,
+            gains: self.growing.finish(readings),
+            turning,
+        }
     }
 
+    fn set_columns(&mut self, piece: &Moment) {
+        for (column, acting) in self.compared.columns.iter().enumerate() {
+            self.growing.set(column, &acting.signals(piece));
+        }
+    }
+}
+
+impl Compared<'_> {
     /// What a sample was read beyond the model; the attitude of the body in the axis frame in its middle.
-    fn residual(&self, epoch: &mut Epoch, sample: usize, moment: &Moment) -> Matrix3<f64> {
+    fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> Matrix3<f64> {
         let measured = &self.run.recording.increments[sample];
-        let interval = measured.interval;
         let mut table_from_body = turned_by(moment.mean.angle);
-        let predicted = self.present.signals(moment);
+        let predicted = Acting::together(&self.present, moment);
         let around = &moment.surroundings;
         let rates = measured.rates();
         let mut gyro = rates.angular_rate.components() - moment.rate;
@@ -97,46 +147,13 @@ impl<'a> Build<'a> {
             of_axis += end.scaled_axis();
             table_from_body = *middle.matrix();
         }
-        let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| table_from_body * inverse);
         gyro -= values(&predicted.gyro);
         accel -= values(&predicted.accel);
+        let [of_gyros, of_accels] = &self.inverse_gains;
         let rates =
-            Rates { attitude: of_gyros * gyro, velocity: of_accels * accel, reading: of_axis };
-        epoch.add(0, &rates, around, (interval, 1));
-        let mut read = epoch.reading.column_mut(0);
-        read += rates.reading;
-        epoch.twice_turned += (epoch.turned + table_from_body * (0.5 * interval)) * interval;
-        epoch.turned += table_from_body * interval;
-        epoch.mean_turned += epoch.turned;
-        epoch.duration += interval;
+            [table_from_body * (of_gyros * gyro), table_from_body * (of_accels * accel), of_axis];
+        growing.add_residual(rates, around, measured.interval);
         table_from_body
-    }
-
-    /// What some samples, taken as one, add to the derivatives.
-    fn columns(
-        &mut self,
-        epoch: &mut Epoch,
-        from_body: &Matrix3<f64>,
-        moment: &Moment,
-        (samples, begins): (usize, bool),
-    ) {
-        let [of_gyros, of_accels] = self.inverse_gains.map(|inverse| from_body * inverse);
-        for (column, (chosen, duals)) in self.columns.iter().enumerate() {
-            let mut by = Signals::default();
-            chosen.term.act(duals, &chosen.settings, moment, &mut by);
-            let rates = Rates {
-                attitude: -(of_gyros * derivatives(&by.gyro)),
-                velocity: -(of_accels * derivatives(&by.accel)),
-                reading: Vector3::z() * by.angle.eps - derivatives(&by.tilt),
-            };
-            epoch.add(column + 1, &rates, &moment.surroundings, (moment.interval, samples));
-            // From what it was at the end of the piece before, evenly.
-            let last = std::mem::replace(&mut self.last[column], rates.reading);
-            let before = if begins { rates.reading } else { last };
-            let count = samples as f64;
-            let mut reading = epoch.reading.column_mut(column + 1);
-            reading += rates.reading * count - (rates.reading - before) * (0.5 * (count - 1.0));
-        }
     }
 }
 
@@ -144,54 +161,4 @@ impl<'a> Build<'a> {
 fn turned_by(angle: f64) -> Matrix3<f64> {
     let (sin, cos) = angle.sin_cos();
     Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
-}
-
-/// What one sample adds to one column: rates of φ and v, and what a reading differs by.
-struct Rates {
-    attitude: Vector3<f64>,
-    velocity: Vector3<f64>,
-    reading: Vector3<f64>,
-}
-
-impl Epoch {
-    fn empty(span: &Span, columns: usize) -> Self {
-        let none = Matrix3xX::zeros(columns);
-        Self {
-            samples: (span.samples.start, span.samples.end),
-            duration: 0.0,
-            fresh: span.fresh,
-            left_out: false,
-            attitude: none.clone(),
-            mean_attitude: none.clone(),
-            velocity: none.clone(),
-            reading: none,
-            turned: Matrix3::zeros(),
-            mean_turned: Matrix3::zeros(),
-            twice_turned: Matrix3::zeros(),
-        }
-    }
-
-    /// So many more samples of one column, over which its rates are the same.
-    fn add(
-        &mut self,
-        column: usize,
-        rates: &Rates,
-        around: &Surroundings,
-        (interval, samples): (f64, usize),
-    ) {
-        let mut attitude = self.attitude.column_mut(column);
-        let before = attitude.clone_owned();
-        // φ' = -E × φ + rate, over a time too short for the square of its turn to count.
-        let turning = around.earth_rate.cross(&(before + rates.attitude * (0.5 * interval)));
-        let change = (rates.attitude - turning) * interval;
-        attitude += change;
-        let after = before + change;
-        let middle = (before + after) * 0.5;
-        let mut velocity = self.velocity.column_mut(column);
-        velocity += (rates.velocity + middle.cross(&around.specific_force)) * interval;
-        // The readings are at the ends of the samples.
-        let count = samples as f64;
-        let mut mean = self.mean_attitude.column_mut(column);
-        mean += after * count - change * (0.5 * (count - 1.0));
-    }
 }

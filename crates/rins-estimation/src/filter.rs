@@ -5,9 +5,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
 
-use crate::evidence::{Indefinite, Inputs};
-use crate::linear::Linear;
-use crate::space::{NAVIGATION, SHOWN, Space, Step};
+use crate::evidence::Indefinite;
+use crate::gains::ROWS;
+use crate::linear::{Epoch, Linear};
+use crate::space::Space;
+use crate::step::{CARRIED_OF, NAVIGATION, SHOWN, SHOWN_OF, Step};
 use crate::strengths::Noise;
 
 /// An error-state filter over the epochs of a linear run.
@@ -76,7 +78,7 @@ impl<'a> Filter<'a> {
             self.epoch += 1;
         }
         let Some(epoch) = self.linear.epochs.get(self.epoch) else { return Ok(None) };
-        let inputs = Inputs::of(epoch, &[]);
+        let inputs = inputs(epoch, self.linear.parameters);
         if epoch.fresh {
             self.start(&inputs);
         }
@@ -88,20 +90,23 @@ impl<'a> Filter<'a> {
 
     /// Lets time go by for what has a memory; navigation starts anew afterwards.
     fn pass_over(&mut self, step: &Step) {
-        for (index, &decay) in step.decay.iter().enumerate() {
-            let place = NAVIGATION + index;
+        for (place, &decay) in step.decay.iter().enumerate().skip(NAVIGATION) {
             self.state[place] *= decay;
             self.across.row_mut(place).scale_mut(decay);
-            for (other, &other_decay) in step.decay.iter().enumerate() {
-                self.states[(NAVIGATION + other, place)] *= decay * other_decay;
+            for (other, &other_decay) in step.decay.iter().enumerate().skip(NAVIGATION) {
+                self.states[(other, place)] *= decay * other_decay;
             }
-            self.states[(place, place)] += step.colour_noise[index];
+            self.states[(place, place)] += step.colour_noise[place];
         }
     }
 
     /// Attitude and velocity where the epoch's readings put them, with what the parameters do to these.
     fn start(&mut self, inputs: &Inputs) {
-        let start = inputs.start(self.linear.shows_angle());
+        let mut start = DMatrix::zeros(NAVIGATION, inputs.ncols());
+        start.rows_mut(0, 3).copy_from(&-inputs.rows(6, 3));
+        if !self.linear.shows_angle() {
+            start.row_mut(2).fill(0.0);
+        }
         let by_parameters = start.columns(1, self.parameters.len());
         self.space.forget_navigation(&mut self.states);
         let state = start.column(0) + by_parameters * &self.parameters;
@@ -122,38 +127,33 @@ impl<'a> Filter<'a> {
 
     fn go(&mut self, step: &Step, inputs: &Inputs) -> Option<SVector<f64, SHOWN>> {
         let (n, p) = (self.state.len(), self.parameters.len());
-        // Navigation as carried, and the parameters' part in it.
-        let carry = &step.navigation;
-        let input = inputs.navigation.columns(1, p);
-        let shown = step.shown_by();
-        let mut shown_input = DMatrix::zeros(SHOWN, p);
-        shown_input.rows_mut(0, 3).copy_from(&inputs.shown_attitude.columns(1, p));
-        shown_input.rows_mut(3, 3).copy_from(&input.rows(3, 3));
-        let mut offset = DVector::zeros(SHOWN);
-        offset.rows_mut(0, 3).copy_from(&inputs.shown_attitude.column(0));
-        offset.rows_mut(3, 3).copy_from(&inputs.navigation.column(0).rows(3, 3));
+        // What follows from the states: navigation as carried, what is shown, and the columns' parts in both.
+        let following = step.following(n);
+        let (carry, shown) = (following.select_rows(&CARRIED_OF), following.select_rows(&SHOWN_OF));
+        let input = inputs.view((0, 1), (NAVIGATION, p));
+        let mut shown_inputs = inputs.select_rows(&[6, 7, 8, 3, 4, 5]);
         if !self.linear.shows_angle() {
-            shown_input.row_mut(2).fill(0.0);
-            offset[2] = 0.0;
+            shown_inputs.row_mut(2).fill(0.0);
         }
+        let shown_input = shown_inputs.columns(1, p);
+        let offset = shown_inputs.column(0);
         // Covariances of what is shown with states and parameters, and of navigation as carried.
-        let shown_states = &shown * &self.states + &shown_input * self.across.transpose();
-        let shown_parameters = &shown * &self.across + &shown_input * &self.covariance;
-        let carried_states = carry * &self.states + input * self.across.transpose();
-        let carried_parameters = carry * &self.across + input * &self.covariance;
+        let shown_states = &shown * &self.states + shown_input * self.across.transpose();
+        let shown_parameters = &shown * &self.across + shown_input * &self.covariance;
+        let carried_states = &carry * &self.states + input * self.across.transpose();
+        let carried_parameters = &carry * &self.across + input * &self.covariance;
 
         let s = &shown_states * shown.transpose() + &shown_parameters * shown_input.transpose();
         let s = SMatrix::<f64, SHOWN, SHOWN>::from_iterator(s.iter().copied()) + step.shown;
         let l = Cholesky::new((s + s.transpose()) * 0.5)?.l();
-        let mut innovation = -(&shown * &self.state + &shown_input * &self.parameters + offset);
+        let mut innovation = -(&shown * &self.state + shown_input * &self.parameters + offset);
         l.solve_lower_triangular_mut(&mut innovation);
 
         let mut gain = DMatrix::zeros(SHOWN, n);
         let of_carried =
-            &shown * carried_states.transpose() + &shown_input * carried_parameters.transpose();
+            &shown * carried_states.transpose() + shown_input * carried_parameters.transpose();
         gain.columns_mut(0, NAVIGATION).copy_from(&of_carried);
-        for (index, decay) in step.decay.iter().enumerate() {
-            let place = NAVIGATION + index;
+        for (place, decay) in step.decay.iter().enumerate().skip(NAVIGATION) {
             gain.set_column(place, &(shown_states.column(place) * *decay));
         }
         gain += step.cross.transpose();
@@ -161,17 +161,17 @@ impl<'a> Filter<'a> {
         let mut gain_parameters = shown_parameters;
         l.solve_lower_triangular_mut(&mut gain_parameters);
 
-        let carried = carry * &self.state + input * &self.parameters + inputs.navigation.column(0);
+        let carried =
+            &carry * &self.state + input * &self.parameters + inputs.view((0, 0), (NAVIGATION, 1));
         self.state.rows_mut(0, NAVIGATION).copy_from(&carried);
         let corner = &carried_states * carry.transpose() + &carried_parameters * input.transpose();
-        for (index, &decay) in step.decay.iter().enumerate() {
-            let place = NAVIGATION + index;
+        for (place, &decay) in step.decay.iter().enumerate().skip(NAVIGATION) {
             self.state[place] *= decay;
             self.across.row_mut(place).scale_mut(decay);
-            for (other, &other_decay) in step.decay.iter().enumerate() {
-                self.states[(NAVIGATION + other, place)] *= decay * other_decay;
+            for (other, &other_decay) in step.decay.iter().enumerate().skip(NAVIGATION) {
+                self.states[(other, place)] *= decay * other_decay;
             }
-            self.states[(place, place)] += step.colour_noise[index];
+            self.states[(place, place)] += step.colour_noise[place];
             for row in 0..NAVIGATION {
                 let value = carried_states[(row, place)] * decay + step.noise[(place, row)];
                 self.states[(row, place)] = value;
@@ -190,4 +190,12 @@ impl<'a> Filter<'a> {
         self.covariance -= gain_parameters.transpose() * &gain_parameters;
         Some(SVector::from_iterator(innovation.iter().copied()))
     }
+}
+
+/// What the epoch adds to the columns, a row a gain.
+type Inputs = DMatrix<f64>;
+
+fn inputs(epoch: &Epoch, parameters: usize) -> Inputs {
+    let columns: Vec<_> = (0..=parameters).map(|column| epoch.gains.column(column)).collect();
+    DMatrix::from_fn(ROWS, columns.len(), |row, column| columns[column][row])
 }

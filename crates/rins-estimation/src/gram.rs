@@ -19,13 +19,14 @@ impl Gram {
         Self { block: Mat::zeros(rows, COLUMNS), filled: 0, sum: Mat::zeros(rows, rows) }
     }
 
-    pub(crate) fn add(&mut self, columns: &DMatrix<f64>) {
-        if self.filled + columns.ncols() > COLUMNS {
+    /// Adds the products of some columns, which lie one after the other, each with numbers of no account at its end.
+    pub(crate) fn add(&mut self, columns: &[f64], count: usize) {
+        if self.filled + count > COLUMNS {
             self.empty();
         }
-        for column in columns.column_iter() {
+        for column in columns.chunks_exact(columns.len() / count) {
             let place = self.filled;
-            for (to, from) in self.block.col_mut(place).iter_mut().zip(column.iter()) {
+            for (to, from) in self.block.col_mut(place).iter_mut().zip(column) {
                 *to = *from;
             }
             self.filled += 1;

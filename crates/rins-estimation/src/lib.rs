@@ -26,12 +26,16 @@ mod sway;
 
 mod linear;
 
+mod acting;
 mod build;
 mod colour;
+mod gains;
 mod space;
+mod step;
 
 mod evidence;
 mod gram;
+mod pass;
 mod posterior;
 
 mod estimate;

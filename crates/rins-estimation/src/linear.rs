@@ -2,15 +2,16 @@
 
 use std::ops::Range;
 
-use nalgebra::{Matrix3, Matrix3xX, Vector3};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Table};
 use rins_terms::{Model, Surroundings, Track};
 
-use crate::build::Build;
+use crate::build::{Build, Compared, Turning};
+use crate::gains::Gains;
 use crate::path;
 use crate::run::{Reference, Run};
-use crate::space::SHOWN;
+use crate::step::SHOWN;
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (0.1, 0.5);
@@ -27,8 +28,8 @@ const LEAST_TURN: f64 = 1e-6;
 /// An epoch is of as many pieces at least.
 const FEWEST_PIECES: usize = 4;
 
-/// A thread makes at least as many columns.
-const FEWEST_COLUMNS: usize = 12;
+/// How many epochs a thread makes at a time.
+const EPOCHS_AT_A_TIME: usize = 64;
 
 /// A stretch of samples, taken as one.
 ///
@@ -47,16 +48,8 @@ pub(crate) struct Epoch {
     pub(crate) fresh: bool,
     /// Whether it plays no part: time goes by, and nothing is shown.
     pub(crate) left_out: bool,
-    /// What φ gains over the epoch, and to the mean of its readings; what v gains.
-    pub(crate) attitude: Matrix3xX<f64>,
-    pub(crate) mean_attitude: Matrix3xX<f64>,
-    pub(crate) velocity: Matrix3xX<f64>,
-    /// What the mean reading is predicted to be beyond that of φ, less what it was.
-    pub(crate) reading: Matrix3xX<f64>,
-    /// The integral of `C_b^s`, its mean over the readings, and its integral's integral \[s\], \[s\], \[s²\].
-    pub(crate) turned: Matrix3<f64>,
-    pub(crate) mean_turned: Matrix3<f64>,
-    pub(crate) twice_turned: Matrix3<f64>,
+    pub(crate) gains: Gains,
+    pub(crate) turning: Turning,
 }
 
 /// A run, linear in the parameters that a model estimates.
@@ -95,7 +88,7 @@ pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
 
 /// How finely derivatives are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pieces {
+pub(crate) enum Pieces {
     /// Sample by sample.
     Samples,
     /// Over samples in which the table hardly turns, taken as one.
@@ -116,7 +109,13 @@ pub fn linearise_coarsely(run: &Run, model: &Model, free: &[(usize, usize)]) -> 
     linearised(run, model, free, Pieces::Coarse)
 }
 
-fn linearised(run: &Run, model: &Model, free: &[(usize, usize)], pieces: Pieces) -> Linear {
+/// Makes a run linear as finely as is asked for.
+pub(crate) fn linearised(
+    run: &Run,
+    model: &Model,
+    free: &[(usize, usize)],
+    pieces: Pieces,
+) -> Linear {
     let (surroundings, model) = with_attitude(run, model);
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
@@ -125,7 +124,7 @@ fn linearised(run: &Run, model: &Model, free: &[(usize, usize)], pieces: Pieces)
     let block = whole(length / interval);
     let track = path::track(run, surroundings, &model, block);
     let readings = path::readings(run);
-    let epochs = spans(run, block);
+    let spans = spans(run, block);
     let piece = match pieces {
         Pieces::Samples => 1,
         Pieces::Coarse => {
@@ -134,20 +133,27 @@ fn linearised(run: &Run, model: &Model, free: &[(usize, usize)], pieces: Pieces)
             whole(TURN_OF_PIECE / most).min(block.div_ceil(FEWEST_PIECES))
         }
     };
-    let ends: Vec<usize> = epochs.iter().flat_map(|span| cut(&span.samples, piece)).collect();
+    let ends: Vec<usize> = spans.iter().flat_map(|span| cut(&span.samples, piece)).collect();
     let coarse = (piece > 1).then(|| track.thinned(&ends));
-    let build = |free: &[(usize, usize)]| {
-        let mut build = Build::new(run, &model, free, readings.as_deref());
-        let mut fine = track.moments();
-        let mut pieces = coarse.as_ref().unwrap_or(&track).moments();
-        epochs
-            .iter()
-            .map(|span| build.epoch(span, cut(&span.samples, piece), &mut fine, &mut pieces))
-            .collect()
-    };
-    let columns = free.len().div_ceil(rayon::current_num_threads()).max(FEWEST_COLUMNS);
-    let parts: Vec<Vec<Epoch>> = free.par_chunks(columns).map(build).collect();
-    let mut epochs = parts.into_iter().reduce(beside).unwrap_or_else(|| build(&[]));
+    let pieces = coarse.as_ref().unwrap_or(&track);
+    let compared = Compared::new(run, &model, free, readings.as_deref());
+    let stretches: Vec<&[Span]> = spans.chunks(EPOCHS_AT_A_TIME).collect();
+    let firsts: Vec<usize> = stretches.iter().map(|spans| spans[0].samples.start).collect();
+    // A stretch begins with the piece before it, which shows what readings differed by.
+    let before =
+        firsts.iter().map(|first| ends.partition_point(|end| end <= first).saturating_sub(1));
+    let starts = track.moments_from(firsts.iter().copied()).into_iter();
+    let starts: Vec<_> = starts.zip(pieces.moments_from(before)).collect();
+    let made = stretches.into_par_iter().zip(starts).enumerate().map(
+        |(index, (spans, (fine, pieces)))| {
+            let mut build = Build::new(&compared, fine, pieces);
+            if index > 0 {
+                build.pass_piece();
+            }
+            spans.iter().map(|span| build.epoch(span, cut(&span.samples, piece))).collect()
+        },
+    );
+    let mut epochs = made.collect::<Vec<Vec<Epoch>>>().into_iter().flatten().collect::<Vec<_>>();
     leave_out(&mut epochs, &run.left_out);
     Linear {
         epochs,
@@ -215,21 +221,6 @@ fn leave_out(epochs: &mut [Epoch], spans: &[Range<usize>]) {
     }
 }
 
-/// Epochs with the columns of both; the first column, that of the residuals, is the same.
-fn beside(mut one: Vec<Epoch>, other: Vec<Epoch>) -> Vec<Epoch> {
-    for (epoch, other) in one.iter_mut().zip(other) {
-        for (to, from) in [
-            (&mut epoch.attitude, other.attitude),
-            (&mut epoch.mean_attitude, other.mean_attitude),
-            (&mut epoch.velocity, other.velocity),
-            (&mut epoch.reading, other.reading),
-        ] {
-            to.extend(from.column_iter().skip(1));
-        }
-    }
-    one
-}
-
 impl Epoch {
     /// How many readings the mean is of.
     pub(crate) fn count(&self) -> f64 {
@@ -289,19 +280,11 @@ impl Linear {
         assert_eq!(groups.len(), self.epochs.len(), "a group for every epoch");
         let mut apart = self.clone();
         for (epoch, &group) in apart.epochs.iter_mut().zip(groups) {
-            for matrix in [
-                &mut epoch.attitude,
-                &mut epoch.mean_attitude,
-                &mut epoch.velocity,
-                &mut epoch.reading,
-            ] {
-                for of in 1..=last {
-                    for parameter in parameters {
-                        let column = matrix.column(parameter + 1).into_owned();
-                        matrix.extend([if of == group { column } else { Vector3::zeros() }]);
-                    }
-                }
-            }
+            let of = |group_of: usize| {
+                parameters.iter().map(move |&one| (group_of == group).then_some(one + 1))
+            };
+            let more: Vec<Option<usize>> = (1..=last).flat_map(of).collect();
+            epoch.gains = epoch.gains.with(&more);
         }
         apart.parameters += parameters.len() * last;
         apart

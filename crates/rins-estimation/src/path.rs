@@ -1,12 +1,17 @@
 //! The way the table went, as far as it is known before anything is estimated.
 
 use nalgebra::Vector2;
-use rins_terms::{Model, Surroundings, Track};
+use rayon::prelude::*;
+use rins_terms::{Model, Moments, Surroundings, Track};
 
+use crate::acting::Acting;
 use crate::run::{Reference, Run};
 
 /// An error of the angle whose square is without effect \[rad\].
 const SMALL_ERROR: f64 = 1e-4;
+
+/// How many samples a thread looks at in one go.
+const SAMPLES_AT_A_TIME: usize = 4096;
 
 /// The track about which a run is made linear, and what of the reference differs from it.
 ///
@@ -15,12 +20,23 @@ const SMALL_ERROR: f64 = 1e-4;
 pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block: usize) -> Track {
     let track = through(run, surroundings, &[], block);
     let Reference::Encoder { .. } = run.rig.reference else { return track };
-    let error = |moment| model.signals(&moment).angle.re;
-    let errors: Vec<f64> = track.moments().map(error).collect();
+    let errors = errors(&track, model);
     if errors.iter().all(|error| error.abs() < SMALL_ERROR) {
         return track;
     }
     through(run, surroundings, &errors, block)
+}
+
+/// By how much the model says that the angle is read wrong, at the end of each sample \[rad\].
+fn errors(track: &Track, model: &Model) -> Vec<f64> {
+    let present = Acting::present(model);
+    let starts = (0..track.len()).step_by(SAMPLES_AT_A_TIME);
+    let of = |moments: Moments<'_>| -> Vec<f64> {
+        let errors = moments.map(|moment| Acting::together(&present, &moment).angle.re);
+        errors.take(SAMPLES_AT_A_TIME).collect()
+    };
+    let errors: Vec<Vec<f64>> = track.moments_from(starts).into_par_iter().map(of).collect();
+    errors.concat()
 }
 
 /// The track if what is read is wrong by these angles, or right if there are none.

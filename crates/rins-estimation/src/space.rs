@@ -6,16 +6,12 @@
 use nalgebra::{DMatrix, Matrix3, SMatrix};
 use rins_frames::cross_matrix;
 
+use crate::build::Turning;
 use crate::colour::{Colours, Passage};
 use crate::linear::{Epoch, Linear};
 use crate::run::Reference;
+use crate::step::{NAVIGATION, SHOWN, Step, Weight};
 use crate::strengths::Noise;
-
-/// Attitude and velocity.
-pub(crate) const NAVIGATION: usize = 6;
-
-/// What an epoch shows: the mean attitude and the velocity at its end.
-pub(crate) const SHOWN: usize = 6;
 
 /// How far a first attitude may be off where its epoch's readings put it \[rad\].
 const START_ATTITUDE: f64 = 2e-3;
@@ -46,35 +42,6 @@ pub(crate) struct Space<'a> {
     wobble: f64,
     encoder: f64,
     velocity: f64,
-}
-
-/// One epoch as a linear system: `x⁺ = Φ x + w`, `y = H x + e`.
-///
-/// Of `Φ` the rows of navigation are given, and the others' diagonal; `w` and `e` are correlated.
-pub(crate) struct Step {
-    /// The first six rows of Φ.
-    pub(crate) navigation: DMatrix<f64>,
-    /// Φ's diagonal below.
-    pub(crate) decay: Vec<f64>,
-    /// The rows of H that show the attitude; the velocity is shown as carried.
-    pub(crate) attitude: DMatrix<f64>,
-    /// The covariance of `e`.
-    pub(crate) shown: SMatrix<f64, SHOWN, SHOWN>,
-    /// That of the first six of `w`, and of all of `w` with these, and of `w` with `e`.
-    pub(crate) noise: DMatrix<f64>,
-    pub(crate) cross: DMatrix<f64>,
-    /// The variances of the rest of `w`.
-    pub(crate) colour_noise: Vec<f64>,
-}
-
-impl Step {
-    /// H: the rows that show the attitude, and the velocity as carried.
-    pub(crate) fn shown_by(&self) -> DMatrix<f64> {
-        let mut shown = DMatrix::zeros(SHOWN, self.navigation.ncols());
-        shown.rows_mut(0, 3).copy_from(&self.attitude);
-        shown.rows_mut(3, 3).copy_from(&self.navigation.rows(3, 3));
-        shown
-    }
 }
 
 impl<'a> Space<'a> {
@@ -146,62 +113,91 @@ impl<'a> Space<'a> {
         }
     }
 
+    /// A step of nothing yet, whose rows of states are this long.
+    pub(crate) fn blank(&self, length: usize) -> Step {
+        let weight = |index: usize| {
+            let place = self.first_colour() + 3 * index;
+            Weight { place, mean: 0.0, half_mean: 0.0 }
+        };
+        let all = self.colours.iter().enumerate();
+        let of = |triad| {
+            all.clone()
+                .filter(|(_, (of, _))| *of == triad)
+                .map(|(index, _)| weight(index))
+                .collect()
+        };
+        Step {
+            turned: Matrix3::zeros(),
+            mean_turned: Matrix3::zeros(),
+            pulled: Matrix3::zeros(),
+            body: Turning::default(),
+            body_pulled: Matrix3::zeros(),
+            astray: self.astray.iter().map(|&(axis, _)| axis).collect(),
+            gyros: of(Of::Gyro),
+            accels: of(Of::Accel),
+            shows_angle: self.linear.shows_angle(),
+            decay: vec![1.0; length],
+            colour_noise: vec![0.0; length],
+            shown: SMatrix::zeros(),
+            noise: DMatrix::zeros(length, NAVIGATION),
+            cross: DMatrix::zeros(length, SHOWN),
+        }
+    }
+
     /// An epoch as a linear system.
     pub(crate) fn step(&self, epoch: &Epoch) -> Step {
-        let (n, t) = (self.states(), epoch.duration);
-        let mut navigation = DMatrix::zeros(NAVIGATION, n);
-        let mut attitude = DMatrix::zeros(3, n);
+        let mut step = self.blank(self.states());
+        self.set(epoch, &mut step);
+        step
+    }
+
+    /// Makes an epoch of a step that was one of this space's.
+    pub(crate) fn set(&self, epoch: &Epoch, step: &mut Step) {
+        let t = epoch.duration;
         let identity = Matrix3::identity();
         let turning = cross_matrix(&self.linear.earth_rate);
         // The mean over the readings, each at the end of a sample, and the integral.
         let middle = 0.5 * t * (1.0 + epoch.count().recip());
         let integral = identity * t - turning * (0.5 * t * t);
-        set(&mut navigation, 0, 0, &(identity - turning * t));
-        set(&mut navigation, 3, 0, &(-self.force_cross * integral));
-        set(&mut navigation, 3, 3, &identity);
-        set(&mut attitude, 0, 0, &(identity - turning * middle));
-        let mut step = Step {
-            navigation,
-            decay: vec![1.0; n - NAVIGATION],
-            attitude,
-            shown: SMatrix::zeros(),
-            noise: DMatrix::zeros(n, NAVIGATION),
-            cross: DMatrix::zeros(n, SHOWN),
-            colour_noise: vec![0.0; n - NAVIGATION],
-        };
-        self.add_white(epoch, &mut step);
+        step.turned = identity - turning * t;
+        step.mean_turned = identity - turning * middle;
+        step.pulled = -self.force_cross * integral;
+        step.body = epoch.turning;
+        step.body_pulled = self.force_cross * epoch.turning.twice;
+        self.set_white(epoch, step);
         for (index, &(axis, density)) in self.astray.iter().enumerate() {
             let variance = density * density * t;
             let (of_mean, with_end) = mean_of_walk(epoch.count());
-            step.attitude[(axis, NAVIGATION + index)] = -1.0;
-            step.colour_noise[index] = variance;
+            step.colour_noise[NAVIGATION + index] = variance;
             // Readings are means over the epoch, in which it strays already.
             step.shown[(axis, axis)] += variance * of_mean;
             step.cross[(NAVIGATION + index, axis)] = -variance * with_end;
         }
+        // Durations are sums of time stamps' differences: they differ in the last digits.
+        let usual = (t - self.usual.0).abs() <= 1e-9 * t;
+        let mean_turn = epoch.turning.turned / t;
+        let gyros = step.gyros.len();
         for (index, (of, process)) in self.colours.iter().enumerate() {
-            let place = self.first_colour() + 3 * index;
-            // Durations are sums of time stamps' differences: they differ in the last digits.
-            let passage = if (t - self.usual.0).abs() <= 1e-9 * t {
-                self.usual.1[index]
-            } else {
-                process.passage(t)
+            let passage = if usual { self.usual.1[index] } else { process.passage(t) };
+            let weight = match of {
+                Of::Gyro => &mut step.gyros[index],
+                Of::Accel => &mut step.accels[index - gyros],
             };
-            self.add_colour(epoch, (*of, place), &passage, &mut step);
+            (weight.mean, weight.half_mean) = (passage.mean, passage.half_mean);
+            let place = weight.place;
+            add_colour((*of, place), &mean_turn, &passage, step);
         }
-        if !self.linear.shows_angle() {
+        if !step.shows_angle {
             // The row shows nothing: it is one of pure noise, of variance one.
-            step.attitude.row_mut(2).fill(0.0);
             step.cross.column_mut(2).fill(0.0);
             step.shown.row_mut(2).fill(0.0);
             step.shown.column_mut(2).fill(0.0);
             step.shown[(2, 2)] = 1.0;
         }
-        step
     }
 
     /// White noise of both triads, of the readings and of the base.
-    fn add_white(&self, epoch: &Epoch, step: &mut Step) {
+    fn set_white(&self, epoch: &Epoch, step: &mut Step) {
         let (t, m) = (epoch.duration, epoch.count());
         let [gyro, accel] = self.white;
         let identity = Matrix3::identity();
@@ -226,58 +222,46 @@ impl<'a> Space<'a> {
             Reference::Command { .. } => EXACT * EXACT,
             Reference::Gravity | Reference::Rest => wobble,
         };
+        let base = self.velocity.powi(2);
+        let readings = Matrix3::from_diagonal(&[wobble, wobble, angle].into());
         let shown = &mut step.shown;
-        for axis in 0..3 {
-            let reading = if axis == 2 { angle } else { wobble };
-            shown[(axis, axis)] = mean_variance + reading;
-            for other in 0..3 {
-                shown[(axis, 3 + other)] = -mean_across[(axis, other)];
-                shown[(3 + other, axis)] = -mean_across[(axis, other)];
-                shown[(3 + axis, 3 + other)] = velocity[(axis, other)];
-            }
-            shown[(3 + axis, 3 + axis)] += self.velocity.powi(2);
-        }
+        let mut set = |row, column, block: &Matrix3<f64>| {
+            shown.fixed_view_mut::<3, 3>(row, column).copy_from(block);
+        };
+        set(0, 0, &(identity * mean_variance + readings));
+        set(0, 3, &-mean_across);
+        set(3, 0, &-mean_across.transpose());
+        set(3, 3, &(velocity + identity * base));
     }
+}
 
-    /// A process with memory, of a triad, whose three states begin at a place.
-    fn add_colour(
-        &self,
-        epoch: &Epoch,
-        (of, place): (Of, usize),
-        passage: &Passage,
-        step: &mut Step,
-    ) {
-        let mean_turn = epoch.turned / epoch.duration;
-        for axis in 0..3 {
-            let index = place - NAVIGATION + axis;
-            step.decay[index] = passage.decay;
-            step.colour_noise[index] = passage.end;
-        }
-        let identity = Matrix3::identity();
-        let of_end = -mean_turn.transpose() * passage.end_integral;
-        match of {
-            Of::Gyro => {
-                let f = &self.force_cross;
-                set(&mut step.navigation, 0, place, &(-epoch.turned * passage.mean));
-                set(&mut step.navigation, 3, place, &(f * epoch.twice_turned * passage.half_mean));
-                set(&mut step.attitude, 0, place, &(-epoch.mean_turned * passage.half_mean));
-                add(&mut step.noise, 0, 0, &(identity * passage.integral));
-                add(&mut step.cross, 0, 0, &(identity * passage.integral_half));
-                set(&mut step.noise, place, 0, &of_end);
-                set(&mut step.cross, place, 0, &(-mean_turn.transpose() * passage.end_half));
-                for axis in 0..3 {
-                    step.shown[(axis, axis)] += passage.half;
-                }
+/// A process with memory, of a triad, whose three states begin at a place.
+fn add_colour(
+    (of, place): (Of, usize),
+    mean_turn: &Matrix3<f64>,
+    passage: &Passage,
+    step: &mut Step,
+) {
+    step.decay[place..place + 3].fill(passage.decay);
+    step.colour_noise[place..place + 3].fill(passage.end);
+    let of_end = -mean_turn.transpose() * passage.end_integral;
+    match of {
+        Of::Gyro => {
+            set(&mut step.noise, place, 0, &of_end);
+            set(&mut step.cross, place, 0, &(-mean_turn.transpose() * passage.end_half));
+            for axis in 0..3 {
+                step.noise[(axis, axis)] += passage.integral;
+                step.cross[(axis, axis)] += passage.integral_half;
+                step.shown[(axis, axis)] += passage.half;
             }
-            Of::Accel => {
-                set(&mut step.navigation, 3, place, &(-epoch.turned * passage.mean));
-                add(&mut step.noise, 3, 3, &(identity * passage.integral));
-                add(&mut step.cross, 3, 3, &(identity * passage.integral));
-                set(&mut step.noise, place, 3, &of_end);
-                set(&mut step.cross, place, 3, &of_end);
-                for axis in 0..3 {
-                    step.shown[(3 + axis, 3 + axis)] += passage.integral;
-                }
+        }
+        Of::Accel => {
+            set(&mut step.noise, place, 3, &of_end);
+            set(&mut step.cross, place, 3, &of_end);
+            for axis in 3..6 {
+                step.noise[(axis, axis)] += passage.integral;
+                step.cross[(axis, axis)] += passage.integral;
+                step.shown[(axis, axis)] += passage.integral;
             }
         }
     }
@@ -291,9 +275,4 @@ fn mean_of_walk(m: f64) -> (f64, f64) {
 
 fn set(to: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
     to.fixed_view_mut::<3, 3>(row, column).copy_from(block);
-}
-
-fn add(to: &mut DMatrix<f64>, row: usize, column: usize, block: &Matrix3<f64>) {
-    let mut view = to.fixed_view_mut::<3, 3>(row, column);
-    view += block;
 }

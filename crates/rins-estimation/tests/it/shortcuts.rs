@@ -85,3 +85,16 @@ fn a_fit_beside_another_ends_where_one_from_nothing_does() {
     let differ = alone.log_likelihood - beside.log_likelihood;
     assert!(differ.abs() < 0.2, "{differ}");
 }
+
+#[test]
+fn threads_change_no_bit() {
+    let (run, model, imu) = (turned(), many(), fibre());
+    let columns: Vec<(usize, usize)> =
+        model.free(&imu).iter().map(|f| (f.term, f.parameter)).collect();
+    let noise = Noise::on(&run.rig, &Strengths::of(&imu));
+    let said = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| Evidence::of(&linearise_coarsely(&run, &model, &columns), &noise)).unwrap()
+    };
+    assert_eq!(said(1), said(3));
+}

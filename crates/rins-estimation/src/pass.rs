@@ -1,0 +1,342 @@
+//! The filter over the epochs of a run, and the recursions that carry its columns.
+#![expect(
+    clippy::inline_always,
+    reason = "what is not inlined is compiled without the vector instructions"
+)]
+
+use nalgebra::{Cholesky, DMatrix, SMatrix};
+use rins_lanes::{Arch, Lane, Simd, WithSimd};
+
+use crate::gains::{Gains, WIDEST};
+use crate::linear::Epoch;
+use crate::space::Space;
+use crate::step::{CARRIED_OF, FOLLOWING, NAVIGATION, SHOWN, SHOWN_OF, Step};
+
+type Square = SMatrix<f64, SHOWN, SHOWN>;
+
+/// The filter's covariance and the recursions of the columns.
+///
+/// Everything is kept in rows of whole vectors, one for each state: of the states' covariances, and of the columns.
+pub(crate) struct Pass {
+    step: Step,
+    covariance: DMatrix<f64>,
+    columns: DMatrix<f64>,
+    /// The covariances of the states with what follows from them, in rows.
+    of_states: Vec<f64>,
+    /// `C L⁻ᵀ`, where `C` is the covariance of the next states with what is shown, in rows.
+    gain: Vec<f64>,
+    whitened: Vec<f64>,
+}
+
+impl Pass {
+    /// At the start of a run.
+    pub(crate) fn new(space: &Space<'_>, columns: usize) -> Self {
+        let (states, columns) = (space.states(), columns.next_multiple_of(WIDEST));
+        let length = states.next_multiple_of(WIDEST);
+        Self {
+            step: space.blank(length),
+            covariance: space.start().resize_vertically(length, 0.0),
+            columns: DMatrix::zeros(columns, states),
+            of_states: vec![0.0; FOLLOWING * length],
+            gain: vec![0.0; SHOWN * length],
+            whitened: vec![0.0; SHOWN * columns],
+        }
+    }
+
+    /// What the last epoch showed of the columns, whitened: a row a figure.
+    pub(crate) fn whitened(&self) -> &[f64] {
+        &self.whitened
+    }
+
+    /// Goes on by one epoch; half the logarithm of the innovation covariance's determinant.
+    pub(crate) fn step(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains) -> Option<f64> {
+        self.begin(space, epoch, gains);
+        Arch::new().dispatch(Onward { pass: self, gains })
+    }
+
+    fn begin(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains) {
+        space.set(epoch, &mut self.step);
+        if epoch.fresh {
+            space.forget_navigation(&mut self.covariance);
+            self.start(gains);
+        }
+    }
+
+    /// Lets time go by for what has a memory; navigation starts anew afterwards.
+    pub(crate) fn pass_over(&mut self, space: &Space<'_>, epoch: &Epoch) {
+        space.set(epoch, &mut self.step);
+        let Step { decay, colour_noise, .. } = &self.step;
+        for state in NAVIGATION..self.columns.ncols() {
+            self.columns.column_mut(state).scale_mut(decay[state]);
+            for other in NAVIGATION..self.columns.ncols() {
+                self.covariance[(other, state)] *= decay[state] * decay[other];
+            }
+            self.covariance[(state, state)] += colour_noise[state];
+        }
+    }
+
+    /// Attitude and velocity where the epoch's own readings put them, so that the start holds nothing that the readings
+    /// do not.
+    fn start(&mut self, gains: &Gains) {
+        let width = self.columns.nrows();
+        let (attitude, rest) = self.columns.as_mut_slice().split_at_mut(3 * width);
+        for (start, shown) in attitude.iter_mut().zip(gains.shown()) {
+            *start = -shown;
+        }
+        rest[..3 * width].fill(0.0);
+        if !self.step.shows_angle {
+            attitude[2 * width..].fill(0.0);
+        }
+    }
+}
+
+/// One epoch, as many states or columns at once as the machine's vectors hold.
+struct Onward<'a> {
+    pass: &'a mut Pass,
+    gains: &'a Gains,
+}
+
+impl WithSimd for Onward<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Option<f64> {
+        let Self { pass, gains } = self;
+        pass.follow_states(simd);
+        let following = pass.following();
+        let shown = Square::from_fn(|row, column| {
+            let (row, column) = (SHOWN_OF[row], SHOWN_OF[column]);
+            0.5 * (following[(row, column)] + following[(column, row)])
+        });
+        let factor = Cholesky::new(shown + pass.step.shown)?.unpack();
+        pass.set_gain(simd, &following, &factor);
+        pass.carry_columns(simd, gains, &factor);
+        pass.carry_covariance(simd, &following);
+        Some(factor.diagonal().iter().map(|x| x.ln()).sum())
+    }
+}
+
+/// The covariance of what follows from the states.
+type Following = SMatrix<f64, FOLLOWING, FOLLOWING>;
+
+impl Pass {
+    /// The covariances of the states with what follows from them.
+    #[inline(always)]
+    fn follow_states<S: Simd>(&mut self, simd: S) {
+        let rows = S::as_simd_f64s(self.covariance.as_slice()).0;
+        let to = S::as_mut_simd_f64s(&mut self.of_states).0;
+        let width = to.len() / FOLLOWING;
+        for place in 0..width {
+            let of = self.step.follow(|state| Lane::new(simd, rows[state * width + place]));
+            for (row, lane) in of.into_iter().flat_map(|vector| vector.0).enumerate() {
+                to[row * width + place] = lane.values();
+            }
+        }
+    }
+
+    /// The covariance of what follows from the states.
+    #[inline(always)]
+    fn following(&self) -> Following {
+        let length = self.covariance.nrows();
+        let mut covariance = Following::zeros();
+        for (mut column, of) in
+            covariance.column_iter_mut().zip(self.of_states.chunks_exact(length))
+        {
+            let following = self.step.follow(|state| of[state]);
+            for (to, value) in column.iter_mut().zip(following.iter().flat_map(|vector| vector.0)) {
+                *to = value;
+            }
+        }
+        covariance
+    }
+
+    /// `C = Φ P Hᵀ + cov(w, e)`, and `C L⁻ᵀ`.
+    #[inline(always)]
+    fn set_gain<S: Simd>(&mut self, simd: S, following: &Following, factor: &Square) {
+        let Step { decay, cross, .. } = &self.step;
+        let length = decay.len();
+        let rows = self.gain.chunks_exact_mut(length).zip(cross.as_slice().chunks_exact(length));
+        for (part, (row, cross)) in rows.enumerate() {
+            let of = &self.of_states[SHOWN_OF[part] * length..][..length];
+            for (((gain, of), decay), cross) in row.iter_mut().zip(of).zip(decay).zip(cross) {
+                *gain = of * decay + cross;
+            }
+            for state in 0..NAVIGATION {
+                row[state] = following[(CARRIED_OF[state], SHOWN_OF[part])] + cross[state];
+            }
+        }
+        let rows = S::as_mut_simd_f64s(&mut self.gain).0;
+        let width = rows.len() / SHOWN;
+        for place in 0..width {
+            let mut gain = std::array::from_fn(|part| Lane::new(simd, rows[part * width + place]));
+            whiten(&mut gain, factor);
+            for part in 0..SHOWN {
+                rows[part * width + place] = gain[part].values();
+            }
+        }
+    }
+
+    /// What of the columns is shown, whitened, and what is carried on.
+    #[inline(always)]
+    fn carry_columns<S: Simd>(&mut self, simd: S, gains: &Gains, factor: &Square) {
+        let Self { step, columns, gain, whitened, .. } = self;
+        let states = columns.ncols();
+        let columns = S::as_mut_simd_f64s(columns.as_mut_slice()).0;
+        let whitened = S::as_mut_simd_f64s(whitened).0;
+        let navigation = S::as_simd_f64s(gains.navigation()).0;
+        let shown = S::as_simd_f64s(gains.shown()).0;
+        let width = whitened.len() / SHOWN;
+        let length = step.decay.len();
+        for place in 0..width {
+            let at = |rows: &[S::f64s], row: usize| Lane::new(simd, rows[row * width + place]);
+            let [mean, end, velocity] = step.follow(|state| at(columns, state));
+            let mut carried = [end[0], end[1], end[2], velocity[0], velocity[1], velocity[2]];
+            for (row, carried) in carried.iter_mut().enumerate() {
+                *carried = *carried + at(navigation, row);
+            }
+            let mut seen: [Lane<S>; SHOWN] = std::array::from_fn(|part| {
+                if part < 3 { mean[part] + at(shown, part) } else { carried[part] }
+            });
+            if !step.shows_angle {
+                seen[2] = Lane::splat(simd, 0.0);
+            }
+            whiten(&mut seen, factor);
+            for (part, seen) in seen.iter().enumerate() {
+                whitened[part * width + place] = seen.values();
+            }
+            for (state, carried) in carried.into_iter().enumerate() {
+                let left = carried - explained(&seen, |part| gain[part * length + state]);
+                columns[state * width + place] = left.values();
+            }
+            for state in NAVIGATION..states {
+                let decayed = at(columns, state) * step.decay[state];
+                let left = decayed - explained(&seen, |part| gain[part * length + state]);
+                columns[state * width + place] = left.values();
+            }
+        }
+    }
+
+    /// `Φ P Φᵀ + Q - W Wᵀ`.
+    #[inline(always)]
+    fn carry_covariance<S: Simd>(&mut self, simd: S, following: &Following) {
+        let Self { step, covariance, of_states, gain, .. } = self;
+        let Step { decay, noise, colour_noise, .. } = step;
+        let (length, states) = covariance.shape();
+        for (state, mut row) in covariance.column_iter_mut().enumerate().take(NAVIGATION) {
+            let carried = CARRIED_OF[state];
+            let of = &of_states[carried * length..][..length];
+            let noise = noise.column(state);
+            for (((to, of), decay), noise) in row.iter_mut().zip(of).zip(&*decay).zip(noise.iter())
+            {
+                *to = of * decay + noise;
+            }
+            for other in 0..NAVIGATION {
+                let other_carried = CARRIED_OF[other];
+                let both =
+                    following[(carried, other_carried)] + following[(other_carried, carried)];
+                row[other] = 0.5 * both + noise[other];
+            }
+        }
+        let rows = S::as_mut_simd_f64s(covariance.as_mut_slice()).0;
+        let gains = S::as_simd_f64s(gain).0;
+        let decays = S::as_simd_f64s(decay).0;
+        let width = decays.len();
+        for place in 0..width {
+            let seen: [Lane<S>; SHOWN] =
+                std::array::from_fn(|part| Lane::new(simd, gains[part * width + place]));
+            let decays = Lane::new(simd, decays[place]);
+            for state in 0..states {
+                let row = Lane::new(simd, rows[state * width + place]);
+                let predicted =
+                    if state < NAVIGATION { row } else { row * (decays * decay[state]) };
+                let left = predicted - explained(&seen, |part| gain[part * length + state]);
+                rows[state * width + place] = left.values();
+            }
+        }
+        for state in NAVIGATION..states {
+            covariance[(state, state)] += colour_noise[state];
+            for other in 0..NAVIGATION {
+                covariance[(other, state)] = covariance[(state, other)];
+            }
+        }
+    }
+}
+
+/// `x` becomes `L⁻¹ x`.
+#[inline(always)]
+fn whiten<S: Simd>(x: &mut [Lane<S>; SHOWN], factor: &Square) {
+    for part in 0..SHOWN {
+        for before in 0..part {
+            x[part] = x[part] - x[before] * factor[(part, before)];
+        }
+        x[part] = x[part] * factor[(part, part)].recip();
+    }
+}
+
+/// The sum of what is seen, each part times its gain.
+#[inline(always)]
+fn explained<S: Simd>(seen: &[Lane<S>; SHOWN], gain: impl Fn(usize) -> f64) -> Lane<S> {
+    let mut sum = seen[0] * gain(0);
+    for (part, seen) in seen.iter().enumerate().skip(1) {
+        sum = sum + *seen * gain(part);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G};
+    use rins_frames::{EulerAngles, Site};
+    use rins_lanes::Scalar;
+    use rins_motion::{Profile, Segment, Station};
+    use rins_simulation::{Scenario, simulate};
+    use rins_terms::Model;
+
+    use super::*;
+    use crate::linear::linearise_coarsely;
+    use crate::run::{Reference, Rig, Run};
+    use crate::strengths::{Noise, Strengths, TriadStrengths};
+
+    /// A minute on a tilted axis.
+    fn run() -> Run {
+        let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
+        let station = Station::with_normal_gravity(site);
+        let nav_from_table = EulerAngles { roll: 20.0 * DEG, pitch: 0.0, yaw: 0.0 }.dcm();
+        let turn = Segment { rate: 10.0 * DEG_PER_SECOND, duration: 60.0 };
+        let scenario =
+            Scenario::perfect(station, nav_from_table, Profile::new(&[turn], None).unwrap(), 0.02);
+        let reference = Reference::Encoder { noise: ARCSEC };
+        let rig = Rig { station, nav_from_table, reference, wobble: ARCSEC, velocity: 1e-6 };
+        Run::new(rig, simulate(&scenario).unwrap().recording).unwrap()
+    }
+
+    #[test]
+    fn width_of_the_vectors_changes_no_bit() {
+        let run = run();
+        let model = Model::full();
+        let free: Vec<(usize, usize)> = (0..3).flat_map(|term| [(term, 0), (term, 2)]).collect();
+        let linear = linearise_coarsely(&run, &model, &free);
+        let triad = |white| TriadStrengths { white, flicker: 0.1 * white, walk: 0.0 };
+        let imu = Strengths { gyro: triad(1e-3 * DEG_PER_HOUR), accel: triad(10.0 * MICRO_G) };
+        let noise = Noise::on(&run.rig, &imu);
+        let space = Space::new(&linear, &noise);
+        let [mut wide, mut narrow] = [(); 2].map(|()| Pass::new(&space, free.len() + 1));
+        for epoch in &linear.epochs {
+            let gains = &epoch.gains;
+            for pass in [&mut wide, &mut narrow] {
+                pass.begin(&space, epoch, gains);
+            }
+            let determinant = Arch::new().dispatch(Onward { pass: &mut wide, gains });
+            let narrow = Onward { pass: &mut narrow, gains }.with_simd(Scalar::new());
+            assert!(narrow.is_some() && narrow == determinant);
+        }
+        assert!(wide.whitened().iter().any(|value| *value != 0.0), "nothing is shown");
+        assert_eq!(wide.whitened(), narrow.whitened());
+        assert_eq!(wide.columns, narrow.columns);
+        assert_eq!(wide.covariance, narrow.covariance);
+        assert_eq!(
+            wide.covariance.columns(0, space.states()).rows(0, space.states()).transpose(),
+            wide.covariance.rows(0, space.states())
+        );
+    }
+}

@@ -1,0 +1,104 @@
+//! One epoch as a linear system: how it carries attitude, velocity and coloured noise on, and shows them.
+#![expect(
+    clippy::inline_always,
+    reason = "what is not inlined is compiled without the vector instructions"
+)]
+
+use nalgebra::{DMatrix, Matrix3, SMatrix};
+use rins_lanes::{Matrix, Real, Vector};
+
+use crate::build::Turning;
+
+/// Attitude and velocity.
+pub(crate) const NAVIGATION: usize = 6;
+
+/// What an epoch shows: the mean attitude and the velocity at its end.
+pub(crate) const SHOWN: usize = 6;
+
+/// What follows from the states within an epoch: the mean attitude, then attitude and velocity at its end.
+pub(crate) const FOLLOWING: usize = 9;
+
+/// Which of what follows is shown, and which is carried on.
+pub(crate) const SHOWN_OF: [usize; SHOWN] = [0, 1, 2, 6, 7, 8];
+pub(crate) const CARRIED_OF: [usize; NAVIGATION] = [3, 4, 5, 6, 7, 8];
+
+/// A process with memory: the place of its three states, and what its integral is over the epoch, and the mean of that.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weight {
+    pub(crate) place: usize,
+    pub(crate) mean: f64,
+    pub(crate) half_mean: f64,
+}
+
+/// One epoch as a linear system: `x⁺ = Φ x + w`, `y = H x + e`.
+///
+/// `Φ` has rows of navigation, and a diagonal for the other states; `w` and `e` are correlated. Rows of states are as
+/// long as those of the covariance that they are for, with zeros at their ends.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    /// What φ, the attitude error at the start, becomes on the way: at the end, in the mean over the readings, and in v.
+    pub(crate) turned: Matrix3<f64>,
+    pub(crate) mean_turned: Matrix3<f64>,
+    pub(crate) pulled: Matrix3<f64>,
+    /// The way of the body, and what the integral's integral of a gyro's noise becomes in v.
+    pub(crate) body: Turning,
+    pub(crate) body_pulled: Matrix3<f64>,
+    /// The axes about which the states after navigation are angles by which the base strays.
+    pub(crate) astray: Vec<usize>,
+    pub(crate) gyros: Vec<Weight>,
+    pub(crate) accels: Vec<Weight>,
+    /// Whether the angle about the axis is shown.
+    pub(crate) shows_angle: bool,
+    /// Φ's diagonal after navigation, and the variances of that part of `w`; nothing for navigation itself.
+    pub(crate) decay: Vec<f64>,
+    pub(crate) colour_noise: Vec<f64>,
+    /// The covariance of `e`.
+    pub(crate) shown: SMatrix<f64, SHOWN, SHOWN>,
+    /// The covariances of all of `w` with that of navigation, and with `e`: a row of all states for each.
+    pub(crate) noise: DMatrix<f64>,
+    pub(crate) cross: DMatrix<f64>,
+}
+
+impl Step {
+    /// What follows from states: the mean attitude that is shown, the attitude and the velocity at the end.
+    #[inline(always)]
+    pub(crate) fn follow<T: Real>(&self, state: impl Fn(usize) -> T) -> [Vector<T>; 3] {
+        let at = |place| Vector([state(place), state(place + 1), state(place + 2)]);
+        let (attitude, velocity) = (at(0), at(3));
+        let like = attitude[0];
+        let (mut gyro, mut gyro_mean, mut accel) =
+            (Vector::zeros(like), Vector::zeros(like), Vector::zeros(like));
+        for weight in &self.gyros {
+            let noise = at(weight.place);
+            gyro = gyro + noise.scaled(weight.mean);
+            gyro_mean = gyro_mean + noise.scaled(weight.half_mean);
+        }
+        for weight in &self.accels {
+            accel = accel + at(weight.place).scaled(weight.mean);
+        }
+        let times = |matrix: &Matrix3<f64>, vector| Matrix::constant(like, matrix) * vector;
+        let mut mean = times(&self.mean_turned, attitude) - times(&self.body.mean, gyro_mean);
+        for (index, &axis) in self.astray.iter().enumerate() {
+            mean[axis] = mean[axis] - state(NAVIGATION + index);
+        }
+        if !self.shows_angle {
+            mean[2] = like.constant(0.0);
+        }
+        let end = times(&self.turned, attitude) - times(&self.body.turned, gyro);
+        let gained = times(&self.pulled, attitude) + times(&self.body_pulled, gyro_mean)
+            - times(&self.body.turned, accel);
+        [mean, end, velocity + gained]
+    }
+
+    /// The same as a matrix: a row for each of what follows.
+    pub(crate) fn following(&self, states: usize) -> DMatrix<f64> {
+        let mut rows = DMatrix::zeros(FOLLOWING, states);
+        for of in 0..states {
+            let unit = |place| if place == of { 1.0 } else { 0.0 };
+            for (row, value) in self.follow(unit).iter().flat_map(|vector| vector.0).enumerate() {
+                rows[(row, of)] = value;
+            }
+        }
+        rows
+    }
+}
