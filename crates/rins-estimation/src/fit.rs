@@ -9,7 +9,7 @@ use crate::estimate::{Estimate, Fit, Iteration};
 use crate::evidence::Indefinite;
 use crate::layout::Layout;
 use crate::likely::likely_noise;
-use crate::linear::{Linear, linearise};
+use crate::linear::{Linear, Pieces, linearised};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
 use crate::strengths::{Noise, Strengths};
@@ -19,6 +19,9 @@ const MOST_ITERATIONS: usize = 20;
 
 /// A step below this part of every sigma ends the iteration.
 const CONVERGED: f64 = 1e-3;
+
+/// A step below this many sigmas leads near enough to judge the noise, and to take derivatives in earnest.
+const NEAR: f64 = 1.0;
 
 /// The cosine of the angle between a step and the way back beyond which it only turns back.
 const TURNING_BACK: f64 = 0.5;
@@ -171,8 +174,9 @@ struct Problem<'a> {
     places: Vec<Vec<usize>>,
     expected: Vec<f64>,
     values: Vec<f64>,
-    /// Each run, linear about these values.
+    /// Each run, linear about these values, and how finely.
     linear: Vec<Linear>,
+    pieces: Pieces,
     /// The last step, in sigmas.
     last: Option<DVector<f64>>,
 }
@@ -196,12 +200,13 @@ impl<'a> Problem<'a> {
             all,
             places,
             linear: Vec::new(),
+            pieces: Pieces::Coarse,
             last: None,
         };
         if let Some(near) = near {
             problem.start_near(near);
         }
-        problem.linear = problem.linearised();
+        problem.take_values(Pieces::Coarse);
         problem
     }
 
@@ -220,26 +225,22 @@ impl<'a> Problem<'a> {
                 self.values[place] = found.value;
             }
         }
-        self.take_values();
     }
 
-    /// Puts the values into the models.
-    fn take_values(&mut self) {
+    /// Puts the values into the models, and makes the runs linear about them.
+    fn take_values(&mut self, pieces: Pieces) {
         for (model, places) in self.models.iter_mut().zip(&self.places) {
             for (parameter, &place) in self.free.iter().zip(places) {
                 model.terms[parameter.term].values[parameter.parameter] = self.values[place];
             }
         }
-    }
-
-    fn linearised(&self) -> Vec<Linear> {
         let free: Vec<(usize, usize)> =
             self.free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
-        self.runs
-            .iter()
-            .zip(&self.models)
-            .map(|(run, model)| linearise(run, model, &free))
-            .collect()
+        // A day's run would not fit into memory twice.
+        self.linear.clear();
+        let runs = self.runs.iter().zip(&self.models);
+        self.linear = runs.map(|(run, model)| linearised(run, model, &free, pieces)).collect();
+        self.pieces = pieces;
     }
 
     fn evidence(&self, linear: &[Linear], noise: &[Noise]) -> Result<Evidence, Indefinite> {
@@ -283,17 +284,19 @@ impl<'a> Problem<'a> {
         };
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
-            let step = self.advance(&posterior);
+            let from = self.pieces;
+            let step = self.advance(&posterior, until);
             let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
             progress(&iteration);
             iterations.push(iteration);
-            if until == Until::NearEnough {
-                calm(noise, &evidence, &posterior);
-                if step < 1.0 && iterations.len() > 1 {
-                    return Ok(());
+            let arrived = match until {
+                Until::NearEnough => {
+                    calm(noise, &evidence, &posterior);
+                    step < CONVERGED || step < NEAR && iterations.len() > 1
                 }
-            }
-            if step < CONVERGED {
+                Until::Converged => step < CONVERGED && from == Pieces::Samples,
+            };
+            if arrived {
                 return Ok(());
             }
             if iterations.len() >= most || !step.is_finite() {
@@ -303,7 +306,9 @@ impl<'a> Problem<'a> {
     }
 
     /// Goes to the estimate; the largest step in sigmas.
-    fn advance(&mut self, posterior: &Posterior) -> f64 {
+    ///
+    /// On the way derivatives need not be exact; where it ends they are.
+    fn advance(&mut self, posterior: &Posterior, until: Until) -> f64 {
         let before = self.values.clone();
         let sigmas = posterior.covariance.diagonal().map(f64::sqrt);
         let step = posterior.step.component_div(&sigmas);
@@ -332,10 +337,8 @@ impl<'a> Problem<'a> {
                 }
             }
         }
-        self.take_values();
-        // A day's run would not fit into memory twice.
-        self.linear.clear();
-        self.linear = self.linearised();
+        let last = until == Until::Converged && largest < NEAR;
+        self.take_values(if last { Pieces::Samples } else { Pieces::Coarse });
         largest
     }
 
