@@ -55,7 +55,7 @@ pub(crate) fn stands_for(own: &Chosen, other: &Chosen) -> bool {
 }
 
 /// How long the longest run is \[s\].
-fn duration(runs: &[Run]) -> f64 {
+pub(crate) fn duration(runs: &[Run]) -> f64 {
     let of = |run: &Run| run.recording.times[run.recording.len() - 1] - run.recording.times[0];
     runs.iter().map(of).fold(0.0, f64::max)
 }
@@ -76,27 +76,34 @@ fn offers(run: &Run, need: Need) -> bool {
 fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let chosen = Chosen::new(term).estimated();
     let place = |name: &str| term.settings.iter().position(|setting| setting.name == name);
-    let of = |place: usize, values: &[f64], step: &dyn Fn(f64) -> Option<f64>| {
+    // A shape is looked for the more, the more is expected of it.
+    let of = |place: usize,
+              values: &[f64],
+              expected: &dyn Fn(f64) -> f64,
+              step: &dyn Fn(f64) -> Option<f64>| {
         let fits = |value: &&f64| allows(&term.settings[place], **value);
         let fitting: Vec<f64> = values.iter().filter(fits).copied().collect();
-        let looks = fitting.len() as f64;
+        let all: f64 = fitting.iter().map(|value| expected(*value)).sum();
         let candidate = |value: f64| {
             let mut chosen = chosen.clone();
             chosen.settings[place] = value;
-            Candidate { chosen, looks, step: step(value).map(|step| (place, step)) }
+            let step = step(value).map(|step| (place, step));
+            Candidate { chosen, looks: all / expected(value), step }
         };
         fitting.into_iter().map(candidate).collect()
     };
+    let alike = |_: f64| 1.0;
     if place("frequency").is_some() {
         Vec::new()
     } else if let Some(place) = place("time") {
         let step = duration / f64::from(EVENTS);
         let times: Vec<f64> = (0..EVENTS).map(|event| step * (f64::from(event) + 0.5)).collect();
-        of(place, &times, &|_| Some(step))
+        of(place, &times, &alike, &|_| Some(step))
     } else if let Some(place) = place("time_constant") {
-        of(place, &TIME_CONSTANTS.map(|part| part * duration), &Some)
+        of(place, &TIME_CONSTANTS.map(|part| part * duration), &alike, &Some)
     } else if let Some(place) = place("order") {
-        of(place, &ORDERS, &|_| None)
+        // Of a bearing or a disc the higher orders are the weaker ones.
+        of(place, &ORDERS, &|order| 1.0 / order.abs(), &|_| None)
     } else {
         vec![Candidate { chosen, looks: 1.0, step: None }]
     }

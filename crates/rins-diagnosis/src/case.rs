@@ -5,7 +5,7 @@ use rins_estimation::{Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, fit
 use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Role};
 
-use crate::candidates::Candidate;
+use crate::candidates::{Candidate, duration};
 use crate::probability::ln_tail;
 use crate::score::USUAL;
 use crate::survey::{RunNoise, Survey};
@@ -21,10 +21,10 @@ const FINER: [f64; 3] = [0.125, 0.03, 0.0075];
 const SWALLOWED: f64 = 4.0;
 
 /// Weaker flicker that is tried, as parts of what was found.
-const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
+pub(crate) const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
 
-/// A term of at most so many parameters is estimated whole.
-pub(crate) const WHOLE: usize = 3;
+/// A term of at most so many parameters is estimated whole: what the others of them are is not known to be nothing.
+const WHOLE: usize = 6;
 
 /// What stays the same from one effect to the next.
 #[derive(Clone, Copy)]
@@ -47,6 +47,11 @@ impl Case<'_> {
         let mut model = self.given.clone();
         model.terms.extend(causes.iter().cloned());
         fit_near(near, self.runs, &model, self.imu, self.knowledge)
+    }
+
+    /// How long the longest run is \[s\].
+    pub(crate) fn duration(&self) -> f64 {
+        duration(self.runs)
     }
 
     /// The noise that was found, and weaker flicker, which a further effect might have passed for.

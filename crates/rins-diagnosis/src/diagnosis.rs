@@ -38,6 +38,8 @@ pub struct Cause {
     pub term: &'static Term,
     /// Its settings, in SI units.
     pub settings: Vec<f64>,
+    /// Which of its settings was sought from a continuum, and its 1σ.
+    pub sought: Option<(usize, f64)>,
     /// Its parameters as the final model has them.
     pub parameters: Vec<Estimate>,
     /// The logarithm of the probability that anything in the catalogue explains as much by chance.
@@ -153,7 +155,7 @@ pub fn diagnose(
         causes.into_iter().partition(|cause| cause.term.id == disturbance::ID);
     let mut unexplained: Vec<Unexplained> =
         unknown.iter().map(|cause| described(cause, &after)).collect();
-    unexplained.extend(case.unexplained(&after, &causes)?);
+    unexplained.extend(case.unexplained((&before, &after), &causes)?);
     causes.extend(fast.into_iter().map(|(_, cause)| cause));
     // What is left unexplained is in the noise that was found: no level can be told then.
     if unexplained.is_empty() {

@@ -17,12 +17,16 @@ mod trial;
 mod case;
 mod diagnosis;
 mod settling;
+mod sought;
 
 mod disturbance;
+mod levels;
 mod limits;
 mod lines;
 mod noise;
+mod periodic;
 mod structure;
+mod switching;
 mod unexplained;
 
 mod gain;

@@ -140,7 +140,7 @@ struct Line {
 ///
 /// About the spin axis it is what the gyro reads beyond the encoder: a table that turns unevenly moves both. Without an
 /// encoder nothing tells them apart, and nothing is there.
-fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS] {
+pub(crate) fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS] {
     let mut all: [Vec<f64>; CHANNELS] = Default::default();
     let encoder = match run.rig.reference {
         Reference::Encoder { .. } => run.recording.table_angle.as_deref(),
@@ -249,6 +249,7 @@ fn cause(channel: usize, line: &Line, ln_p: f64, run: usize) -> (Chosen, Cause) 
     let cause = Cause {
         term,
         settings: chosen.settings.clone(),
+        sought: None,
         parameters: parameters.to_vec(),
         ln_p,
         dof: 2,

@@ -93,6 +93,7 @@ impl Case<'_> {
             causes.push(Cause {
                 term: strength.term,
                 settings: Vec::new(),
+                sought: None,
                 parameters: vec![estimate(strength.term, 0, None, value, sigma)],
                 ln_p,
                 dof: 1,

@@ -4,15 +4,15 @@ use rins_estimation::Fit;
 use rins_terms::{Chosen, Role};
 
 use crate::candidates::{Candidate, candidates};
-use crate::case::{Case, WHOLE};
+use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
 use crate::lines::at_frequency;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 
-/// A rival is kept whose odds are no worse than one to this many e-folds: 1 to 33.
-const RIVALS: f64 = 3.5;
+/// A rival is kept whose odds are no worse than one to this many e-folds: 1 to 55.
+const RIVALS: f64 = 4.0;
 
 /// An effect takes another's place if its odds are better by this many e-folds.
 const BETTER: f64 = 0.5;
@@ -88,9 +88,13 @@ impl Case<'_> {
                 Some((index, Look::Exchange(better))) => _ = found.splice(index..=index, better),
                 Some((index, _)) => _ = found.remove(index),
                 None => {
+                    let (present, sought) = self.sharpened(present, &mut found)?;
                     for (index, cause) in causes.iter_mut().enumerate() {
                         let of = |p: &&rins_estimation::Estimate| p.parameter.term == given + index;
                         cause.parameters = present.parameters.iter().filter(of).cloned().collect();
+                        cause.settings.clone_from(&found[index].settings);
+                        let own = sought.iter().find(|one| one.cause == index);
+                        cause.sought = own.map(|one| (one.place, one.sigma));
                     }
                     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
                     return Ok((present, causes));
@@ -200,6 +204,7 @@ impl Question<'_> {
         Cause {
             term: found.term,
             settings: found.settings.clone(),
+            sought: None,
             parameters: Vec::new(),
             ln_p: own.map_or(0.0, |own| (own.ln_p + families).min(0.0)),
             dof: own.map_or(0, |own| own.dof),
@@ -231,7 +236,7 @@ impl Question<'_> {
     fn rows(&self) -> Vec<Vec<usize>> {
         let found = &self.found[self.index];
         let n = found.values.len();
-        if n <= WHOLE || !n.is_multiple_of(3) {
+        if n <= 3 || !n.is_multiple_of(3) {
             return Vec::new();
         }
         let mut rows = vec![Vec::new(); 3];
@@ -244,17 +249,28 @@ impl Question<'_> {
     }
 
     fn rivals_among(&self, tried: &[Trial]) -> Vec<Rival> {
-        // In how many parts an effect may come says nothing of whether it came.
-        let odds = |trial: &Trial| trial.evidence + trial.choices;
-        let top = tried.iter().map(odds).fold(f64::NEG_INFINITY, f64::max);
+        // In how many parts an effect may come says nothing of whether it came, but what comes in one only should not
+        // lose by it: both ways of counting are asked.
+        let odds = |trial: &Trial| [trial.evidence, trial.evidence + trial.choices];
+        let mut top = [f64::NEG_INFINITY; 2];
+        for trial in tried {
+            let of_trial = odds(trial);
+            top = [0, 1].map(|way| top[way].max(of_trial[way]));
+        }
+        let behind = |trial: &Trial| {
+            let of_trial = odds(trial);
+            (of_trial[0] - top[0]).max(of_trial[1] - top[1])
+        };
+        // What explains less than half of it is no rival, however little that is.
+        let least = -RIVALS.min(0.5 * top[0]);
         let own = self.found[self.index].term.id;
         tried
             .iter()
-            .filter(|trial| self.id(trial) != own && odds(trial) > top - RIVALS)
+            .filter(|trial| self.id(trial) != own && behind(trial) > least)
             .map(|trial| Rival {
                 term: self.list[trial.candidate].chosen.term,
                 settings: self.list[trial.candidate].chosen.settings.clone(),
-                odds: odds(trial) - top,
+                odds: behind(trial),
             })
             .collect()
     }

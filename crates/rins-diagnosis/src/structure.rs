@@ -27,6 +27,10 @@ pub enum Structure {
     Order(f64),
     /// Something slower than three times in the run.
     Drift,
+    /// Lines whose frequencies are multiples of this one \[Hz\]: it comes back, and is no sine.
+    Waveform(f64),
+    /// A bias that switches between two levels, so many times.
+    Switching(usize),
     /// A spread that is not the same all along.
     Spread(Along),
     /// More large innovations than normal ones have.

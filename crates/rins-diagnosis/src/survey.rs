@@ -26,6 +26,8 @@ pub(crate) struct Survey {
     /// The information on all parameters in units of their priors' sigmas, the score, and twice the cost of
     /// the noise: for each strength of it.
     said: Vec<Said>,
+    /// The 1σ that is expected of every parameter, in SI units.
+    sigmas: Vec<f64>,
     /// How far each of the model's parameters is from what was expected of it, in sigmas.
     off: DVector<f64>,
 }
@@ -35,6 +37,16 @@ struct Said {
     score: DVector<f64>,
     square: f64,
     log_determinant: f64,
+}
+
+/// What is said along one direction when the model's parameters are estimated.
+pub(crate) struct Slope {
+    /// The information on how far to go.
+    pub(crate) information: f64,
+    /// The derivative of the log-likelihood.
+    pub(crate) score: f64,
+    /// How far the model's parameters follow, in SI units.
+    pub(crate) shift: DVector<f64>,
 }
 
 /// What is left to say of parameters when others have been estimated, or set to nothing.
@@ -88,7 +100,8 @@ impl Survey {
                 Ok(Said::of(&sum, &layout.sigmas))
             })
             .collect::<Result<Vec<Said>, Indefinite>>()?;
-        Ok(Self { known, terms: fit.model().terms.len(), places: layout.of_terms, said, off })
+        let terms = fit.model().terms.len();
+        Ok(Self { known, terms, places: layout.of_terms, said, sigmas: layout.sigmas, off })
     }
 
     /// How many strengths of the noise there are.
@@ -147,6 +160,31 @@ impl Survey {
             score: rest - across.tr_mul(&step),
             places,
             log_likelihood: -0.5 * squares - log_determinant - log_det,
+        })
+    }
+
+    /// What is said along a direction in which candidates' parameters change, each so much in SI units, with the
+    /// first of the noises.
+    ///
+    /// None if the information on the model's parameters is not finite.
+    pub(crate) fn along(&self, direction: &[(usize, f64)]) -> Option<Slope> {
+        let Said { information, score, .. } = self.said.first()?;
+        let known: Vec<usize> = (0..self.known).collect();
+        let mut way = DVector::zeros(information.ncols());
+        for &(place, change) in direction {
+            way[place] += change / self.sigmas[place];
+        }
+        let seen = information * &way;
+        let across = seen.rows(0, self.known).into_owned();
+        let corner =
+            chosen(information, &known, &known) + DMatrix::identity(self.known, self.known);
+        let followed = Cholesky::new(corner)?.solve(&across);
+        let pulled = score.rows(0, self.known) - &self.off;
+        let scale = DVector::from_column_slice(&self.sigmas[..self.known]);
+        Some(Slope {
+            information: way.dot(&seen) - across.dot(&followed),
+            score: way.dot(score) - followed.dot(&pulled),
+            shift: -followed.component_mul(&scale),
         })
     }
 }

@@ -8,6 +8,7 @@ use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
 use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
+use crate::periodic::waveforms;
 use crate::probability::ln_tail;
 use crate::score::scored;
 use crate::structure::{Along, Left, Structure, groups};
@@ -46,7 +47,7 @@ impl Case<'_> {
     /// What is left when all causes are in the model.
     pub(crate) fn unexplained(
         &self,
-        after: &Fit,
+        (before, after): (&Fit, &Fit),
         causes: &[Cause],
     ) -> Result<Vec<Unexplained>, Indefinite> {
         let threshold = FALSE_ALARMS.ln() - 2.0_f64.ln() - (self.runs.len() as f64).ln();
@@ -81,6 +82,13 @@ impl Case<'_> {
             }
         }
         found.extend(self.inconstant(after, causes)?);
+        let mut switching = self.switching(after, 0.0)?;
+        if switching.is_empty() && !causes.is_empty() {
+            let explained = after.log_likelihood - before.log_likelihood;
+            switching = self.switching(before, explained.max(0.0))?;
+        }
+        found.extend(switching);
+        found.extend(waveforms(after, causes));
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         Ok(found)
     }
@@ -176,7 +184,7 @@ impl Case<'_> {
     }
 
     /// The estimates that hold for a run, in the order of its model.
-    fn of_run<'a>(&self, fit: &'a Fit, run: usize) -> Vec<&'a Estimate> {
+    pub(crate) fn of_run<'a>(&self, fit: &'a Fit, run: usize) -> Vec<&'a Estimate> {
         let holds = |estimate: &&Estimate| estimate.run.is_none_or(|own| own == run);
         let free = fit.models[run].free(self.imu);
         let of = |id: &str| fit.parameters.iter().filter(holds).find(|e| e.parameter.id == id);
@@ -217,7 +225,7 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 
 /// How far a disturbance of this square may have put off what is of interest: no estimate by more of its own sigmas
 /// than the disturbance has.
-fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
+pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
     let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * statistic.sqrt()));
     OF_INTEREST.iter().filter_map(of).collect()
 }

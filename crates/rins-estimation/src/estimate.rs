@@ -81,6 +81,19 @@ impl Fit {
         self
     }
 
+    /// The same where something else is unknown that would move the parameters by so much \[SI\] at its 1σ.
+    ///
+    /// # Panics
+    /// If there are not as many as parameters.
+    #[must_use]
+    pub fn with_unknown(mut self, moves: &DVector<f64>) -> Self {
+        self.covariance += moves * moves.transpose();
+        for (place, estimate) in self.parameters.iter_mut().enumerate() {
+            estimate.sigma = self.covariance[(place, place)].sqrt();
+        }
+        self
+    }
+
     /// What the data tell of the parameters, the noise being what was found.
     pub fn identifiability(&self) -> Identifiability {
         let unknown = |estimate: &Estimate| Unknown {

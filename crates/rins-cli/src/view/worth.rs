@@ -4,17 +4,26 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_terms::{Model, Term};
 
 use crate::commands::calibrate::{Budget, EQUATION, STEPS};
-use crate::number::figure;
+use crate::number::{estimate, figure};
 use crate::report::{Cell, Column, Item, Section, Table};
 
-/// The settings of a term, such as "order = 2".
-pub(crate) fn settings_in_words(term: &Term, values: &[f64]) -> String {
+/// The settings of a term, such as "order = 2"; one that was `sought` has a sigma.
+pub(crate) fn settings_in_words(
+    term: &Term,
+    values: &[f64],
+    sought: Option<(usize, f64)>,
+) -> String {
     let words: Vec<String> = term
         .settings
         .iter()
         .zip(values)
-        .map(|(setting, value)| {
+        .enumerate()
+        .map(|(place, (setting, value))| {
             let unit = setting.unit;
+            if let Some((_, sigma)) = sought.filter(|(of, _)| *of == place) {
+                let (value, sigma) = estimate(value / unit.factor, sigma / unit.factor);
+                return format!("{} = {value} ± {sigma} {}", setting.name, unit.symbol);
+            }
             let value = figure(value / unit.factor, 5);
             let value = if value.contains('.') {
                 value.trim_end_matches('0').trim_end_matches('.')
@@ -42,7 +51,7 @@ pub(crate) fn compensation_section(model: &Model) -> Section {
             Cell::text(if of_table {
                 "not undone: it is the table's".into()
             } else {
-                settings_in_words(chosen.term, &chosen.settings)
+                settings_in_words(chosen.term, &chosen.settings, None)
             }),
         ]);
     }

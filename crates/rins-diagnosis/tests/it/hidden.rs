@@ -12,9 +12,9 @@ use rins_terms::{Chosen, Model, Term, catalogue};
 use crate::support::{fibre, run};
 
 /// Three rates, both ways: most effects differ here.
-const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
+pub(crate) const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
 
-fn found(run: &Run, knowledge: fn(Strengths) -> NoiseKnowledge) -> Diagnosis {
+pub(crate) fn found(run: &Run, knowledge: fn(Strengths) -> NoiseKnowledge) -> Diagnosis {
     let imu = fibre();
     diagnose(
         std::slice::from_ref(run),

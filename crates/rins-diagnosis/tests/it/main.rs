@@ -3,4 +3,5 @@
 
 mod gain;
 mod hidden;
+mod outside;
 mod support;

@@ -89,9 +89,15 @@ fn cause(found: &Found, named: &Named) -> Value {
         .settings
         .iter()
         .zip(&cause.settings)
-        .map(|(setting, value)| {
+        .enumerate()
+        .map(|(place, (setting, value))| {
             let unit = setting.unit;
-            let told = json!({"value": value / unit.factor, "unit": unit.symbol});
+            let sought = cause.sought.filter(|(of, _)| *of == place);
+            let told = json!({
+                "value": value / unit.factor,
+                "sigma": sought.map(|(_, sigma)| sigma / unit.factor),
+                "unit": unit.symbol,
+            });
             (setting.name.to_owned(), told)
         })
         .collect();
@@ -101,7 +107,7 @@ fn cause(found: &Found, named: &Named) -> Value {
         "meaning": cause.term.cause,
         "equation": cause.term.equation,
         "settings": settings,
-        "settings_in_words": settings_in_words(cause.term, &cause.settings),
+        "settings_in_words": settings_in_words(cause.term, &cause.settings, cause.sought),
         // A probability that is too small for a number is zero; its logarithm never is.
         "p_value": cause.ln_p.exp(),
         "ln_p": cause.ln_p,

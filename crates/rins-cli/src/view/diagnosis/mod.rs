@@ -40,7 +40,7 @@ pub(crate) fn diagnosis_text(found: &Found) -> String {
 
 fn cause_rows(named: &Named) -> Vec<Vec<String>> {
     let cause = &named.cause;
-    let settings = settings_in_words(cause.term, &cause.settings);
+    let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
     let mut rows: Vec<Vec<String>> = cause
         .parameters
         .iter()

@@ -62,7 +62,7 @@ fn causes(found: &Found) -> Section {
 
 fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
     let cause = &named.cause;
-    let settings = settings_in_words(cause.term, &cause.settings);
+    let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
     let name = if settings.is_empty() {
         cause.term.name.to_owned()
     } else {

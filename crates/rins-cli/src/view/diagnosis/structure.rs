@@ -13,6 +13,10 @@ pub(crate) fn structure_in_words(one: &Unexplained) -> String {
         Structure::Line(frequency) => format!("line of {} Hz", figure(frequency, 4)),
         Structure::Order(order) => order_in_words(order),
         Structure::Drift => "drift, slower than three times in the run".into(),
+        Structure::Waveform(frequency) => {
+            format!("repeats every {} s, and is no sine", figure(1.0 / frequency, 3))
+        }
+        Structure::Switching(times) => format!("switches between two levels, {times} times"),
         Structure::Spread(along) => format!("spread that changes with {}", along_in_words(along)),
         Structure::Tails => "more outliers than normal noise has".into(),
         Structure::Inconstant(along) => {

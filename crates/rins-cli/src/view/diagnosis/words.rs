@@ -130,7 +130,7 @@ fn amplitude(found: &Found, named: &Named) -> String {
             format!("{name} = {value} ± {sigma} {}{samples}", unit.symbol)
         })
         .collect();
-    let settings = settings_in_words(cause.term, &cause.settings);
+    let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
     if !settings.is_empty() {
         parts.push(settings);
     }

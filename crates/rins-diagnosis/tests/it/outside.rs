@@ -1,0 +1,91 @@
+//! What is in no catalogue: a bias that switches, a wave that is no sine.
+
+use std::sync::Arc;
+
+use rins_diagnosis::{Diagnosis, Structure};
+use rins_estimation::{NoiseKnowledge, Run};
+use rins_frames::InFrame;
+use rins_frames::units::{DEG_PER_HOUR, MICRO_G};
+use rins_terms::Model;
+
+use crate::hidden::{RATES, found};
+use crate::support::run;
+
+/// A clean run with something more in each sample, told from the time since its start \[s\]: rates \[rad/s\], forces \[m/s²\].
+fn with(flicker: f64, seed: u64, added: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> Run {
+    let mut run = run(&RATES, Model::default(), flicker, seed);
+    let times = run.recording.times.clone();
+    for (sample, time) in Arc::make_mut(&mut run.recording).increments.iter_mut().zip(&*times) {
+        let (rate, force) = added(time - times[0]);
+        let [x, y, z] = rate.map(|rate| rate * sample.interval);
+        sample.angle += InFrame::new(x, y, z);
+        let [x, y, z] = force.map(|force| force * sample.interval);
+        sample.velocity += InFrame::new(x, y, z);
+    }
+    run
+}
+
+fn switching(diagnosis: &Diagnosis) -> Vec<(&'static str, f64)> {
+    let switches = |structure| matches!(structure, Structure::Switching(_));
+    let of = diagnosis.unexplained.iter().filter(|one| switches(one.structure));
+    of.filter_map(|one| Some((one.channel, one.amplitude?.0))).collect()
+}
+
+/// Times between switches that have no period \[s\].
+const SWITCHES: [f64; 10] = [19.0, 47.0, 58.0, 101.0, 131.0, 143.0, 190.0, 228.0, 271.0, 309.0];
+
+fn up(time: f64) -> bool {
+    SWITCHES.iter().filter(|switch| **switch < time).count() % 2 == 1
+}
+
+#[test]
+fn bias_that_switches_is_not_flicker() {
+    let (rate, force) = (0.06 * DEG_PER_HOUR, 50.0 * MICRO_G);
+    let cases: [(&str, f64, [f64; 3], [f64; 3]); 3] = [
+        ("accel.y", force, [0.0; 3], [0.0, force, 0.0]),
+        ("gyro.x", rate, [rate, 0.0, 0.0], [0.0; 3]),
+        ("gyro.z", rate, [0.0, 0.0, rate], [0.0; 3]),
+    ];
+    for (seed, (sensor, height, rates, forces)) in cases.into_iter().enumerate() {
+        let run = with(0.0, 100 + seed as u64, |time| {
+            if up(time) { (rates, forces) } else { Default::default() }
+        });
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let switching = switching(&diagnosis);
+        let [(channel, amplitude)] = switching[..] else {
+            panic!("{sensor}: {:?} {:?}", diagnosis.causes, diagnosis.unexplained)
+        };
+        assert_eq!(channel, sensor);
+        assert!((amplitude / height - 1.0).abs() < 0.3, "{sensor}: {amplitude} of {height}");
+    }
+}
+
+#[test]
+fn flicker_is_no_bias_that_switches() {
+    for seed in 110..113 {
+        let run = with(0.01 * DEG_PER_HOUR, seed, |_| Default::default());
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        assert!(switching(&diagnosis).is_empty(), "{seed}: {:?}", diagnosis.unexplained);
+    }
+}
+
+/// A sawtooth is a line and its harmonics, and more than that.
+#[test]
+fn lines_of_one_waveform_are_one() {
+    const PERIOD: f64 = 31.0;
+    let height = 120.0 * MICRO_G;
+    let run =
+        with(0.0, 120, |time| ([0.0; 3], [height * ((time / PERIOD).fract() - 0.5), 0.0, 0.0]));
+    let diagnosis = found(&run, NoiseKnowledge::Given);
+    let periods: Vec<f64> = diagnosis
+        .unexplained
+        .iter()
+        .filter(|one| one.channel == "accel.x")
+        .filter_map(|one| match one.structure {
+            Structure::Waveform(frequency) => Some(1.0 / frequency),
+            _ => None,
+        })
+        .collect();
+    let [period] = periods[..] else { panic!("{:?}", diagnosis.unexplained) };
+    assert!((period / PERIOD - 1.0).abs() < 0.02, "{period}");
+}
