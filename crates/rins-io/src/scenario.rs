@@ -160,7 +160,7 @@ fn seed(truth: &Section<'_>) -> Result<u64, IoError> {
 
 fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError> {
     let angle = angle_figures(log)?;
-    let rate = log.inline("table_rate", &["column", "unit"])?;
+    let rate = log.inline("table_rate", &["column", "unit", "sense"])?;
     match (angle, rate) {
         (Some((section, angle)), _) => {
             if section.has("latency") {

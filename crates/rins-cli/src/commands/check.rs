@@ -2,6 +2,8 @@
 
 mod mends;
 mod oddities;
+mod readings;
+mod refusal;
 mod shows;
 mod units;
 mod verdicts;
@@ -10,23 +12,24 @@ mod words;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use rins_frames::Increments;
 use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_io::Loaded;
 use rins_motion::{CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect};
 use serde_json::{Value, json};
 
-pub(crate) use self::mends::{mends, mends_in_words};
+use self::mends::{mends, mends_in_words};
 use self::oddities::oddities;
+use self::readings::readings;
+pub(crate) use self::refusal::refuse_mistaken;
 use self::units::said_units;
 use self::verdicts::{Verdict, verdicts};
-pub(crate) use self::words::suspicion_in_words;
+use self::words::suspicion_in_words;
 use crate::commands::align::table;
 use crate::commands::repairs::repairs;
 use crate::commands::setup::{load, shown};
 use crate::number::figure;
 use crate::outcome::Outcome;
-use crate::report::{Item, Plot, Report, Section, Series, Style, Tone};
+use crate::report::{Item, Report, Section, Tone};
 use crate::view::table::aligned;
 
 /// How many gaps and rests are listed one by one.
@@ -291,61 +294,6 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
     }
 }
 
-fn readings(inspection: &Inspection, loaded: &Loaded) -> Vec<Item> {
-    let recording = &loaded.recording;
-    let curve = |title: &str, y_label: &str, y: Vec<f64>, style: Style| {
-        Item::Plot(Plot {
-            title: title.into(),
-            x_label: "Time [s]".into(),
-            y_label: y_label.into(),
-            series: vec![Series { name: title.into(), x: recording.times.clone(), y, style }],
-            ..Plot::default()
-        })
-    };
-    let plot = |title: &str, y_label: &str, of: &dyn Fn(usize) -> Vec<f64>| {
-        Item::Plot(Plot {
-            title: title.into(),
-            x_label: "Time [s]".into(),
-            y_label: y_label.into(),
-            series: ["x", "y", "z"]
-                .iter()
-                .enumerate()
-                .map(|(axis, name)| Series {
-                    name: (*name).into(),
-                    x: recording.times.clone(),
-                    y: of(axis),
-                    style: Style::Line,
-                })
-                .collect(),
-            ..Plot::default()
-        })
-    };
-    let rate = |s: &Increments, axis: usize| s.rates().angular_rate.components()[axis] / DEG;
-    let force = |s: &Increments, axis: usize| s.rates().specific_force.components()[axis];
-    let samples = &recording.increments;
-    let mut items = vec![
-        plot("Angular rate", "Rate [deg/s]", &|axis| {
-            samples.iter().map(|sample| rate(sample, axis)).collect()
-        }),
-        plot("Specific force", "Force [m/s^2]", &|axis| {
-            samples.iter().map(|sample| force(sample, axis)).collect()
-        }),
-    ];
-    if let Some(angle) = &recording.table_angle {
-        let turns = angle.iter().map(|angle| angle / (360.0 * DEG)).collect();
-        items.push(curve("Table angle", "Angle [turns]", turns, Style::Line));
-    }
-    if let Some(rate) = &recording.table_rate {
-        let rates = rate.iter().map(|rate| rate / DEG).collect();
-        items.push(curve("Table rate", "Rate [deg/s]", rates, Style::Steps));
-    }
-    if inspection.timing.jitter > 0.0 || !inspection.timing.gaps.is_empty() {
-        let intervals = samples.iter().map(|sample| sample.interval * 1e3).collect();
-        items.push(curve("Sample interval", "Interval [ms]", intervals, Style::Points));
-    }
-    items
-}
-
 fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Path) -> Value {
     let times = &loaded.recording.times;
     let rests: Vec<Value> = inspection
@@ -371,7 +319,11 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         .iter()
         .map(|mend| {
             let names = |axes: &Option<rins_io::Axes>| axes.map(|axes| axes.names());
-            json!({"gyro_axes": names(&mend.gyro), "accel_axes": names(&mend.accel)})
+            json!({
+                "gyro_axes": names(&mend.gyro),
+                "accel_axes": names(&mend.accel),
+                "table_sense": mend.table.map(|sense| sense.name()),
+            })
         })
         .collect();
     json!({

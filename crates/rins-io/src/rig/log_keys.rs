@@ -6,9 +6,10 @@ use std::path::Path;
 use super::axes::Axes;
 use super::formats::Fixed;
 use super::log_spec::{
-    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, ScaledColumn, Stamp,
-    Table, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+    ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, Stamp, Table, TemperatureColumn,
+    TimeColumn, TimeUnit, TriadColumns,
 };
+use super::table_columns;
 use crate::error::IoError;
 use crate::quantity::{Dimension, QuantityError, Unit, kinds};
 use crate::section::Section;
@@ -202,8 +203,8 @@ fn own_clock(
 pub(super) struct Readings {
     pub(super) rate: Dimension,
     pub(super) increment: Dimension,
-    expected: &'static str,
-    example: &'static str,
+    pub(super) expected: &'static str,
+    pub(super) example: &'static str,
 }
 
 pub(super) const GYRO: Readings = Readings {
@@ -286,7 +287,7 @@ fn axes(triad: Option<&Section<'_>>) -> Result<Axes, IoError> {
     }
 }
 
-fn column(section: &Section<'_>, key: &str) -> Result<String, IoError> {
+pub(super) fn column(section: &Section<'_>, key: &str) -> Result<String, IoError> {
     let expected = r#"a column's name, or its number as in "1""#;
     section.text(key, expected)?.map(Into::into).ok_or_else(|| section.missing(key, expected))
 }
@@ -315,55 +316,12 @@ impl ColumnSpec {
 
 /// The columns besides the IMU's.
 fn others(log: &Section<'_>, folder: &Path, imu: ColumnSpec) -> Result<ColumnSpec, IoError> {
-    let table_angle = match angle_figures(log)? {
-        Some((section, figures)) => {
-            let unit = unit(&section, &[Dimension::ANGLE], &ANGLE)?;
-            let column = column(&section, "column")?;
-            Some(AngleColumn { column, factor: unit.factor, ..figures })
-        }
-        None => None,
-    };
-    let table_rate = match log.inline("table_rate", &["column", "unit"])? {
-        Some(section) => {
-            let factor = unit(&section, &[Dimension::ANGULAR_RATE], &TABLE_RATE)?.factor;
-            Some(ScaledColumn { column: column(&section, "column")?, factor })
-        }
-        None => None,
-    };
+    let table_angle = table_columns::angle(log)?;
+    let table_rate = table_columns::rate(log)?;
     let gaps = [("accumulated", Gaps::Accumulated), ("held", Gaps::Held)];
     let gaps = log.choice("gaps", &gaps)?;
     let temperature = temperature(log, folder, imu.time.as_ref())?;
     Ok(ColumnSpec { table_angle, table_rate, temperature, gaps, ..imu })
-}
-
-const ANGLE: Readings = Readings {
-    rate: Dimension::ANGLE,
-    increment: Dimension::ANGLE,
-    expected: "an angle",
-    example: "deg",
-};
-
-const TABLE_RATE: Readings = Readings {
-    rate: Dimension::ANGULAR_RATE,
-    increment: Dimension::ANGLE,
-    expected: "an angular rate",
-    example: "deg/s",
-};
-
-/// The section `table_angle`, and what it says besides column and unit.
-pub(crate) fn angle_figures<'d>(
-    log: &Section<'d>,
-) -> Result<Option<(Section<'d>, AngleColumn)>, IoError> {
-    let known = ["column", "unit", "noise", "resolution", "latency"];
-    let Some(section) = log.inline("table_angle", &known)? else { return Ok(None) };
-    let figures = AngleColumn {
-        column: String::new(),
-        factor: 1.0,
-        noise: section.quantity("noise", &kinds::ANGLE_SIGMA)?,
-        resolution: section.quantity("resolution", &kinds::ANGLE_RESOLUTION)?,
-        latency: section.quantity("latency", &kinds::LATENCY)?,
-    };
-    Ok(Some((section, figures)))
 }
 
 fn temperature(

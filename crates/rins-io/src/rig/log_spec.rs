@@ -66,7 +66,7 @@ pub struct ColumnSpec {
     pub accel_clock: Option<OwnClock>,
     /// The measured table angle.
     pub table_angle: Option<AngleColumn>,
-    /// The table's mean rate over each interval \[rad/s\].
+    /// The table's mean rate over each interval \[rad/s\]; its factor's sign as the angle's.
     pub table_rate: Option<ScaledColumn>,
     /// The temperature.
     pub temperature: Option<TemperatureColumn>,
@@ -179,7 +179,7 @@ pub struct TriadColumns {
 pub struct AngleColumn {
     /// Its name; empty where there is no column to read, as in a scenario.
     pub column: String,
-    /// One of its numbers \[rad\].
+    /// One of its numbers \[rad\]; less than zero if the table counts against the body's turn.
     pub factor: f64,
     /// The standard deviation of the angle's white noise \[rad\].
     pub noise: Option<f64>,

@@ -8,6 +8,7 @@ mod log_spec;
 mod novatel;
 mod place;
 mod table;
+mod table_columns;
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,7 @@ use rins_imu::ImuSpec;
 use rins_motion::Station;
 
 pub use axes::Axes;
-pub(crate) use log_keys::{KEYS as LOG_KEYS, angle_figures};
+pub(crate) use log_keys::KEYS as LOG_KEYS;
 pub use log_spec::{
     AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, ScaledColumn, Stamp,
     Table, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
@@ -23,6 +24,7 @@ pub use log_spec::{
 pub use place::InitialAttitude;
 pub(crate) use place::{angles, station};
 pub use table::TableSpec;
+pub(crate) use table_columns::angle_figures;
 
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};

@@ -43,12 +43,12 @@ pub(crate) fn matrix_keys(recording: &Recording, angle: &str) -> String {
     keys
 }
 
-/// What a table angle's keys say besides column and unit.
+/// What a table angle's keys say besides column, unit and sense.
 pub(crate) fn figures(angle: &Written) -> String {
     let Node::Table(entries) = &angle.node else { return String::new() };
     let mut figures = String::new();
-    for Entry { key, value, .. } in entries.iter().filter(|e| e.key != "column" && e.key != "unit")
-    {
+    let kept = |entry: &&Entry| !["column", "unit", "sense"].contains(&entry.key.as_str());
+    for Entry { key, value, .. } in entries.iter().filter(kept) {
         let _ = write!(figures, ", {key} = {}", inline(value));
     }
     figures

@@ -257,3 +257,18 @@ fn nothing_that_is_there_is_replaced_unasked() {
     again(&path("new.csv"), Overwrite::Force).unwrap();
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4);
 }
+
+/// A table that counts the other way is read with its sign, and written with it.
+#[test]
+fn a_reversed_table_is_read_once() {
+    let reversed =
+        RIG.replace("\"table\", unit = \"rad\"", "\"table\", unit = \"rad\", sense = \"reversed\"");
+    assert_ne!(reversed, RIG);
+    let folder = run();
+    fs::write(folder.path().join("reversed.toml"), format!("{SITE}{reversed}")).unwrap();
+    let angle = |rig: &str| read(&folder.path().join(rig)).unwrap().recording.table_angle.unwrap();
+    let (forward, backward) = (angle("rig.toml"), angle("reversed.toml"));
+    assert!(forward.iter().zip(&backward).all(|(a, b)| (a + b).abs() < 1e-15));
+    converted(&folder, "reversed.toml", "new.parquet", LogFile::Parquet).unwrap();
+    assert_eq!(angle("new.toml"), backward);
+}

@@ -146,6 +146,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("[attitude]", "[table]\nacceleration = \"5 deg/s\"\n[attitude]", "rig.toml:16: [table] acceleration: \"5 deg/s\" is an angular rate, expected an angular acceleration such as \"5 deg/s^2\""),
     ("[attitude]", "[axis]\nspin = \"w\"\n[attitude]", "rig.toml:16: [axis] spin: \"w\" is not allowed, expected a body axis such as \"z\" or \"-x\""),
     ("unit = \"deg\", noise", "unit = \"deg\", latency = \"1 m\", noise", "rig.toml:13: [log] table_angle.latency: \"1 m\" is a length, expected a time such as \"1 ms\""),
+    ("unit = \"deg\", noise", "unit = \"deg\", sense = \"reverse\", noise", "rig.toml:13: [log] table_angle.sense: \"reverse\" is not known; did you mean \"reversed\"?"),
     ("[attitude]", "temperature = { column = \"T\", unit = \"degF\" }\n[attitude]", "rig.toml:15: [log] temperature.unit: \"degF\" is not known; did you mean \"degC\"?"),
     ("[attitude]", "temperature = { column = \"T\", time = \"t\", unit = \"degC\" }\n[attitude]", "rig.toml:15: [log] temperature.time: a temperature in the log itself has its time"),
 ];

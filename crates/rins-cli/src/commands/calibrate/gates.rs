@@ -2,32 +2,11 @@
 
 use rins_frames::units::DEG;
 use rins_io::Loaded;
-use rins_motion::Suspicion;
 
-use crate::commands::check::{inspected, mends, mends_in_words, suspicion_in_words};
+use crate::commands::check::inspected;
 
 /// A table that turns by less in all \[rad\] stands still.
 const LEAST_TURN: f64 = 1.0 * DEG;
-
-/// Refuses a run whose units, signs or axes are wrong: estimates from it would mean nothing.
-pub(super) fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
-    let inspection = inspected(loaded);
-    let mut mistaken: Vec<String> = inspection
-        .suspicions
-        .iter()
-        // A coarse accelerometer may well say the same throughout.
-        .filter(|suspicion| !matches!(suspicion, Suspicion::StuckChannel { .. }))
-        .map(suspicion_in_words)
-        .collect();
-    mistaken.extend(mends_in_words(&mends(&inspection, &loaded.rig)));
-    anyhow::ensure!(
-        mistaken.is_empty(),
-        "{}: {}",
-        loaded.rig.path.display(),
-        mistaken.join("; and ")
-    );
-    Ok(())
-}
 
 /// Refuses a run whose table does not turn: it does not show the gyro errors along the spin axis.
 pub(super) fn refuse_standing(loaded: &Loaded) -> anyhow::Result<()> {

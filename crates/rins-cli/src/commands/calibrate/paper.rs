@@ -13,9 +13,10 @@ use rins_terms::{Model, Role, Surroundings, Track};
 use serde_json::{Value, json};
 
 use crate::commands::calibrate::budget::{Asked, Truth};
-use crate::commands::calibrate::gates::{refuse_mistaken, refuse_standing};
+use crate::commands::calibrate::gates::refuse_standing;
 use crate::commands::calibrate::json::{budget_json, consistency_json};
 use crate::commands::calibrate::{Budget, EQUATION, navigation_json};
+use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{setup, shown};
 use crate::outcome::Outcome;
 use crate::progress;

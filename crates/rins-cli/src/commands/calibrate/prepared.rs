@@ -14,8 +14,8 @@ use rins_motion::Recording;
 
 use crate::args::NoiseChoice;
 use crate::commands::align::{Found, found};
-use crate::commands::calibrate::gates::refuse_mistaken;
 use crate::commands::calibrate::rests::Rests;
+use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{setup, shown};
 
 /// An attitude that was found in the same data is counted again by a hundredth of its information.

@@ -14,8 +14,8 @@ pub(super) struct SaidUnits {
 /// What a log's readings are said to be in; a PSINS text log says that itself.
 pub(super) fn said_units(log: &LogSpec) -> SaidUnits {
     let LogFormat::Columns(columns) = &log.format else { return SaidUnits::default() };
-    let angle = columns.table_angle.as_ref().map(|angle| Reading::Increment(angle.factor));
-    let rate = columns.table_rate.as_ref().map(|rate| Reading::Rate(rate.factor));
+    let angle = columns.table_angle.as_ref().map(|angle| Reading::Increment(angle.factor.abs()));
+    let rate = columns.table_rate.as_ref().map(|rate| Reading::Rate(rate.factor.abs()));
     SaidUnits {
         gyro: of_triad(&ReadingUnit::GYRO, &columns.gyro),
         accel: of_triad(&ReadingUnit::ACCEL, &columns.accel),

@@ -1,0 +1,58 @@
+//! Reading `table_angle` and `table_rate` of `[log]`.
+
+use super::log_keys::{Readings, column, unit};
+use super::log_spec::{AngleColumn, ScaledColumn};
+use crate::error::IoError;
+use crate::quantity::{Dimension, kinds};
+use crate::section::Section;
+
+const ANGLE: Readings = Readings {
+    rate: Dimension::ANGLE,
+    increment: Dimension::ANGLE,
+    expected: "an angle",
+    example: "deg",
+};
+
+const RATE: Readings = Readings {
+    rate: Dimension::ANGULAR_RATE,
+    increment: Dimension::ANGLE,
+    expected: "an angular rate",
+    example: "deg/s",
+};
+
+/// The column of the measured angle, if there is one.
+pub(super) fn angle(log: &Section<'_>) -> Result<Option<AngleColumn>, IoError> {
+    let Some((section, figures)) = angle_figures(log)? else { return Ok(None) };
+    let factor = sense(&section)? * unit(&section, &[Dimension::ANGLE], &ANGLE)?.factor;
+    Ok(Some(AngleColumn { column: column(&section, "column")?, factor, ..figures }))
+}
+
+/// The column of the rate, if there is one.
+pub(super) fn rate(log: &Section<'_>) -> Result<Option<ScaledColumn>, IoError> {
+    let Some(section) = log.inline("table_rate", &["column", "unit", "sense"])? else {
+        return Ok(None);
+    };
+    let factor = sense(&section)? * unit(&section, &[Dimension::ANGULAR_RATE], &RATE)?.factor;
+    Ok(Some(ScaledColumn { column: column(&section, "column")?, factor }))
+}
+
+/// 1, or -1 for a table that counts against the sense in which the body turns about its axis.
+fn sense(section: &Section<'_>) -> Result<f64, IoError> {
+    Ok(section.choice("sense", &[("forward", 1.0), ("reversed", -1.0)])?.unwrap_or(1.0))
+}
+
+/// The section `table_angle`, and what it says besides column and unit.
+pub(crate) fn angle_figures<'d>(
+    log: &Section<'d>,
+) -> Result<Option<(Section<'d>, AngleColumn)>, IoError> {
+    let known = ["column", "unit", "sense", "noise", "resolution", "latency"];
+    let Some(section) = log.inline("table_angle", &known)? else { return Ok(None) };
+    let figures = AngleColumn {
+        column: String::new(),
+        factor: 1.0,
+        noise: section.quantity("noise", &kinds::ANGLE_SIGMA)?,
+        resolution: section.quantity("resolution", &kinds::ANGLE_RESOLUTION)?,
+        latency: section.quantity("latency", &kinds::LATENCY)?,
+    };
+    Ok(Some((section, figures)))
+}
