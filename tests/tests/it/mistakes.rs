@@ -159,6 +159,11 @@ fn replaced(rig: &str, key: &str, from: &str, to: &str) -> String {
     rig.replacen(old, &old.replacen(from, to, 1), 1)
 }
 
+/// What `rins check --json` says is to be written as axes, where the table's sense is right.
+fn mend(gyro: Option<[&str; 3]>, accel: Option<[&str; 3]>) -> Value {
+    json!({"gyro_axes": gyro, "accel_axes": accel, "table_sense": null})
+}
+
 #[test]
 fn every_order_and_sign_of_axes_is_told_with_the_lines_that_undo_it() {
     assert_eq!(mistakes().len(), 47);
@@ -166,9 +171,9 @@ fn every_order_and_sign_of_axes_is_told_with_the_lines_that_undo_it() {
     for (folder, rig) in good_runs() {
         for axes in mistakes() {
             for (sensors, mend) in [
-                (&["gyro"][..], json!({"gyro_axes": right, "accel_axes": null})),
-                (&["accel"], json!({"gyro_axes": null, "accel_axes": right})),
-                (&["gyro", "accel"], json!({"gyro_axes": right, "accel_axes": right})),
+                (&["gyro"][..], mend(right, None)),
+                (&["accel"], mend(None, right)),
+                (&["gyro", "accel"], mend(right, right)),
             ] {
                 let mut wrong = rig.clone();
                 for sensor in sensors {
@@ -192,13 +197,24 @@ fn a_mend_takes_account_of_axes_and_spin_that_are_there() {
     }
     assert_eq!(checked(folder.path(), &turned)["suspicions"], json!([]));
     let wrong = replaced(&turned, "gyro", "\"z\", \"x\", \"y\"", "\"z\", \"-y\", \"x\"");
-    let mend = json!({"gyro_axes": ["z", "x", "y"], "accel_axes": null});
+    let mend = mend(Some(["z", "x", "y"]), None);
     assert_eq!(checked(folder.path(), &wrong)["mends"], json!([mend]));
 }
 
+/// What computes something from a log, before the rig file's name.
+const COMMANDS: [&str; 6] = [
+    "calibrate --model paper12",
+    "calibrate --model full",
+    "diagnose",
+    "align",
+    "navigate",
+    "apply --calibration right/calibration.toml -o clean.csv",
+];
+
 #[test]
-fn no_estimate_is_made_with_wrong_axes() {
+fn nothing_is_computed_with_wrong_axes() {
     let (folder, rig) = good_runs().remove(1);
+    result_in(folder.path(), "calibrate run/rig.toml -o right");
     for axes in [["x", "-y", "z"], ["-y", "x", "z"], ["z", "y", "x"], ["-x", "-y", "-z"]] {
         for sensors in [&["gyro"][..], &["accel"], &["gyro", "accel"]] {
             let mut wrong = rig.clone();
@@ -206,7 +222,7 @@ fn no_estimate_is_made_with_wrong_axes() {
                 wrong = replaced(&wrong, sensor, " }", &format!(", axes = {axes:?} }}"));
             }
             fs::write(folder.path().join("run/wrong.toml"), wrong).unwrap();
-            for command in ["calibrate --model paper12", "calibrate --model full", "diagnose"] {
+            for command in COMMANDS {
                 let finished = rins_in(folder.path(), &format!("{command} run/wrong.toml"));
                 assert_eq!(finished.code, Some(1), "{command}: {axes:?}: {}", finished.out);
                 let right = r#"axes = ["x", "y", "z"] under [log] "#;
@@ -263,6 +279,18 @@ fn exchanged_columns_and_a_table_of_the_other_sense_are_told() {
         let check = checked(folder.path(), &rig);
         let told = texts(&check, "/suspicions");
         assert!(told[0].contains("the table's sense is opposite to the gyro's"), "{told:?}");
+        let sense = |name| json!([{"gyro_axes": null, "accel_axes": null, "table_sense": name}]);
+        assert_eq!(check["mends"], sense("reversed"), "{told:?}");
+
+        // What is to be written is what undoes it, and is as wrong where it is not needed.
+        let mended = replaced(&rig, "table_angle", " }", ", sense = \"reversed\" }");
+        assert_eq!(checked(folder.path(), &mended)["suspicions"], json!([]));
+        fs::write(folder.path().join("run/run.csv"), log).unwrap();
+        assert_eq!(checked(folder.path(), &mended)["mends"], sense("forward"));
+        let aligned = rins_in(folder.path(), "navigate run/wrong.toml");
+        assert_eq!(aligned.code, Some(1), "{}", aligned.out);
+        let words = r#"set sense = "forward" under [log] table_angle"#;
+        assert!(aligned.err.contains(words), "{}", aligned.err);
     }
 }
 

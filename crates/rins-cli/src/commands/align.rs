@@ -13,6 +13,7 @@ use rins_motion::{
 };
 use serde_json::{Value, json};
 
+use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
 use crate::report::{Cell, Column, Item, Report, Section, Table};
@@ -149,6 +150,7 @@ fn accel_sigma(loaded: &Loaded) -> f64 {
 
 pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     let loaded = load(rig)?;
+    refuse_mistaken(&loaded)?;
     let found = found(&loaded)?;
     let rows = rows(&found, &loaded);
     let title = format!("Alignment of {}", shown(rig));

@@ -8,6 +8,7 @@ use rins_terms::{Surroundings, compensated};
 use serde_json::json;
 
 use crate::args::Apply;
+use crate::commands::check::refuse_mistaken;
 use crate::commands::convert::{format_of, remarks};
 use crate::commands::navigate::axis_attitude;
 use crate::commands::repairs::repairs;
@@ -19,6 +20,7 @@ pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Out
     let format: LogFile = format_of(output, *format)?;
     let calibration = Calibration::read(file)?;
     let converted = convert_changed(rig, output, format, overwrite, |loaded| {
+        refuse_mistaken(loaded)?;
         undo(&calibration, loaded).with_context(|| shown(file))?;
         anyhow::Ok(format!("Written by `rins apply` with the calibration {}.", shown(file)))
     })?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Context;
 use rins_calibration::{FreeNavigation, navigate_freely, table_angles};
 use rins_frames::units::DEG;
-use rins_frames::{Body, Dcm, Nav, Table};
+use rins_frames::{Body, Dcm, EulerAngles, Nav, Table};
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_io::Loaded;
 use rins_motion::Recording;
@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 use crate::args::Navigate;
 use crate::commands::align::{found, table};
 use crate::commands::calibrate::navigation_json;
+use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
 use crate::report::{Item, Report, Section};
@@ -25,6 +26,7 @@ use crate::view::{attitude_plot, position_plot, velocity_plot};
 pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
     let rig = &arguments.input.rig;
     let loaded = load(rig)?;
+    refuse_mistaken(&loaded)?;
     let start = start(&loaded)?;
     let mut runs = vec![("as recorded", navigated(&loaded, &start, None))];
     if let Some(bias) = &start.gyro_bias {
@@ -34,6 +36,15 @@ pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
     if let Some(file) = &arguments.calibration {
         let calibration = rins_io::Calibration::read(file)?;
         runs.push(("compensated", undone(&loaded, &start, &calibration)?));
+    }
+    for (name, run) in &runs {
+        let EulerAngles { roll, pitch, yaw } = run.attitude_error;
+        let numbers = run.velocity.iter().chain(&run.position_error).copied();
+        anyhow::ensure!(
+            numbers.chain([roll, pitch, yaw]).all(f64::is_finite),
+            "{}: navigation ({name}) leaves the range of numbers: readings or calibration are absurd",
+            shown(rig)
+        );
     }
     Ok(outcome(&runs, &start, &loaded, rig).of_log(&loaded))
 }
