@@ -54,6 +54,12 @@ const CALIBRATIONS: &[Row] = &[
         &["calibration.toml", "gyro"],
     ),
     (
+        "an absurd bias",
+        NAVIGATE,
+        Replace(FILE, "bias = [\"0 ug\"", "bias = [\"1e17 ug\""),
+        &["rig.toml: navigation (compensated) leaves the range of numbers"],
+    ),
+    (
         "a negative sigma",
         NAVIGATE,
         Replace(FILE, "gyro.scale.z = \"", "gyro.scale.z = \"-"),
