@@ -1,9 +1,8 @@
 //! Epochs in the making: residuals sample by sample, derivatives piece by piece.
 
 use nalgebra::{Matrix3, Vector3};
-use rins_terms::{Model, Moment, Moments, values};
+use rins_terms::{Acting, Model, Moment, Moments, values};
 
-use crate::acting::Acting;
 use crate::gains::Growing;
 use crate::linear::{Epoch, Span};
 use crate::run::Run;
@@ -75,8 +74,8 @@ impl<'a> Build<'a> {
 
     /// Takes a piece only to know what readings differ by at its end.
     pub(crate) fn pass_piece(&mut self) {
-        if let Some(piece) = self.pieces.next() {
-            self.set_columns(&piece);
+        if let Some(piece) = self.pieces.advance() {
+            self.compared.set_columns(&mut self.growing, piece);
             self.growing.begin();
         }
     }
@@ -89,19 +88,20 @@ impl<'a> Build<'a> {
         let recording = &self.compared.run.recording;
         for end in ends {
             let mut from_body = Matrix3::zeros();
-            for (sample, moment) in (first..end).zip(&mut self.fine) {
+            for sample in first..end {
+                let Some(moment) = self.fine.advance() else { break };
                 let interval = recording.increments[sample].interval;
-                from_body = self.compared.residual(&mut self.growing, sample, &moment);
+                from_body = self.compared.residual(&mut self.growing, sample, moment);
                 turning.twice += (turning.turned + from_body * (0.5 * interval)) * interval;
                 turning.turned += from_body * interval;
                 turning.mean += turning.turned;
                 duration += interval;
             }
-            let Some(piece) = self.pieces.next() else { break };
+            let Some(piece) = self.pieces.advance() else { break };
             if end - first > 1 && self.compared.sway.is_none() {
                 from_body = turned_by(piece.mean.angle);
             }
-            self.set_columns(&piece);
+            self.compared.set_columns(&mut self.growing, piece);
             if span.fresh && first == span.samples.start {
                 self.growing.begin();
             }
@@ -120,15 +120,16 @@ impl<'a> Build<'a> {
             turning,
         }
     }
-
-    fn set_columns(&mut self, piece: &Moment) {
-        for (column, acting) in self.compared.columns.iter().enumerate() {
-            self.growing.set(column, &acting.signals(piece));
-        }
-    }
 }
 
 impl Compared<'_> {
+    /// What the parameters add to what is read in a piece.
+    fn set_columns(&self, growing: &mut Growing, piece: &Moment) {
+        for (column, acting) in self.columns.iter().enumerate() {
+            growing.set(column, &acting.signals(piece));
+        }
+    }
+
     /// What a sample was read beyond the model; the attitude of the body in the axis frame in its middle.
     fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> Matrix3<f64> {
         let measured = &self.run.recording.increments[sample];

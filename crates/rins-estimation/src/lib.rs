@@ -26,7 +26,6 @@ mod sway;
 
 mod linear;
 
-mod acting;
 mod build;
 mod colour;
 mod gains;

@@ -2,9 +2,8 @@
 
 use nalgebra::Vector2;
 use rayon::prelude::*;
-use rins_terms::{Model, Moments, Surroundings, Track};
+use rins_terms::{Acting, Model, Moments, Surroundings, Track};
 
-use crate::acting::Acting;
 use crate::run::{Reference, Run};
 
 /// An error of the angle whose square is without effect \[rad\].
@@ -31,9 +30,9 @@ pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block:
 fn errors(track: &Track, model: &Model) -> Vec<f64> {
     let present = Acting::present(model);
     let starts = (0..track.len()).step_by(SAMPLES_AT_A_TIME);
-    let of = |moments: Moments<'_>| -> Vec<f64> {
-        let errors = moments.map(|moment| Acting::together(&present, &moment).angle.re);
-        errors.take(SAMPLES_AT_A_TIME).collect()
+    let of = |mut moments: Moments<'_>| -> Vec<f64> {
+        let mut error = || Some(Acting::together(&present, moments.advance()?).angle.re);
+        (0..SAMPLES_AT_A_TIME).map_while(|_| error()).collect()
     };
     let errors: Vec<Vec<f64>> = track.moments_from(starts).into_par_iter().map(of).collect();
     errors.concat()

@@ -4,6 +4,7 @@ use rins_frames::{InFrame, Increments};
 use rins_imu::ImuCompensationError;
 use rins_motion::Recording;
 
+use crate::acting::Acting;
 use crate::model::Model;
 use crate::moment::{Moment, Surroundings};
 use crate::signals::{Signals, values};
@@ -76,14 +77,16 @@ pub fn compensated(
     let largest_angle = size(&|k| k.angle.norm());
     let largest_velocity = size(&|k| k.velocity.norm());
     let start = recording.times[0] - first.interval;
+    let terms = Acting::present(model);
     let mut change = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
         let track = turning(&found, surroundings, start);
         change = 0.0;
-        for (sample, moment) in track.moments().enumerate() {
-            let moment =
-                standing(&moment, &track, &found, sample).feeling(&found.increments[sample]);
-            let signals = errors(model, &moment);
+        let mut moments = track.moments();
+        for sample in 0..track.len() {
+            let Some(moment) = moments.advance() else { break };
+            let moment = standing(moment, &track, &found, sample);
+            let signals = errors(&terms, &moment);
             let (read, interval) = (&recording.increments[sample], moment.interval);
             let next = Increments {
                 angle: read.angle - InFrame::from_components(values(&signals.gyro) * interval),
@@ -110,10 +113,10 @@ pub fn compensated(
 }
 
 /// What the terms add to readings. A term that moves the table is a true motion, and is left in them.
-fn errors(model: &Model, moment: &Moment) -> Signals {
+fn errors(terms: &[Acting<'_>], moment: &Moment) -> Signals {
     let mut sum = Signals::default();
-    for chosen in model.terms.iter().filter(|chosen| chosen.term.is_signal()) {
-        let signals = chosen.signals(moment, None);
+    for acting in terms {
+        let signals = acting.signals(moment);
         if signals.tilt == Signals::default().tilt {
             sum.add(&signals);
         }
@@ -145,9 +148,10 @@ fn turning(recording: &Recording, surroundings: Surroundings, start: f64) -> Tra
     Track::new(surroundings, times.clone(), intervals, angles, recording.temperature.clone())
 }
 
-/// The moment of a table that turns as `track` does and stands where the encoder, if there is one, says.
+/// The moment of a table that turns as `track` does and stands where the encoder, if there is one, says; what is felt is
+/// what was found.
 fn standing(moment: &Moment, track: &Track, recording: &Recording, sample: usize) -> Moment {
-    let mut moment = *moment;
+    let mut moment = moment.feeling(&recording.increments[sample]);
     if let Some(angle) = &recording.table_angle {
         let off = angle[sample] - track.angles()[sample + 1];
         moment.mean.angle += off;

@@ -17,6 +17,7 @@
 //! let model = Model::full().with(Chosen::new(catalogue::term("mounting").unwrap()));
 //! assert_eq!(model.terms.last().unwrap().term.name, "mounting of the IMU on the table");
 //! ```
+mod acting;
 pub mod catalogue;
 mod compensation;
 mod grade;
@@ -30,6 +31,7 @@ mod track;
 mod triads;
 mod unit;
 
+pub use acting::Acting;
 pub use compensation::{NotUndone, compensated};
 pub use grade::Grade;
 pub use making::{Making, Reading};

@@ -206,6 +206,7 @@ impl Term {
     }
 
     /// Adds what it does at `moment`, with the derivative that the parameters carry.
+    #[inline]
     pub fn act(
         &self,
         parameters: &[Dual64],

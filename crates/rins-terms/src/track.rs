@@ -101,6 +101,16 @@ impl Track {
         Moments {
             track: self,
             sample: 0,
+            start: self.start(),
+            moment: Moment {
+                interval: 0.0,
+                duration: self.duration(),
+                mean: Instant::default(),
+                end: Instant::default(),
+                rate: Vector3::zeros(),
+                force: Vector3::zeros(),
+                surroundings: self.surroundings,
+            },
             rates: [first; 2],
             sense: 0.0,
             rate_change: 0.0,
@@ -153,6 +163,10 @@ impl Track {
 pub struct Moments<'a> {
     track: &'a Track,
     sample: usize,
+    /// When the first sample began \[s\].
+    start: f64,
+    /// The moment of the sample before.
+    moment: Moment,
     /// The mean rates over the sample before and over this one \[rad/s\].
     rates: [f64; 2],
     sense: f64,
@@ -161,6 +175,55 @@ pub struct Moments<'a> {
 }
 
 impl Moments<'_> {
+    /// The next moment, to be looked at where it is made: to copy it takes as long as to make it.
+    pub fn advance(&mut self) -> Option<&Moment> {
+        let (track, sample) = (self.track, self.sample);
+        let time = *track.times.get(sample)?;
+        let before = self.rates[0];
+        self.pass();
+        let [rate, after] = self.rates;
+        let interval = track.intervals[sample];
+        let elapsed = time - track.time_before(sample);
+        let warming_before = track.warming(sample.saturating_sub(1));
+        let warming = track.warming(sample);
+        let mean = Instant {
+            time: time - 0.5 * interval - self.start,
+            angle: track.angles[sample + 1] - 0.5 * rate * interval,
+            rate,
+            acceleration: 0.5 * (after - before) / elapsed,
+            sense: self.sense,
+            rate_change: self.rate_change,
+            warming: 0.5 * (warming + warming_before),
+            warming_rate: (track.warming(sample + 1) - warming_before) / (2.0 * elapsed),
+        };
+        // The mean of a vector that turns at a constant rate is shorter than the vector.
+        let half_turn = 0.5 * rate * interval;
+        let shortening = if half_turn.abs() < 1e-4 {
+            1.0 - half_turn * half_turn / 6.0
+        } else {
+            half_turn.sin() / half_turn
+        };
+        let direction = mean.angle.sin_cos();
+        let mean_in_body = |vector: &Vector3<f64>| {
+            let v = turned_back(vector, direction);
+            Vector3::new(v.x * shortening, v.y * shortening, v.z)
+        };
+        let moment = &mut self.moment;
+        moment.rate = mean_in_body(&track.surroundings.earth_rate) + Vector3::z() * rate;
+        moment.force = mean_in_body(&track.surroundings.specific_force);
+        moment.interval = interval;
+        moment.end = Instant {
+            time: time - self.start,
+            angle: track.angles[sample + 1],
+            rate: 0.5 * (rate + after),
+            acceleration: (after - rate) / elapsed,
+            warming,
+            ..mean
+        };
+        moment.mean = mean;
+        Some(moment)
+    }
+
     /// Goes on to the next sample.
     fn pass(&mut self) {
         let rate = self.rates[1];
@@ -180,57 +243,7 @@ impl Iterator for Moments<'_> {
     type Item = Moment;
 
     fn next(&mut self) -> Option<Moment> {
-        let (track, sample) = (self.track, self.sample);
-        let time = *track.times.get(sample)?;
-        let before = self.rates[0];
-        self.pass();
-        let [rate, after] = self.rates;
-        let interval = track.intervals[sample];
-        let start = track.start();
-        let elapsed = time - track.time_before(sample);
-        let warming_before = track.warming(sample.saturating_sub(1));
-        let warming = track.warming(sample);
-        let warming_rate = (track.warming(sample + 1) - warming_before) / (2.0 * elapsed);
-        let end_rate = 0.5 * (rate + after);
-        let mean = Instant {
-            time: time - 0.5 * interval - start,
-            angle: track.angles[sample + 1] - 0.5 * rate * interval,
-            rate,
-            acceleration: 0.5 * (after - before) / elapsed,
-            sense: self.sense,
-            rate_change: self.rate_change,
-            warming: 0.5 * (warming + warming_before),
-            warming_rate,
-        };
-        let end = Instant {
-            time: time - start,
-            angle: track.angles[sample + 1],
-            rate: end_rate,
-            acceleration: (after - rate) / elapsed,
-            warming,
-            ..mean
-        };
-        // The mean of a vector that turns at a constant rate is shorter than the vector.
-        let half_turn = 0.5 * rate * interval;
-        let shortening = if half_turn.abs() < 1e-4 {
-            1.0 - half_turn * half_turn / 6.0
-        } else {
-            half_turn.sin() / half_turn
-        };
-        let direction = mean.angle.sin_cos();
-        let mean_in_body = |vector: &Vector3<f64>| {
-            let v = turned_back(vector, direction);
-            Vector3::new(v.x * shortening, v.y * shortening, v.z)
-        };
-        Some(Moment {
-            interval,
-            duration: track.duration(),
-            mean,
-            end,
-            rate: mean_in_body(&track.surroundings.earth_rate) + Vector3::z() * rate,
-            force: mean_in_body(&track.surroundings.specific_force),
-            surroundings: track.surroundings,
-        })
+        self.advance().copied()
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {

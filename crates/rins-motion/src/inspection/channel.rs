@@ -62,7 +62,7 @@ pub(super) fn longest_repeat(readings: &[f64]) -> usize {
 /// every step is a multiple of it.
 pub(super) fn resolution(readings: &[f64]) -> Option<f64> {
     let mut sorted = readings.to_vec();
-    sorted.sort_by(f64::total_cmp);
+    sorted.sort_unstable_by(f64::total_cmp);
     let range = sorted.last()? - sorted.first()?;
     // Readings that differ by rounding only are one.
     let same = 1e-9 * range;
@@ -71,7 +71,7 @@ pub(super) fn resolution(readings: &[f64]) -> Option<f64> {
     if steps.is_empty() || (steps.len() + 1) * 4 >= readings.len() {
         return None;
     }
-    steps.sort_by(f64::total_cmp);
+    steps.sort_unstable_by(f64::total_cmp);
     let least = steps[0];
     // Of decimals that were rounded to so many digits, the least step is not a sensor's.
     let dense = steps[steps.len() / 2] <= USUAL_STEPS * least;
@@ -102,10 +102,11 @@ fn runs(readings: &[f64]) -> impl Iterator<Item = (usize, usize)> {
 fn spikes(readings: &[f64], channel: &'static str, recording: &Recording) -> Option<Suspicion> {
     let steps: Vec<f64> = readings.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let mut sizes: Vec<f64> = steps.iter().map(|step| step.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
+    let middle = sizes.len() / 2;
+    sizes.get(middle)?;
+    let usual = 1.4826 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
     // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
-    let usual = 1.4826 * sizes.get(sizes.len() / 2)?;
-    let coarse = sizes.iter().copied().find(|size| *size > 0.0)?;
+    let coarse = sizes.iter().copied().filter(|size| *size > 0.0).min_by(f64::total_cmp)?;
     let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
     let scatter = if usual > 0.0 { usual } else { coarse };
     // What is left of rounding in readings without noise is no scatter.

@@ -74,14 +74,6 @@ impl Certificate {
     ///
     /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
     pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
-        for (run, model) in case.runs.iter().zip(&fit.models) {
-            if let Err(error) = undone(&run.run, model) {
-                case.remarks.push(format!(
-                    "{}: what was estimated cannot be undone from the readings ({error}): navigation is as recorded.",
-                    run.name
-                ));
-            }
-        }
         let given = case.given_of_logs();
         // How an IMU stood that was turned over and over is nothing to keep.
         let fit = fit.leaving_open(|estimate| {
@@ -93,7 +85,14 @@ impl Certificate {
         let told = fit.identifiability();
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
-            certified.push(CertifiedRun::of(prepared, &fit, place, given)?);
+            let undone = undone(&prepared.run, &fit.models[place]);
+            if let Err(error) = &undone {
+                case.remarks.push(format!(
+                    "{}: what was estimated cannot be undone from the readings ({error}): navigation is as recorded.",
+                    prepared.name
+                ));
+            }
+            certified.push(CertifiedRun::of((prepared, undone.ok()), &fit, place, given)?);
         }
         let innovations: Vec<_> =
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
@@ -157,12 +156,18 @@ impl Certificate {
 }
 
 impl CertifiedRun {
-    fn of(prepared: Prepared, fit: &Fit, run: usize, given: &[usize]) -> anyhow::Result<Self> {
+    /// Of a run, and of the same with what was estimated undone.
+    fn of(
+        (prepared, undone): (Prepared, Option<Recording>),
+        fit: &Fit,
+        run: usize,
+        given: &[usize],
+    ) -> anyhow::Result<Self> {
         let station = &prepared.loaded.station;
         let model = &fit.models[run];
         let nav_from_table = prepared.run.rig.nav_from_table * attitude_of(model);
         let recorded = &prepared.run.recording;
-        let undone = undone(&prepared.run, model).map_or_else(|_| Arc::clone(recorded), Arc::new);
+        let undone = undone.map_or_else(|| Arc::clone(recorded), Arc::new);
         let track = fit.linear[run].track();
         let navigate = |recording: &Recording| {
             navigate_freely(recording, track.angles(), nav_from_table, station, None)
