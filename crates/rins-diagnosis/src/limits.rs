@@ -29,6 +29,17 @@ pub struct Limit {
     pub sigma: f64,
     /// The amplitude that would have been found with a probability of 95 %, in SI units.
     pub detectable: f64,
+    /// An estimate of so many sigmas would have been significant, over the catalogue and all shapes and choices.
+    pub significant: f64,
+}
+
+impl Limit {
+    /// The probability that this amplitude would have been found, in SI units.
+    pub fn power(&self, amplitude: f64) -> f64 {
+        let normal = Normal::standard();
+        let sigmas = (amplitude / self.sigma).abs();
+        normal.cdf(sigmas - self.significant) + normal.cdf(-sigmas - self.significant)
+    }
 }
 
 /// What `runs` would have shown of each effect that `fit` does not have in its model, in its best shape.
@@ -47,8 +58,8 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
         let own = survey.of_candidate(index);
         let looks =
             families.len() as f64 * candidate.looks * choices(candidate.chosen.term).len() as f64;
-        let reach =
-            normal.inverse_cdf(1.0 - 0.5 * FALSE_ALARMS / looks) + normal.inverse_cdf(POWER);
+        let significant = normal.inverse_cdf(1.0 - 0.5 * FALSE_ALARMS / looks);
+        let reach = significant + normal.inverse_cdf(POWER);
         for (parameter, places) in own.iter().enumerate() {
             let (information, _) = left.block(&places[..1]);
             let usual = candidate.chosen.term.parameters[parameter].sigma(imu);
@@ -56,8 +67,8 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
                 continue;
             }
             let sigma = usual / information[(0, 0)].sqrt();
-            let limit =
-                Limit { term: candidate.chosen.term, parameter, sigma, detectable: reach * sigma };
+            let term = candidate.chosen.term;
+            let limit = Limit { term, parameter, sigma, detectable: reach * sigma, significant };
             let same =
                 |other: &&mut Limit| other.term.id == limit.term.id && other.parameter == parameter;
             match limits.iter_mut().find(same) {

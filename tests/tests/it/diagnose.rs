@@ -175,3 +175,34 @@ fn extended_model_calibrates_and_navigates_another_run() {
     let [raw, undone] = [0, 1].map(|run| magnitude(&result, &format!("/runs/{run}/velocity_m_s")));
     assert!(raw > 20.0 * undone, "{raw} and {undone}");
 }
+
+/// What a run cannot tell comes with the run that can; that run, made with the same effect, does.
+#[test]
+fn the_next_test_tells_what_this_one_could_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let truth = "\n[[truth.effects]]\nid = \"cable_torque_tilt\"\nx = \"1 arcsec/turn\"\n";
+    for (schedule, run) in [("i-constant-rate", "one"), ("ii-reversal", "next")] {
+        let shipped = workspace().join(format!("scenarios/schedules/{schedule}.toml"));
+        let scenario = fs::read_to_string(shipped).unwrap() + truth;
+        fs::write(here.join("scenario.toml"), scenario).unwrap();
+        let made = rins_in(here, &format!("simulate scenario.toml -o {run}"));
+        assert_eq!(made.code, Some(0), "{}", made.err);
+    }
+    let result = result_in(here, "diagnose one/rig.toml --noise given -o found");
+    assert_eq!(result["verdict"], "ambiguous");
+    let [cause] = list(&result, "/causes") else { panic!("{}", result["causes"]) };
+    let set: Vec<&str> =
+        [vec![cause["effect"].as_str().unwrap()], texts(cause, "/cannot_tell_from")].concat();
+    assert!(set.contains(&"cable_torque_tilt") && set.contains(&"base_tilt_ramp"), "{set:?}");
+    let test = &cause["next_test"];
+    assert!(test["schedule"].as_str().unwrap().starts_with("forward and back"), "{test}");
+    assert!(number(test, "/sigmas") > 6.0, "{test}");
+    let page = fs::read_to_string(here.join("found/report.html")).unwrap();
+    assert!(page.contains("A run of its own would tell it") && page.contains("Power of this run"));
+
+    let result = result_in(here, "diagnose next/rig.toml --noise given");
+    let [cause] = list(&result, "/causes") else { panic!("{}", result["causes"]) };
+    assert_eq!(cause["effect"], "cable_torque_tilt");
+    assert!(!texts(cause, "/cannot_tell_from").contains(&"base_tilt_ramp"), "{cause}");
+}

@@ -13,6 +13,7 @@ use crate::commands::calibrate::{Case, Certificate, Prepared};
 use crate::commands::diagnose::json;
 use crate::commands::diagnose::measured::Measured;
 use crate::commands::diagnose::testable::{Untestable, untestable};
+use crate::commands::observe::{NextTest, next_test};
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{diagnosis_report, diagnosis_text};
@@ -75,6 +76,8 @@ pub(crate) struct Named {
     pub(crate) sigmas: f64,
     /// Whether an IMU, a table or a place like this may have it so large.
     pub(crate) plausible: bool,
+    /// What would tell it from the likeliest of the others, if it is not told from all.
+    pub(crate) next_test: Option<NextTest>,
 }
 
 /// An estimate that moved when the causes joined the model.
@@ -125,8 +128,17 @@ impl Found {
         let causes: Vec<Named> = diagnosis
             .causes
             .into_iter()
-            .map(|cause| Named::of(cause, &diagnosis.after, &imu))
-            .collect();
+            .map(|cause| {
+                let next_test = match cause.rivals.first() {
+                    Some(rival) => {
+                        let run = (&runs[0], &diagnosis.after.noise[0]);
+                        next_test(run, &imu, &case.model, &cause, rival)?
+                    }
+                    None => None,
+                };
+                Ok(Named::of(cause, &diagnosis.after, &imu, next_test))
+            })
+            .collect::<anyhow::Result<_>>()?;
         let verdict = if !diagnosis.unexplained.is_empty() {
             Verdict::Unexplained
         } else if causes.is_empty() {
@@ -193,13 +205,13 @@ impl Found {
 }
 
 impl Named {
-    fn of(cause: Cause, after: &Fit, imu: &ImuSpec) -> Self {
+    fn of(cause: Cause, after: &Fit, imu: &ImuSpec, next_test: Option<NextTest>) -> Self {
         let sigmas = distance(&cause.parameters, after);
         let plausible = cause.parameters.iter().all(|estimate| {
             let parameter = &cause.term.parameters[estimate.parameter.parameter];
             estimate.value.abs() - BEYOND * estimate.sigma <= parameter.range(imu).1
         });
-        Self { cause, sigmas, plausible }
+        Self { cause, sigmas, plausible, next_test }
     }
 }
 

@@ -119,6 +119,11 @@ fn cause(found: &Found, named: &Named) -> Value {
         "cannot_tell_from": ids,
         "rivals": rivals,
         "tell_apart_by": cause.term.told_apart_by,
+        "next_test": named.next_test.as_ref().map(|test| json!({
+            "schedule": test.words,
+            "from": test.from.id,
+            "sigmas": test.sigmas,
+        })),
     })
 }
 

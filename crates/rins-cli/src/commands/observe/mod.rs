@@ -3,6 +3,7 @@
 mod chosen;
 mod json;
 mod library;
+mod next;
 mod page;
 mod proposal;
 mod schedule;
@@ -17,6 +18,8 @@ use rins_terms::Model;
 use crate::args::Observe;
 use crate::outcome::Outcome;
 use crate::progress;
+pub(crate) use next::{NextTest, next_test};
+
 use chosen::Effect;
 use library::Limits;
 use proposal::{Goal, Pair, Proposal, pair, propose};

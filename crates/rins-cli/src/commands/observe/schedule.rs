@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use rins_calibration::{Setup, TableSpec};
-use rins_estimation::{Joint, Reference, Rig, Run, Strengths, joint};
+use rins_estimation::{Joint, Noise, Reference, Rig, Run, Strengths, joint};
 use rins_frames::{Dcm, Nav, Table};
 use rins_imu::{ImuError, ImuSpec};
 use rins_io::ScenarioFile;
@@ -53,6 +53,29 @@ impl Planned {
             wobble: table.and_then(|table| table.wobble).unwrap_or(noise),
             scenario,
             noise,
+        })
+    }
+
+    /// A plan at the place and with the attitude of a run that has been measured, as long and as fast.
+    pub(super) fn like(run: &Run, noise: &Noise, imu: ImuSpec) -> anyhow::Result<Self> {
+        let times = &run.recording.times;
+        let duration = times[times.len() - 1] - times[0];
+        let interval = duration / (times.len() - 1) as f64;
+        let rates = run.recording.increments.iter().map(|sample| sample.rates().angular_rate);
+        let rate = rates.map(|rate| rate.components().z.abs()).fold(0.0, f64::max);
+        let segment = rins_motion::Segment { rate, duration };
+        Ok(Self {
+            path: PathBuf::from("the next run"),
+            imu,
+            acceleration: None,
+            scenario: Scenario::perfect(
+                run.rig.station,
+                run.rig.nav_from_table,
+                Profile::new(&[segment], None)?,
+                interval,
+            ),
+            noise: noise.encoder,
+            wobble: noise.wobble,
         })
     }
 

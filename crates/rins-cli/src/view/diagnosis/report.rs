@@ -1,12 +1,14 @@
 //! The page of a diagnosis.
 
+use rins_diagnosis::Limit;
+
 use super::gain::gain_section;
 use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
 use super::words::{next_steps, probability, rivals, summary};
 use crate::commands::diagnose::{Found, Named};
 use crate::number::figure;
-use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
+use crate::report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
 use crate::view::settings_in_words;
 
 /// The report page.
@@ -183,6 +185,7 @@ fn limits(found: &Found) -> Section {
         let shown = |value: f64| Cell::text(figure(value / unit.factor, 3));
         vec![
             Cell::text(format!("{}.{}", limit.term.id, parameter.name)),
+            shown(limit.sigma),
             shown(limit.detectable),
             Cell::text(unit.symbol),
             Cell::text(format!(
@@ -204,18 +207,46 @@ fn limits(found: &Found) -> Section {
         intro: "For each parameter of each effect that the model does not have, the amplitude that this run would have shown with a \
                 probability of 95 %, the parameter alone being there. What is smaller may be there and not be named."
             .into(),
-        items: vec![Item::Table(Table {
+        items: [power(&found.limits), vec![Item::Table(Table {
             caption: "Smallest amplitudes that are found".into(),
             columns: vec![
                 Column::id("parameter"),
+                Column::number("σ"),
                 Column::number("found from"),
                 Column::text("unit"),
                 Column::text("usual"),
                 Column::text("seen of the usual"),
             ],
             rows: rows.collect(),
-        })],
+        })]].concat(),
     }
+}
+
+/// How likely an effect would have been found, over its size: the effect that is sought in the fewest ways, and that in
+/// the most.
+fn power(limits: &[Limit]) -> Vec<Item> {
+    let by_ways = |a: &&Limit, b: &&Limit| a.significant.total_cmp(&b.significant);
+    let (Some(fewest), Some(most)) = (limits.iter().min_by(by_ways), limits.iter().max_by(by_ways))
+    else {
+        return Vec::new();
+    };
+    let sigmas: Vec<f64> = (0..=120).map(|step| 0.1 * f64::from(step)).collect();
+    let curve = |limit: &Limit| Series {
+        name: limit.term.name.into(),
+        x: sigmas.clone(),
+        y: sigmas.iter().map(|sigma| 100.0 * limit.power(sigma * limit.sigma)).collect(),
+        ..Series::default()
+    };
+    vec![Item::Plot(Plot {
+        title: "Power of this run".into(),
+        x_label: "True amplitude [σ]".into(),
+        y_label: "Found in [%]".into(),
+        series: vec![curve(fewest), curve(most)],
+        caption: "Effects that may come in one shape only are found sooner than those that are sought at many times, orders or \
+                  parts; all others are between. The σ of each is in the table."
+            .into(),
+        ..Plot::default()
+    })]
 }
 
 fn untestable(found: &Found) -> Section {

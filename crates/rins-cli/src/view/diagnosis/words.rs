@@ -140,8 +140,17 @@ fn amplitude(found: &Found, named: &Named) -> String {
 /// What a cause cannot be told from.
 fn doubt(named: &Named) -> Option<String> {
     let rivals = rivals(named);
-    (!rivals.is_empty())
-        .then(|| format!("This run cannot tell the {} from: {rivals}.", named.cause.term.name))
+    let next = named.next_test.as_ref().map_or_else(String::new, |test| {
+        format!(
+            " A run of its own would tell it from the {} by {} sigma: {}.",
+            test.from.name,
+            figure(test.sigmas, 2),
+            test.words
+        )
+    });
+    (!rivals.is_empty()).then(|| {
+        format!("This run cannot tell the {} from: {rivals}.{next}", named.cause.term.name)
+    })
 }
 
 /// The other effects of a cause's set, in words.
