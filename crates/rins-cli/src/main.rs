@@ -1,13 +1,16 @@
 //! The `rins` command: simulates, checks, aligns, navigates and calibrates an IMU on a rate table.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
+use std::io::{self, Write as _};
 use std::process::ExitCode;
+
+use anyhow::Context;
 
 use crate::args::{Arguments, Command};
 use crate::outcome::Outcome;
 
 mod args;
 mod commands;
+mod interrupt;
 mod number;
 mod outcome;
 mod progress;
@@ -16,11 +19,14 @@ mod view;
 
 fn main() -> ExitCode {
     let arguments = Arguments::read();
-    let delivered = run(&arguments).and_then(|outcome| deliver(&arguments, &outcome));
+    let delivered = interrupt::listen()
+        .and_then(|()| run(&arguments))
+        .and_then(|outcome| deliver(&arguments, &outcome));
     match delivered {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("rins: {error:#}");
+            // Where nobody can be told, the exit code tells.
+            let _ = writeln!(io::stderr(), "rins: {error:#}");
             ExitCode::FAILURE
         }
     }
@@ -51,15 +57,22 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 fn deliver(arguments: &Arguments, outcome: &Outcome) -> anyhow::Result<()> {
     let written = outcome.write(arguments.command.destination(), arguments.overwrite())?;
     if arguments.json {
-        println!("{}", serde_json::to_string(&outcome.json)?);
+        print(&(serde_json::to_string(&outcome.json)? + "\n"))?;
     } else {
-        print!("{}", outcome.text);
-        if let Some(place) = written {
-            println!("\n{place}");
-        }
+        let place = written.map_or_else(String::new, |place| format!("\n{place}\n"));
+        print(&(outcome.text.clone() + &place))?;
     }
     match &outcome.failure {
         Some(failure) => Err(anyhow::anyhow!("{failure}")),
         None => Ok(()),
+    }
+}
+
+/// Prints a result, of which a reader may have had enough before its end.
+fn print(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        printed => printed.context("cannot write to standard output"),
     }
 }

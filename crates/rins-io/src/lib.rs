@@ -36,6 +36,7 @@ mod sound_parquet;
 mod source;
 mod suggestion;
 mod term;
+mod unfinished;
 mod write;
 
 pub use calibration::{Calibration, Covariance};
@@ -60,6 +61,7 @@ pub use rig::{
 pub use run::truth_json;
 pub use scenario::ScenarioFile;
 pub use suggestion::nearest;
+pub use unfinished::{Abandoned, abandon};
 pub use write::{
     Converted, Difference, LogFile, WriteProblem, convert, convert_changed, write_log,
     write_recording,

@@ -5,9 +5,10 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use tempfile::Builder;
+use tempfile::{Builder, TempDir};
 
 use crate::error::IoError;
+use crate::unfinished::{Unfinished, undisturbed};
 
 /// Whether something that is there may be replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,14 +86,15 @@ pub fn write_file(
     refuse_existing(path, overwrite)?;
     let failed = || IoError::file("write", path);
     let temporary = builder(&hidden(name), 0o666).tempfile_in(parent).map_err(failed())?;
+    let _unfinished = Unfinished::new(temporary.path());
     let mut buffered = BufWriter::new(temporary);
     write(&mut buffered)?;
     let temporary = buffered.into_inner().map_err(|error| failed()(error.into_error()))?;
     temporary.as_file().sync_all().map_err(failed())?;
-    match overwrite {
+    undisturbed(|| match overwrite {
         Overwrite::Force => temporary.persist(path).map(drop),
         Overwrite::Refuse => temporary.persist_noclobber(path).map(drop),
-    }
+    })
     .map_err(|error| match error.error.kind() {
         io::ErrorKind::AlreadyExists => refuse(path, OutputProblem::Exists),
         _ => failed()(error.error),
@@ -121,14 +123,17 @@ pub fn write_files(
     }
     let failed = |path: &Path| IoError::file("write", path);
     let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed(first))?;
+    let _unfinished = Unfinished::new(staging.path());
     fill(staging.path()).map_err(|error| placed(error, staging.path(), parent))?;
     synchronise_all(staging.path()).map_err(failed(first))?;
-    for path in paths {
-        // Whatever has come in between is not replaced either.
-        refuse_existing(path, overwrite)?;
-        let staged = staging.path().join(split(path)?.1);
-        fs::rename(staged, path).map_err(failed(path))?;
-    }
+    undisturbed(|| {
+        paths.iter().try_for_each(|path| {
+            // Whatever has come in between is not replaced either.
+            refuse_existing(path, overwrite)?;
+            let staged = staging.path().join(split(path)?.1);
+            fs::rename(staged, path).map_err(failed(path))
+        })
+    })?;
     synchronise(parent).map_err(failed(first))
 }
 
@@ -163,24 +168,33 @@ pub fn write_folder(
     let old = replaceable(path, overwrite)?;
     let failed = || IoError::file("write", path);
     let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
+    let _unfinished = Unfinished::new(staging.path());
     fill(staging.path()).map_err(|error| placed(error, staging.path(), path))?;
     synchronise_all(staging.path()).map_err(failed())?;
     if old {
         let aside = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
-        fs::rename(path, aside.path()).map_err(failed())?;
-        if let Err(error) = fs::rename(staging.path(), path) {
-            // The old result is worth more than the folder it was put into: it goes back, or
-            // stays under its hidden name.
-            let aside = aside.keep();
-            fs::rename(aside, path).map_err(failed())?;
-            return Err(failed()(error));
-        }
+        let _replaced = Unfinished::new(aside.path());
+        undisturbed(|| exchange(staging.path(), path, aside)).map_err(failed())?;
     } else {
-        fs::rename(staging.path(), path).map_err(failed())?;
+        undisturbed(|| fs::rename(staging.path(), path)).map_err(failed())?;
     }
     // It has been renamed, so there is nothing left to remove.
     let _renamed = staging.keep();
     synchronise(parent).map_err(failed())
+}
+
+/// Puts a new folder in the place of an old one, which is put aside; its remains go with the returned folder.
+fn exchange(new: &Path, place: &Path, aside: TempDir) -> io::Result<TempDir> {
+    fs::rename(place, aside.path())?;
+    match fs::rename(new, place) {
+        Ok(()) => Ok(aside),
+        Err(error) => {
+            // The old result is worth more than the folder it was put into: it goes back, or
+            // stays under its hidden name.
+            fs::rename(aside.keep(), place)?;
+            Err(error)
+        }
+    }
 }
 
 /// Whether there is a folder that will be replaced.

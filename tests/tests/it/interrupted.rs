@@ -173,6 +173,48 @@ fn a_log_is_compensated_or_not() {
 
 /// Killed again and again and continued each time, a campaign ends with the bytes of one that was left
 /// alone.
+/// What is in a folder, hidden or not.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// Whoever interrupts a command, other than by killing it, finds nothing of what it had begun.
+#[test]
+fn what_an_interrupted_command_had_begun_is_removed() {
+    for (arguments, results) in [
+        ("simulate scenario.toml -o out", &["out"][..]),
+        ("convert run/rig.toml -o new.csv", &["new.csv", "new.toml"]),
+        ("check run/rig.toml -o out", &["out"]),
+    ] {
+        let whole = run();
+        let ready = copy(whole.path());
+        let start = Instant::now();
+        assert!(command(whole.path(), arguments).status().unwrap().success(), "{arguments}");
+        let lasting = start.elapsed();
+        let before = names(ready.path());
+        let mut after: Vec<String> =
+            before.iter().cloned().chain(results.iter().map(|&name| name.into())).collect();
+        after.sort();
+        for part in parts() {
+            let folder = copy(ready.path());
+            let mut child = command(folder.path(), arguments).spawn().unwrap();
+            std::thread::sleep(lasting.mul_f64(part));
+            let interrupt = ["-INT", &child.id().to_string()];
+            let _ = Command::new("kill").args(interrupt).stderr(Stdio::null()).status().unwrap();
+            let code = child.wait().unwrap().code();
+            let left = names(folder.path());
+            // One that comes before the command listens ends it without a code.
+            let expected = if code == Some(0) { vec![&after] } else { vec![&before, &after] };
+            assert!(expected.contains(&&left), "{arguments}: {part:.3}, {code:?}: {left:?}");
+            assert!([Some(0), Some(130), None].contains(&code), "{arguments}: {code:?}");
+        }
+    }
+}
+
 #[test]
 fn a_campaign_that_is_killed_time_and_again_loses_nothing() {
     const CAMPAIGN: &str = "monte-carlo scenario.toml --runs 150 --seed 3";

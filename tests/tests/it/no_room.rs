@@ -122,3 +122,21 @@ fn an_old_result_outlives_a_full_disk() {
     is_refused(&finished, "calibrate", "No space left on device");
     assert_eq!(finished.out, "");
 }
+
+/// Where what is printed has no room, or nobody reads it, no command panics.
+#[test]
+fn what_cannot_be_printed_is_said_or_not_missed() {
+    let folder = run();
+    for (script, code, says) in [
+        ("\"$0\" check rig.toml > /dev/full", 1, "rins: cannot write to standard output: "),
+        ("\"$0\" check rig.toml --json > /dev/full", 1, "rins: cannot write to standard output: "),
+        ("\"$0\" check none.toml 2> /dev/full", 1, ""),
+        ("\"$0\" --help > /dev/full; true", 0, ""),
+        ("(\"$0\" check rig.toml --json; echo \"code $?\" >&2) | true", 0, "code 0"),
+    ] {
+        let finished = shell(&["env"], script, folder.path());
+        assert_eq!(finished.code, Some(code), "{script}: {}", finished.err);
+        assert!(finished.err.starts_with(says), "{script}: {}", finished.err);
+        assert!(!finished.err.contains("panicked"), "{script}: {}", finished.err);
+    }
+}

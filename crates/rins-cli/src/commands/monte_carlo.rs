@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
@@ -17,6 +16,7 @@ use rins_simulation::{Scenario, simulate};
 use crate::args::MonteCarlo;
 use crate::commands::campaign_size::refuse_too_large;
 use crate::commands::setup::{setup_at, shown};
+use crate::interrupt;
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::campaign::{UNITS, deliver};
@@ -132,10 +132,7 @@ fn finish(
     journal: &mut Journal,
     threads: Option<u16>,
 ) -> anyhow::Result<Done> {
-    let stopped = Arc::new(AtomicBool::new(false));
-    let handler = Arc::clone(&stopped);
-    ctrlc::set_handler(move || handler.store(true, Ordering::Relaxed))
-        .context("cannot listen for an interrupt")?;
+    let stopped = interrupt::stopped();
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(threads.map_or(0, usize::from))
         .build()
