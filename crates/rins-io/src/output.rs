@@ -80,7 +80,7 @@ const NAMES: [&str; 11] = [
 pub fn write_file(
     path: &Path,
     overwrite: Overwrite,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), IoError>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), IoError>,
 ) -> Result<(), IoError> {
     let (parent, name) = split(path)?;
     refuse_existing(path, overwrite)?;

@@ -2,7 +2,7 @@
 
 use rins_io::ScenarioGrid;
 
-/// The most runs whose results are held at once, in some ten gigabytes.
+/// The most runs whose results are held at once, in some five gigabytes.
 const MOST_RUNS: u64 = 20_000_000;
 
 /// The most runs of all shards.

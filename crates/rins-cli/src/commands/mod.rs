@@ -3,6 +3,7 @@
 pub(crate) mod align;
 pub(crate) mod apply;
 pub(crate) mod calibrate;
+pub(crate) mod campaign_runs;
 mod campaign_size;
 pub(crate) mod check;
 pub(crate) mod compare;

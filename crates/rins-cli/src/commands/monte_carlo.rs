@@ -8,18 +8,19 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use rayon::prelude::*;
-use rins_campaign::{Campaign, Cell, Chunk, PARAMETERS, Prepared, RunResult};
+use rins_campaign::{Campaign, Cell, Chunk, Prepared, RunResult};
 use rins_imu::Seed;
-use rins_io::{Identity, Journal, Overwrite, Part, Record, Rig, Row, ScenarioGrid};
+use rins_io::{Heading, Identity, Journal, Overwrite, Rig, ScenarioGrid};
 use rins_simulation::{Scenario, simulate};
 
 use crate::args::MonteCarlo;
+use crate::commands::campaign_runs::Found;
 use crate::commands::campaign_size::refuse_too_large;
 use crate::commands::setup::{setup_at, shown};
 use crate::interrupt;
 use crate::outcome::Outcome;
 use crate::progress;
-use crate::view::campaign::{UNITS, deliver};
+use crate::view::campaign::deliver;
 
 /// How often the journal is made sure of.
 const SYNCHRONISED_EVERY: Duration = Duration::from_secs(1);
@@ -60,13 +61,14 @@ pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Resul
         done.len(),
         chunks.len()
     );
-    let part = Part {
+    let heading = Heading {
         identity,
         keys: grid.keys,
         values: grid.cells.into_iter().map(|cell| cell.values).collect(),
-        rows: rows(&campaign, &chunks, &done),
     };
-    let outcome = deliver(&part, output, &shown(scenario), "monte-carlo", overwrite)?;
+    let found = found(&campaign, &chunks, done);
+    let source = (&*shown(scenario), "monte-carlo");
+    let outcome = deliver((&heading, &found), output, source, overwrite)?;
     journal.remove()?;
     Ok(outcome)
 }
@@ -175,35 +177,19 @@ fn finish(
     written.map(|()| done)
 }
 
-/// The rows of finished chunks, in the order of scenarios and runs, in the parameters' units.
-fn rows(campaign: &Campaign, chunks: &[Chunk], done: &Done) -> Vec<Row> {
-    let mut rows = Vec::new();
+/// What the runs of finished chunks found, in the order of scenarios.
+fn found(campaign: &Campaign, chunks: &[Chunk], mut done: Done) -> Vec<Found> {
+    let mut all: Vec<Found> = Vec::new();
     for chunk in chunks {
-        let truth = campaign.cells[chunk.cell].truth();
-        let Some(results) = done.get(&chunk.index) else { continue };
-        for (run, result) in chunk.runs.clone().zip(results) {
-            for (parameter, (id, (unit, factor))) in PARAMETERS.iter().zip(UNITS).enumerate() {
-                let (estimate, covariances, nis_ratio) = match result {
-                    Ok(found) => (
-                        found.value[parameter] / factor,
-                        [0, 1, 2].map(|other| {
-                            found.covariance[(parameter, other)] / factor / UNITS[other].1
-                        }),
-                        found.nis_ratio,
-                    ),
-                    Err(_) => (f64::NAN, [f64::NAN; 3], f64::NAN),
-                };
-                let truth = truth[parameter] / factor;
-                rows.push(Row {
-                    cell: chunk.cell as u64,
-                    run,
-                    parameter: (*id).into(),
-                    unit: unit.into(),
-                    record: Record { truth, estimate, covariances, nis_ratio },
-                    failure: result.as_ref().err().map_or_else(String::new, |f| f.reason.clone()),
-                });
+        let Some(results) = done.remove(&chunk.index) else { continue };
+        if all.last().is_none_or(|last| last.cell != chunk.cell) {
+            all.push(Found::none(chunk.cell, &campaign.cells[chunk.cell].truth()));
+        }
+        if let Some(of_cell) = all.last_mut() {
+            for (run, result) in chunk.runs.clone().zip(results) {
+                of_cell.add(run, result);
             }
         }
     }
-    rows
+    all
 }

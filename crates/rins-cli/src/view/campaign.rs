@@ -3,43 +3,37 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use nalgebra::{Matrix3, Vector3};
 use rins_calibration::Estimate;
-use rins_campaign::{PARAMETERS, RunFailure, RunResult, Statistics};
-use rins_frames::units::{ARCSEC, PPM};
-use rins_io::{IoError, Overwrite, Part, Row, write_file, write_part};
+use rins_campaign::{PARAMETERS, Statistics};
+use rins_io::{Heading, IoError, Overwrite, write_file, write_part};
 use serde_json::{Value, json};
 
+use crate::commands::campaign_runs::{Found, UNITS};
 use crate::outcome::Outcome;
 use crate::report::{
     Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render,
 };
 
-/// The parameters' units: their names, and what one is in SI units.
-pub(crate) const UNITS: [(&str, f64); 3] = [("arcsec", ARCSEC), ("arcsec", ARCSEC), ("ppm", PPM)];
-
 /// The runs that a plot shows of each scenario.
 const SHOWN: usize = 2000;
 
-/// A scenario of the grid and what its runs say, in the parameters' units.
-struct Scored {
-    values: Vec<String>,
-    truth: Vector3<f64>,
-    runs: Vec<RunResult>,
+/// A scenario of the grid, and what its runs say.
+struct Scored<'a> {
+    values: &'a [String],
+    found: &'a Found,
     statistics: Option<Statistics>,
 }
 
 /// Writes results and their report, and says what they say.
 pub(crate) fn deliver(
-    part: &Part,
+    (heading, found): (&Heading, &[Found]),
     output: &Path,
-    source: &str,
-    command: &'static str,
+    (source, command): (&str, &'static str),
     overwrite: Overwrite,
 ) -> anyhow::Result<Outcome> {
-    let scored = scored(part)?;
+    let scored: Vec<Scored<'_>> = found.iter().map(|found| Scored::of(heading, found)).collect();
     let title = format!("Campaign of {source}");
-    let page = render(&report(part, &scored, &title));
+    let page = render(&report(heading, &scored, &title));
     let page_path = output.with_extension("html");
     anyhow::ensure!(page_path != output, "{}: the report would go here", output.display());
     write_file(&page_path, overwrite, |out| {
@@ -49,59 +43,28 @@ pub(crate) fn deliver(
             source: error,
         })
     })?;
-    write_part(output, overwrite, part)?;
+    write_part(output, overwrite, heading, found.iter().flat_map(Found::rows))?;
     let json = json!({
         "schema": 1,
         "command": command,
         "scenario": source,
-        "runs": part.identity.runs,
-        "seed": part.identity.seed,
-        "shard": [part.identity.shard.0, part.identity.shard.1],
+        "runs": heading.identity.runs,
+        "seed": heading.identity.seed,
+        "shard": [heading.identity.shard.0, heading.identity.shard.1],
         "results": output.display().to_string(),
         "report": page_path.display().to_string(),
-        "cells": scored.iter().map(|cell| cell_json(&part.keys, cell)).collect::<Vec<_>>(),
+        "cells": scored.iter().map(|cell| cell_json(&heading.keys, cell)).collect::<Vec<_>>(),
     });
-    let text = text(part, &scored, &title)
+    let text = text(heading, &scored, &title)
         + &format!("\nResults: {}\nReport: {}\n", output.display(), page_path.display());
     Ok(Outcome { json, text, ..Outcome::default() })
 }
 
-/// The runs of each scenario that has any.
-fn scored(part: &Part) -> anyhow::Result<Vec<Scored>> {
-    let mut scored: Vec<Scored> = Vec::new();
-    let mut last = None;
-    for rows in part.rows.chunks(PARAMETERS.len()) {
-        let whole = rows.len() == PARAMETERS.len()
-            && rows.iter().zip(PARAMETERS).all(|(row, id)| row.parameter == id);
-        anyhow::ensure!(whole, "run {} does not have its three parameters", rows[0].run);
-        if last != Some(rows[0].cell) {
-            last = Some(rows[0].cell);
-            scored.push(Scored {
-                values: part.values[usize::try_from(rows[0].cell)?].clone(),
-                truth: Vector3::from_fn(|row, _| rows[row].record.truth),
-                runs: Vec::new(),
-                statistics: None,
-            });
-        }
-        if let Some(cell) = scored.last_mut() {
-            cell.runs.push(result(rows));
-        }
+impl<'a> Scored<'a> {
+    fn of(heading: &'a Heading, found: &'a Found) -> Self {
+        let statistics = Statistics::of(&found.truth, &found.runs);
+        Self { values: &heading.values[found.cell], found, statistics }
     }
-    for cell in &mut scored {
-        cell.statistics = Statistics::of(&cell.truth, &cell.runs);
-    }
-    Ok(scored)
-}
-
-fn result(rows: &[Row]) -> RunResult {
-    if !rows[0].failure.is_empty() {
-        return Err(RunFailure { reason: rows[0].failure.clone() });
-    }
-    Ok(Estimate {
-        value: Vector3::from_fn(|row, _| rows[row].record.estimate),
-        covariance: Matrix3::from_fn(|row, column| rows[row].record.covariances[column]),
-        nis_ratio: rows[0].record.nis_ratio,
-    })
 }
 
 /// What distinguishes a scenario of the grid.
@@ -121,18 +84,18 @@ fn verdict(statistics: &Statistics) -> (Tone, &'static str) {
     }
 }
 
-fn text(part: &Part, scored: &[Scored], title: &str) -> String {
+fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> String {
     let mut text = format!("{title}\n");
     for cell in scored {
         let Some(statistics) = &cell.statistics else {
-            let _ = writeln!(text, "\n  {}: too few runs", label(&part.keys, &cell.values));
+            let _ = writeln!(text, "\n  {}: too few runs", label(&heading.keys, cell.values));
             continue;
         };
         let [least, most] = statistics.nees_bounds;
         let _ = writeln!(
             text,
             "\n  {}: {} runs, {} failed; errors are {}\n    NEES {:.3} (honest from {least:.3} to {most:.3}), NIS {:.4} of 1",
-            label(&part.keys, &cell.values),
+            label(&heading.keys, cell.values),
             statistics.runs,
             statistics.failed,
             verdict(statistics).1,
@@ -153,11 +116,11 @@ fn text(part: &Part, scored: &[Scored], title: &str) -> String {
     text
 }
 
-fn cell_json(keys: &[String], cell: &Scored) -> Value {
+fn cell_json(keys: &[String], cell: &Scored<'_>) -> Value {
     let grid: serde_json::Map<String, Value> =
         keys.iter().cloned().zip(cell.values.iter().map(|value| json!(value))).collect();
     let Some(statistics) = &cell.statistics else {
-        return json!({ "grid": grid, "runs": cell.runs.len() });
+        return json!({ "grid": grid, "runs": cell.found.runs.len() });
     };
     let parameters = PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters).enumerate();
     let parameters: Vec<Value> = parameters
@@ -165,7 +128,7 @@ fn cell_json(keys: &[String], cell: &Scored) -> Value {
             json!({
                 "id": id,
                 "unit": unit,
-                "truth": cell.truth[row],
+                "truth": cell.found.truth[row],
                 "mean_error": honesty.mean_error,
                 "spread": honesty.spread,
                 "claimed": honesty.claimed,
@@ -186,7 +149,7 @@ fn cell_json(keys: &[String], cell: &Scored) -> Value {
     })
 }
 
-fn report(part: &Part, scored: &[Scored], title: &str) -> Report {
+fn report(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Report {
     let honest = scored.iter().filter_map(|cell| cell.statistics.as_ref());
     let honest = honest.filter(|statistics| statistics.is_honest()).count();
     let failed: usize = scored.iter().filter_map(|cell| cell.statistics).map(|s| s.failed).sum();
@@ -197,16 +160,16 @@ fn report(part: &Part, scored: &[Scored], title: &str) -> Report {
     if failed > 0 {
         summary.push(format!("{failed} runs have no estimates; the results say why."));
     }
-    let mut sections = vec![overview(part, scored)];
+    let mut sections = vec![overview(heading, scored)];
     for (row, id) in PARAMETERS.iter().enumerate() {
         sections.push(parameter_section(scored, row, id));
     }
-    let (shard, of) = part.identity.shard;
+    let (shard, of) = heading.identity.shard;
     Report {
         title: title.into(),
         subtitle: format!(
             "{} runs of each scenario, seed {}, shard {shard} of {of}",
-            part.identity.runs, part.identity.seed
+            heading.identity.runs, heading.identity.seed
         ),
         summary,
         sections,
@@ -214,9 +177,9 @@ fn report(part: &Part, scored: &[Scored], title: &str) -> Report {
 }
 
 /// A row for each scenario.
-fn overview(part: &Part, scored: &[Scored]) -> Section {
-    let row = |cell: &Scored| {
-        let name = Cell::text(label(&part.keys, &cell.values));
+fn overview(heading: &Heading, scored: &[Scored<'_>]) -> Section {
+    let row = |cell: &Scored<'_>| {
+        let name = Cell::text(label(&heading.keys, cell.values));
         let Some(statistics) = &cell.statistics else { return vec![name] };
         let number = |value: f64, decimals: usize| Cell::Number { value, decimals };
         let (tone, word) = verdict(statistics);
@@ -249,7 +212,7 @@ fn overview(part: &Part, scored: &[Scored]) -> Section {
 }
 
 /// The errors of one parameter beside what is claimed for them.
-fn parameter_section(scored: &[Scored], row: usize, id: &str) -> Section {
+fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
     let unit = UNITS[row].0;
     let error = |run: &Estimate, truth: f64| {
         let sigma = run.covariance[(row, row)].sqrt();
@@ -261,11 +224,12 @@ fn parameter_section(scored: &[Scored], row: usize, id: &str) -> Section {
         Series { name: "spread of the runs".into(), style: Style::Points, ..Series::default() },
     );
     for (place, cell) in scored.iter().enumerate() {
-        let found: Vec<&Estimate> = cell.runs.iter().filter_map(|run| run.as_ref().ok()).collect();
+        let found: Vec<&Estimate> =
+            cell.found.runs.iter().filter_map(|run| run.as_ref().ok()).collect();
         let shown = found.len().min(SHOWN);
         for (index, run) in found.iter().take(shown).enumerate() {
             points.x.push(place as f64 + index as f64 / shown as f64);
-            points.y.push(error(run, cell.truth[row]).0);
+            points.y.push(error(run, cell.found.truth[row]).0);
         }
         if let Some(statistics) = &cell.statistics {
             let honesty = &statistics.parameters[row];

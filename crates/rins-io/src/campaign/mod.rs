@@ -8,4 +8,4 @@ mod table;
 pub use grid::{GridCell, ScenarioGrid};
 pub use journal::Journal;
 pub use read::read_part;
-pub use table::{Identity, Part, Record, Row, write_part};
+pub use table::{Heading, Identity, Part, Record, Row, write_part};

@@ -10,7 +10,7 @@ use parquet::schema::types::ColumnDescriptor;
 use rins_campaign::PARAMETERS;
 
 use super::grid::MOST_CELLS;
-use super::table::{FAILURE, INTEGERS, Identity, NUMBERS, Part, Record, Row, TEXTS};
+use super::table::{FAILURE, Heading, INTEGERS, Identity, NUMBERS, Part, Record, Row, TEXTS};
 use crate::error::IoError;
 use crate::sound_parquet::SoundParquet;
 
@@ -42,7 +42,8 @@ pub fn read_part(path: &Path) -> Result<Part, IoError> {
     if file.rows().saturating_mul(columns as u64) > MOST_VALUES.max(file.length()) {
         return Err(damaged(wrong("more rows than its length can hold")));
     }
-    let mut part = Part { identity, keys: layout.keys, values: Vec::new(), rows: Vec::new() };
+    let heading = Heading { identity, keys: layout.keys, values: Vec::new() };
+    let mut part = Part { heading, rows: Vec::new() };
     let mut room = MOST_TEXT.max(usize::try_from(file.length()).unwrap_or(usize::MAX));
     for group in 0..file.groups() {
         let mut readers =
@@ -62,7 +63,7 @@ pub fn read_part(path: &Path) -> Result<Part, IoError> {
             }
             for row in 0..rows {
                 let at = Place { batch: &batch, row };
-                let row = read_row(&mut part, &at, &mut room).map_err(damaged)?;
+                let row = read_row(&mut part.heading, &at, &mut room).map_err(damaged)?;
                 part.rows.push(row);
             }
         }
@@ -184,19 +185,19 @@ impl Place<'_> {
     }
 }
 
-/// The row at a place, whose scenario `part` then knows.
-fn read_row(part: &mut Part, at: &Place<'_>, room: &mut usize) -> Result<Row, ParquetError> {
-    let n_keys = part.keys.len();
+/// The row at a place, whose scenario the heading then knows.
+fn read_row(heading: &mut Heading, at: &Place<'_>, room: &mut usize) -> Result<Row, ParquetError> {
+    let n_keys = heading.keys.len();
     let cell = at.whole(0)?;
     let place = usize::try_from(cell).ok().filter(|place| *place < MOST_CELLS);
     let place = place.ok_or_else(|| wrong("a scenario beyond those that a grid can have"))?;
-    if place >= part.values.len() {
+    if place >= heading.values.len() {
         // Rows are in the order of scenarios.
-        part.values.resize(place + 1, Vec::new());
-        part.values[place] = (0..n_keys)
+        heading.values.resize(place + 1, Vec::new());
+        heading.values[place] = (0..n_keys)
             .map(|key| at.long_text(INTEGERS.len() + key, room))
             .collect::<Result<_, _>>()?;
-    } else if place + 1 != part.values.len() {
+    } else if place + 1 != heading.values.len() {
         return Err(wrong("rows that are not in the order of their scenarios"));
     }
     let texts = INTEGERS.len() + n_keys;

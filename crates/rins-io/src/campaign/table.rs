@@ -1,5 +1,6 @@
 //! The results of a campaign, and how they are written as Parquet: a row for each run and parameter.
 
+use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -14,8 +15,8 @@ use parquet::schema::types::Type;
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
 
-/// The rows of a group: what is held in memory twice.
-const GROUP: usize = 1 << 18;
+/// The rows of a group, which are held in memory together.
+const GROUP: usize = 1 << 14;
 
 /// Which campaign a file is of, and which part.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,15 +106,22 @@ pub struct Row {
     pub failure: String,
 }
 
-/// A campaign's results, or a shard of them.
+/// What a campaign's results, or a shard of them, are of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct Heading {
     /// Which campaign.
     pub identity: Identity,
     /// The keys of the grid.
     pub keys: Vec<String>,
     /// What stands at the keys, for each scenario of the grid; nothing for one without rows.
     pub values: Vec<Vec<String>>,
+}
+
+/// A campaign's results, or a shard of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// What they are of.
+    pub heading: Heading,
     /// The rows, by scenario, run and parameter.
     pub rows: Vec<Row>,
 }
@@ -128,21 +136,30 @@ pub(super) const NUMBERS: [&str; 7] =
 /// The last column.
 pub(super) const FAILURE: &str = "failure";
 
-/// Writes results, whole or not at all.
+/// Writes results row by row, whole or not at all.
 ///
 /// # Errors
 /// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
 /// system refuses.
-pub fn write_part(path: &Path, overwrite: Overwrite, part: &Part) -> Result<(), IoError> {
+pub fn write_part(
+    path: &Path,
+    overwrite: Overwrite,
+    heading: &Heading,
+    rows: impl IntoIterator<Item = Row>,
+) -> Result<(), IoError> {
     write_file(path, overwrite, |out| {
-        let mut bytes = Vec::new();
-        encode(part, &mut bytes)
-            .and_then(|()| out.write_all(&bytes).map_err(ParquetError::from))
+        encode(heading, rows.into_iter(), out)
             .map_err(|error| IoError::file("write", path)(std::io::Error::other(error)))
     })
 }
 
-fn encode(part: &Part, out: &mut Vec<u8>) -> Result<(), ParquetError> {
+type Out<'a> = &'a mut (dyn Write + Send);
+
+fn encode(
+    heading: &Heading,
+    mut rows: impl Iterator<Item = Row>,
+    out: Out<'_>,
+) -> Result<(), ParquetError> {
     let field = |name: &str, physical, logical| {
         let builder = Type::primitive_type_builder(name, physical).with_logical_type(logical);
         builder.with_repetition(Repetition::REQUIRED).build().map(Arc::new)
@@ -152,7 +169,7 @@ fn encode(part: &Part, out: &mut Vec<u8>) -> Result<(), ParquetError> {
     for name in INTEGERS {
         fields.push(field(name, Physical::INT64, None)?);
     }
-    for name in part.keys.iter().map(String::as_str).chain(TEXTS) {
+    for name in heading.keys.iter().map(String::as_str).chain(TEXTS) {
         fields.push(text(name)?);
     }
     for name in NUMBERS {
@@ -163,17 +180,22 @@ fn encode(part: &Part, out: &mut Vec<u8>) -> Result<(), ParquetError> {
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_created_by(format!("rins {}", Identity::VERSION))
-        .set_key_value_metadata(Some(part.identity.metadata()));
+        .set_key_value_metadata(Some(heading.identity.metadata()));
     let properties = Arc::new(properties.build());
     let mut writer = SerializedFileWriter::new(out, Arc::new(schema), properties)?;
-    for rows in part.rows.chunks(GROUP) {
+    loop {
+        let rows: Vec<Row> = rows.by_ref().take(GROUP).collect();
+        if rows.is_empty() {
+            break;
+        }
+        let rows = &rows[..];
         let mut group = writer.next_row_group()?;
         integers(&mut group, rows, |row| row.cell)?;
         integers(&mut group, rows, |row| row.run)?;
-        for key in 0..part.keys.len() {
+        for key in 0..heading.keys.len() {
             let value = |row: &Row| {
                 let cell = usize::try_from(row.cell).unwrap_or(usize::MAX);
-                part.values.get(cell).map_or("", |values| values[key].as_str()).to_string()
+                heading.values.get(cell).map_or("", |values| values[key].as_str()).to_string()
             };
             texts(&mut group, rows, value)?;
         }
@@ -189,7 +211,7 @@ fn encode(part: &Part, out: &mut Vec<u8>) -> Result<(), ParquetError> {
     Ok(())
 }
 
-type Group<'w, 'a> = SerializedRowGroupWriter<'w, &'a mut Vec<u8>>;
+type Group<'w, 'a> = SerializedRowGroupWriter<'w, Out<'a>>;
 
 fn integers(
     group: &mut Group<'_, '_>,

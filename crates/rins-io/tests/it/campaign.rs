@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use rins_campaign::{PARAMETERS, RunFailure};
-use rins_io::{Identity, Journal, Overwrite, Part, Record, Row, read_part, write_part};
+use rins_io::{Heading, Identity, Journal, Overwrite, Part, Record, Row, read_part, write_part};
 use tempfile::tempdir;
 
 fn identity() -> Identity {
@@ -42,7 +42,12 @@ fn part(cells: &[u64]) -> Part {
                 .map(|(run, place)| row(cell, run, place)),
         );
     }
-    Part { identity: identity(), keys: vec!["roll".into(), "b".into()], values, rows }
+    let keys = vec!["roll".into(), "b".into()];
+    Part { heading: Heading { identity: identity(), keys, values }, rows }
+}
+
+fn write(path: &Path, part: &Part) {
+    write_part(path, Overwrite::Force, &part.heading, part.rows.iter().cloned()).unwrap();
 }
 
 #[test]
@@ -50,7 +55,7 @@ fn results_are_read_as_they_were_written() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("part.parquet");
     let written = part(&[0, 1, 4]);
-    write_part(&path, Overwrite::Refuse, &written).unwrap();
+    write(&path, &written);
     assert_eq!(read_part(&path).unwrap(), written);
 }
 
@@ -64,7 +69,7 @@ fn scenarios_that_no_grid_has_are_refused() {
         (0, "not in the order of their scenarios"),
     ] {
         let path = folder.path().join("part.parquet");
-        write_part(&path, Overwrite::Force, &part(&[1, cell])).unwrap();
+        write(&path, &part(&[1, cell]));
         let said = read_part(&path).unwrap_err().to_string();
         assert!(said.contains("part.parquet: ") && said.contains(words), "{cell}: {said}");
     }
@@ -76,7 +81,7 @@ fn what_is_no_campaign_is_refused() {
     let path = folder.path().join("part.parquet");
     let mut other = part(&[0]);
     other.rows[0].parameter = "gyro.bias.x".into();
-    write_part(&path, Overwrite::Force, &other).unwrap();
+    write(&path, &other);
     let said = read_part(&path).unwrap_err().to_string();
     assert!(said.contains("a parameter that no campaign estimates"), "{said}");
     for bytes in [&b""[..], b"PAR1", b"PAR1PAR1"] {
@@ -91,7 +96,7 @@ fn what_is_no_campaign_is_refused() {
 fn damaged_results_are_read_or_refused() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("part.parquet");
-    write_part(&path, Overwrite::Refuse, &part(&[0, 1])).unwrap();
+    write(&path, &part(&[0, 1]));
     let whole = fs::read(&path).unwrap();
     let damaged = |bytes: &[u8]| {
         fs::write(&path, bytes).unwrap();
