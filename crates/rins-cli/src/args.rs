@@ -222,6 +222,9 @@ pub(crate) struct Diagnose {
     /// What the run is taken to hold: full (biases, scale errors, misalignments, the axis' attitude), or a model file
     #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
     pub(crate) model: ModelChoice,
+    /// Search for nothing, and say what the effects of this model file explain and gain
+    #[arg(long, value_name = "FILE")]
+    pub(crate) suppose: Option<PathBuf>,
     /// Whether the data sheet's noise is found anew from the data or trusted
     #[arg(long, value_enum, default_value_t = NoiseChoice::Likely)]
     pub(crate) noise: NoiseChoice,

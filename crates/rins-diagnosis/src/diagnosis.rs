@@ -7,6 +7,7 @@ use rins_terms::{Chosen, Model, Term};
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::disturbance;
+use crate::settling::Found;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 use crate::unexplained::{Unexplained, described};
@@ -150,7 +151,7 @@ pub fn diagnose(
         }
         present = fitted;
     }
-    let (after, causes) = case.settled(&before, present, found)?;
+    let (after, causes) = case.settled(&before, present, found, Found::Searched)?;
     let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
         causes.into_iter().partition(|cause| cause.term.id == disturbance::ID);
     let mut unexplained: Vec<Unexplained> =
@@ -164,6 +165,28 @@ pub fn diagnose(
     causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let not_testable = not_testable.unwrap_or_default();
     Ok(Diagnosis { causes, unexplained, before, after, not_testable })
+}
+
+/// What `supposed` effects explain in `runs` of one IMU beyond `model`, without a search for others.
+///
+/// Every one of them stays, whether it is significant or not.
+///
+/// # Errors
+/// [`DiagnosisError`] if the model, with them or without, cannot be fitted.
+pub fn suppose(
+    runs: &[Run],
+    model: &Model,
+    supposed: &[Chosen],
+    imu: &ImuSpec,
+    knowledge: NoiseKnowledge,
+) -> Result<Diagnosis, DiagnosisError> {
+    let case = Case { runs, given: model, imu, knowledge };
+    let before = case.fit()?;
+    let found = supposed.to_vec();
+    let present = case.fit_near(&before, &found)?;
+    let (after, causes) = case.settled(&before, present, found, Found::Supposed)?;
+    let unexplained = case.unexplained((&before, &after), &causes)?;
+    Ok(Diagnosis { causes, unexplained, before, after, not_testable: Vec::new() })
 }
 
 /// Adds what is significant beside the effects that have been accepted, as long as nothing has to be sought.

@@ -35,7 +35,7 @@ mod gain_overlay;
 mod gain_spans;
 
 pub use candidates::{Candidate, candidates};
-pub use diagnosis::{Cause, Diagnosis, DiagnosisError, FALSE_ALARMS, Rival, diagnose};
+pub use diagnosis::{Cause, Diagnosis, DiagnosisError, FALSE_ALARMS, Rival, diagnose, suppose};
 pub use gain::{Foresight, Gain, GainError, GainVerdict};
 pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;

@@ -26,6 +26,15 @@ const FEWEST_FOR_TWO: usize = 3;
 /// How many effects are tried as the first of two.
 const FIRST_OF_TWO: usize = 4;
 
+/// How effects came into a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Found {
+    /// By a search: one may have to make room for another, or for none.
+    Searched,
+    /// They were said to be there.
+    Supposed,
+}
+
 /// What the last look at a cause says.
 enum Look {
     Keep(Cause),
@@ -54,6 +63,7 @@ impl Case<'_> {
         before: &Fit,
         mut present: Fit,
         mut found: Vec<Chosen>,
+        how: Found,
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
         let mut changes = 0;
@@ -69,7 +79,10 @@ impl Case<'_> {
                 let tried = trials(&survey, &context, &list);
                 let question =
                     Question { survey: &survey, list: &list, found: &found, index, places, tried };
-                let mut look = self.look(&question);
+                let mut look = match how {
+                    Found::Searched => self.look(&question),
+                    Found::Supposed => Look::Keep(question.cause()),
+                };
                 // Exchanges may go round in circles: what is significant stays then, and what is not goes.
                 if changes >= MOST_CHANGES && matches!(look, Look::Exchange(_)) {
                     let stays = question.own().is_some_and(|own| own.ln_p < question.threshold());

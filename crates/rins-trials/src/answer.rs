@@ -6,7 +6,8 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use rins_terms::catalogue;
+use rins_io::{ModelFile, Overwrite};
+use rins_terms::{Model, catalogue};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -26,6 +27,9 @@ pub struct Answer {
     pub unexplained: Vec<String>,
     /// The gain that it measured, as it gave it.
     pub gain: Value,
+    /// By how much the log score rises with the effect that is there \[nats\], if it was asked.
+    #[serde(default)]
+    pub true_gain: Option<f64>,
     /// How long it took \[s\].
     pub seconds: f64,
     /// What it said when it failed.
@@ -80,10 +84,27 @@ impl Analyser {
     /// # Errors
     /// [`Trouble`] if it cannot be started, or what it prints cannot be kept.
     pub fn ask(&self, folder: &Path) -> Result<Answer, Trouble> {
+        self.asked(folder, &[])
+    }
+
+    /// By how much the log score of what is held out rises with these effects in the model \[nats\]; none if it says
+    /// nothing of that.
+    ///
+    /// # Errors
+    /// As [`ask`](Self::ask).
+    pub fn gain_with(&self, folder: &Path, effects: &Model) -> Result<Option<f64>, Trouble> {
+        const FILE: &str = "supposed.toml";
+        ModelFile::of(effects.clone()).write(&folder.join(FILE), Overwrite::Refuse)?;
+        let answer = self.asked(folder, &["--suppose", FILE])?;
+        Ok(answer.gain["log_score_rise"].as_f64())
+    }
+
+    fn asked(&self, folder: &Path, more: &[&str]) -> Result<Answer, Trouble> {
         let (out, errors) = (folder.join("answer.json"), folder.join("errors.txt"));
         let started = Instant::now();
         let mut child = Command::new(&self.program)
             .args(["diagnose", "rig.toml", "--json"])
+            .args(more)
             .current_dir(folder)
             .env("RAYON_NUM_THREADS", self.threads.to_string())
             .stdin(Stdio::null())
@@ -152,6 +173,7 @@ fn read(result: &Value) -> Answer {
         causes: list(result, "causes").iter().map(cause).collect(),
         unexplained: list(result, "unexplained").iter().map(unexplained).collect(),
         gain: result["gain"].clone(),
+        true_gain: None,
         seconds: 0.0,
         failure: None,
     }

@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
 use rins_blind::{record, write};
+use rins_terms::{Chosen, Model, Term, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::answer::{Analyser, Answer};
@@ -17,6 +18,9 @@ use crate::hide::Hidden;
 use crate::laboratory::{Length, Level, Schedule};
 use crate::outside::Outside;
 use crate::trouble::Trouble;
+
+/// What one effect of so many sigmas gains is set against what the true model gains.
+const GAINFUL: f64 = 6.0;
 
 /// A trial and its answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,7 +86,30 @@ pub fn records(journal: &Path) -> Result<Vec<Record>, Trouble> {
 pub fn try_out(trial: &Trial, analyser: &Analyser) -> Result<Answer, Trouble> {
     let folder = tempfile::tempdir()?;
     write(folder.path(), &record(&trial.experiment), &trial.known, trial.experiment.interval)?;
-    analyser.ask(folder.path())
+    let mut answer = analyser.ask(folder.path())?;
+    if let ([hidden], false) = (&trial.hidden[..], trial.has_an_imperfect_table())
+        && hidden.strength >= GAINFUL
+        && let Some(truth) = hidden.as_term()
+    {
+        answer.true_gain = analyser.gain_with(folder.path(), &Model { terms: vec![truth] })?;
+    }
+    Ok(answer)
+}
+
+impl Trial {
+    /// Whether there is more in the run than what is hidden, as there is with every table that is real.
+    fn has_an_imperfect_table(&self) -> bool {
+        self.present.iter().any(|id| catalogue::term(id).is_some_and(Term::is_signal))
+    }
+}
+
+impl Hidden {
+    /// It as a model that knows what is there and not how large it is.
+    fn as_term(&self) -> Option<Chosen> {
+        let mut chosen = Chosen::new(catalogue::term(&self.id)?).estimated();
+        chosen.settings.clone_from(&self.settings);
+        Some(chosen)
+    }
 }
 
 /// Runs what a plan holds and `journal` does not, each record appended when it is there.

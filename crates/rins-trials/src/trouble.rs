@@ -9,6 +9,9 @@ pub enum Trouble {
     /// A file or the program.
     #[error("a file or the program cannot be used")]
     File(#[from] std::io::Error),
+    /// A model file.
+    #[error("a model cannot be written")]
+    Model(#[from] rins_io::IoError),
     /// A record that is none.
     #[error("a record cannot be read or written")]
     Record(#[from] serde_json::Error),

@@ -206,3 +206,38 @@ fn the_next_test_tells_what_this_one_could_not() {
     assert_eq!(cause["effect"], "cable_torque_tilt");
     assert!(!texts(cause, "/cannot_tell_from").contains(&"base_tilt_ramp"), "{cause}");
 }
+
+/// What is supposed is measured as it is, significant or not, and what cannot be supposed is refused.
+#[test]
+fn a_supposed_effect_is_measured_and_not_searched_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let truth = "\n[[truth.effects]]\nid = \"gyro_scale_asymmetry\"\nz = \"6 ppm\"\n";
+    fs::write(here.join("scenario.toml"), scenario(truth)).unwrap();
+    result_in(here, "simulate scenario.toml -o run");
+    let supposing = |ids: &[&str]| {
+        let terms: Vec<String> =
+            ids.iter().map(|id| format!("[[term]]\nid = \"{id}\"\nestimate = true\n")).collect();
+        let text = format!("schema = 1\nbase = \"none\"\n{}", terms.concat());
+        fs::write(here.join("supposed.toml"), text).unwrap();
+        "diagnose run/rig.toml --noise given --suppose supposed.toml"
+    };
+    let right = result_in(here, supposing(&["gyro_scale_asymmetry"]));
+    assert_eq!(right["verdict"], "named");
+    let cause = &right["causes"][0];
+    let off = (number(cause, "/parameters/0/value") - 6.0) / number(cause, "/parameters/0/sigma");
+    assert!(off.abs() < WITHIN, "{off}");
+    assert!(number(&right, "/gain/log_score_rise") > 20.0, "{}", right["gain"]);
+
+    let wrong = result_in(here, supposing(&["gyro_lag"]));
+    assert_eq!(wrong["causes"][0]["effect"], "gyro_lag");
+    assert!(number(&wrong, "/gain/log_score_rise") < 0.5 * number(&right, "/gain/log_score_rise"));
+
+    for (ids, said) in
+        [(&["gyro.bias"][..], "nothing to suppose"), (&["gyro_noise_level"], "adds nothing")]
+    {
+        let refused = rins_in(here, supposing(ids));
+        assert_eq!(refused.code, Some(1), "{ids:?}");
+        assert!(refused.err.contains(said), "{}", refused.err);
+    }
+}

@@ -4,10 +4,12 @@ use std::time::Instant;
 
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
-use rins_diagnosis::{Cause, Limit, Overlay, Unexplained, chance, diagnose, limits};
+use rins_diagnosis::{
+    Cause, FALSE_ALARMS, Limit, Overlay, Unexplained, chance, diagnose, limits, suppose,
+};
 use rins_estimation::{Estimate, Fit, Indefinite};
 use rins_imu::{ImuSpec, Seed};
-use rins_terms::Unit;
+use rins_terms::{Chosen, Unit};
 
 use crate::commands::calibrate::{Case, Certificate, Prepared};
 use crate::commands::diagnose::json;
@@ -62,6 +64,17 @@ pub(crate) struct Found {
     pub(crate) seconds: f64,
 }
 
+/// What is asked of a diagnosis.
+#[derive(Default)]
+pub(crate) struct Asked {
+    /// The effects that are supposed to be there, if none are searched for.
+    pub(crate) supposed: Option<Vec<Chosen>>,
+    /// The run on which the gain is measured, if it is another.
+    pub(crate) held_out: Option<Prepared>,
+    /// How many runs are drawn to see what chance would name.
+    pub(crate) bootstrap: Option<u32>,
+}
+
 /// How often chance alone names something.
 pub(crate) struct ByChance {
     pub(crate) draws: u32,
@@ -107,22 +120,23 @@ impl Shift {
 
 impl Found {
     /// Diagnoses the runs of a case.
-    pub(crate) fn of(
-        case: Case,
-        held_out: Option<&Prepared>,
-        bootstrap: Option<u32>,
-    ) -> anyhow::Result<Self> {
+    pub(crate) fn of(case: Case, asked: &Asked) -> anyhow::Result<Self> {
         let started = Instant::now();
         let runs = case.given();
         let spinner = progress::spinner("estimating the model");
         let mut named: Vec<&str> = Vec::new();
-        let diagnosed = diagnose(&runs, &case.model, case.imu(), case.knowledge(), |id| {
-            named.push(id);
-            spinner.set_message(format!("found: {}", named.join(", ")));
-        });
+        let (imu, knowledge) = (case.imu(), case.knowledge());
+        let diagnosed = match &asked.supposed {
+            Some(effects) => suppose(&runs, &case.model, effects, imu, knowledge),
+            None => diagnose(&runs, &case.model, imu, knowledge, |id| {
+                named.push(id);
+                spinner.set_message(format!("found: {}", named.join(", ")));
+            }),
+        };
         let diagnosis = diagnosed.with_context(|| case.names())?;
         spinner.set_message("measuring the gain");
-        let gain = Measured::of(&case, held_out, (&diagnosis.before, &diagnosis.after));
+        let gain =
+            Measured::of(&case, asked.held_out.as_ref(), (&diagnosis.before, &diagnosis.after));
         spinner.finish_and_clear();
         let imu = *case.imu();
         let causes: Vec<Named> = diagnosis
@@ -141,7 +155,8 @@ impl Found {
             .collect::<anyhow::Result<_>>()?;
         let verdict = if !diagnosis.unexplained.is_empty() {
             Verdict::Unexplained
-        } else if causes.is_empty() {
+        } else if causes.iter().all(|named| named.cause.ln_p > FALSE_ALARMS.ln()) {
+            // What was supposed is there whether it explains anything or not.
             Verdict::Adequate
         } else if causes.iter().all(|named| named.cause.rivals.is_empty()) {
             Verdict::Named
@@ -151,7 +166,7 @@ impl Found {
         let shifts = shifts(&diagnosis.before, &diagnosis.after);
         let untestable = untestable(&runs, &case.model, &diagnosis.not_testable);
         let limits = limits(&runs, &diagnosis.after, &imu).with_context(|| case.names())?;
-        let by_chance = bootstrap.map(|draws| {
+        let by_chance = asked.bootstrap.map(|draws| {
             let share = chance(&runs, &diagnosis.after, &imu, draws, Seed::new(1))?;
             Ok::<_, Indefinite>(ByChance { draws, share })
         });

@@ -7,9 +7,10 @@ mod testable;
 
 use std::path::Path;
 
-use rins_io::Loaded;
+use rins_io::{Loaded, ModelFile};
+use rins_terms::Chosen;
 
-pub(crate) use self::found::{ByChance, Found, Named, Verdict};
+pub(crate) use self::found::{Asked, ByChance, Found, Named, Verdict};
 pub(crate) use self::measured::Measured;
 use crate::args::{Diagnose, ModelChoice, NoiseChoice};
 use crate::commands::calibrate::{Case, NamedModel, Prepared};
@@ -20,7 +21,7 @@ use crate::outcome::Outcome;
 pub(crate) fn diagnosed(rig: &Path, loaded: Loaded) -> anyhow::Result<Found> {
     let noise = NoiseChoice::Likely;
     let run = Prepared::of(rig, loaded, noise)?.of_longest_rest();
-    Found::of(Case::of(vec![run], NamedModel::of(&ModelChoice::Full)?, noise)?, None, None)
+    Found::of(Case::of(vec![run], NamedModel::of(&ModelChoice::Full)?, noise)?, &Asked::default())
 }
 
 pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
@@ -36,10 +37,32 @@ pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     if let Some(other) = &other {
         case.ensure_same_imu(other)?;
     }
-    let found = Found::of(case, other.as_ref(), arguments.bootstrap)?;
+    let supposed = arguments.suppose.as_deref().map(|file| supposed(file, &case)).transpose()?;
+    let asked = Asked { supposed, held_out: other, bootstrap: arguments.bootstrap };
+    let found = Found::of(case, &asked)?;
     let mut outcome = found.outcome();
     for run in &found.certificate.runs {
         outcome = outcome.of_log(&run.prepared.loaded);
     }
     Ok(outcome)
+}
+
+/// The effects of a model file beyond a case's model.
+fn supposed(file: &Path, case: &Case) -> anyhow::Result<Vec<Chosen>> {
+    let mut terms = ModelFile::read(file)?.model.terms;
+    terms.retain(|chosen| !case.model.terms.iter().any(|own| own.term.id == chosen.term.id));
+    let silent = terms.iter().find(|chosen| !chosen.term.is_signal());
+    if let Some(chosen) = silent {
+        anyhow::bail!(
+            "{}: {} adds nothing to any signal: what noise there is, is found beside every model",
+            file.display(),
+            chosen.term.id
+        );
+    }
+    anyhow::ensure!(
+        !terms.is_empty(),
+        "{}: there is nothing to suppose: it holds no term that the model has not",
+        file.display()
+    );
+    Ok(terms)
 }

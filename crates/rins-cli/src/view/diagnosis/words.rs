@@ -45,6 +45,14 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
 }
 
 fn headline(found: &Found) -> String {
+    if found.verdict == Verdict::Adequate && !found.causes.is_empty() {
+        let supposed: Vec<&str> = found.causes.iter().map(|named| named.cause.term.name).collect();
+        return format!(
+            "The model ({}) does without what was supposed ({}): it explains no more of this run than chance would.",
+            found.certificate.model,
+            supposed.join(", ")
+        );
+    }
     if found.verdict == Verdict::Adequate {
         return format!(
             "The model ({}) is adequate: no effect of the catalogue explains more of this run than chance would, and what is \
