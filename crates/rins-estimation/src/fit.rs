@@ -1,6 +1,7 @@
 //! The batch solution: iterated least squares over one run or several.
 
 use nalgebra::DVector;
+use rayon::prelude::*;
 use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
 use rins_terms::{Free, Model};
@@ -244,9 +245,12 @@ impl<'a> Problem<'a> {
     }
 
     fn evidence(&self, linear: &[Linear], noise: &[Noise]) -> Result<Evidence, Indefinite> {
+        let of_runs =
+            linear.par_iter().zip(noise).map(|(linear, noise)| Evidence::of(linear, noise));
+        let of_runs = of_runs.collect::<Result<Vec<_>, _>>()?;
         let mut sum = Evidence::none(self.all.len());
-        for ((linear, noise), places) in linear.iter().zip(noise).zip(&self.places) {
-            sum.add(&Evidence::of(linear, noise)?, places);
+        for (of_run, places) in of_runs.iter().zip(&self.places) {
+            sum.add(of_run, places);
         }
         Ok(sum)
     }
@@ -352,8 +356,11 @@ impl<'a> Problem<'a> {
         // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
         // where the estimate would then be.
         let mut covariance = posterior.covariance.clone();
-        for side in around.iter().flatten() {
-            let (_, other) = self.posterior(&self.linear, side, iterations.len())?;
+        let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
+        let others = sides.into_par_iter().map(|side| {
+            self.posterior(&self.linear, side, iterations.len()).map(|(_, other)| other)
+        });
+        for other in others.collect::<Result<Vec<_>, _>>()? {
             let moved = &other.step - &posterior.step;
             covariance +=
                 (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;

@@ -154,17 +154,19 @@ pub(crate) fn likely_noise(
         Some(_) => near(&unknown, first),
         None => start(&unknown, cost),
     };
-    let (best, inverse_curvature) = minimum(start, inverse.cloned(), cost);
-    let least = cost(&best);
-    let flickers = (0..unknown.len())
-        .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker));
-    let around = flickers.map(|axis| {
+    let (best, least, inverse_curvature) = minimum(start, inverse.cloned(), cost);
+    let flickers: Vec<usize> = (0..unknown.len())
+        .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker))
+        .collect();
+    let around = flickers.into_par_iter().map(|axis| {
         let away = |by: f64| {
             let mut x = best.clone();
             x[axis] += by;
             x
         };
-        let sides = cost(&away(CURVATURE_STEP)) + cost(&away(-CURVATURE_STEP));
+        let (more, less) =
+            rayon::join(|| cost(&away(CURVATURE_STEP)), || cost(&away(-CURVATURE_STEP)));
+        let sides = more + less;
         let curvature = (sides - 2.0 * least) / (CURVATURE_STEP * CURVATURE_STEP);
         let sigma = curvature.max(0.0).sqrt().recip().min(MOST_UNCERTAIN);
         [3.0_f64.sqrt() * sigma, -(3.0_f64.sqrt()) * sigma].map(|by| noise_at(&away(by)))
@@ -266,7 +268,7 @@ fn near(unknown: &[Unknown], first: &[Noise]) -> DVector<f64> {
     DVector::from_iterator(unknown.len(), unknown.iter().map(of))
 }
 
-/// Where `cost` is least, and the inverse of about the curvature there: quasi-Newton steps (BFGS), derivatives by
+/// Where `cost` is least, how little, and the inverse of about the curvature there: quasi-Newton steps (BFGS), derivatives by
 /// differences.
 ///
 /// Without an inverse the first step knows the curvature along every axis: strengths that thousands of figures show
@@ -275,7 +277,7 @@ fn minimum(
     start: DVector<f64>,
     inverse: Option<DMatrix<f64>>,
     cost: impl Fn(&DVector<f64>) -> f64 + Sync,
-) -> (DVector<f64>, DMatrix<f64>) {
+) -> (DVector<f64>, f64, DMatrix<f64>) {
     let n = start.len();
     let unit = |axis| DVector::from_fn(n, |row, _| if row == axis { DIFFERENCE } else { 0.0 });
     let ahead = |x: &DVector<f64>| -> Vec<f64> {
@@ -331,5 +333,5 @@ fn minimum(
             inverse = &left * inverse * left.transpose() + &step * step.transpose() / curvature;
         }
     }
-    (x, inverse)
+    (x, value, inverse)
 }
