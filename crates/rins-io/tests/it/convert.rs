@@ -7,10 +7,7 @@ use rins_io::{Converted, IoError, LogFile, Overwrite, convert, read};
 use rins_testing::assert_close;
 use tempfile::TempDir;
 
-use crate::support::{folder, without};
-
-const SITE: &str =
-    "[site]\nlatitude = \"34.25 deg\"\nlongitude = \"108.9 deg\"\nheight = \"400 m\"\n\n";
+use crate::support::{SITE, folder, without};
 
 /// The rig of a log of increments at 64 Hz with all that a log can have.
 const RIG: &str = r#"

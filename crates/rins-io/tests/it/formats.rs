@@ -6,10 +6,7 @@ use std::path::Path;
 use rins_io::{IoError, Loaded, read};
 use rins_testing::assert_close;
 
-use crate::support::{folder, without};
-
-const SITE: &str =
-    "[site]\nlatitude = \"34.25 deg\"\nlongitude = \"108.9 deg\"\nheight = \"400 m\"\n\n";
+use crate::support::{SITE, folder, without};
 
 /// The interval of all these logs \[s\].
 const STEP: f64 = 0.01;

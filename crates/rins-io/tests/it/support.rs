@@ -6,6 +6,10 @@ use std::path::Path;
 use rins_io::{IoError, Loaded, read};
 use tempfile::TempDir;
 
+/// The section of a site.
+pub(crate) const SITE: &str =
+    "[site]\nlatitude = \"34.25 deg\"\nlongitude = \"108.9 deg\"\nheight = \"400 m\"\n\n";
+
 /// A rig file that is right.
 pub(crate) const RIG: &str = r#"
 [site]

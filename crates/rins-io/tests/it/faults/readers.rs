@@ -5,7 +5,7 @@ use std::path::Path;
 
 use rins_io::{Calibration, IoError, ScenarioFile, read};
 
-use crate::support::log;
+use crate::support::{SITE, log};
 
 /// How the numbers of a file are written.
 #[derive(Clone, Copy)]
@@ -60,9 +60,6 @@ impl Reader {
         }
     }
 }
-
-const SITE: &str =
-    "[site]\nlatitude = \"34.25 deg\"\nlongitude = \"108.9 deg\"\nheight = \"400 m\"\n\n";
 
 const COLUMNS: &str = "time = { column = \"t\", unit = \"s\" }\n\
     gyro = { columns = [\"gx\", \"gy\", \"gz\"], unit = \"rad/s\" }\n\
