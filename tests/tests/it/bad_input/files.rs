@@ -89,6 +89,8 @@ pub(super) enum Spoil {
     Replace(&'static str, &'static str, &'static str),
     /// All of a file becomes this.
     Content(&'static str, &'static [u8]),
+    /// A file is there a second time, under another name.
+    Copy(&'static str, &'static str),
     /// A line of a file, from 1, becomes this.
     Line(&'static str, usize, &'static [u8]),
     /// A field of the log: its line, from 1, its column, and what it becomes.
@@ -144,6 +146,10 @@ impl Folder {
             }
             Spoil::Content(name, content) => {
                 fs::write(path(name), content).unwrap();
+                1
+            }
+            Spoil::Copy(name, other) => {
+                fs::copy(path(name), path(other)).unwrap();
                 1
             }
             Spoil::Line(name, line, text) => {

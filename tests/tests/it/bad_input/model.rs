@@ -1,6 +1,6 @@
 //! Calibrations with models, several runs and calibration files that say something wrong.
 
-use super::files::Spoil::{All, Content, Nothing, Replace};
+use super::files::Spoil::{self, All, Content, Copy, Nothing, Replace};
 use super::{DATA, Row, USAGE, refused};
 
 const MODEL: &str = "calibrate rig.toml --model model.toml";
@@ -57,13 +57,13 @@ const MODELS: &[Row] = &[
     (
         "a diagnosis of two IMUs",
         "diagnose rig.toml other.toml",
-        All(&[Content("other.toml", OTHER)]),
+        OTHER,
         &["rig.toml and other.toml have different data sheets"],
     ),
     (
         "a gain on another IMU",
         "diagnose rig.toml --held-out other.toml",
-        All(&[Content("other.toml", OTHER)]),
+        OTHER,
         &["rig.toml and other.toml have different data sheets"],
     ),
     (
@@ -81,7 +81,7 @@ const MODELS: &[Row] = &[
     (
         "two IMUs",
         "calibrate rig.toml other.toml --model full",
-        All(&[Content("other.toml", OTHER)]),
+        OTHER,
         &["rig.toml and other.toml have different data sheets"],
     ),
     (
@@ -141,37 +141,11 @@ const MODELS: &[Row] = &[
     ),
 ];
 
-const OTHER: &[u8] = br#"[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
-[log]
-path = "run.csv"
-rate = "32 Hz"
-time = { column = "time", unit = "s" }
-gyro = { columns = ["gyro_x", "gyro_y", "gyro_z"], unit = "rad" }
-accel = { columns = ["accel_x", "accel_y", "accel_z"], unit = "m/s" }
-table_angle = { column = "table_angle", unit = "rad", noise = "0.3 arcsec" }
-
-[attitude]
-roll = "30 deg"
-pitch = "20 deg"
-yaw = "40 deg"
-sigma = "0.05 deg"
-
-[imu.gyro]
-noise = "0.5 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-"#;
+/// The rig of another IMU that made the same log.
+const OTHER: Spoil = All(&[
+    Copy("rig.toml", "other.toml"),
+    Replace("other.toml", "\"0.02 deg/h/sqrt(Hz)\"", "\"0.5 deg/h/sqrt(Hz)\""),
+]);
 
 #[test]
 fn models_runs_and_calibrations_that_do_not_go_together() {
