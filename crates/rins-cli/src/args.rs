@@ -219,6 +219,9 @@ pub(crate) struct Diagnose {
     /// constant rate
     #[arg(long, value_name = "RIG")]
     pub(crate) held_out: Option<PathBuf>,
+    /// Measure the gain at the table's fastest rate too, with what was found at slower ones
+    #[arg(long)]
+    pub(crate) transfer: bool,
     /// What the run is taken to hold: full (biases, scale errors, misalignments, the axis' attitude), or a model file
     #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
     pub(crate) model: ModelChoice,

@@ -12,7 +12,7 @@ use rins_terms::{Model, NotUndone, Owner, Role};
 
 use crate::disturbance;
 use crate::gain_drift::{Drift, drifts};
-use crate::gain_spans::{Held, held_out};
+use crate::gain_spans::{Held, fastest, held_out};
 
 /// Of fewer blocks no interval can be told.
 const FEWEST_BLOCKS: usize = 4;
@@ -77,6 +77,9 @@ pub enum GainError {
         /// How many revolutions or pieces of a rest.
         blocks: usize,
     },
+    /// What was found at one rate cannot be tried at another.
+    #[error("the table turns at one rate only")]
+    OneRate,
     /// A model cannot be fitted to the rest.
     #[error("the model cannot be fitted to what is not held out")]
     Fit(#[from] FitError),
@@ -108,12 +111,26 @@ impl Gain {
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        Self::of(
-            runs,
-            [(Some(before), as_expected(before)), (Some(after), as_expected(after))],
-            imu,
-            knowledge,
-        )
+        let models = [(Some(before), as_expected(before)), (Some(after), as_expected(after))];
+        Self::of((runs, &ends(runs)), models, imu, knowledge)
+    }
+
+    /// The same where all stretches at the fastest rate are held out: whether what was found at slower rates holds there.
+    ///
+    /// # Errors
+    /// [`GainError`] if there is one rate only, too little is at the fastest, or a model does not fit the rest.
+    pub fn at_the_fastest_rate(
+        runs: &[Run],
+        (before, after): (&Fit, &Fit),
+        imu: &ImuSpec,
+        knowledge: NoiseKnowledge,
+    ) -> Result<Self, GainError> {
+        let held: Vec<Vec<Held>> = runs.iter().map(fastest).collect();
+        if held.iter().all(Vec::is_empty) {
+            return Err(GainError::OneRate);
+        }
+        let models = [(Some(before), as_expected(before)), (Some(after), as_expected(after))];
+        Self::of((runs, &held), models, imu, knowledge)
     }
 
     /// The same on runs that played no part at all: what belongs to the sensors is held as it was found, and what belongs to
@@ -127,16 +144,16 @@ impl Gain {
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        Self::of(others, [(None, transferred(before)), (None, transferred(after))], imu, knowledge)
+        let models = [(None, transferred(before)), (None, transferred(after))];
+        Self::of((others, &ends(others)), models, imu, knowledge)
     }
 
     fn of(
-        runs: &[Run],
+        (runs, held): (&[Run], &[Vec<Held>]),
         [(near_before, before), (near_after, after)]: [(Option<&Fit>, Model); 2],
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        let held: Vec<Vec<Held>> = runs.iter().map(held_out).collect();
         let blocks = held.iter().flatten().map(|held| held.blocks.len()).sum();
         if blocks < FEWEST_BLOCKS {
             return Err(GainError::TooLittle { blocks });
@@ -153,7 +170,7 @@ impl Gain {
         };
         let first = fitted(near_before, &before)?;
         let second = if before == after { first.clone() } else { fitted(near_after, &after)? };
-        let scores = [scored(runs, &held, &first)?, scored(runs, &held, &second)?];
+        let scores = [scored(runs, held, &first)?, scored(runs, held, &second)?];
         let rises: Vec<f64> =
             scores[0].blocks.iter().zip(&scores[1].blocks).map(|(a, b)| b - a).collect();
         let interval = interval(&rises);
@@ -164,6 +181,11 @@ impl Gain {
         let [before, after] = scores.map(|score| score.foresight);
         Ok(Self { spans, samples, blocks, before, after, interval, drifts, verdict })
     }
+}
+
+/// The last of every stretch of each run.
+fn ends(runs: &[Run]) -> Vec<Vec<Held>> {
+    runs.iter().map(held_out).collect()
 }
 
 /// A model with all it estimates where it was expected, and no better known than it was.

@@ -1,4 +1,5 @@
-//! Which part of a run is held out: the last of every stretch of constant rate, in whole revolutions.
+//! Which part of a run is held out: the last of every stretch of constant rate, or all at the fastest rate, in whole
+//! revolutions.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -14,6 +15,9 @@ const LEAST_TURNED: f64 = 1.5 * TAU;
 
 /// A rate is constant within this part of itself, or within so much \[rad/s\].
 const CONSTANT: (f64, f64) = (0.02, 1e-3);
+
+/// Another rate is slower by this part at least.
+const ANOTHER: f64 = 0.2;
 
 /// A table that turns more slowly rests \[rad/s\].
 const REST: f64 = 1e-3;
@@ -44,7 +48,26 @@ pub(crate) struct Held {
 /// What is held out of a run: nothing of stretches of less than one and a half revolutions.
 pub(crate) fn held_out(run: &Run) -> Vec<Held> {
     let epochs = epochs(run);
-    stretches(&epochs).into_iter().filter_map(|stretch| end_of(&epochs[stretch])).collect()
+    stretches(&epochs).into_iter().filter_map(|stretch| end_of(&epochs[stretch], SHARE)).collect()
+}
+
+/// All stretches at the fastest rate of a run that turns at slower ones too, in whole revolutions; nothing of other runs.
+pub(crate) fn fastest(run: &Run) -> Vec<Held> {
+    let epochs = epochs(run);
+    let rate = |stretch: &Range<usize>| {
+        let turned = epochs[stretch.end - 1].angle - epochs[stretch.start].angle;
+        let duration: f64 = epochs[stretch.clone()].iter().map(|epoch| epoch.duration).sum();
+        if duration < SHORTEST { 0.0 } else { (turned / duration).abs() }
+    };
+    let stretches: Vec<(f64, Range<usize>)> =
+        stretches(&epochs).into_iter().map(|stretch| (rate(&stretch), stretch)).collect();
+    let fastest = stretches.iter().fold(0.0_f64, |most, (rate, _)| most.max(*rate));
+    let is_slower = |rate: f64| rate < (1.0 - ANOTHER) * fastest;
+    if !stretches.iter().any(|(rate, _)| *rate > REST && is_slower(*rate)) {
+        return Vec::new();
+    }
+    let fast = stretches.into_iter().filter(|(rate, _)| !is_slower(*rate));
+    fast.filter_map(|(_, stretch)| end_of(&epochs[stretch], 1.0)).collect()
 }
 
 fn epochs(run: &Run) -> Vec<Epoch> {
@@ -75,8 +98,8 @@ fn stretches(epochs: &[Epoch]) -> Vec<Range<usize>> {
     stretches
 }
 
-/// The last of a stretch, if it is long enough.
-fn end_of(stretch: &[Epoch]) -> Option<Held> {
+/// The last part of a stretch, if it is long enough.
+fn end_of(stretch: &[Epoch], share: f64) -> Option<Held> {
     let duration: f64 = stretch.iter().map(|epoch| epoch.duration).sum();
     if duration < SHORTEST {
         return None;
@@ -85,14 +108,14 @@ fn end_of(stretch: &[Epoch]) -> Option<Held> {
     let turned = (last.angle - first.angle).abs();
     let rests = turned / duration < REST;
     let least = if turned > LEAST_TURNED { 1.0 } else { 0.0 };
-    let revolutions = (SHARE * turned / TAU).floor().max(least);
+    let revolutions = (share * turned / TAU).floor().max(least);
     if !rests && revolutions < 1.0 {
         return None;
     }
     // How far each epoch is from the stretch's end, in blocks.
     let mut left = 0.0;
     let mut blocks: Vec<Range<usize>> = Vec::new();
-    let most = if rests { SHARE * duration / BLOCK } else { revolutions };
+    let most = if rests { share * duration / BLOCK } else { revolutions };
     for epoch in stretch.iter().rev() {
         let from_end = if rests { left / BLOCK } else { (last.angle - epoch.angle).abs() / TAU };
         left += epoch.duration;

@@ -220,7 +220,7 @@ fn a_supposed_effect_is_measured_and_not_searched_for() {
             ids.iter().map(|id| format!("[[term]]\nid = \"{id}\"\nestimate = true\n")).collect();
         let text = format!("schema = 1\nbase = \"none\"\n{}", terms.concat());
         fs::write(here.join("supposed.toml"), text).unwrap();
-        "diagnose run/rig.toml --noise given --suppose supposed.toml"
+        "diagnose run/rig.toml --noise given --suppose supposed.toml --transfer"
     };
     let right = result_in(here, supposing(&["gyro_scale_asymmetry"]));
     assert_eq!(right["verdict"], "named");
@@ -228,6 +228,8 @@ fn a_supposed_effect_is_measured_and_not_searched_for() {
     let off = (number(cause, "/parameters/0/value") - 6.0) / number(cause, "/parameters/0/sigma");
     assert!(off.abs() < WITHIN, "{off}");
     assert!(number(&right, "/gain/log_score_rise") > 20.0, "{}", right["gain"]);
+    assert_eq!(right["transfer"]["verdict"], "improved", "{}", right["transfer"]);
+    assert_eq!(right["transfer"]["held_out"], "all at the fastest rate");
 
     let wrong = result_in(here, supposing(&["gyro_lag"]));
     assert_eq!(wrong["causes"][0]["effect"], "gyro_lag");

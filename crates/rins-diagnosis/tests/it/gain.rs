@@ -50,6 +50,28 @@ fn an_effect_that_is_there_foretells_better() {
     assert!(drift.attitude[1] < 0.5 * drift.attitude[0], "{drift:?}");
 }
 
+/// An asymmetry grows with the rate, a step that was taken for it does not.
+#[test]
+fn what_was_found_at_slower_rates_foretells_the_fastest() {
+    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let there = hiding(3.0, 96);
+    let (before, after) = fits(&there);
+    let runs = std::slice::from_ref(&there);
+    let gain = Gain::at_the_fastest_rate(runs, (&before, &after), &fibre(), known).unwrap();
+    assert_eq!(gain.verdict, GainVerdict::Improved, "{gain:?}");
+    assert!(gain.rise() > 20.0, "{}", gain.rise());
+    // Both stretches at 80 deg/s: of 50 s each, ramps of 24 and 32 s left, nine turns of 4.5 s.
+    let held: usize = gain.spans.iter().flatten().map(std::ops::Range::len).sum();
+    let share = held as f64 / there.recording.len() as f64;
+    assert!((0.12..9.0 * 4.5 / 250.0).contains(&share), "{share}");
+
+    let one_rate = run(&[0.0, 40.0, -40.0], Model::default(), 0.0, 97);
+    let (before, after) = fits(&one_rate);
+    let runs = std::slice::from_ref(&one_rate);
+    let none = Gain::at_the_fastest_rate(runs, (&before, &after), &fibre(), known);
+    assert_eq!(none, Err(GainError::OneRate));
+}
+
 /// The right model gains about what a parameter costs, the half of a nat and less.
 #[test]
 fn an_effect_that_is_not_there_gains_nothing() {

@@ -48,6 +48,8 @@ pub(crate) struct Found {
     pub(crate) unexplained: Vec<Unexplained>,
     /// What the causes gain on data that played no part.
     pub(crate) gain: Measured,
+    /// The same at the fastest rate, with what was found at slower ones, if it was asked.
+    pub(crate) transfer: Option<Measured>,
     /// The estimates that were wrong without the causes, the most wrong first.
     pub(crate) shifts: Vec<Shift>,
     /// The effects of which the run could not have shown anything.
@@ -71,6 +73,8 @@ pub(crate) struct Asked {
     pub(crate) supposed: Option<Vec<Chosen>>,
     /// The run on which the gain is measured, if it is another.
     pub(crate) held_out: Option<Prepared>,
+    /// Whether it is measured at the fastest rate too.
+    pub(crate) transfer: bool,
     /// How many runs are drawn to see what chance would name.
     pub(crate) bootstrap: Option<u32>,
 }
@@ -135,8 +139,9 @@ impl Found {
         };
         let diagnosis = diagnosed.with_context(|| case.names())?;
         spinner.set_message("measuring the gain");
-        let gain =
-            Measured::of(&case, asked.held_out.as_ref(), (&diagnosis.before, &diagnosis.after));
+        let fits = (&diagnosis.before, &diagnosis.after);
+        let gain = Measured::of(&case, asked.held_out.as_ref(), fits);
+        let transfer = asked.transfer.then(|| Measured::at_the_fastest_rate(&case, fits));
         spinner.finish_and_clear();
         let imu = *case.imu();
         let causes: Vec<Named> = diagnosis
@@ -183,6 +188,7 @@ impl Found {
             causes,
             unexplained,
             gain,
+            transfer,
             shifts,
             untestable,
             limits,

@@ -5,7 +5,7 @@ use rins_estimation::Estimate;
 use serde_json::{Map, Value, json};
 
 use crate::commands::calibrate::{consistency_json, noise_json};
-use crate::commands::diagnose::{Found, Named, Verdict};
+use crate::commands::diagnose::{Found, Measured, Named, Verdict};
 use crate::view::{settings_in_words, size_in_words, structure_in_words};
 
 /// The whole of a diagnosis.
@@ -48,6 +48,7 @@ pub(super) fn diagnosis(found: &Found) -> Value {
         "causes": causes,
         "unexplained": found.unexplained.iter().map(|one| unexplained(found, one)).collect::<Vec<_>>(),
         "gain": found.gain.json(),
+        "transfer": found.transfer.as_ref().map(Measured::json),
         "shifts": shifts,
         "not_testable": untestable,
         "chance": found.by_chance.as_ref().map(|chance| json!({

@@ -7,10 +7,20 @@ use serde_json::{Value, json};
 
 use crate::commands::calibrate::{Case, Prepared};
 
+/// On what a gain is measured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum On {
+    /// The last part of every stretch of the runs that were diagnosed.
+    Ends,
+    /// All their stretches at the fastest rate.
+    Fastest,
+    /// Another run, of this name.
+    Run(String),
+}
+
 /// A gain, or why there is none to be told.
 pub(crate) struct Measured {
-    /// The run on which it was measured, if it is not one of those that were diagnosed.
-    pub(crate) on: Option<String>,
+    pub(crate) on: On,
     pub(crate) gain: Result<Gain, GainError>,
 }
 
@@ -19,19 +29,30 @@ impl Measured {
     pub(crate) fn of(case: &Case, held_out: Option<&Prepared>, fits: (&Fit, &Fit)) -> Self {
         let (imu, knowledge) = (case.imu(), case.knowledge());
         match held_out {
-            None => Self { on: None, gain: Gain::within(&case.given(), fits, imu, knowledge) },
+            None => Self { on: On::Ends, gain: Gain::within(&case.given(), fits, imu, knowledge) },
             Some(other) => Self {
-                on: Some(other.name.clone()),
+                on: On::Run(other.name.clone()),
                 gain: Gain::on(std::slice::from_ref(&other.run), fits, imu, knowledge),
             },
         }
     }
 
+    /// What `after` gains where the table turns fastest, both estimated at the slower rates.
+    pub(crate) fn at_the_fastest_rate(case: &Case, fits: (&Fit, &Fit)) -> Self {
+        let gain = Gain::at_the_fastest_rate(&case.given(), fits, case.imu(), case.knowledge());
+        Self { on: On::Fastest, gain }
+    }
+
     /// For a machine.
     pub(super) fn json(&self) -> Value {
         let held_out = match &self.on {
-            None => "last 30 % of each segment".to_owned(),
-            Some(rig) => format!("last 30 % of each segment of {rig}"),
+            On::Ends => "last 30 % of each segment".to_owned(),
+            On::Fastest => "all at the fastest rate".to_owned(),
+            On::Run(rig) => format!("last 30 % of each segment of {rig}"),
+        };
+        let rig = match &self.on {
+            On::Run(rig) => Some(rig),
+            On::Ends | On::Fastest => None,
         };
         let gain = match &self.gain {
             Ok(gain) => gain,
@@ -45,7 +66,7 @@ impl Measured {
         let longest = drifts.last().cloned().unwrap_or_default();
         json!({
             "held_out": held_out,
-            "rig": self.on,
+            "rig": rig,
             "samples": gain.samples,
             "blocks": gain.blocks,
             "log_score_per_sample": {

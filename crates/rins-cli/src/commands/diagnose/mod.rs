@@ -11,7 +11,7 @@ use rins_io::{Loaded, ModelFile};
 use rins_terms::Chosen;
 
 pub(crate) use self::found::{Asked, ByChance, Found, Named, Verdict};
-pub(crate) use self::measured::Measured;
+pub(crate) use self::measured::{Measured, On};
 use crate::args::{Diagnose, ModelChoice, NoiseChoice};
 use crate::commands::calibrate::{Case, NamedModel, Prepared};
 use crate::commands::setup::load;
@@ -38,7 +38,12 @@ pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
         case.ensure_same_imu(other)?;
     }
     let supposed = arguments.suppose.as_deref().map(|file| supposed(file, &case)).transpose()?;
-    let asked = Asked { supposed, held_out: other, bootstrap: arguments.bootstrap };
+    let asked = Asked {
+        supposed,
+        held_out: other,
+        transfer: arguments.transfer,
+        bootstrap: arguments.bootstrap,
+    };
     let found = Found::of(case, &asked)?;
     let mut outcome = found.outcome();
     for run in &found.certificate.runs {

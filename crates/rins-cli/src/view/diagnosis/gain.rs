@@ -3,13 +3,16 @@
 use rins_diagnosis::{Drift, Gain, GainVerdict};
 use rins_frames::units::DEG;
 
-use crate::commands::diagnose::Measured;
+use crate::commands::diagnose::{Measured, On};
 use crate::number::figure;
 use crate::report::{Cell, Column, Item, Section, Table, Tone};
 
-/// The evidence for the gain.
+/// The evidence for a gain.
 pub(super) fn gain_section(measured: &Measured) -> Section {
-    let heading = "What it gains on data that played no part".to_owned();
+    let heading = match measured.on {
+        On::Fastest => "What it gains at a rate that played no part".to_owned(),
+        On::Ends | On::Run(_) => "What it gains on data that played no part".to_owned(),
+    };
     let intro = "Both models were estimated anew without what is held out, and then foretold every epoch of it from all before. NIS is \
                  the mean of the squared innovations of an epoch: as many as there are figures, if the model is right."
         .to_owned();
@@ -84,10 +87,13 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
 fn held_out(measured: &Measured, gain: &Gain) -> String {
     let size = format!("{} revolutions or pieces of a rest", gain.blocks);
     match &measured.on {
-        None => format!(
+        On::Ends => format!(
             "the last 30 % of every stretch of constant rate ({size}), which its size was not taken from"
         ),
-        Some(rig) => format!(
+        On::Fastest => format!(
+            "the stretches at the table's fastest rate ({size}), its size taken from the slower ones"
+        ),
+        On::Run(rig) => format!(
             "the last 30 % of every stretch of {rig} ({size}), which played no part in finding it"
         ),
     }

@@ -27,7 +27,8 @@ pub(crate) fn diagnosis_report(found: &Found) -> Report {
         sections: [
             vec![causes(found), unexplained(found)],
             overlay_sections(found),
-            vec![gain_section(&found.gain), shifts(found), limits(found), untestable(found)],
+            std::iter::once(&found.gain).chain(&found.transfer).map(gain_section).collect(),
+            vec![shifts(found), limits(found), untestable(found)],
         ]
         .concat(),
     }

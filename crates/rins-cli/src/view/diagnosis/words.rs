@@ -19,6 +19,7 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     if !found.causes.is_empty() {
         sentences.push(damage(found));
         sentences.push(gain_sentence(&found.gain));
+        sentences.extend(found.transfer.as_ref().map(gain_sentence));
     }
     sentences.extend(found.causes.iter().filter(|named| !named.plausible).map(|named| {
         format!(
