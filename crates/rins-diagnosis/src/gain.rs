@@ -71,7 +71,7 @@ pub enum GainError {
     /// Nothing, or too little, can be held out.
     #[error(
         "{blocks} revolutions or pieces of a rest can be held out, and {FEWEST_BLOCKS} are needed: of a stretch of constant rate \
-         whole revolutions of its last 30 % are taken, of a rest 10 s each"
+         whole revolutions are taken, of its last 30 % if not of all, of a rest 10 s each"
     )]
     TooLittle {
         /// How many revolutions or pieces of a rest.

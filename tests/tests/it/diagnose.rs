@@ -213,7 +213,9 @@ fn a_supposed_effect_is_measured_and_not_searched_for() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let truth = "\n[[truth.effects]]\nid = \"gyro_scale_asymmetry\"\nz = \"6 ppm\"\n";
-    fs::write(here.join("scenario.toml"), scenario(truth)).unwrap();
+    // Revolutions enough at the fastest rate.
+    let longer = scenario(truth).replace("36 s", "72 s");
+    fs::write(here.join("scenario.toml"), longer).unwrap();
     result_in(here, "simulate scenario.toml -o run");
     let supposing = |ids: &[&str]| {
         let terms: Vec<String> =
