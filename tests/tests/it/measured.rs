@@ -292,3 +292,20 @@ fn xsens_names_what_its_rests_do_not_show() {
     assert!(ids.filter(|id| id.starts_with("axis.")).count() == 0, "{result:#}");
     assert_eq!(texts(&result, "/notes").len(), 1, "{result:#}");
 }
+
+/// What comes back with every turn of the wheel is a rate that stands still beside it: the chair turns, by some 3 deg/s.
+#[test]
+fn chair_that_turns_under_the_wheel_is_named() {
+    let Some(folder) = rig("worklab_wheel_right") else { return };
+    let result = result_in(folder.path(), "diagnose rig.toml");
+    let causes = list(&result, "/causes");
+    let chair = causes.iter().find(|cause| cause["effect"] == "base_rotation");
+    let chair = chair.unwrap_or_else(|| panic!("{causes:#?}"));
+    assert!(number(chair, "/ln_p") < -100.0 && chair["plausible"] == true, "{chair:#}");
+    let [rate] = list(chair, "/parameters") else { panic!("{chair:#}") };
+    let (value, sigma) = (number(rate, "/value"), number(rate, "/sigma"));
+    assert!((value - 10_900.0).abs() < 1_500.0 && sigma < 700.0, "{rate}");
+    // Once it is named, nothing is left that comes once a turn.
+    let structures = list(&result, "/unexplained");
+    assert!(structures.iter().all(|one| one["structure"] != "1st order in table angle"));
+}

@@ -1,6 +1,6 @@
 //! A base that does not stand still.
 
-use crate::catalogue::parameters::{FREQUENCY, TIME, named, parameter};
+use crate::catalogue::parameters::{FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
 use crate::term::{Action, Owner, Prior, Term};
 use crate::unit::Unit;
@@ -76,7 +76,12 @@ pub static BASE_ROTATION: Term = Term {
     cause: "what the table stands on turns about the vertical at a constant rate",
     equation: "θ = p t u, u the vertical in the axis frame",
     source: "the definition of a constant rate",
-    parameters: &[parameter("up", Unit::DEG_PER_HOUR, Prior::Anywhere(0.01, 10.0))],
+    // Small units are turned on chairs and on vehicles, too.
+    parameters: &[parameter(
+        "up",
+        Unit::DEG_PER_HOUR,
+        usual((0.01, 10.0), (0.01, 10.0), (0.01, 36_000.0)),
+    )],
     settings: &[],
     needs: &[],
     partners: &["gyro.bias", "base_tilt_ramp", "wrong_latitude"],
