@@ -8,8 +8,8 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     rins_io::fuzzing::put(path, data);
     if let Ok(part) = rins_io::read_part(path) {
         for row in &part.rows {
-            let values = usize::try_from(row.cell).ok().and_then(|cell| part.values.get(cell));
-            assert!(values.is_some_and(|values| values.len() == part.keys.len()));
+            let values = usize::try_from(row.cell).ok().and_then(|cell| part.heading.values.get(cell));
+            assert!(values.is_some_and(|values| values.len() == part.heading.keys.len()));
         }
     }
 });

@@ -27,6 +27,7 @@ mod noise;
 mod periodic;
 mod structure;
 mod switching;
+mod tails;
 mod unexplained;
 
 mod gain;

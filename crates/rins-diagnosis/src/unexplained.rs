@@ -81,6 +81,12 @@ impl Case<'_> {
                 found.push(one);
             }
         }
+        for run in 0..self.runs.len() {
+            let known = |one: &Unexplained| one.run == run && one.structure == Structure::Tails;
+            if !found.iter().any(known) {
+                found.extend(self.tails(after, run));
+            }
+        }
         found.extend(self.inconstant(after, causes)?);
         let mut switching = self.switching(after, 0.0)?;
         if switching.is_empty() && !causes.is_empty() {

@@ -1,0 +1,106 @@
+//! Noise with more large values than a normal distribution has, sample by sample: means over epochs hide it.
+
+use rins_estimation::Fit;
+
+use crate::case::Case;
+use crate::diagnosis::FALSE_ALARMS;
+use crate::disturbance::CHANNELS;
+use crate::lines::residuals;
+use crate::probability::ln_tail;
+use crate::structure::Structure;
+use crate::unexplained::Unexplained;
+
+/// Within so many samples the spread is taken to be one: noise that grows with the rate has no heavy tails.
+const BLOCK: usize = 256;
+
+/// A smaller excess of the kurtosis is of no consequence, however sure it is.
+const SLIGHT: f64 = 0.2;
+
+/// The six sensors of a run.
+const SENSORS: f64 = 6.0;
+
+impl Case<'_> {
+    /// The sensor of a run whose noise has the heaviest tails, if they are significant.
+    pub(crate) fn tails(&self, after: &Fit, run: usize) -> Option<Unexplained> {
+        let all = residuals(&self.runs[run], after, run);
+        let excesses = all.iter().map(|residuals| excess(residuals)).enumerate();
+        let (channel, (excess, ln_p)) =
+            excesses.min_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (e, _))| *e > SLIGHT)?;
+        let tests = SENSORS * self.runs.len() as f64;
+        let one = Unexplained {
+            run,
+            channel: CHANNELS[channel],
+            structure: Structure::Tails,
+            of: None,
+            ln_p: ln_p + tests.ln(),
+            amplitude: None,
+            worst: Vec::new(),
+        };
+        (excess.is_finite() && one.ln_p < FALSE_ALARMS.ln()).then_some(one)
+    }
+}
+
+/// By how much the kurtosis of white noise is more than a normal distribution's, and the logarithm of the chance of that.
+///
+/// It is taken of the differences of neighbours, in which what is slow is nothing: they have half the excess.
+fn excess(residuals: &[f64]) -> (f64, f64) {
+    let differences: Vec<f64> = residuals.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let blocks = differences.chunks_exact(BLOCK);
+    let count = blocks.len();
+    let n = BLOCK as f64;
+    // The mean of it over normal samples of this size, whose neighbours correlate by -1/2: 3 - 6/n without that.
+    let normal = 3.0 - 9.0 / n;
+    let sum: f64 = blocks.map(|block| kurtosis(block) - normal).sum();
+    let mean = sum / count as f64;
+    // Neighbouring differences share a value: their squares correlate by 1/4, their fourth powers' part by 1/16.
+    let sigma = (24.0 * (1.0 + 2.0 / 16.0) / (n * count as f64)).sqrt();
+    let size = mean / sigma;
+    let ln_p = if size > 0.0 { ln_tail(size * size, 1) - 2.0_f64.ln() } else { 0.0 };
+    (2.0 * mean, ln_p)
+}
+
+fn kurtosis(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let moment = |power: i32| values.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / n;
+    moment(4) / moment(2).powi(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal, StudentT};
+    use rand_pcg::Pcg64;
+
+    fn noise(distribution: impl Distribution<f64>, seed: u64) -> Vec<f64> {
+        distribution.sample_iter(Pcg64::seed_from_u64(seed)).take(20_000).collect()
+    }
+
+    /// The chance of normal noise is what it says: below a tenth in a tenth of all series.
+    #[test]
+    fn normal_noise_is_as_rare_as_it_says() {
+        let tenth = |seed: &u64| excess(&noise(StandardNormal, *seed)).1 < 0.1_f64.ln();
+        let share = (0..300).filter(tenth).count();
+        assert!((15..48).contains(&share), "{share} of 300");
+    }
+
+    #[test]
+    fn heavy_tails_are_told_with_their_excess() {
+        // Student's t of ten degrees: 6 / (10 - 4).
+        let (found, ln_p) = excess(&noise(StudentT::new(10.0).unwrap(), 1));
+        // Blocks know their own spread, and less of the tails.
+        assert!((0.6..1.1).contains(&found) && ln_p < -50.0, "{found} {ln_p}");
+    }
+
+    #[test]
+    fn noise_that_grows_has_no_tails() {
+        let mut growing = noise(StandardNormal, 2);
+        let n = growing.len() as f64;
+        for (place, value) in growing.iter_mut().enumerate() {
+            *value *= 1.0 + 4.0 * place as f64 / n;
+        }
+        let (found, _) = excess(&growing);
+        assert!(found < SLIGHT, "{found}");
+    }
+}
