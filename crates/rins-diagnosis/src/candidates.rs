@@ -19,6 +19,9 @@ const ORDERS: [f64; 20] = [
     16.0, 18.0, 24.0,
 ];
 
+/// The powers of the rate that are tried.
+const EXPONENTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+
 /// A temperature that changes by less \[K\] shows no effect of temperature.
 const LEAST_WARMING: f64 = 0.05;
 
@@ -101,6 +104,8 @@ fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
         of(place, &times, &alike, &|_| Some(step))
     } else if let Some(place) = place("time_constant") {
         of(place, &TIME_CONSTANTS.map(|part| part * duration), &alike, &Some)
+    } else if let Some(place) = place("exponent") {
+        of(place, &EXPONENTS, &alike, &|_| None)
     } else if let Some(place) = place("order") {
         // Of a bearing or a disc the higher orders are the weaker ones.
         of(place, &ORDERS, &|order| 1.0 / order.abs(), &|_| None)

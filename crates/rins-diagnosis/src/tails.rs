@@ -21,8 +21,8 @@ const SENSORS: f64 = 6.0;
 
 impl Case<'_> {
     /// The sensor of a run whose noise has the heaviest tails, if they are significant.
-    pub(crate) fn tails(&self, after: &Fit, run: usize) -> Option<Unexplained> {
-        let all = residuals(&self.runs[run], after, run);
+    pub(crate) fn tails(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
+        let all = residuals(&self.runs[run], fit, run);
         let excesses = all.iter().map(|residuals| excess(residuals)).enumerate();
         let (channel, (excess, ln_p)) =
             excesses.min_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (e, _))| *e > SLIGHT)?;

@@ -84,7 +84,8 @@ impl Case<'_> {
         for run in 0..self.runs.len() {
             let known = |one: &Unexplained| one.run == run && one.structure == Structure::Tails;
             if !found.iter().any(known) {
-                found.extend(self.tails(after, run));
+                // What a cause puts into single samples, such as the steps of a thermometer, is no noise.
+                found.extend(self.tails(before, run).and(self.tails(after, run)));
             }
         }
         found.extend(self.inconstant(after, causes)?);
