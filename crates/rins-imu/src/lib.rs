@@ -4,10 +4,10 @@
 //! `[S, M]` true, for a triad of gyros and a triad of accelerometers, with its exact inverse
 //! [`Compensation`]. [`ImuNoise`] is the random part: white noise, random walk, Gauss-Markov and
 //! flicker noise, and a finite resolution, from a [`Seed`] that gives the same numbers on every
-//! machine.
+//! machine. [`AllanPlan`] finds its strengths in a rest, by the Allan deviation.
 //!
-//! **What it does not do.** It estimates nothing, knows no motion, and has no errors that depend on
-//! time, temperature or acceleration.
+//! **What it does not do.** It estimates nothing but noise, knows no motion, and has no errors that
+//! depend on time, temperature or acceleration.
 //!
 //! Vectors are resolved in the body frame, in SI units and radians.
 //!
@@ -35,6 +35,9 @@ mod triad;
 mod imu;
 mod noise;
 
+mod allan;
+
+pub use allan::{AllanError, AllanPlan, AllanPoint, CONFIDENCE, NoiseLaw, NoiseSeen, Strength};
 pub use axis::{Axis, Triad};
 pub use imu::{Compensation, ImuCompensationError, ImuError};
 pub use noise::{

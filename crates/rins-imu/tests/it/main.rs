@@ -1,3 +1,2 @@
 //! The statistics of the noise against what its coefficients mean.
-mod allan;
 mod noise;

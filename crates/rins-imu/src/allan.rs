@@ -1,0 +1,13 @@
+//! The Allan deviation of a rest, and the noise that it shows.
+
+mod covariance;
+mod curve;
+mod fit;
+mod law;
+
+pub use curve::{AllanError, AllanPlan, AllanPoint, CONFIDENCE};
+pub use fit::{NoiseSeen, Strength};
+pub use law::NoiseLaw;
+
+#[cfg(test)]
+mod tests;

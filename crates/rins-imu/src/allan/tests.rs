@@ -1,0 +1,171 @@
+//! Published deviations, and noise of known strength found again.
+
+use rins_testing::assert_close;
+
+use super::curve::allan_variance;
+use super::*;
+use crate::{Axis, NoiseModel, Quantisation, Seed, Sensor, Span, Triad, TriadNoise};
+
+const INTERVAL: f64 = 0.02;
+const N_SAMPLES: usize = 6000;
+
+/// What is seen in each of three axes of `n_runs` runs with this noise.
+fn seen(model: &NoiseModel, n_runs: u64) -> Vec<NoiseSeen> {
+    let plan = AllanPlan::new(N_SAMPLES, INTERVAL).unwrap();
+    let span = Span { interval: INTERVAL, duration: INTERVAL * N_SAMPLES as f64 };
+    let rate = rins_frames::InFrame::new(0.3, 0.2, 0.1) * INTERVAL;
+    let of_run = |run| {
+        let mut noise = TriadNoise::new(model, &span, Triad::Gyro, Seed { seed: 5, run }).unwrap();
+        let samples: Vec<_> =
+            (0..N_SAMPLES).map(|_| *noise.corrupt(&rate, INTERVAL).components()).collect();
+        [0, 1, 2].map(|axis| {
+            let series: Vec<f64> = samples.iter().map(|sample| sample[axis]).collect();
+            plan.noise(&series).unwrap()
+        })
+    };
+    (0..n_runs).flat_map(of_run).collect()
+}
+
+/// How many sigma each strength that was seen is off the truth.
+fn scores(seen: &[NoiseSeen], law: NoiseLaw, truth: f64) -> Vec<f64> {
+    let score = |seen: &NoiseSeen| match &seen.strengths[law as usize] {
+        Strength::Seen { value, sigma, .. } => Some((value - truth) / sigma),
+        Strength::NotSeen { .. } => None,
+    };
+    seen.iter().filter_map(score).collect()
+}
+
+fn mean_square(scores: &[f64]) -> f64 {
+    scores.iter().map(|score| score * score).sum::<f64>() / scores.len() as f64
+}
+
+fn deviation(rates: &[f64], cluster: usize) -> f64 {
+    let mut integral = vec![0.0];
+    for rate in rates {
+        integral.push(integral[integral.len() - 1] + rate);
+    }
+    allan_variance(&integral, cluster).sqrt()
+}
+
+#[test]
+fn nine_rates_have_their_published_deviation() {
+    // NBS monograph 140, annex 8.E, as in ‹riley2008›, chapter 12.
+    let rates = [892.0, 809.0, 823.0, 798.0, 671.0, 644.0, 883.0, 903.0, 677.0];
+    assert_close!(deviation(&rates, 1), 91.22945, 5e-6);
+    assert_close!(deviation(&rates, 2), 85.95287, 5e-6);
+}
+
+#[test]
+fn thousand_rates_have_their_published_deviation() {
+    // ‹riley2008›, chapter 12: the numbers of a congruential generator.
+    let modulus = 2_147_483_647_u64;
+    let numbers = std::iter::successors(Some(1_234_567_890), |n| Some(16_807 * n % modulus));
+    let rates: Vec<f64> = numbers.take(1000).map(|n| n as f64 / modulus as f64).collect();
+    for (cluster, published) in [(1, 2.922319e-1), (10, 9.159953e-2), (100, 3.241343e-2)] {
+        assert_close!(deviation(&rates, cluster), published, 5e-7 * published.max(0.1));
+    }
+}
+
+#[test]
+fn white_noise_is_found_within_its_sigma_and_nothing_beside() {
+    let seen = seen(&NoiseModel::white(0.5), 100);
+    let scores = scores(&seen, NoiseLaw::White, 0.5);
+    assert_eq!(scores.len(), 300);
+    // Chi-squared over 300: four sigma of its mean are 0.33.
+    assert_close!(mean_square(&scores), 1.0, 4.0 * (2.0 / 300.0_f64).sqrt());
+    let others = [NoiseLaw::Quantisation, NoiseLaw::Flicker, NoiseLaw::RandomWalk];
+    let false_alarms: usize = others.iter().map(|law| self::scores(&seen, *law, 0.0).len()).sum();
+    assert!(false_alarms <= 3, "{false_alarms} of 900");
+    assert!(seen.iter().all(|seen| seen.disagreement == 0.0));
+}
+
+#[test]
+fn bounds_hold_the_true_deviation_as_often_as_they_say() {
+    let seen = seen(&NoiseModel::white(0.5), 100);
+    for place in 0..seen[0].points.len() {
+        let held = seen.iter().filter(|seen| {
+            let AllanPoint { time, bounds: (low, high), .. } = seen.points[place];
+            (low..high).contains(&(0.5 / time.sqrt()))
+        });
+        // Four sigma of 300 throws are 15.
+        let held = held.count();
+        assert!((270..=299).contains(&held), "{held} of 300 at point {place}");
+    }
+}
+
+#[test]
+fn flicker_alone_is_a_floor() {
+    let seen = seen(&NoiseModel { flicker: Some(0.5), ..NoiseModel::default() }, 20);
+    let scores = scores(&seen, NoiseLaw::Flicker, 0.5);
+    assert_eq!(scores.len(), seen.len());
+    // The noise made is up to 6 % weaker in power at the highest frequencies than flicker noise is.
+    assert!((0.5..5.0).contains(&mean_square(&scores)), "{}", mean_square(&scores));
+    assert!(self::scores(&seen, NoiseLaw::White, 0.0).is_empty());
+}
+
+#[test]
+fn random_walk_is_found_within_its_sigma() {
+    let model = NoiseModel { bias_random_walk: 2.0, ..NoiseModel::white(0.5) };
+    let seen = seen(&model, 50);
+    let scores = scores(&seen, NoiseLaw::RandomWalk, 2.0);
+    assert_eq!(scores.len(), seen.len());
+    assert_close!(mean_square(&scores), 1.0, 0.5);
+}
+
+#[test]
+fn pulses_are_quantisation() {
+    // A bit of twice the noise of a sample: rounding is white then.
+    let bit = 0.04;
+    let quantisation = Some(Quantisation::Increment(bit));
+    let seen = seen(&NoiseModel { quantisation, ..NoiseModel::white(0.14) }, 20);
+    let scores = scores(&seen, NoiseLaw::Quantisation, bit / 12.0_f64.sqrt());
+    assert_eq!(scores.len(), seen.len());
+    assert!((0.3..3.0).contains(&mean_square(&scores)), "{}", mean_square(&scores));
+}
+
+#[test]
+fn weak_flicker_is_bounded_or_has_its_rival() {
+    let seen = seen(&NoiseModel { flicker: Some(0.5), ..NoiseModel::white(1.0) }, 30);
+    let (mut bounded, mut misnamed) = (0, 0);
+    for seen in &seen {
+        match &seen.strengths[NoiseLaw::Flicker as usize] {
+            Strength::NotSeen { below } => bounded += usize::from(*below >= 0.5),
+            Strength::Seen { .. } => bounded += 1,
+        }
+        if let Strength::Seen { rivals, .. } = &seen.strengths[NoiseLaw::RandomWalk as usize] {
+            misnamed += usize::from(!rivals.contains(&NoiseLaw::Flicker));
+        }
+    }
+    // 2 sigma are 97.5 % of a normal scatter; the bound's own is skew.
+    assert!(bounded >= 80, "{bounded} of 90");
+    assert!(misnamed <= 2, "{misnamed} of 90");
+}
+
+#[test]
+fn dither_hides_the_laws_at_its_own_times_only() {
+    let plan = AllanPlan::new(N_SAMPLES, INTERVAL).unwrap();
+    let mut noise = Seed::new(3).stream(Sensor::Inertial(Triad::Gyro, Axis::X));
+    // Noise of one in a second, and an angle that swings by ten times a sample's at 8 Hz.
+    let angle = |k: usize| 1.4 * k as f64;
+    let series: Vec<f64> = (0..N_SAMPLES)
+        .map(|k| INTERVAL.sqrt() * (noise.sample() + 10.0 * (angle(k + 1).sin() - angle(k).sin())))
+        .collect();
+    let seen = plan.noise(&series).unwrap();
+    assert!(seen.explained_from > 4.0 * INTERVAL, "{seen:?}");
+    let scores = scores(&[seen], NoiseLaw::White, 1.0);
+    assert!(scores.iter().all(|score| score.abs() < 4.0), "{scores:?}");
+}
+
+#[test]
+fn series_that_tell_nothing_are_refused() {
+    let short = AllanPlan::new(79, INTERVAL).unwrap_err();
+    assert_eq!(short, AllanError::TooShort { n_samples: 79, needed: 80 });
+    assert_eq!(AllanPlan::new(80, 0.0).unwrap_err(), AllanError::Interval { interval: 0.0 });
+    let plan = AllanPlan::new(80, INTERVAL).unwrap();
+    let length = AllanError::Length { n_samples: 81, planned: 80 };
+    assert_eq!(plan.noise(&[0.0; 81]), Err(length));
+    assert_eq!(plan.noise(&[0.1; 80]), Err(AllanError::Constant));
+    let mut gap = [0.0; 80];
+    gap[7] = f64::NAN;
+    assert_eq!(plan.noise(&gap), Err(AllanError::NotFinite { sample: 7 }));
+}
