@@ -64,6 +64,8 @@ pub(crate) enum Command {
     Convert(Convert),
     /// Say what is in a run: rate, gaps, rest, gravity, Earth rate, suspected mistakes
     Check(Input),
+    /// Say what noise a rest shows: Allan deviations with bounds, and the terms that make them
+    Allan(Input),
     /// Find the attitude from a rest: level from gravity, north from the Earth's rotation
     Align(Input),
     /// Navigate freely from rest, with or without a calibration
@@ -380,7 +382,7 @@ impl Command {
             Self::Simulate(simulate) => Some(&simulate.output),
             // These write their two files themselves.
             Self::Convert(_) | Self::MonteCarlo(_) | Self::Merge(_) | Self::Apply(_) => None,
-            Self::Check(input) | Self::Align(input) => input.output.as_deref(),
+            Self::Check(input) | Self::Allan(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.output.as_deref(),

@@ -39,6 +39,7 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Command::Simulate(simulate) => commands::simulate::run(simulate),
         Command::Convert(convert) => commands::convert::run(convert, arguments.overwrite()),
         Command::Check(input) => commands::check::run(&input.rig),
+        Command::Allan(input) => commands::allan::run(&input.rig),
         Command::Align(input) => commands::align::run(&input.rig),
         Command::MonteCarlo(campaign) => {
             commands::monte_carlo::run(campaign, arguments.overwrite())

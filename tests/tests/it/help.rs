@@ -8,13 +8,14 @@ use std::path::{Path, PathBuf};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "",
     "demo",
     "init",
     "simulate",
     "convert",
     "check",
+    "allan",
     "align",
     "navigate",
     "calibrate",

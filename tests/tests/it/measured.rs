@@ -122,10 +122,11 @@ fn wheel_has_gaps_and_no_rest() {
     assert!(is_odd(&check, "251 gap(s)") && is_odd(&check, "never at rest"), "{check}");
     // About 16 turns of the wheel, and the swaying about its axis before and after.
     assert!((16.0..24.0).contains(&number(&check, "/turns")), "{check}");
-    for command in ["align", "navigate"] {
+    for (command, rest) in [("align", 5), ("navigate", 5), ("allan", 10)] {
         let refused = rins_in(folder.path(), &format!("{command} rig.toml --json"));
         assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
-        assert!(refused.err.contains("sensors.csv: the IMU never stands still for 5 s"));
+        let why = format!("sensors.csv: the IMU never stands still for {rest} s");
+        assert!(refused.err.contains(&why), "{}", refused.err);
     }
 }
 
@@ -308,4 +309,34 @@ fn chair_that_turns_under_the_wheel_is_named() {
     // Once it is named, nothing is left that comes once a turn.
     let structures = list(&result, "/unexplained");
     assert!(structures.iter().all(|one| one["structure"] != "1st order in table angle"));
+}
+
+#[test]
+fn laser_gyro_shows_its_noise_beyond_its_dither() {
+    let Some(folder) = rig("psins_lasergyro") else { return };
+    let allan = result_in(folder.path(), "allan rig.toml");
+    let channels = list(&allan, "/channels");
+    let names: Vec<&str> = channels.iter().filter_map(|one| one["channel"].as_str()).collect();
+    assert_eq!(names, ["gyro.x", "gyro.y", "gyro.z", "accel.x", "accel.y", "accel.z"]);
+    for channel in channels {
+        let [deviation, low, high] =
+            ["/deviation", "/low", "/high"].map(|column| numbers(channel, column));
+        // Powers of two of 10 ms up to a fifth of 1847 s.
+        assert_eq!(deviation.len(), 16);
+        for k in 0..16 {
+            assert!(0.0 < low[k] && low[k] < deviation[k] && deviation[k] < high[k], "{channel}");
+        }
+        let terms = list(channel, "/terms");
+        assert_eq!(terms.len(), 4);
+        for term in terms {
+            if term["seen"] == true {
+                let (value, sigma) = (number(term, "/value"), number(term, "/sigma"));
+                assert!(0.0 < sigma && sigma < value, "{term}");
+            } else {
+                assert!(number(term, "/below") > 0.0, "{term}");
+            }
+        }
+    }
+    // The dither rules at the shortest times.
+    assert!(number(&channels[0], "/explained_from_s") > 0.1, "{}", channels[0]);
 }

@@ -202,11 +202,12 @@ fn a_mend_takes_account_of_axes_and_spin_that_are_there() {
 }
 
 /// What computes something from a log, before the rig file's name.
-const COMMANDS: [&str; 6] = [
+const COMMANDS: [&str; 7] = [
     "calibrate --model paper12",
     "calibrate --model full",
     "diagnose",
     "align",
+    "allan",
     "navigate",
     "apply --calibration right/calibration.toml -o clean.csv",
 ];

@@ -1,6 +1,7 @@
 //! `rins align`: attitude from a rest, and what the sensors say of the place.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 use std::path::Path;
 
 use nalgebra::Vector3;
@@ -9,7 +10,7 @@ use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
 use rins_io::Loaded;
 use rins_motion::{
     AlignmentError, FineAlignment, FineAlignmentError, GyroFigures, MeanUncertainty, PlaceSeen,
-    RestMean, align_finely, level, place_seen, residual, rest_spans,
+    Recording, RestMean, align_finely, level, place_seen, residual, rest_spans,
 };
 use serde_json::{Value, json};
 
@@ -33,7 +34,7 @@ pub(crate) struct Found {
     /// Why north was not found.
     hidden: Option<AlignmentError>,
     /// The samples of the rest.
-    pub(crate) span: std::ops::Range<usize>,
+    pub(crate) span: Range<usize>,
     pub(crate) start: f64,
     mean: RestMean,
     /// What the filter over the rest found; nothing if north was not found.
@@ -61,23 +62,23 @@ impl Found {
 
 /// Aligns on the longest rest of a run.
 pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
-    let recording = &loaded.recording;
-    let lasting =
-        |span: &std::ops::Range<usize>| recording.times[span.end - 1] - recording.times[span.start];
-    let span = rest_spans(recording, SHORTEST_REST)
-        .into_iter()
-        .max_by(|a, b| lasting(a).total_cmp(&lasting(b)))
-        .ok_or_else(|| {
-            anyhow::anyhow!(
-                "{}: the IMU never stands still for {SHORTEST_REST} s, so there is nothing to align on",
-                loaded.rig.log.path.display()
-            )
-        })?;
+    let span = longest_rest(&loaded.recording, SHORTEST_REST).ok_or_else(|| {
+        anyhow::anyhow!(
+            "{}: the IMU never stands still for {SHORTEST_REST} s, so there is nothing to align on",
+            loaded.rig.log.path.display()
+        )
+    })?;
     found_over(loaded, span)
 }
 
+/// The longest rest of a run, if one lasts as long as `shortest` \[s\].
+pub(crate) fn longest_rest(recording: &Recording, shortest: f64) -> Option<Range<usize>> {
+    let lasting = |span: &Range<usize>| recording.times[span.end - 1] - recording.times[span.start];
+    rest_spans(recording, shortest).into_iter().max_by(|a, b| lasting(a).total_cmp(&lasting(b)))
+}
+
 /// Aligns on one rest of a run.
-pub(crate) fn found_over(loaded: &Loaded, span: std::ops::Range<usize>) -> anyhow::Result<Found> {
+pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<Found> {
     let recording = &loaded.recording;
     let mean = RestMean::of(recording, span.clone())
         .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;

@@ -1,6 +1,7 @@
 //! One file a command: from its arguments to its outcome.
 
 pub(crate) mod align;
+pub(crate) mod allan;
 pub(crate) mod apply;
 pub(crate) mod calibrate;
 pub(crate) mod campaign_runs;

@@ -1,5 +1,6 @@
 //! How results are shown: numbers in the units of their field, tables and plots.
 
+mod allan;
 mod calibration;
 pub(crate) mod campaign;
 mod certificate;
@@ -12,6 +13,7 @@ pub(crate) mod table;
 pub(crate) mod told;
 mod worth;
 
+pub(crate) use allan::{allan_report, allan_text};
 pub(crate) use calibration::{SYSTEMATIC_NOTE, calibration_report, calibration_text, meaning};
 pub(crate) use certificate::{certificate_report, certificate_text};
 pub(crate) use comparison::{comparison_report, comparison_text};
