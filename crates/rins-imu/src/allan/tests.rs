@@ -145,10 +145,10 @@ fn weak_flicker_is_bounded_or_has_its_rival() {
 fn dither_hides_the_laws_at_its_own_times_only() {
     let plan = AllanPlan::new(N_SAMPLES, INTERVAL).unwrap();
     let mut noise = Seed::new(3).stream(Sensor::Inertial(Triad::Gyro, Axis::X));
-    // Noise of one in a second, and an angle that swings by ten times a sample's at 8 Hz.
+    // Noise of one in a second, and an angle that swings by twice a sample's at 11 Hz.
     let angle = |k: usize| 1.4 * k as f64;
     let series: Vec<f64> = (0..N_SAMPLES)
-        .map(|k| INTERVAL.sqrt() * (noise.sample() + 10.0 * (angle(k + 1).sin() - angle(k).sin())))
+        .map(|k| INTERVAL.sqrt() * (noise.sample() + 2.0 * (angle(k + 1).sin() - angle(k).sin())))
         .collect();
     let seen = plan.noise(&series).unwrap();
     assert!(seen.explained_from > 4.0 * INTERVAL, "{seen:?}");
