@@ -111,8 +111,7 @@ impl Gain {
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        let models = [(Some(before), as_expected(before)), (Some(after), as_expected(after))];
-        Self::of((runs, &ends(runs)), models, imu, knowledge)
+        Self::of((runs, &ends(runs)), [before, after].map(anew), imu, knowledge)
     }
 
     /// The same where all stretches at the fastest rate are held out: whether what was found at slower rates holds there.
@@ -129,8 +128,7 @@ impl Gain {
         if held.iter().all(Vec::is_empty) {
             return Err(GainError::OneRate);
         }
-        let models = [(Some(before), as_expected(before)), (Some(after), as_expected(after))];
-        Self::of((runs, &held), models, imu, knowledge)
+        Self::of((runs, &held), [before, after].map(anew), imu, knowledge)
     }
 
     /// The same on runs that played no part at all: what belongs to the sensors is held as it was found, and what belongs to
@@ -186,6 +184,11 @@ impl Gain {
 /// The last of every stretch of each run.
 fn ends(runs: &[Run]) -> Vec<Vec<Held>> {
     runs.iter().map(held_out).collect()
+}
+
+/// What to estimate anew, and beside which fit.
+fn anew(fit: &Fit) -> (Option<&Fit>, Model) {
+    (Some(fit), as_expected(fit))
 }
 
 /// A model with all it estimates where it was expected, and no better known than it was.

@@ -116,16 +116,15 @@ impl Case<'_> {
     /// The setting of an effect that comes from a continuum, how far apart its values are that tell a derivative, and
     /// how far it may be off before it is another effect.
     fn continuum(&self, present: &Fit, chosen: &Chosen) -> Option<(usize, f64, f64)> {
-        let (place, setting) = chosen.term.settings.iter().enumerate().next()?;
         let duration = self.duration();
-        match setting.name {
+        chosen.term.settings.iter().enumerate().find_map(|(place, setting)| match setting.name {
             "frequency" => Some((place, APART / duration, 0.5 / duration)),
             "time_constant" => {
                 Some((place, APART * chosen.settings[place], chosen.settings[place]))
             }
             "time" => Some((place, present.linear[0].mean_epoch(), 0.1 * duration)),
             _ => None,
-        }
+        })
     }
 }
 

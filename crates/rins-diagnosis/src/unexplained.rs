@@ -85,7 +85,7 @@ impl Case<'_> {
             let known = |one: &Unexplained| one.run == run && one.structure == Structure::Tails;
             if !found.iter().any(known) {
                 // What a cause puts into single samples, such as the steps of a thermometer, is no noise.
-                found.extend(self.tails(before, run).and(self.tails(after, run)));
+                found.extend(self.tails(before, run).and_then(|_| self.tails(after, run)));
             }
         }
         found.extend(self.inconstant(after, causes)?);
