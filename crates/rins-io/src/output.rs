@@ -85,8 +85,8 @@ pub fn write_file(
     let (parent, name) = split(path)?;
     refuse_existing(path, overwrite)?;
     let failed = || IoError::file("write", path);
-    let temporary = builder(&hidden(name), 0o666).tempfile_in(parent).map_err(failed())?;
-    let _unfinished = Unfinished::new(temporary.path());
+    let (_unfinished, temporary) =
+        Unfinished::make(|| builder(&hidden(name), 0o666).tempfile_in(parent)).map_err(failed())?;
     let mut buffered = BufWriter::new(temporary);
     write(&mut buffered)?;
     let temporary = buffered.into_inner().map_err(|error| failed()(error.into_error()))?;
@@ -122,8 +122,9 @@ pub fn write_files(
         refuse_existing(path, overwrite)?;
     }
     let failed = |path: &Path| IoError::file("write", path);
-    let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed(first))?;
-    let _unfinished = Unfinished::new(staging.path());
+    let (_unfinished, staging) =
+        Unfinished::make(|| builder(&hidden(name), 0o777).tempdir_in(parent))
+            .map_err(failed(first))?;
     fill(staging.path()).map_err(|error| placed(error, staging.path(), parent))?;
     synchronise_all(staging.path()).map_err(failed(first))?;
     undisturbed(|| {
@@ -167,13 +168,14 @@ pub fn write_folder(
     let (parent, name) = split(path)?;
     let old = replaceable(path, overwrite)?;
     let failed = || IoError::file("write", path);
-    let staging = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
-    let _unfinished = Unfinished::new(staging.path());
+    let (_unfinished, staging) =
+        Unfinished::make(|| builder(&hidden(name), 0o777).tempdir_in(parent)).map_err(failed())?;
     fill(staging.path()).map_err(|error| placed(error, staging.path(), path))?;
     synchronise_all(staging.path()).map_err(failed())?;
     if old {
-        let aside = builder(&hidden(name), 0o777).tempdir_in(parent).map_err(failed())?;
-        let _replaced = Unfinished::new(aside.path());
+        let (_replaced, aside) =
+            Unfinished::make(|| builder(&hidden(name), 0o777).tempdir_in(parent))
+                .map_err(failed())?;
         undisturbed(|| exchange(staging.path(), path, aside)).map_err(failed())?;
     } else {
         undisturbed(|| fs::rename(staging.path(), path)).map_err(failed())?;

@@ -1,8 +1,8 @@
 //! What is being written, so that an interrupt leaves nothing of it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::{fs, io};
 
 /// The temporary files and folders of what is being written.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -16,9 +16,17 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 pub(crate) struct Unfinished(PathBuf);
 
 impl Unfinished {
-    pub(crate) fn new(path: &Path) -> Self {
-        unfinished().push(path.into());
-        Self(path.into())
+    /// Makes the file or folder of the returned path, with no moment at which it is there but not known.
+    ///
+    /// Whoever removes it does so before this is dropped.
+    pub(crate) fn make<T: AsRef<Path>>(
+        make: impl FnOnce() -> io::Result<T>,
+    ) -> io::Result<(Self, T)> {
+        let mut unfinished = unfinished();
+        let made = make()?;
+        let path = made.as_ref().to_path_buf();
+        unfinished.push(path.clone());
+        Ok((Self(path), made))
     }
 }
 
@@ -48,7 +56,19 @@ pub fn abandon() -> Abandoned {
     let held = unfinished();
     for path in held.iter() {
         // What cannot be removed stays under its hidden name.
-        let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+        let _ = if path.is_dir() { remove_folder(path) } else { fs::remove_file(path) };
     }
     Abandoned { _held: held }
+}
+
+/// Removes a folder into which another thread may still put files.
+fn remove_folder(path: &Path) -> io::Result<()> {
+    // A file that comes in between is rare; more than a few one after the other are not met.
+    const ATTEMPTS: usize = 100;
+    for _ in 1..ATTEMPTS {
+        if fs::remove_dir_all(path).is_ok() {
+            return Ok(());
+        }
+    }
+    fs::remove_dir_all(path)
 }
