@@ -56,7 +56,7 @@ mod statistics;
 
 pub use campaign::{Campaign, Chunk};
 pub use cell::{Cell, CellError, PARAMETERS, Prepared, RunFailure, RunResult};
-pub use statistics::{Honesty, Statistics};
+pub use statistics::{Honesty, Statistics, Tally};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

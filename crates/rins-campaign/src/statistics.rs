@@ -41,49 +41,111 @@ pub struct Statistics {
     pub nis_ratio: f64,
 }
 
+/// What the runs of a cell have said so far, one after the other; of each of them only sums are kept.
+///
+/// The bits of its [`statistics`](Self::statistics) follow from the runs and their order alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tally {
+    truth: Vector3<f64>,
+    runs: usize,
+    failed: usize,
+    parameters: [Sums; 3],
+    nees: f64,
+    nis_ratio: f64,
+}
+
+/// Sums over the errors of one parameter and the variances claimed for them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Sums {
+    mean: f64,
+    /// Of the squares of what differs from the mean (‹welford1962›).
+    squares: f64,
+    variances: f64,
+    covered: u32,
+}
+
+impl Sums {
+    /// Adds an error, the `count`th.
+    fn add(&mut self, error: f64, variance: f64, count: f64) {
+        let from_old_mean = error - self.mean;
+        self.mean += from_old_mean / count;
+        self.squares += from_old_mean * (error - self.mean);
+        self.variances += variance;
+        self.covered += u32::from(error * error < WITHIN_95 * WITHIN_95 * variance);
+    }
+
+    fn honesty(&self, count: f64) -> Honesty {
+        Honesty {
+            mean_error: self.mean,
+            spread: (self.squares / (count - 1.0)).sqrt(),
+            claimed: (self.variances / count).sqrt(),
+            coverage: f64::from(self.covered) / count,
+        }
+    }
+}
+
+impl Tally {
+    /// Of no run yet, where this is true.
+    pub fn new(truth: Vector3<f64>) -> Self {
+        Self {
+            truth,
+            runs: 0,
+            failed: 0,
+            parameters: Default::default(),
+            nees: 0.0,
+            nis_ratio: 0.0,
+        }
+    }
+
+    /// Adds a run.
+    pub fn add(&mut self, run: &RunResult) {
+        let Ok(found) = run else {
+            self.failed += 1;
+            return;
+        };
+        self.runs += 1;
+        let error = found.value - self.truth;
+        for (index, sums) in self.parameters.iter_mut().enumerate() {
+            sums.add(error[index], found.covariance[(index, index)], self.runs as f64);
+        }
+        // A covariance that cannot be inverted claims too much.
+        let root = found.covariance.cholesky();
+        self.nees += root.map_or(f64::INFINITY, |root| error.dot(&root.solve(&error)));
+        self.nis_ratio += found.nis_ratio;
+    }
+
+    /// How many runs were added, with and without estimates.
+    pub fn runs(&self) -> usize {
+        self.runs + self.failed
+    }
+
+    /// What they say together; `None` if fewer than two have estimates.
+    pub fn statistics(&self) -> Option<Statistics> {
+        if self.runs < 2 {
+            return None;
+        }
+        let count = self.runs as f64;
+        let sum = ChiSquared::new(3.0 * count).ok()?;
+        let bound = |probability: f64| sum.inverse_cdf(probability) / count;
+        Some(Statistics {
+            runs: self.runs,
+            failed: self.failed,
+            parameters: self.parameters.map(|sums| sums.honesty(count)),
+            nees: self.nees / count,
+            nees_bounds: [bound(0.5 * SIGNIFICANCE), bound(1.0 - 0.5 * SIGNIFICANCE)],
+            nis_ratio: self.nis_ratio / count,
+        })
+    }
+}
+
 impl Statistics {
     /// The statistics of a cell's runs, in their order; `None` if fewer than two have estimates.
     pub fn of(truth: &Vector3<f64>, runs: &[RunResult]) -> Option<Self> {
-        let found: Vec<_> = runs.iter().filter_map(|run| run.as_ref().ok()).collect();
-        if found.len() < 2 {
-            return None;
+        let mut tally = Tally::new(*truth);
+        for run in runs {
+            tally.add(run);
         }
-        let count = found.len() as f64;
-        let parameter = |index: usize| {
-            let mean_of = |of: &dyn Fn(f64, f64) -> f64| {
-                let sum: f64 = found
-                    .iter()
-                    .map(|run| of(run.value[index] - truth[index], run.covariance[(index, index)]))
-                    .sum();
-                sum / count
-            };
-            let mean_error = mean_of(&|error, _| error);
-            let square = mean_of(&|error, _| (error - mean_error) * (error - mean_error));
-            Honesty {
-                mean_error,
-                spread: (square * count / (count - 1.0)).sqrt(),
-                claimed: mean_of(&|_, variance| variance).sqrt(),
-                coverage: mean_of(&|error, variance| {
-                    f64::from(u8::from(error * error < WITHIN_95 * WITHIN_95 * variance))
-                }),
-            }
-        };
-        let nees = found.iter().map(|run| {
-            let error = run.value - truth;
-            // A covariance that cannot be inverted claims too much.
-            run.covariance.cholesky().map_or(f64::INFINITY, |root| error.dot(&root.solve(&error)))
-        });
-        let nees = nees.sum::<f64>() / count;
-        let sum = ChiSquared::new(3.0 * count).ok()?;
-        let bound = |probability: f64| sum.inverse_cdf(probability) / count;
-        Some(Self {
-            runs: found.len(),
-            failed: runs.len() - found.len(),
-            parameters: [parameter(0), parameter(1), parameter(2)],
-            nees,
-            nees_bounds: [bound(0.5 * SIGNIFICANCE), bound(1.0 - 0.5 * SIGNIFICANCE)],
-            nis_ratio: found.iter().map(|run| run.nis_ratio).sum::<f64>() / count,
-        })
+        tally.statistics()
     }
 
     /// Whether the covariances claimed are neither too small nor too large.

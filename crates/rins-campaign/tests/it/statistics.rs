@@ -1,7 +1,10 @@
 //! The paper's filter is honest about its own model, and a wrong noise is found out.
 
-use rins_campaign::Statistics;
+use nalgebra::{Matrix3, Vector3};
+use rins_calibration::Estimate;
+use rins_campaign::{RunFailure, Statistics, Tally};
 use rins_simulation::TableRecord;
+use rins_testing::assert_close;
 
 use crate::support::cell;
 
@@ -40,4 +43,24 @@ fn one_run_has_no_statistics() {
     let cell = cell(10.0, TableRecord::CommandedRate);
     let runs = cell.prepare().unwrap().run(0..1);
     assert!(Statistics::of(&cell.truth(), &runs).is_none());
+}
+
+#[test]
+fn sums_keep_the_digits_of_a_small_spread_about_a_large_error() {
+    // Errors of 1e8 + 4, 7, 13 and 16, whose variance is 30; claimed are 31.
+    let mut tally = Tally::new(Vector3::repeat(-1e8));
+    for error in [4.0, 7.0, 13.0, 16.0] {
+        tally.add(&Err(RunFailure { reason: "none".into() }));
+        let covariance = Matrix3::from_diagonal_element(31.0);
+        tally.add(&Ok(Estimate { value: Vector3::repeat(error), covariance, nis_ratio: error }));
+    }
+    let found = tally.statistics().expect("four runs have estimates");
+    assert_eq!((found.runs, found.failed, tally.runs()), (4, 4, 8));
+    for parameter in found.parameters {
+        assert_close!(parameter.spread, 30_f64.sqrt(), 1e-12);
+        assert_close!(parameter.claimed, 31_f64.sqrt(), 1e-12);
+        assert_close!(parameter.mean_error, 1e8 + 10.0, 1e-7);
+        assert_eq!(parameter.coverage.to_bits(), 0);
+    }
+    assert_close!(found.nis_ratio, 10.0, 1e-12);
 }
