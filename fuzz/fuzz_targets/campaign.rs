@@ -6,10 +6,10 @@ use std::path::Path;
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let path = Path::new("part.parquet");
     rins_io::fuzzing::put(path, data);
-    if let Ok(part) = rins_io::read_part(path) {
-        for row in &part.rows {
-            let values = usize::try_from(row.cell).ok().and_then(|cell| part.heading.values.get(cell));
-            assert!(values.is_some_and(|values| values.len() == part.heading.keys.len()));
-        }
+    let Ok(mut runs) = rins_io::PartRuns::open(path) else { return };
+    while let Some(Ok([row, ..])) = runs.next() {
+        let heading = runs.heading();
+        let values = usize::try_from(row.cell).ok().and_then(|cell| heading.values.get(cell));
+        assert!(values.is_some_and(|values| values.len() == heading.keys.len()));
     }
 });

@@ -41,7 +41,7 @@ mod write;
 
 pub use calibration::{Calibration, Covariance};
 pub use campaign::{
-    GridCell, Heading, Identity, Journal, Part, Record, Row, ScenarioGrid, read_part, write_part,
+    GridCell, Heading, Identity, Journal, PartRuns, Record, Row, RunRows, ScenarioGrid, write_part,
 };
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};

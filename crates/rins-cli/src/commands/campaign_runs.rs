@@ -1,75 +1,56 @@
-//! What the runs of a campaign found, and the rows of its results.
+//! What the runs of a campaign found, one after the other, and the rows of its results.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_calibration::Estimate;
 use rins_campaign::{PARAMETERS, RunFailure, RunResult};
 use rins_frames::units::{ARCSEC, PPM};
-use rins_io::{Record, Row};
+use rins_io::{Record, Row, RunRows};
 
 /// The parameters' units: their names, and what one is in SI units.
 pub(crate) const UNITS: [(&str, f64); 3] = [("arcsec", ARCSEC), ("arcsec", ARCSEC), ("ppm", PPM)];
 
-/// The runs of a scenario of the grid, in their order and in the parameters' units.
+/// What a run found, in the parameters' units.
 #[derive(Debug)]
-pub(crate) struct Found {
+pub(crate) struct Run {
     /// The scenario's place in the grid.
     pub(crate) cell: usize,
+    /// The run's number.
+    pub(crate) number: u64,
     pub(crate) truth: Vector3<f64>,
-    /// The runs' numbers, and what they found.
-    pub(crate) numbers: Vec<u64>,
-    pub(crate) runs: Vec<RunResult>,
+    pub(crate) result: RunResult,
 }
 
-impl Found {
-    /// A scenario of which no run is known yet, where this is true in SI units.
-    pub(crate) fn none(cell: usize, truth: &Vector3<f64>) -> Self {
+impl Run {
+    /// A run that was made in SI units, of a scenario where this is true in them.
+    pub(crate) fn made(cell: usize, number: u64, truth: &Vector3<f64>, result: RunResult) -> Self {
         let truth =
             truth.zip_map(&Vector3::from(UNITS.map(|unit| unit.1)), |truth, unit| truth / unit);
-        Self { cell, truth, numbers: Vec::new(), runs: Vec::new() }
-    }
-
-    /// Adds a run of this number that was made in SI units.
-    pub(crate) fn add(&mut self, number: u64, run: RunResult) {
-        self.numbers.push(number);
-        self.runs.push(run.map(|found| Estimate {
+        let result = result.map(|found| Estimate {
             value: Vector3::from_fn(|row, _| found.value[row] / UNITS[row].1),
             covariance: Matrix3::from_fn(|row, column| {
                 found.covariance[(row, column)] / UNITS[row].1 / UNITS[column].1
             }),
             nis_ratio: found.nis_ratio,
-        }));
+        });
+        Self { cell, number, truth, result }
     }
 
-    /// The scenarios of rows that are in the order of scenarios and runs.
-    pub(crate) fn of_rows(rows: &[Row]) -> anyhow::Result<Vec<Self>> {
-        let mut all: Vec<Self> = Vec::new();
-        for rows in rows.chunks(PARAMETERS.len()) {
-            let whole = rows.len() == PARAMETERS.len()
-                && rows.iter().zip(PARAMETERS).all(|(row, id)| row.parameter == id);
-            anyhow::ensure!(whole, "run {} does not have its three parameters", rows[0].run);
-            let cell = usize::try_from(rows[0].cell)?;
-            if all.last().is_none_or(|last| last.cell != cell) {
-                let truth = Vector3::from_fn(|row, _| rows[row].record.truth);
-                all.push(Self { cell, truth, numbers: Vec::new(), runs: Vec::new() });
-            }
-            if let Some(found) = all.last_mut() {
-                found.numbers.push(rows[0].run);
-                found.runs.push(result(rows));
-            }
-        }
-        Ok(all)
+    /// A run that was read.
+    pub(crate) fn read(rows: &RunRows) -> Self {
+        let [first, ..] = rows;
+        // A file has no scenario beyond those that a grid can have.
+        let cell = usize::try_from(first.cell).unwrap_or(usize::MAX);
+        let truth = Vector3::from_fn(|row, _| rows[row].record.truth);
+        Self { cell, number: first.run, truth, result: result(rows) }
     }
 
-    /// A row for each run and parameter.
-    pub(crate) fn rows(&self) -> impl Iterator<Item = Row> + '_ {
-        let runs = self.numbers.iter().zip(&self.runs);
-        runs.flat_map(move |(&run, result)| {
-            (0..PARAMETERS.len()).map(move |parameter| self.row(run, result, parameter))
-        })
+    /// A row for each parameter.
+    pub(crate) fn rows(&self) -> RunRows {
+        std::array::from_fn(|parameter| self.row(parameter))
     }
 
-    fn row(&self, run: u64, result: &RunResult, parameter: usize) -> Row {
-        let (estimate, covariances, nis_ratio) = match result {
+    fn row(&self, parameter: usize) -> Row {
+        let (estimate, covariances, nis_ratio) = match &self.result {
             Ok(found) => (
                 found.value[parameter],
                 [0, 1, 2].map(|other| found.covariance[(parameter, other)]),
@@ -79,16 +60,16 @@ impl Found {
         };
         Row {
             cell: self.cell as u64,
-            run,
+            run: self.number,
             parameter: PARAMETERS[parameter].into(),
             unit: UNITS[parameter].0.into(),
             record: Record { truth: self.truth[parameter], estimate, covariances, nis_ratio },
-            failure: result.as_ref().err().map_or_else(String::new, |f| f.reason.clone()),
+            failure: self.result.as_ref().err().map_or_else(String::new, |f| f.reason.clone()),
         }
     }
 }
 
-fn result(rows: &[Row]) -> RunResult {
+fn result(rows: &RunRows) -> RunResult {
     if !rows[0].failure.is_empty() {
         return Err(RunFailure { reason: rows[0].failure.clone() });
     }

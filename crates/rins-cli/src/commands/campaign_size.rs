@@ -1,9 +1,10 @@
-//! Campaigns that a computer's memory does not hold are refused before anything is made.
+//! Campaigns that no computer finishes are refused before anything is made.
 
 use rins_io::ScenarioGrid;
 
-/// The most runs whose results are held at once, in some five gigabytes.
-const MOST_RUNS: u64 = 20_000_000;
+/// The most runs of one shard: three days of one processor for the shortest, 20 GB of journal, and
+/// 100 MB of memory for the portions' places in it.
+const MOST_RUNS: u64 = 100_000_000;
 
 /// The most runs of all shards.
 const MOST_IN_ALL: u64 = 10_000_000_000;
@@ -22,7 +23,7 @@ pub(super) fn refuse_too_large(grid: &ScenarioGrid, runs: u64, of: u64) -> anyho
     let here = all.div_ceil(of);
     anyhow::ensure!(
         here <= MOST_RUNS,
-        "{here} runs are more than the {MOST_RUNS} that are held at once; make shards of them, such as --shard 1/{}",
+        "{here} runs are more than the {MOST_RUNS} of one shard; make shards of them, such as --shard 1/{}",
         all.div_ceil(MOST_RUNS)
     );
     let samples: f64 = grid

@@ -1,49 +1,85 @@
 //! `rins merge`: the shards of a campaign as a whole, the same bytes as if it had been run at once.
 
-use std::path::PathBuf;
+use std::iter::Peekable;
+use std::path::{Path, PathBuf};
 
-use rins_io::{Heading, Overwrite, Part, read_part};
+use rins_io::{Heading, IoError, Overwrite, PartRuns, RunRows};
 
 use crate::args::Merge;
-use crate::commands::campaign_runs::Found;
+use crate::commands::campaign_runs::Run;
 use crate::outcome::Outcome;
 use crate::view::campaign::deliver;
 
 pub(crate) fn run(arguments: &Merge, overwrite: Overwrite) -> anyhow::Result<Outcome> {
-    let parts: Vec<(PathBuf, Part)> = arguments
+    // Read twice, as the first run is written when the last part is known to belong to it.
+    let parts = arguments
         .parts
         .iter()
-        .map(|path| Ok((path.clone(), read_part(path)?)))
-        .collect::<anyhow::Result<_>>()?;
-    let Part { heading, rows } = joined(parts)?;
+        .map(|path| Ok((path.clone(), checked(path)?)))
+        .collect::<Result<Vec<_>, IoError>>()?;
+    let heading = joined(parts)?;
+    let parts = arguments
+        .parts
+        .iter()
+        .map(|path| Ok(PartRuns::open(path)?.peekable()))
+        .collect::<Result<_, IoError>>()?;
+    let runs = InOrder { parts }.map(|rows| rows.map(|rows| Run::read(&rows)));
     let names: Vec<String> =
         arguments.parts.iter().map(|path| path.display().to_string()).collect();
-    let found = Found::of_rows(&rows)?;
-    drop(rows);
     let source = (&*names.join(", "), "merge");
-    deliver((&heading, &found), &arguments.output, source, overwrite)
+    deliver(&heading, runs, &arguments.output, source, overwrite)
 }
 
-/// The parts as one, if they are all of one campaign.
-fn joined(mut parts: Vec<(PathBuf, Part)>) -> anyhow::Result<Part> {
-    parts.sort_by_key(|(_, part)| part.heading.identity.shard);
+/// What a part is of, if each of its runs can be read.
+fn checked(path: &Path) -> Result<Heading, IoError> {
+    let mut runs = PartRuns::open(path)?;
+    runs.by_ref().try_for_each(|run| run.map(drop))?;
+    Ok(runs.heading().clone())
+}
+
+/// The runs of parts in the order of scenarios and runs.
+struct InOrder {
+    parts: Vec<Peekable<PartRuns>>,
+}
+
+impl Iterator for InOrder {
+    type Item = Result<RunRows, IoError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let place = |run: &Self::Item| match run {
+            Ok([first, ..]) => (first.cell, first.run),
+            // What cannot be read is told at once.
+            Err(_) => (0, 0),
+        };
+        let peeked = self.parts.iter_mut().map(|part| part.peek().map(place));
+        let (next, _) = peeked
+            .enumerate()
+            .filter_map(|(part, place)| Some((part, place?)))
+            .min_by_key(|(_, place)| *place)?;
+        self.parts[next].next()
+    }
+}
+
+/// The parts' heading as one, if they are all of one campaign.
+fn joined(mut parts: Vec<(PathBuf, Heading)>) -> anyhow::Result<Heading> {
+    parts.sort_by_key(|(_, part)| part.identity.shard);
     let (first_path, first) = &parts[0];
-    let identity = first.heading.identity.whole();
-    let of = first.heading.identity.shard.1;
+    let identity = first.identity.whole();
+    let of = first.identity.shard.1;
     for (expected, (path, part)) in (1..).zip(&parts) {
         anyhow::ensure!(
-            part.heading.identity.whole() == identity
-                && part.heading.identity.shard.1 == of
-                && part.heading.keys == first.heading.keys,
+            part.identity.whole() == identity
+                && part.identity.shard.1 == of
+                && part.keys == first.keys,
             "{}: not of the campaign of {}",
             path.display(),
             first_path.display()
         );
         anyhow::ensure!(
-            part.heading.identity.shard.0 == expected,
+            part.identity.shard.0 == expected,
             "{}: shard {} of {of}; expected shard {expected}, which is missing or given twice",
             path.display(),
-            part.heading.identity.shard.0
+            part.identity.shard.0
         );
     }
     anyhow::ensure!(
@@ -52,18 +88,16 @@ fn joined(mut parts: Vec<(PathBuf, Part)>) -> anyhow::Result<Part> {
         parts.len(),
         parts.len() + 1
     );
-    let keys = first.heading.keys.clone();
-    let n_cells = parts.iter().map(|(_, part)| part.heading.values.len()).max().unwrap_or_default();
+    let keys = first.keys.clone();
+    let n_cells = parts.iter().map(|(_, part)| part.values.len()).max().unwrap_or_default();
     let mut values = vec![Vec::new(); n_cells];
-    let mut rows = Vec::new();
     for (_, part) in parts {
-        for row in &part.rows {
-            let cell = usize::try_from(row.cell)?;
-            values[cell].clone_from(&part.heading.values[cell]);
+        for (all, of_part) in values.iter_mut().zip(part.values) {
+            // A part knows nothing of a scenario of which it has no runs.
+            if !of_part.is_empty() {
+                *all = of_part;
+            }
         }
-        rows.extend(part.rows);
     }
-    // Stable: the parameters of a run keep their order.
-    rows.sort_by_key(|row| (row.cell, row.run));
-    Ok(Part { heading: Heading { identity, keys, values }, rows })
+    Ok(Heading { identity, keys, values })
 }

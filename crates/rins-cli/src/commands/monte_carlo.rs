@@ -1,6 +1,5 @@
 //! `rins monte-carlo`: a scenario simulated and calibrated many times over.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::mpsc;
@@ -8,13 +7,13 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use rayon::prelude::*;
-use rins_campaign::{Campaign, Cell, Chunk, Prepared, RunResult};
+use rins_campaign::{Campaign, Cell, Chunk, Prepared};
 use rins_imu::Seed;
-use rins_io::{Heading, Identity, Journal, Overwrite, Rig, ScenarioGrid};
+use rins_io::{Heading, Identity, IoError, Journal, Overwrite, Rig, ScenarioGrid};
 use rins_simulation::{Scenario, simulate};
 
 use crate::args::MonteCarlo;
-use crate::commands::campaign_runs::Found;
+use crate::commands::campaign_runs::Run;
 use crate::commands::campaign_size::refuse_too_large;
 use crate::commands::setup::{setup_at, shown};
 use crate::interrupt;
@@ -24,6 +23,9 @@ use crate::view::campaign::deliver;
 
 /// How often the journal is made sure of.
 const SYNCHRONISED_EVERY: Duration = Duration::from_secs(1);
+
+/// The most finished chunks that wait for the journal.
+const WAITING: usize = 64;
 
 pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Result<Outcome> {
     let MonteCarlo { scenario, runs, seed, output, shard, .. } = arguments;
@@ -49,16 +51,16 @@ pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Resul
         "{}: exists already; choose another name, or --force to replace it",
         output.display()
     );
-    let (mut journal, mut done) = open(arguments, &identity)?;
+    let mut journal = open(arguments, &identity)?;
     let chunks: Vec<Chunk> =
         campaign.chunks().filter(|chunk| chunk.index % shard.1 == shard.0 - 1).collect();
-    keep_whole(&mut done, &chunks);
-    let done = finish(&chunks, &prepared, done, &mut journal, arguments.threads)?;
+    finish(&chunks, &prepared, &mut journal, arguments.threads)?;
+    drop(prepared);
     journal.synchronise()?;
+    let done = chunks.iter().filter(|chunk| is_done(&journal, chunk)).count();
     anyhow::ensure!(
-        done.len() == chunks.len(),
-        "stopped after {} of {} portions; continue with --resume",
-        done.len(),
+        done == chunks.len(),
+        "stopped after {done} of {} portions; continue with --resume",
         chunks.len()
     );
     let heading = Heading {
@@ -66,9 +68,9 @@ pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Resul
         keys: grid.keys,
         values: grid.cells.into_iter().map(|cell| cell.values).collect(),
     };
-    let found = found(&campaign, &chunks, done);
+    let runs = chunks.iter().flat_map(|chunk| of_chunk(&campaign, chunk, &mut journal));
     let source = (&*shown(scenario), "monte-carlo");
-    let outcome = deliver((&heading, &found), output, source, overwrite)?;
+    let outcome = deliver(&heading, runs, output, source, overwrite)?;
     journal.remove()?;
     Ok(outcome)
 }
@@ -89,35 +91,40 @@ fn cell(file: &rins_io::ScenarioFile, seed: u64) -> anyhow::Result<Cell> {
     Ok(Cell { scenario, setup })
 }
 
-/// The finished chunks by their index.
-type Done = BTreeMap<u64, Vec<RunResult>>;
-
-/// Forgets what a journal says of chunks that are not these, or have other runs: they are made again.
-fn keep_whole(done: &mut Done, chunks: &[Chunk]) {
-    let mut found = std::mem::take(done);
-    done.extend(chunks.iter().filter_map(|chunk| {
-        let runs = found.remove(&chunk.index)?;
-        let whole = runs.len() as u64 == chunk.runs.end - chunk.runs.start;
-        whole.then_some((chunk.index, runs))
-    }));
+/// Whether a chunk is finished; one that the journal has with other runs is made again.
+fn is_done(journal: &Journal, chunk: &Chunk) -> bool {
+    journal.len_of(chunk.index) == Some(chunk.runs.end - chunk.runs.start)
 }
 
-/// The journal beside the results, and what it holds.
-fn open(arguments: &MonteCarlo, identity: &Identity) -> anyhow::Result<(Journal, Done)> {
+/// What the runs of a finished chunk found.
+fn of_chunk(
+    campaign: &Campaign,
+    chunk: &Chunk,
+    journal: &mut Journal,
+) -> Vec<Result<Run, IoError>> {
+    let truth = campaign.cells[chunk.cell].truth();
+    let made = |(number, result)| Ok(Run::made(chunk.cell, number, &truth, result));
+    match journal.runs(chunk.index) {
+        Ok(results) => chunk.runs.clone().zip(results).map(made).collect(),
+        Err(error) => vec![Err(error)],
+    }
+}
+
+/// The journal beside the results.
+fn open(arguments: &MonteCarlo, identity: &Identity) -> anyhow::Result<Journal> {
     let path = journal_path(&arguments.output);
     let there = path.exists();
     if there && arguments.resume {
-        let (journal, done) = Journal::resume(&path, identity)?.with_context(|| {
+        return Journal::resume(&path, identity)?.with_context(|| {
             format!("{}: another campaign's; remove it, or choose another name", path.display())
-        })?;
-        return Ok((journal, done.into_iter().collect()));
+        });
     }
     anyhow::ensure!(
         !there,
         "{}: an unfinished campaign; continue it with --resume, or remove it",
         path.display()
     );
-    Ok((Journal::create(&path, identity)?, Done::new()))
+    Ok(Journal::create(&path, identity)?)
 }
 
 fn journal_path(output: &Path) -> PathBuf {
@@ -130,21 +137,20 @@ fn journal_path(output: &Path) -> PathBuf {
 fn finish(
     chunks: &[Chunk],
     prepared: &[Prepared],
-    mut done: Done,
     journal: &mut Journal,
     threads: Option<u16>,
-) -> anyhow::Result<Done> {
+) -> anyhow::Result<()> {
     let stopped = interrupt::stopped();
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(threads.map_or(0, usize::from))
         .build()
         .context("cannot start threads")?;
-    let open: Vec<&Chunk> =
-        chunks.iter().filter(|chunk| !done.contains_key(&chunk.index)).collect();
+    let open: Vec<&Chunk> = chunks.iter().filter(|chunk| !is_done(journal, chunk)).collect();
     let bar = progress::bar(chunks.len(), "running");
-    bar.set_position(done.len() as u64);
+    bar.set_position((chunks.len() - open.len()) as u64);
     bar.reset_eta();
-    let (sender, receiver) = mpsc::channel();
+    // What waits to be written is bounded: a slow disk holds the threads up.
+    let (sender, receiver) = mpsc::sync_channel(WAITING);
     let written = std::thread::scope(|scope| {
         let stopped = &stopped;
         scope.spawn(move || {
@@ -168,28 +174,10 @@ fn finish(
                 journal.synchronise()?;
                 synchronised = Instant::now();
             }
-            done.insert(index, runs);
-            bar.set_position(done.len() as u64);
+            bar.inc(1);
         }
         anyhow::Ok(())
     });
     bar.finish_and_clear();
-    written.map(|()| done)
-}
-
-/// What the runs of finished chunks found, in the order of scenarios.
-fn found(campaign: &Campaign, chunks: &[Chunk], mut done: Done) -> Vec<Found> {
-    let mut all: Vec<Found> = Vec::new();
-    for chunk in chunks {
-        let Some(results) = done.remove(&chunk.index) else { continue };
-        if all.last().is_none_or(|last| last.cell != chunk.cell) {
-            all.push(Found::none(chunk.cell, &campaign.cells[chunk.cell].truth()));
-        }
-        if let Some(of_cell) = all.last_mut() {
-            for (run, result) in chunk.runs.clone().zip(results) {
-                of_cell.add(run, result);
-            }
-        }
-    }
-    all
+    written
 }

@@ -1,49 +1,60 @@
 //! A campaign as text, JSON, report and Parquet file: do estimates scatter as claimed?
 
 use std::fmt::Write as _;
+use std::fs;
 use std::path::Path;
 
-use rins_calibration::Estimate;
-use rins_campaign::{PARAMETERS, Statistics};
-use rins_io::{Heading, IoError, Overwrite, write_file, write_part};
+use nalgebra::Vector3;
+use rins_campaign::{PARAMETERS, Statistics, Tally};
+use rins_io::{Heading, IoError, Overwrite, write_files, write_part};
 use serde_json::{Value, json};
 
-use crate::commands::campaign_runs::{Found, UNITS};
+use crate::commands::campaign_runs::{Run, UNITS};
 use crate::outcome::Outcome;
 use crate::report::{
     Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render,
 };
 
-/// The runs that a plot shows of each scenario.
-const SHOWN: usize = 2000;
+/// The most runs that a plot shows of each scenario, and of all of them.
+const SHOWN: [usize; 2] = [2000, 50_000];
 
 /// A scenario of the grid, and what its runs say.
 struct Scored<'a> {
     values: &'a [String],
-    found: &'a Found,
+    cell: usize,
+    truth: Vector3<f64>,
+    tally: Tally,
+    /// Of the first runs with estimates, the errors over the sigmas claimed.
+    errors: Vec<Vector3<f64>>,
     statistics: Option<Statistics>,
 }
 
 /// Writes results and their report, and says what they say.
+///
+/// The runs are in the order of scenarios and runs, and are taken as they are written: of each, only
+/// what the report shows of it is kept.
 pub(crate) fn deliver(
-    (heading, found): (&Heading, &[Found]),
+    heading: &Heading,
+    runs: impl Iterator<Item = Result<Run, IoError>>,
     output: &Path,
     (source, command): (&str, &'static str),
     overwrite: Overwrite,
 ) -> anyhow::Result<Outcome> {
-    let scored: Vec<Scored<'_>> = found.iter().map(|found| Scored::of(heading, found)).collect();
     let title = format!("Campaign of {source}");
-    let page = render(&report(heading, &scored, &title));
-    let page_path = output.with_extension("html");
-    anyhow::ensure!(page_path != output, "{}: the report would go here", output.display());
-    write_file(&page_path, overwrite, |out| {
-        out.write_all(page.as_bytes()).map_err(|error| IoError::File {
-            action: "write",
-            path: page_path.clone(),
-            source: error,
-        })
+    let page = output.with_extension("html");
+    anyhow::ensure!(page != output, "{}: the report would go here", output.display());
+    let mut scored = Vec::new();
+    write_files(&[output, &page], overwrite, |folder| {
+        let in_folder = |path: &Path| folder.join(path.file_name().unwrap_or_default());
+        let runs = runs.map(|run| run.map(|run| Scored::add(&mut scored, heading, &run).rows()));
+        write_part(&in_folder(output), Overwrite::Refuse, heading, runs)?;
+        for cell in &mut scored {
+            cell.statistics = cell.tally.statistics();
+        }
+        let path = in_folder(&page);
+        fs::write(&path, render(&report(heading, &scored, &title)))
+            .map_err(|source| IoError::File { action: "write", path, source })
     })?;
-    write_part(output, overwrite, heading, found.iter().flat_map(Found::rows))?;
     let json = json!({
         "schema": 1,
         "command": command,
@@ -52,18 +63,39 @@ pub(crate) fn deliver(
         "seed": heading.identity.seed,
         "shard": [heading.identity.shard.0, heading.identity.shard.1],
         "results": output.display().to_string(),
-        "report": page_path.display().to_string(),
+        "report": page.display().to_string(),
         "cells": scored.iter().map(|cell| cell_json(&heading.keys, cell)).collect::<Vec<_>>(),
     });
     let text = text(heading, &scored, &title)
-        + &format!("\nResults: {}\nReport: {}\n", output.display(), page_path.display());
+        + &format!("\nResults: {}\nReport: {}\n", output.display(), page.display());
     Ok(Outcome { json, text, ..Outcome::default() })
 }
 
 impl<'a> Scored<'a> {
-    fn of(heading: &'a Heading, found: &'a Found) -> Self {
-        let statistics = Statistics::of(&found.truth, &found.runs);
-        Self { values: &heading.values[found.cell], found, statistics }
+    /// Adds a run to its scenario, which is the last one or comes after it.
+    fn add<'r>(all: &mut Vec<Self>, heading: &'a Heading, run: &'r Run) -> &'r Run {
+        if all.last().is_none_or(|last| last.cell != run.cell) {
+            all.push(Self {
+                values: &heading.values[run.cell],
+                cell: run.cell,
+                truth: run.truth,
+                tally: Tally::new(run.truth),
+                errors: Vec::new(),
+                statistics: None,
+            });
+        }
+        let [of_each, of_all] = SHOWN;
+        let shown = (of_all / heading.values.len().max(1)).clamp(1, of_each);
+        if let Some(cell) = all.last_mut() {
+            cell.tally.add(&run.result);
+            if let Ok(found) = &run.result
+                && cell.errors.len() < shown
+            {
+                let sigma = found.covariance.diagonal().map(f64::sqrt);
+                cell.errors.push((found.value - run.truth).component_div(&sigma));
+            }
+        }
+        run
     }
 }
 
@@ -120,7 +152,7 @@ fn cell_json(keys: &[String], cell: &Scored<'_>) -> Value {
     let grid: serde_json::Map<String, Value> =
         keys.iter().cloned().zip(cell.values.iter().map(|value| json!(value))).collect();
     let Some(statistics) = &cell.statistics else {
-        return json!({ "grid": grid, "runs": cell.found.runs.len() });
+        return json!({ "grid": grid, "runs": cell.tally.runs() });
     };
     let parameters = PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters).enumerate();
     let parameters: Vec<Value> = parameters
@@ -128,7 +160,7 @@ fn cell_json(keys: &[String], cell: &Scored<'_>) -> Value {
             json!({
                 "id": id,
                 "unit": unit,
-                "truth": cell.found.truth[row],
+                "truth": cell.truth[row],
                 "mean_error": honesty.mean_error,
                 "spread": honesty.spread,
                 "claimed": honesty.claimed,
@@ -214,22 +246,15 @@ fn overview(heading: &Heading, scored: &[Scored<'_>]) -> Section {
 /// The errors of one parameter beside what is claimed for them.
 fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
     let unit = UNITS[row].0;
-    let error = |run: &Estimate, truth: f64| {
-        let sigma = run.covariance[(row, row)].sqrt();
-        ((run.value[row] - truth) / sigma, sigma)
-    };
     let mut points = Series { name: "a run".into(), style: Style::Points, ..Series::default() };
     let (mut claimed, mut spread) = (
         Series { name: "claimed 1σ".into(), style: Style::Steps, ..Series::default() },
         Series { name: "spread of the runs".into(), style: Style::Points, ..Series::default() },
     );
     for (place, cell) in scored.iter().enumerate() {
-        let found: Vec<&Estimate> =
-            cell.found.runs.iter().filter_map(|run| run.as_ref().ok()).collect();
-        let shown = found.len().min(SHOWN);
-        for (index, run) in found.iter().take(shown).enumerate() {
-            points.x.push(place as f64 + index as f64 / shown as f64);
-            points.y.push(error(run, cell.found.truth[row]).0);
+        for (index, errors) in cell.errors.iter().enumerate() {
+            points.x.push(place as f64 + index as f64 / cell.errors.len() as f64);
+            points.y.push(errors[row]);
         }
         if let Some(statistics) = &cell.statistics {
             let honesty = &statistics.parameters[row];

@@ -1,8 +1,9 @@
 //! What is done of a campaign so far: lines that are added as chunks are finished.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use rins_calibration::Estimate;
@@ -15,15 +16,19 @@ use crate::output::{Overwrite, write_file};
 /// A campaign's journal, which outlives an interruption.
 ///
 /// The first line says which campaign it is. A chunk is a line that names it, a line for each run with
-/// the bits of its numbers, and a line that ends it; a chunk without its end does not count.
+/// the bits of its numbers, and a line that ends it; a chunk without its end does not count. The runs
+/// stay on the disk; memory has the chunks' places only.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     file: File,
+    chunks: Places,
+    /// Where the next chunk goes \[bytes\].
+    end: u64,
 }
 
-/// The finished chunks of a journal, by their index.
-type Done = Vec<(u64, Vec<RunResult>)>;
+/// Where each finished chunk begins \[bytes\], and how many runs it has.
+type Places = BTreeMap<u64, (u64, u64)>;
 
 /// The letters of a failure's reason that are kept.
 const LONGEST_REASON: usize = 1 << 13;
@@ -45,26 +50,45 @@ impl Journal {
         write_file(path, Overwrite::Refuse, |out| {
             writeln!(out, "{}", identity.line()).map_err(failed())
         })?;
-        let file = OpenOptions::new().append(true).open(path).map_err(failed())?;
-        Ok(Self { path: path.into(), file })
+        let file = OpenOptions::new().read(true).append(true).open(path).map_err(failed())?;
+        let end = file.metadata().map_err(failed())?.len();
+        Ok(Self { path: path.into(), file, chunks: Places::new(), end })
     }
 
-    /// The journal at `path`, to be continued, and what it holds.
+    /// The journal at `path`, to be continued.
     ///
     /// What follows its last finished chunk is cut off. `None` if it is another campaign's.
     ///
     /// # Errors
     /// [`IoError::File`] if the system refuses.
-    pub fn resume(path: &Path, identity: &Identity) -> Result<Option<(Self, Done)>, IoError> {
+    pub fn resume(path: &Path, identity: &Identity) -> Result<Option<Self>, IoError> {
         let failed = || IoError::file("read", path);
-        let reader = BufReader::new(File::open(path).map_err(failed())?);
-        let Some((done, length)) = parse(reader, &identity.line()).map_err(failed())? else {
+        let file = OpenOptions::new().read(true).append(true).open(path).map_err(failed())?;
+        let Some((chunks, end)) = places(&file, &identity.line()).map_err(failed())? else {
             return Ok(None);
         };
-        let mut file = OpenOptions::new().write(true).open(path).map_err(failed())?;
-        file.set_len(length).map_err(failed())?;
-        io::Seek::seek(&mut file, io::SeekFrom::End(0)).map_err(failed())?;
-        Ok(Some((Self { path: path.into(), file }, done)))
+        file.set_len(end).map_err(failed())?;
+        Ok(Some(Self { path: path.into(), file, chunks, end }))
+    }
+
+    /// How many runs a finished chunk has; `None` if it is not finished.
+    pub fn len_of(&self, chunk: u64) -> Option<u64> {
+        self.chunks.get(&chunk).map(|(_, runs)| *runs)
+    }
+
+    /// What the runs of a finished chunk found.
+    ///
+    /// # Errors
+    /// [`IoError::File`] if the system refuses, or the chunk is not there any more.
+    pub fn runs(&mut self, chunk: u64) -> Result<Vec<RunResult>, IoError> {
+        let failed = || IoError::file("read", &self.path);
+        let lost = || failed()(io::Error::new(io::ErrorKind::InvalidData, "portion lost"));
+        let (place, _) = self.chunks.get(&chunk).ok_or_else(lost)?;
+        self.file.seek(SeekFrom::Start(*place)).map_err(failed())?;
+        match next_chunk(&mut Lines::of(&self.file)).map_err(failed())? {
+            Some((index, runs)) if index == chunk => Ok(runs),
+            _ => Err(lost()),
+        }
     }
 
     /// Adds a finished chunk.
@@ -93,7 +117,10 @@ impl Journal {
         }
         text += "end\n";
         let failed = IoError::file("write", &self.path);
-        self.file.write_all(text.as_bytes()).map_err(failed)
+        self.file.write_all(text.as_bytes()).map_err(failed)?;
+        self.chunks.insert(chunk, (self.end, runs.len() as u64));
+        self.end += text.len() as u64;
+        Ok(())
     }
 
     /// Makes sure that the disk has all that was added.
@@ -113,49 +140,63 @@ impl Journal {
     }
 }
 
-/// The finished chunks, and where the last of them ends; `None` if the first line is another.
-fn parse(mut reader: impl BufRead, identity: &str) -> io::Result<Option<(Done, u64)>> {
-    let mut line = String::new();
-    let longest = LONGEST_LINE.max(identity.len() as u64 + 1);
-    let mut next = |line: &mut String| {
+/// The lines of a journal, and where the next of them begins \[bytes\].
+struct Lines<R> {
+    reader: R,
+    place: u64,
+}
+
+impl<'f> Lines<BufReader<&'f File>> {
+    /// From where the file stands.
+    fn of(file: &'f File) -> Self {
+        Self { reader: BufReader::new(file), place: 0 }
+    }
+}
+
+impl<R: BufRead> Lines<R> {
+    /// The next line, with its end; what is longer is no line.
+    fn next(&mut self, longest: u64) -> io::Result<String> {
         let mut bytes = Vec::new();
-        let length = reader.by_ref().take(longest).read_until(b'\n', &mut bytes)?;
+        self.place += self.reader.by_ref().take(longest).read_until(b'\n', &mut bytes)? as u64;
         // What was cut within a letter is no line, as what was cut elsewhere is none.
-        *line = String::from_utf8(bytes).unwrap_or_default();
-        io::Result::Ok(length as u64)
-    };
-    let mut place = next(&mut line)?;
-    if line.strip_suffix('\n') != Some(identity) {
+        Ok(String::from_utf8(bytes).unwrap_or_default())
+    }
+}
+
+/// The finished chunks, and where the last of them ends; `None` if the first line is another.
+fn places(file: &File, identity: &str) -> io::Result<Option<(Places, u64)>> {
+    let mut lines = Lines::of(file);
+    let first = lines.next(LONGEST_LINE.max(identity.len() as u64 + 1))?;
+    if first.strip_suffix('\n') != Some(identity) {
         return Ok(None);
     }
-    let mut done = Vec::new();
-    let mut end = place;
-    'chunks: loop {
-        place += next(&mut line)?;
-        let mut words = line.split_whitespace();
-        let (Some("chunk"), Some(Ok(index)), Some(Ok(count))) = (
-            words.next(),
-            words.next().map(str::parse::<u64>),
-            words.next().map(str::parse::<usize>),
-        ) else {
-            break;
-        };
-        let mut runs = Vec::new();
-        for _ in 0..count {
-            place += next(&mut line)?;
-            match run(&line) {
-                Some(run) => runs.push(run),
-                None => break 'chunks,
-            }
-        }
-        place += next(&mut line)?;
-        if line != "end\n" {
-            break;
-        }
-        done.push((index, runs));
-        end = place;
+    let mut chunks = Places::new();
+    let mut end = lines.place;
+    while let Some((index, runs)) = next_chunk(&mut lines)? {
+        chunks.insert(index, (end, runs.len() as u64));
+        end = lines.place;
     }
-    Ok(Some((done, end)))
+    Ok(Some((chunks, end)))
+}
+
+/// The chunk that comes next, and its index; `None` if it is not whole.
+fn next_chunk(lines: &mut Lines<impl BufRead>) -> io::Result<Option<(u64, Vec<RunResult>)>> {
+    let heading = lines.next(LONGEST_LINE)?;
+    let mut words = heading.split_whitespace();
+    let (Some("chunk"), Some(Ok(index)), Some(Ok(count))) =
+        (words.next(), words.next().map(str::parse::<u64>), words.next().map(str::parse::<usize>))
+    else {
+        return Ok(None);
+    };
+    let mut runs = Vec::new();
+    for _ in 0..count {
+        match run(&lines.next(LONGEST_LINE)?) {
+            Some(run) => runs.push(run),
+            None => return Ok(None),
+        }
+    }
+    let whole = lines.next(LONGEST_LINE)? == "end\n";
+    Ok(whole.then_some((index, runs)))
 }
 
 fn run(line: &str) -> Option<RunResult> {

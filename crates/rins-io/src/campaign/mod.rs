@@ -7,5 +7,5 @@ mod table;
 
 pub use grid::{GridCell, ScenarioGrid};
 pub use journal::Journal;
-pub use read::read_part;
-pub use table::{Heading, Identity, Part, Record, Row, write_part};
+pub use read::PartRuns;
+pub use table::{Heading, Identity, Record, Row, RunRows, write_part};

@@ -1,5 +1,6 @@
 //! The results of a campaign, read from Parquet.
 
+use std::fmt;
 use std::path::Path;
 
 use parquet::basic::{Repetition, Type};
@@ -10,7 +11,7 @@ use parquet::schema::types::ColumnDescriptor;
 use rins_campaign::PARAMETERS;
 
 use super::grid::MOST_CELLS;
-use super::table::{FAILURE, Heading, INTEGERS, Identity, NUMBERS, Part, Record, Row, TEXTS};
+use super::table::{FAILURE, Heading, INTEGERS, Identity, NUMBERS, Record, Row, RunRows, TEXTS};
 use crate::error::IoError;
 use crate::sound_parquet::SoundParquet;
 
@@ -27,48 +28,146 @@ const MOST_TEXT: usize = 1 << 28;
 /// The longest unit \[bytes\].
 const LONGEST_UNIT: usize = 32;
 
-/// Reads results.
+/// The runs of a file of results, one after the other, in the order of scenarios and runs.
 ///
-/// # Errors
-/// [`IoError::File`] if the system refuses, [`IoError::Log`] if the file is no campaign's of this
-/// version.
-pub fn read_part(path: &Path) -> Result<Part, IoError> {
-    let file = SoundParquet::open(path)?;
-    let damaged = |error| file.damaged(&error);
-    let identity = Identity::from_metadata(file.key_values())
-        .ok_or_else(|| damaged(wrong("no campaign of this version of rins")))?;
-    let layout = Layout::of(&file).map_err(damaged)?;
-    let columns = file.columns().len();
-    if file.rows().saturating_mul(columns as u64) > MOST_VALUES.max(file.length()) {
-        return Err(damaged(wrong("more rows than its length can hold")));
+/// Few of them are in memory at once. After an error there are no more.
+pub struct PartRuns {
+    file: SoundParquet,
+    heading: Heading,
+    /// The columns of the group that is read.
+    readers: Vec<ColumnReader>,
+    /// How many groups were opened.
+    groups: usize,
+    batch: Vec<Values>,
+    /// The next row of the batch.
+    row: usize,
+    /// What more may be kept of texts \[bytes\].
+    room: usize,
+    /// The scenario and the number of the last run.
+    last: Option<(u64, u64)>,
+}
+
+impl fmt::Debug for PartRuns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PartRuns").field("heading", &self.heading).finish_non_exhaustive()
     }
-    let heading = Heading { identity, keys: layout.keys, values: Vec::new() };
-    let mut part = Part { heading, rows: Vec::new() };
-    let mut room = MOST_TEXT.max(usize::try_from(file.length()).unwrap_or(usize::MAX));
-    for group in 0..file.groups() {
-        let mut readers =
-            (0..columns).map(|place| file.column(group, place)).collect::<Result<Vec<_>, _>>()?;
+}
+
+impl PartRuns {
+    /// Opens results.
+    ///
+    /// # Errors
+    /// [`IoError::File`] if the system refuses, [`IoError::Log`] if the file is no campaign's of this
+    /// version.
+    pub fn open(path: &Path) -> Result<Self, IoError> {
+        let file = SoundParquet::open(path)?;
+        let damaged = |error| file.damaged(&error);
+        let identity = Identity::from_metadata(file.key_values())
+            .ok_or_else(|| damaged(wrong("no campaign of this version of rins")))?;
+        let layout = Layout::of(&file).map_err(damaged)?;
+        let columns = file.columns().len();
+        if file.rows().saturating_mul(columns as u64) > MOST_VALUES.max(file.length()) {
+            return Err(damaged(wrong("more rows than its length can hold")));
+        }
+        let room = MOST_TEXT.max(usize::try_from(file.length()).unwrap_or(usize::MAX));
+        Ok(Self {
+            heading: Heading { identity, keys: layout.keys, values: Vec::new() },
+            file,
+            readers: Vec::new(),
+            groups: 0,
+            batch: Vec::new(),
+            row: 0,
+            room,
+            last: None,
+        })
+    }
+
+    /// What the runs are of, with the scenarios of those that were read.
+    pub fn heading(&self) -> &Heading {
+        &self.heading
+    }
+
+    /// Reads on where a batch ends; whether there is a row.
+    fn fill(&mut self) -> Result<bool, IoError> {
+        let columns = self.file.columns().len();
         loop {
-            let batch = readers
-                .iter_mut()
+            let damaged = |error| self.file.damaged(&error);
+            if self.batch.first().is_some_and(|values| self.row < values.len()) {
+                return Ok(true);
+            }
+            let batch = self.readers.iter_mut();
+            self.batch = batch
                 .map(|reader| Values::read(reader, (BATCH / columns).max(1)))
-                .collect::<Result<Vec<_>, _>>()
+                .collect::<Result<_, _>>()
                 .map_err(damaged)?;
-            let rows = batch[0].len();
-            if batch.iter().any(|values| values.len() != rows) {
+            self.row = 0;
+            let rows = self.batch.first().map_or(0, Values::len);
+            if self.batch.iter().any(|values| values.len() != rows) {
                 return Err(damaged(wrong("columns of different lengths")));
             }
             if rows == 0 {
-                break;
-            }
-            for row in 0..rows {
-                let at = Place { batch: &batch, row };
-                let row = read_row(&mut part.heading, &at, &mut room).map_err(damaged)?;
-                part.rows.push(row);
+                if self.groups == self.file.groups() {
+                    return Ok(false);
+                }
+                let group = self.groups;
+                self.readers = (0..columns)
+                    .map(|place| self.file.column(group, place))
+                    .collect::<Result<_, _>>()?;
+                self.groups += 1;
             }
         }
     }
-    Ok(part)
+
+    /// The next row; `None` at the end.
+    fn read(&mut self) -> Result<Option<Row>, IoError> {
+        if !self.fill()? {
+            return Ok(None);
+        }
+        let at = Place { batch: &self.batch, row: self.row };
+        let row = read_row(&mut self.heading, &at, &mut self.room);
+        self.row += 1;
+        row.map(Some).map_err(|error| self.file.damaged(&error))
+    }
+
+    /// The rows of the next run; `None` at the end.
+    fn run(&mut self) -> Result<Option<RunRows>, IoError> {
+        let mut rows = Vec::with_capacity(PARAMETERS.len());
+        while rows.len() < PARAMETERS.len() {
+            match self.read()? {
+                Some(row) => rows.push(row),
+                None if rows.is_empty() => return Ok(None),
+                None => break,
+            }
+        }
+        let damaged = |what| self.file.damaged(&wrong(what));
+        let [first, ..] = &rows[..] else { return Ok(None) };
+        let place = (first.cell, first.run);
+        if rows.iter().any(|row| (row.cell, row.run) != place)
+            || rows.iter().zip(PARAMETERS).any(|(row, id)| row.parameter != id)
+        {
+            return Err(damaged("a run without its three parameters in their order"));
+        }
+        if self.last.is_some_and(|last| place <= last) {
+            return Err(damaged("runs that are not in their order"));
+        }
+        let rows = RunRows::try_from(rows)
+            .map_err(|_| damaged("a run without its three parameters in their order"))?;
+        self.last = Some(place);
+        Ok(Some(rows))
+    }
+}
+
+impl Iterator for PartRuns {
+    type Item = Result<RunRows, IoError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let run = self.run();
+        if run.is_err() {
+            (self.groups, self.batch) = (self.file.groups(), Vec::new());
+            self.readers.clear();
+        }
+        run.transpose()
+    }
 }
 
 fn wrong(what: &str) -> ParquetError {

@@ -11,6 +11,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
+use rins_campaign::PARAMETERS;
 
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
@@ -106,6 +107,9 @@ pub struct Row {
     pub failure: String,
 }
 
+/// The rows of a run: its parameters in their order.
+pub type RunRows = [Row; PARAMETERS.len()];
+
 /// What a campaign's results, or a shard of them, are of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
@@ -115,15 +119,6 @@ pub struct Heading {
     pub keys: Vec<String>,
     /// What stands at the keys, for each scenario of the grid; nothing for one without rows.
     pub values: Vec<Vec<String>>,
-}
-
-/// A campaign's results, or a shard of them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    /// What they are of.
-    pub heading: Heading,
-    /// The rows, by scenario, run and parameter.
-    pub rows: Vec<Row>,
 }
 
 /// The columns of whole numbers.
@@ -136,20 +131,31 @@ pub(super) const NUMBERS: [&str; 7] =
 /// The last column.
 pub(super) const FAILURE: &str = "failure";
 
-/// Writes results row by row, whole or not at all.
+/// Writes results run by run, whole or not at all; the runs are taken as they are written.
 ///
 /// # Errors
 /// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
-/// system refuses.
+/// system refuses, or the first error among the runs.
 pub fn write_part(
     path: &Path,
     overwrite: Overwrite,
     heading: &Heading,
-    rows: impl IntoIterator<Item = Row>,
+    runs: impl IntoIterator<Item = Result<RunRows, IoError>>,
 ) -> Result<(), IoError> {
+    let mut runs = runs.into_iter();
     write_file(path, overwrite, |out| {
-        encode(heading, rows.into_iter(), out)
-            .map_err(|error| IoError::file("write", path)(std::io::Error::other(error)))
+        let mut refused = None;
+        let sound = std::iter::from_fn(|| match runs.next()? {
+            Ok(rows) => Some(rows),
+            Err(error) => {
+                refused = Some(error);
+                None
+            }
+        })
+        .fuse();
+        encode(heading, sound.flatten(), out)
+            .map_err(|error| IoError::file("write", path)(std::io::Error::other(error)))?;
+        refused.map_or(Ok(()), Err)
     })
 }
 
@@ -260,5 +266,5 @@ impl Row {
 
 /// The place of a parameter among the three.
 fn place(parameter: &str) -> Option<usize> {
-    rins_campaign::PARAMETERS.iter().position(|id| *id == parameter)
+    PARAMETERS.iter().position(|id| *id == parameter)
 }

@@ -4,12 +4,22 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use nalgebra::{Matrix3, Vector3};
+use rins_calibration::Estimate;
 use rins_campaign::{PARAMETERS, RunFailure};
-use rins_io::{Heading, Identity, Journal, Overwrite, Part, Record, Row, read_part, write_part};
+use rins_io::{
+    Heading, Identity, IoError, Journal, Overwrite, PartRuns, Record, Row, RunRows, write_part,
+};
 use tempfile::tempdir;
 
 fn identity() -> Identity {
     Identity { scenario: "a scenario".into(), runs: 2, seed: 3, shard: (1, 1) }
+}
+
+#[derive(Debug, PartialEq)]
+struct Part {
+    heading: Heading,
+    runs: Vec<RunRows>,
 }
 
 /// Two runs of each of some scenarios.
@@ -28,7 +38,7 @@ fn part(cells: &[u64]) -> Part {
         failure: if run == 1 { "why it failed".into() } else { String::new() },
     };
     let mut values = Vec::new();
-    let mut rows = Vec::new();
+    let mut runs = Vec::new();
     for &cell in cells {
         if let Ok(place) = usize::try_from(cell)
             && place < 1000
@@ -36,18 +46,21 @@ fn part(cells: &[u64]) -> Part {
             values.resize(place + 1, Vec::new());
             values[place] = vec![format!("{cell} deg"), "a".into()];
         }
-        rows.extend(
-            (0..2)
-                .flat_map(|run| (0..3).map(move |place| (run, place)))
-                .map(|(run, place)| row(cell, run, place)),
-        );
+        runs.extend((0..2).map(|run| [0, 1, 2].map(|place| row(cell, run, place))));
     }
     let keys = vec!["roll".into(), "b".into()];
-    Part { heading: Heading { identity: identity(), keys, values }, rows }
+    Part { heading: Heading { identity: identity(), keys, values }, runs }
 }
 
 fn write(path: &Path, part: &Part) {
-    write_part(path, Overwrite::Force, &part.heading, part.rows.iter().cloned()).unwrap();
+    let runs = part.runs.iter().cloned().map(Ok);
+    write_part(path, Overwrite::Force, &part.heading, runs).unwrap();
+}
+
+fn read_part(path: &Path) -> Result<Part, IoError> {
+    let mut file = PartRuns::open(path)?;
+    let runs = file.by_ref().collect::<Result<_, _>>()?;
+    Ok(Part { heading: file.heading().clone(), runs })
 }
 
 #[test]
@@ -76,11 +89,50 @@ fn scenarios_that_no_grid_has_are_refused() {
 }
 
 #[test]
+fn runs_out_of_order_are_refused_and_none_comes_after() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("part.parquet");
+    let mut swapped = part(&[0, 1]);
+    swapped.runs.swap(2, 3);
+    let mut mixed = part(&[0, 1]);
+    mixed.runs[3].swap(0, 1);
+    let mut torn = part(&[0, 1]);
+    torn.runs[3][2].run = 7;
+    for (part, words) in [
+        (swapped, "runs that are not in their order"),
+        (mixed, "a run without its three parameters"),
+        (torn, "a run without its three parameters"),
+    ] {
+        write(&path, &part);
+        let mut runs = PartRuns::open(&path).unwrap();
+        let read: Vec<_> = runs.by_ref().collect();
+        assert_eq!(read.len(), 4);
+        let said = read[3].as_ref().unwrap_err().to_string();
+        assert!(said.contains(words), "{said}");
+        assert!(runs.next().is_none());
+    }
+}
+
+#[test]
+fn a_run_that_cannot_be_had_leaves_no_results() {
+    let folder = tempdir().unwrap();
+    let (from, to) = (folder.path().join("none.parquet"), folder.path().join("part.parquet"));
+    let Part { heading, runs } = part(&[0]);
+    let missing = PartRuns::open(&from).unwrap_err();
+    let expected = missing.to_string();
+    let sound = || runs.iter().cloned().map(Ok);
+    let runs = sound().chain([Err(missing)]).chain(sound());
+    let error = write_part(&to, Overwrite::Refuse, &heading, runs).unwrap_err();
+    assert_eq!(error.to_string(), expected);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
 fn what_is_no_campaign_is_refused() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("part.parquet");
     let mut other = part(&[0]);
-    other.rows[0].parameter = "gyro.bias.x".into();
+    other.runs[0][0].parameter = "gyro.bias.x".into();
     write(&path, &other);
     let said = read_part(&path).unwrap_err().to_string();
     assert!(said.contains("a parameter that no campaign estimates"), "{said}");
@@ -116,10 +168,48 @@ fn damaged_results_are_read_or_refused() {
     assert!(refused > whole.len() / 4, "{refused} of {}", whole.len());
 }
 
+/// Which of the first ten portions the journal holds.
 fn journal(path: &Path) -> Vec<u64> {
-    let (journal, done) = Journal::resume(path, &identity()).unwrap().unwrap();
-    drop(journal);
-    done.into_iter().map(|(index, _)| index).collect()
+    let journal = Journal::resume(path, &identity()).unwrap().unwrap();
+    (0..10).filter(|chunk| journal.len_of(*chunk).is_some()).collect()
+}
+
+#[test]
+fn a_journal_gives_back_what_was_added_in_any_order() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("results.parquet.part");
+    let run = |number: f64| {
+        Ok(Estimate {
+            value: Vector3::new(number, -0.0, f64::MIN_POSITIVE / 3.0),
+            covariance: Matrix3::from_fn(|row, column| number / (1 + row + 3 * column) as f64),
+            nis_ratio: 1.0 / number,
+        })
+    };
+    let failed = || Err(RunFailure { reason: "none".into() });
+    let chunks = [(8, vec![run(0.1), failed()]), (2, vec![failed()]), (5, vec![run(7.0)])];
+    let same = |journal: &mut Journal| {
+        for (chunk, runs) in [&chunks[2], &chunks[0], &chunks[1]] {
+            assert_eq!(journal.len_of(*chunk), Some(runs.len() as u64));
+            assert_eq!(&journal.runs(*chunk).unwrap(), runs);
+        }
+        assert!(journal.runs(4).is_err());
+    };
+    let mut made = Journal::create(&path, &identity()).unwrap();
+    for (chunk, runs) in &chunks {
+        made.add(*chunk, runs).unwrap();
+    }
+    same(&mut made);
+    // What is added after reading goes behind the last portion.
+    made.add(9, &[failed()]).unwrap();
+    drop(made);
+    let mut resumed = Journal::resume(&path, &identity()).unwrap().unwrap();
+    same(&mut resumed);
+    assert_eq!(resumed.runs(9).unwrap(), [failed()]);
+    // Made again, the later one counts.
+    resumed.add(2, &[run(3.0), failed()]).unwrap();
+    drop(resumed);
+    let mut resumed = Journal::resume(&path, &identity()).unwrap().unwrap();
+    assert_eq!(resumed.runs(2).unwrap(), [run(3.0), failed()]);
 }
 
 #[test]
