@@ -171,8 +171,6 @@ fn a_log_is_compensated_or_not() {
     killed("apply run/rig.toml --calibration cal/calibration.toml -o clean.csv", calibrate);
 }
 
-/// Killed again and again and continued each time, a campaign ends with the bytes of one that was left
-/// alone.
 /// What is in a folder, hidden or not.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
@@ -185,6 +183,16 @@ fn names(folder: &Path) -> Vec<String> {
 /// Whoever interrupts a command, other than by killing it, finds nothing of what it had begun.
 #[test]
 fn what_an_interrupted_command_had_begun_is_removed() {
+    ended_by("-INT", 130);
+}
+
+#[test]
+fn what_a_command_had_begun_that_is_told_to_end_is_removed() {
+    ended_by("-TERM", 143);
+}
+
+fn ended_by(signal: &str, expected: i32) {
+    let mut at_work = 0;
     for (arguments, results) in [
         ("simulate scenario.toml -o out", &["out"][..]),
         ("convert run/rig.toml -o new.csv", &["new.csv", "new.toml"]),
@@ -203,18 +211,22 @@ fn what_an_interrupted_command_had_begun_is_removed() {
             let folder = copy(ready.path());
             let mut child = command(folder.path(), arguments).spawn().unwrap();
             std::thread::sleep(lasting.mul_f64(part));
-            let interrupt = ["-INT", &child.id().to_string()];
+            let interrupt = [signal, &child.id().to_string()];
             let _ = Command::new("kill").args(interrupt).stderr(Stdio::null()).status().unwrap();
             let code = child.wait().unwrap().code();
             let left = names(folder.path());
             // One that comes before the command listens ends it without a code.
-            let expected = if code == Some(0) { vec![&after] } else { vec![&before, &after] };
-            assert!(expected.contains(&&left), "{arguments}: {part:.3}, {code:?}: {left:?}");
-            assert!([Some(0), Some(130), None].contains(&code), "{arguments}: {code:?}");
+            let whole = if code == Some(0) { vec![&after] } else { vec![&before, &after] };
+            assert!(whole.contains(&&left), "{arguments}: {part:.3}, {code:?}: {left:?}");
+            assert!([Some(0), Some(expected), None].contains(&code), "{arguments}: {code:?}");
+            at_work += u32::from(code == Some(expected));
         }
     }
+    assert!(at_work > 0, "no command was at work when it was sent {signal}");
 }
 
+/// Killed again and again and continued each time, a campaign ends with the bytes of one that was left
+/// alone.
 #[test]
 fn a_campaign_that_is_killed_time_and_again_loses_nothing() {
     const CAMPAIGN: &str = "monte-carlo scenario.toml --runs 150 --seed 3";
