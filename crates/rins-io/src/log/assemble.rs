@@ -1,5 +1,8 @@
 //! From a log's columns to a recording.
 
+use std::mem;
+use std::ops::Range;
+
 use nalgebra::Vector3;
 use rins_frames::{InFrame, Increments};
 use rins_motion::Recording;
@@ -26,15 +29,14 @@ pub(super) fn read(
     spec: &ColumnSpec,
     policy: LogPolicy,
 ) -> Result<(Recording, LogSummary), IoError> {
-    let files = Files::read(rig, spec)?;
+    let mut files = Files::read(rig, spec)?;
     let main = files.main();
     let stamp = spec.time.as_ref().map_or(Stamp::End, |time| time.stamp);
     let nominal = rig.log.rate.map(|rate| 1.0 / rate);
     let stamps = Stamps { path: &main.path, lines: &main.columns.lines, stamp, nominal };
-    let times = &main.columns.time;
     let mut clock = match nominal {
         Some(interval) if spec.time.is_none() => stamps.counted(interval)?,
-        _ => stamps.timed(times, policy)?,
+        _ => stamps.timed(&main.columns.time, policy)?,
     };
     clock.summary.left_out = files.left_out();
     clock.summary.time_origin = files.instants.map_or(0.0, |instants| instants.origin());
@@ -45,14 +47,14 @@ pub(super) fn read(
     let gyro = Channel { spec: &spec.gyro, values: gyro, axes: rig.spin.after(&rig.log.gyro_axes) };
     let accel =
         Channel { spec: &spec.accel, values: accel, axes: rig.spin.after(&rig.log.accel_axes) };
-    let angles = gyro.increments(&clock, spec.gaps)?;
+    let mut angles = gyro.increments(&clock, spec.gaps)?;
     let (kept, velocities) = match files.accel_clock(spec, &clock, policy)? {
         None => (0..clock.ends.len(), accel.increments(&clock, spec.gaps)?),
         Some(own) => {
             let (kept, velocities) = redivide(&own, &accel.increments(&own, spec.gaps)?, &clock);
             if kept.len() < 2 {
                 let other = spec.accel.path.display().to_string();
-                return Err(LogError::of(&main.path, LogProblem::NoOverlap { other }));
+                return Err(LogError::of(&files.main().path, LogProblem::NoOverlap { other }));
             }
             let left_out = clock.ends.len() - kept.len();
             let late = clock.intervals[..kept.start].iter().sum();
@@ -61,28 +63,32 @@ pub(super) fn read(
             (kept, velocities)
         }
     };
-    let angles = angles.into_iter().skip(kept.start);
-    let intervals = &clock.intervals[kept.clone()];
-    let increments = angles.zip(velocities).zip(intervals);
-    let increments = increments.map(|((angle, velocity), &interval)| Increments {
-        angle: InFrame::from_components(angle),
-        velocity: InFrame::from_components(velocity),
-        interval,
-    });
-    let increments = increments.collect();
-    let uncut = if times.is_empty() { clock.ends.clone() } else { Vec::new() };
-    let times = if times.is_empty() { &uncut } else { times };
+    for list in &mut angles {
+        cut(list, &kept);
+    }
+    let times = Some(files.take_times());
+    let times = times.filter(|times| !times.is_empty() && *times != clock.ends);
     clock.keep(kept.clone());
+    let increments = joined([angles, velocities], mem::take(&mut clock.intervals));
 
+    // A signal's values at the ends of the samples' intervals, which lie among its own times.
+    let at_ends = |mut values: Vec<f64>| match &times {
+        // The rows' times are those ends.
+        None => {
+            cut(&mut values, &kept);
+            values
+        }
+        Some(times) => at(times, &values, &clock.ends),
+    };
     let table_angle = match &spec.table_angle {
         Some(column) => {
             let file = files.file(&rig.log.path);
             let mut angles = file.column(&column.column, column.factor, "rad")?;
             unwrap(&mut angles).map_err(|(row, turns)| {
                 let problem = LogProblem::AmbiguousAngle { turns };
-                LogError::at(&file.path, file.columns.lines[row], problem)
+                LogError::at(&file.path, file.columns.lines.of(row), problem)
             })?;
-            Some(at(times, &angles, &clock.ends))
+            Some(at_ends(angles))
         }
         None => None,
     };
@@ -90,16 +96,14 @@ pub(super) fn read(
         Some(column) => {
             let log = files.file(&rig.log.path);
             let mut rates = log.column(&column.column, column.factor, "rad/s")?;
-            rates.truncate(kept.end);
-            rates.drain(..kept.start);
+            cut(&mut rates, &kept);
             Some(rates)
         }
         None => None,
     };
     let temperature = match &spec.temperature {
         Some(TemperatureColumn { file: None, column, offset }) => {
-            let values = files.file(&rig.log.path).temperatures(column, *offset)?;
-            Some(at(times, &values, &clock.ends))
+            Some(at_ends(files.file(&rig.log.path).temperatures(column, *offset)?))
         }
         Some(column) => {
             let own = temperature(column, files.instants, &clock.ends)?;
@@ -114,6 +118,12 @@ pub(super) fn read(
     Ok((Recording { times, increments, table_angle, table_rate, temperature }, summary))
 }
 
+/// Keeps a range of a list.
+fn cut(list: &mut Vec<f64>, range: &Range<usize>) {
+    list.truncate(range.end);
+    list.drain(..range.start);
+}
+
 /// A signal's values at the ends of the samples' intervals, which lie among its own times.
 fn at(times: &[f64], values: &[f64], ends: &[f64]) -> Vec<f64> {
     // The last values for a time that rounding has put beyond the last.
@@ -121,7 +131,36 @@ fn at(times: &[f64], values: &[f64], ends: &[f64]) -> Vec<f64> {
     ends.iter().map(|&end| between(times, values, end).unwrap_or(last)).collect()
 }
 
-/// The numbers of a triad, row by row, and what they are.
+/// Increments from the components of their angles and velocities, and from their intervals.
+///
+/// Of a day at 100 Hz either is half a gigabyte, and what is joined is given up meanwhile: from the
+/// end, where lists can be cut.
+fn joined(mut parts: [TriadValues; 2], mut intervals: Vec<f64>) -> Vec<Increments> {
+    const SHARES: usize = 32;
+    let mut increments = Vec::with_capacity(intervals.len());
+    let share = intervals.len().div_ceil(SHARES).max(1);
+    while !intervals.is_empty() {
+        let first = (intervals.len() - 1) / share * share;
+        for sample in (first..intervals.len()).rev() {
+            let vector = |part: &TriadValues| {
+                Vector3::new(part[0][sample], part[1][sample], part[2][sample])
+            };
+            increments.push(Increments {
+                angle: InFrame::from_components(vector(&parts[0])),
+                velocity: InFrame::from_components(vector(&parts[1])),
+                interval: intervals[sample],
+            });
+        }
+        for list in parts.iter_mut().flatten().chain([&mut intervals]) {
+            list.truncate(first);
+            list.shrink_to_fit();
+        }
+    }
+    increments.reverse();
+    increments
+}
+
+/// The numbers of a triad along the sensors' axes in SI units, and what they are.
 struct Channel<'s> {
     spec: &'s TriadColumns,
     values: TriadValues,
@@ -129,30 +168,29 @@ struct Channel<'s> {
 }
 
 impl Channel<'_> {
-    fn increments(self, clock: &Clock, gaps: Option<Gaps>) -> Result<Vec<Vector3<f64>>, IoError> {
-        let mut scale = clock.intervals.clone();
-        if let Reading::Increment(_) = self.spec.reading {
-            scale.fill(1.0);
-            for gap in &clock.summary.gaps {
-                match gaps {
-                    Some(Gaps::Accumulated) => {}
-                    Some(Gaps::Held) => {
-                        let interval = clock.intervals[gap.sample];
-                        scale[gap.sample] = interval / clock.summary.nominal_interval;
-                    }
-                    None => {
-                        let (length, after) = (gap.length, gap.after);
-                        let problem = LogProblem::LostIncrements { length, after };
-                        return Err(LogError::at(&self.spec.path, gap.line, problem));
-                    }
-                }
-            }
+    /// The increments over the intervals along the body's axes.
+    fn increments(self, clock: &Clock, gaps: Option<Gaps>) -> Result<TriadValues, IoError> {
+        let increments = matches!(self.spec.reading, Reading::Increment(_));
+        if let (true, None, Some(gap)) = (increments, gaps, clock.summary.gaps.first()) {
+            let problem = LogProblem::LostIncrements { length: gap.length, after: gap.after };
+            return Err(LogError::at(&self.spec.path, gap.line, problem));
         }
-        let mut values = self.values;
-        for (value, scale) in values.iter_mut().zip(scale) {
-            *value = self.axes.apply(value) * scale;
+        let [mut x, mut y, mut z] = self.values;
+        for list in [&mut x, &mut y, &mut z] {
+            list.truncate(clock.intervals.len());
         }
-        Ok(values)
+        let mut held = clock.summary.gaps.iter().filter(|_| gaps == Some(Gaps::Held)).peekable();
+        for (sample, &interval) in clock.intervals.iter().enumerate() {
+            let in_gap = held.next_if(|gap| gap.sample == sample).is_some();
+            let scale = match (increments, in_gap) {
+                (false, _) => interval,
+                (true, false) => 1.0,
+                (true, true) => interval / clock.summary.nominal_interval,
+            };
+            let value = self.axes.apply(&Vector3::new(x[sample], y[sample], z[sample])) * scale;
+            (x[sample], y[sample], z[sample]) = (value.x, value.y, value.z);
+        }
+        Ok([x, y, z])
     }
 }
 
@@ -168,12 +206,13 @@ fn temperature(
     };
     let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)) };
     let columns = table::read(path, Table::of(path), wanted)?;
-    let file = OneFile { path: path.clone(), names: vec![column.clone()], columns };
-    let (times, values) = (&file.columns.time, file.temperatures(column, *offset)?);
-    for (pair, &line) in times.windows(2).zip(&file.columns.lines[1..]) {
+    let mut file = OneFile::of_column(path, column, columns);
+    let values = file.temperatures(column, *offset)?;
+    let times = &file.columns.time;
+    for (row, pair) in times.windows(2).enumerate() {
         if pair[1] <= pair[0] {
             let problem = LogProblem::TimeNotIncreasing { before: pair[0], now: pair[1] };
-            return Err(LogError::at(path, line, problem));
+            return Err(LogError::at(path, file.columns.lines.of(row + 1), problem));
         }
     }
     let (first, last) = (times[0], times[times.len() - 1]);

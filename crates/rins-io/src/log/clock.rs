@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::problem::LogProblem;
 use super::summary::{Gap, LogPolicy, LogSummary};
+use super::table::RowLines;
 use crate::error::{IoError, LogError};
 use crate::rig::Stamp;
 
@@ -51,7 +52,7 @@ impl Clock {
 pub(super) struct Stamps<'l> {
     pub(super) path: &'l Path,
     /// The line of each row.
-    pub(super) lines: &'l [u64],
+    pub(super) lines: &'l RowLines,
     pub(super) stamp: Stamp,
     /// The nominal interval, where the rig states it \[s\].
     pub(super) nominal: Option<f64>,
@@ -134,12 +135,12 @@ impl Stamps<'_> {
     /// of the times made exactly so.
     fn steps(&self, times: &[f64]) -> Result<Vec<f64>, IoError> {
         let mut steps = Vec::with_capacity(times.len() - 1);
-        for (pair, &line) in times.windows(2).zip(&self.lines[1..]) {
+        for (row, pair) in times.windows(2).enumerate() {
             let (before, now) = (pair[0], pair[1]);
             let step = now - before;
             if step <= 0.0 {
                 let problem = LogProblem::TimeNotIncreasing { before, now };
-                return Err(LogError::at(self.path, line, problem));
+                return Err(LogError::at(self.path, self.lines.of(row + 1), problem));
             }
             let rounding = 4.0 * f64::EPSILON * before.abs().max(now.abs());
             let nominal = self.nominal.filter(|nominal| (step - nominal).abs() <= rounding);
@@ -153,7 +154,7 @@ impl Stamps<'_> {
             Some(row) => {
                 let problem =
                     LogProblem::LongGap { length: steps[row], after: times[row], largest };
-                Err(LogError::at(self.path, self.lines[row + 1], problem))
+                Err(LogError::at(self.path, self.lines.of(row + 1), problem))
             }
             None => Ok(()),
         }
@@ -163,7 +164,7 @@ impl Stamps<'_> {
         let gap = |(row, &length): (usize, &f64)| {
             (length > GAP * nominal).then(|| Gap {
                 sample: if self.stamp == Stamp::End { row + 1 } else { row },
-                line: self.lines[row + 1],
+                line: self.lines.of(row + 1),
                 after: times[row],
                 length,
             })

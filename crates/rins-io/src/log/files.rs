@@ -1,8 +1,7 @@
 //! The files of a run, and of each the columns that are asked for.
 
+use std::mem;
 use std::path::{Path, PathBuf};
-
-use nalgebra::Vector3;
 
 use super::clock::{Clock, Stamps};
 use super::instant::Instants;
@@ -37,12 +36,41 @@ pub(super) struct Files {
 /// One file, and of its columns those that are asked for.
 pub(super) struct OneFile {
     pub(super) path: PathBuf,
-    pub(super) names: Vec<String>,
+    asked: Asked,
     pub(super) columns: Columns,
 }
 
-/// A triad's values in SI units along the sensors' axes, one a row.
-pub(super) type TriadValues = Vec<Vector3<f64>>;
+/// The columns of a file that are asked for, and how often each is.
+#[derive(Default)]
+struct Asked {
+    names: Vec<String>,
+    times: Vec<usize>,
+}
+
+impl Asked {
+    fn add(&mut self, name: &str) {
+        match self.names.iter().position(|known| known == name) {
+            Some(place) => self.times[place] += 1,
+            None => {
+                self.names.push(name.into());
+                self.times.push(1);
+            }
+        }
+    }
+
+    fn of<'n>(names: impl IntoIterator<Item = &'n String>) -> Self {
+        let mut asked = Self::default();
+        names.into_iter().for_each(|name| asked.add(name));
+        asked
+    }
+
+    fn names(&self) -> Vec<&str> {
+        self.names.iter().map(String::as_str).collect()
+    }
+}
+
+/// A triad's values along its three axes, a list an axis.
+pub(super) type TriadValues = [Vec<f64>; 3];
 
 impl OneFile {
     /// The lines that are no samples.
@@ -51,43 +79,64 @@ impl OneFile {
         self.columns.left_out.iter().map(named)
     }
 
+    /// The file at `path`, of which one column was asked for.
+    pub(super) fn of_column(path: &Path, name: &String, columns: Columns) -> Self {
+        Self { path: path.into(), asked: Asked::of([name]), columns }
+    }
+
+    fn place(&self, name: &str) -> usize {
+        let place = self.asked.names.iter().position(|known| known == name);
+        place.expect("every column in use was asked for")
+    }
+
     fn numbers(&self, name: &str) -> &[f64] {
-        let place = self.names.iter().position(|known| known == name);
-        &self.columns.numbers[place.expect("every column in use was asked for")]
+        &self.columns.numbers[self.place(name)]
+    }
+
+    /// The numbers of a column, each as `read` has it, without a copy where nobody else asks for them.
+    fn take(&mut self, name: &str, read: impl Fn(f64) -> f64) -> Vec<f64> {
+        let place = self.place(name);
+        let (left, numbers) = (&mut self.asked.times[place], &mut self.columns.numbers[place]);
+        *left = left.saturating_sub(1);
+        let mut taken = if *left == 0 { mem::take(numbers) } else { numbers.clone() };
+        for number in &mut taken {
+            *number = read(*number);
+        }
+        taken
     }
 
     /// The numbers of a column in units of `factor` times an SI `unit`.
     pub(super) fn column(
-        &self,
+        &mut self,
         name: &str,
         factor: f64,
         unit: &'static str,
     ) -> Result<Vec<f64>, IoError> {
-        let values: Vec<f64> = self.numbers(name).iter().map(|number| number * factor).collect();
-        self.refuse_unless(name, &values, unit, |value| value.abs() <= BEYOND_REASON)?;
-        Ok(values)
+        let read = |number| number * factor;
+        self.refuse_unless(name, unit, read, |value| value.abs() <= BEYOND_REASON)?;
+        Ok(self.take(name, read))
     }
 
     /// The temperatures \[°C\] of a column that tells them less `offset`.
-    pub(super) fn temperatures(&self, name: &str, offset: f64) -> Result<Vec<f64>, IoError> {
-        let values: Vec<f64> = self.numbers(name).iter().map(|number| number + offset).collect();
-        self.refuse_unless(name, &values, "degC", |value| TEMPERATURES.contains(&value))?;
-        Ok(values)
+    pub(super) fn temperatures(&mut self, name: &str, offset: f64) -> Result<Vec<f64>, IoError> {
+        let read = |number| number + offset;
+        self.refuse_unless(name, "degC", read, |value| TEMPERATURES.contains(&value))?;
+        Ok(self.take(name, read))
     }
 
     fn refuse_unless(
         &self,
         name: &str,
-        values: &[f64],
         unit: &'static str,
+        read: impl Fn(f64) -> f64,
         reasonable: impl Fn(f64) -> bool,
     ) -> Result<(), IoError> {
-        match values.iter().position(|value| !reasonable(*value)) {
+        let mut values = self.numbers(name).iter().map(|number| read(*number)).enumerate();
+        match values.find(|(_, value)| !reasonable(*value)) {
             None => Ok(()),
-            Some(row) => {
-                let (column, value) = (name.into(), values[row]);
-                let problem = LogProblem::BeyondReason { column, value, unit };
-                Err(LogError::at(&self.path, self.columns.lines[row], problem))
+            Some((row, value)) => {
+                let problem = LogProblem::BeyondReason { column: name.into(), value, unit };
+                Err(LogError::at(&self.path, self.columns.lines.of(row), problem))
             }
         }
     }
@@ -95,17 +144,14 @@ impl OneFile {
 
 impl Files {
     pub(super) fn read(rig: &Rig, spec: &ColumnSpec) -> Result<Self, IoError> {
-        let mut wanted: Vec<(&Path, Vec<String>)> = vec![(&spec.gyro.path, Vec::new())];
+        let mut wanted: Vec<(&Path, Asked)> = vec![(&spec.gyro.path, Asked::default())];
         let mut want = |path, name: &String| {
             let known = wanted.iter().position(|(known, _)| *known == path);
             let place = known.unwrap_or_else(|| {
-                wanted.push((path, Vec::new()));
+                wanted.push((path, Asked::default()));
                 wanted.len() - 1
             });
-            let names = &mut wanted[place].1;
-            if !names.contains(name) {
-                names.push(name.clone());
-            }
+            wanted[place].1.add(name);
         };
         let together = spec.accel_clock.is_none();
         for triad in std::iter::once(&spec.gyro).chain(Some(&spec.accel).filter(|_| together)) {
@@ -124,16 +170,15 @@ impl Files {
         });
         let mut instants = unit.map(Instants::new);
         let mut files = Vec::with_capacity(wanted.len());
-        for (path, names) in wanted {
-            let asked: Vec<&str> = names.iter().map(String::as_str).collect();
+        for (path, asked) in wanted {
             let time = spec.time.as_ref().map(|time| time.column.as_str());
-            let wanted = Wanted { names: &asked, time: time.zip(instants.as_mut()) };
+            let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()) };
             let mut columns = table::read(path, spec.table, wanted)?;
             if let Some(time) = spec.time.as_ref().filter(|time| time.unit == TimeUnit::Samples) {
                 let interval = rig.log.rate.map_or(1.0, |rate| 1.0 / rate);
                 count(path, &time.column, &mut columns, interval)?;
             }
-            files.push(OneFile { path: path.into(), names, columns });
+            files.push(OneFile { path: path.into(), asked, columns });
         }
         let accel = spec.accel_clock.as_ref().map(|clock| own_clock(spec, clock, instants));
         Ok(Self { together: files, instants, accel: accel.transpose()? })
@@ -148,8 +193,13 @@ impl Files {
         &self.together[0]
     }
 
-    pub(super) fn file(&self, path: &Path) -> &OneFile {
-        let found = self.together.iter().find(|file| file.path == path);
+    /// The times of the rows \[s\], which are not asked for again; none of a log without a time column.
+    pub(super) fn take_times(&mut self) -> Vec<f64> {
+        mem::take(&mut self.together[0].columns.time)
+    }
+
+    pub(super) fn file(&mut self, path: &Path) -> &mut OneFile {
+        let found = self.together.iter_mut().find(|file| file.path == path);
         found.expect("every file in use was read")
     }
 
@@ -164,10 +214,10 @@ impl Files {
                 return Err(LogError::of(&file.path, problem));
             }
             let pairs = file.columns.time.iter().zip(&main.columns.time);
-            for ((&time, &expected), &line) in pairs.zip(&file.columns.lines) {
+            for (row, (&time, &expected)) in pairs.enumerate() {
                 if (time - expected).abs() > TOGETHER_WITHIN * interval {
                     let problem = LogProblem::UnequalTimes { time, other: other(), expected };
-                    return Err(LogError::at(&file.path, line, problem));
+                    return Err(LogError::at(&file.path, file.columns.lines.of(row), problem));
                 }
             }
         }
@@ -175,13 +225,16 @@ impl Files {
     }
 
     /// The gyros' values, none of them stuck.
-    pub(super) fn gyro(&self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
+    pub(super) fn gyro(&mut self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
         self.file(&spec.gyro.path).triad(&spec.gyro, "gyro")
     }
 
     /// The accelerometers' values.
-    pub(super) fn accel(&self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
-        let file = self.accel.as_ref().unwrap_or_else(|| self.file(&spec.accel.path));
+    pub(super) fn accel(&mut self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
+        let file = match &mut self.accel {
+            Some(own) => own,
+            None => self.file(&spec.accel.path),
+        };
         file.triad(&spec.accel, "accel")
     }
 
@@ -209,9 +262,8 @@ fn own_clock(
     gyro: Option<Instants>,
 ) -> Result<OneFile, IoError> {
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
-    let names = spec.accel.columns.to_vec();
-    let asked: Vec<&str> = names.iter().map(String::as_str).collect();
-    let wanted = Wanted { names: &asked, time: Some((&clock.time.column, &mut instants)) };
+    let asked = Asked::of(&spec.accel.columns);
+    let wanted = Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)) };
     let mut columns = table::read(&spec.accel.path, spec.table, wanted)?;
     let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
     if shift != 0.0 {
@@ -219,12 +271,12 @@ fn own_clock(
             *time += shift;
         }
     }
-    Ok(OneFile { path: spec.accel.path.clone(), names, columns })
+    Ok(OneFile { path: spec.accel.path.clone(), asked, columns })
 }
 
 impl OneFile {
     /// A triad's values in SI units along the sensors' axes, none of them stuck.
-    fn triad(&self, spec: &TriadColumns, sensor: &str) -> Result<TriadValues, IoError> {
+    fn triad(&mut self, spec: &TriadColumns, sensor: &str) -> Result<TriadValues, IoError> {
         let (Reading::Rate(factor) | Reading::Increment(factor)) = spec.reading;
         let unit = match (sensor, spec.reading) {
             ("gyro", Reading::Rate(_)) => "rad/s",
@@ -232,7 +284,10 @@ impl OneFile {
             (_, Reading::Rate(_)) => "m/s^2",
             (_, Reading::Increment(_)) => "m/s",
         };
-        let mut values = vec![Vector3::zeros(); self.columns.lines.len()];
+        let read = |axis: usize| {
+            let (offset, scale) = (spec.offset[axis], spec.scale[axis]);
+            move |number: f64| (number - offset) * scale * factor
+        };
         let mut stuck = Vec::new();
         for (axis, name) in spec.columns.iter().enumerate() {
             let numbers = self.numbers(name);
@@ -242,13 +297,7 @@ impl OneFile {
                 let channel = format!("{sensor} {} ({name:?})", ["x", "y", "z"][axis]);
                 stuck.push((channel, first));
             }
-            let (offset, scale) = (spec.offset[axis], spec.scale[axis]);
-            let readings: Vec<f64> =
-                numbers.iter().map(|number| (number - offset) * scale * factor).collect();
-            self.refuse_unless(name, &readings, unit, |value| value.abs() <= BEYOND_REASON)?;
-            for (value, reading) in values.iter_mut().zip(readings) {
-                value[axis] = reading;
-            }
+            self.refuse_unless(name, unit, read(axis), |value| value.abs() <= BEYOND_REASON)?;
         }
         // At rest a coarse accelerometer may well say the same all along, but not all three zero.
         let dead = sensor == "gyro" || stuck.len() == 3 && stuck.iter().all(|(_, n)| *n == 0.0);
@@ -256,17 +305,17 @@ impl OneFile {
             Some((channel, value)) => {
                 Err(LogError::of(&self.path, LogProblem::Stuck { channel, value }))
             }
-            None => Ok(values),
+            None => Ok([0, 1, 2].map(|axis| self.take(&spec.columns[axis], read(axis)))),
         }
     }
 }
 
 /// Turns a counter of samples into seconds.
 fn count(path: &Path, name: &str, columns: &mut Columns, interval: f64) -> Result<(), IoError> {
-    for (time, &line) in columns.time.iter_mut().zip(&columns.lines) {
+    for (row, time) in columns.time.iter_mut().enumerate() {
         if time.fract() != 0.0 {
             let problem = LogProblem::PartOfASample { column: name.into(), count: *time };
-            return Err(LogError::at(path, line, problem));
+            return Err(LogError::at(path, columns.lines.of(row), problem));
         }
         *time *= interval;
     }

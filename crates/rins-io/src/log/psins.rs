@@ -13,6 +13,7 @@ use super::files::BEYOND_REASON;
 use super::lines::Lines;
 use super::problem::LogProblem;
 use super::summary::{LeftOut, LogSummary, Omission};
+use super::table::RowLines;
 use crate::error::{IoError, LogError};
 use crate::quantity::kinds;
 use crate::rig::{Rig, Stamp};
@@ -77,7 +78,7 @@ pub(super) fn read_from<R: BufRead>(
     let gyro_axes = rig.spin.after(&rig.log.gyro_axes);
     let accel_axes = rig.spin.after(&rig.log.accel_axes);
     let mut recording = Recording::default();
-    let mut numbers_of_lines = Vec::new();
+    let mut numbers_of_lines = RowLines::default();
     let mut first = None;
     let mut moved = [false; 6];
     while let Some(row) = row(lines, &NUMBERS)? {

@@ -1,6 +1,5 @@
 //! Whether what was written is read as the same.
 
-use nalgebra::Vector3;
 use rins_frames::Increments;
 use rins_motion::Recording;
 
@@ -29,44 +28,57 @@ pub(super) fn differences(
         (Some(old), Some(new)) if format == LogFile::Euroc => (old - new).round(),
         _ => 0.0,
     };
-    let times: Vec<f64> = new.times.iter().map(|time| time + origin).collect();
-    let of = |run: &Recording, part: fn(&Increments) -> Vector3<f64>| -> Vec<f64> {
-        run.increments.iter().map(part).flat_map(|v| [v.x, v.y, v.z]).collect()
-    };
-    let intervals = |run: &Recording| -> Vec<f64> {
-        run.increments.iter().map(|sample| sample.interval).collect()
-    };
-    let angle = |sample: &Increments| *sample.angle.components();
-    let velocity = |sample: &Increments| *sample.velocity.components();
+    let times = new.times.iter().map(|time| time + origin);
     let mut all = vec![
-        difference("time [s]", &old.times, &times),
-        difference("interval [s]", &intervals(old), &intervals(new)),
-        difference("angle [rad]", &of(old, angle), &of(new, angle)),
-        difference("velocity [m/s]", &of(old, velocity), &of(new, velocity)),
+        difference("time [s]", old.times.iter().copied(), times),
+        between("interval [s]", [old, new], |sample| [sample.interval]),
+        between("angle [rad]", [old, new], |sample| (*sample.angle.components()).into()),
+        between("velocity [m/s]", [old, new], |sample| (*sample.velocity.components()).into()),
     ];
-    let list = |list: Option<&Vec<f64>>| list.cloned().unwrap_or_default();
+    let list = |signal, old: Option<&[f64]>, new: Option<&Vec<f64>>| {
+        let [old, new] = [old, new.map(Vec::as_slice)].map(Option::unwrap_or_default);
+        difference(signal, old.iter().copied(), new.iter().copied())
+    };
     if format.holds_more_than_the_imu() {
-        let (angle, new_angle) = (list(old.table_angle.as_ref()), list(new.table_angle.as_ref()));
-        all.push(difference("table angle [rad]", &angle, &new_angle));
-        let temperatures = [old, new].map(|run| list(run.temperature.as_ref()));
-        all.push(difference("temperature [degC]", &temperatures[0], &temperatures[1]));
+        let angle = old.table_angle.as_deref();
+        all.push(list("table angle [rad]", angle, new.table_angle.as_ref()));
+        let temperature = old.temperature.as_deref();
+        all.push(list("temperature [degC]", temperature, new.temperature.as_ref()));
     }
     let rate = commanded.or(old.table_rate.as_deref());
-    if let Some(rate) = rate.filter(|_| commanded.is_some() || format.holds_more_than_the_imu()) {
-        all.push(difference("table rate [rad/s]", rate, &list(new.table_rate.as_ref())));
+    if rate.is_some() && (commanded.is_some() || format.holds_more_than_the_imu()) {
+        all.push(list("table rate [rad/s]", rate, new.table_rate.as_ref()));
     }
     all.into_iter().flatten().collect()
 }
 
-fn difference(signal: &'static str, old: &[f64], new: &[f64]) -> Option<Difference> {
-    let off = old.iter().zip(new).map(|(old, new)| (new - old).abs());
-    let (mut numbers, mut largest) = (old.len().abs_diff(new.len()), 0.0_f64);
-    if numbers > 0 {
-        largest = f64::INFINITY;
-    }
-    for off in off.filter(|off| *off > 0.0) {
-        numbers += 1;
-        largest = largest.max(off);
+/// The difference of a part of each sample.
+fn between<const N: usize>(
+    signal: &'static str,
+    runs: [&Recording; 2],
+    part: fn(&Increments) -> [f64; N],
+) -> Option<Difference> {
+    let [old, new] = runs.map(|run| run.increments.iter().flat_map(part));
+    difference(signal, old, new)
+}
+
+fn difference(
+    signal: &'static str,
+    mut old: impl Iterator<Item = f64>,
+    mut new: impl Iterator<Item = f64>,
+) -> Option<Difference> {
+    let (mut numbers, mut largest) = (0, 0.0_f64);
+    loop {
+        let off = match (old.next(), new.next()) {
+            (None, None) => break,
+            (Some(old), Some(new)) => (new - old).abs(),
+            // One is missing.
+            _ => f64::INFINITY,
+        };
+        if off > 0.0 {
+            numbers += 1;
+            largest = largest.max(off);
+        }
     }
     (numbers > 0).then_some(Difference { signal, numbers, largest })
 }

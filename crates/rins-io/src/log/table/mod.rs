@@ -4,12 +4,14 @@ mod doubles;
 mod mat;
 mod novatel;
 mod parquet;
+mod rows;
 mod text;
 mod typed;
 
 use std::path::Path;
 
 use self::text::Header;
+pub(super) use rows::RowLines;
 pub(crate) use text::Head;
 pub use text::{LogHead, peek};
 pub(crate) use typed::most_rows;
@@ -45,7 +47,7 @@ pub(super) struct Columns {
     /// The numbers of each column that was asked for.
     pub(super) numbers: Vec<Vec<f64>>,
     /// The line of each row; its number from 1 where a log has no lines.
-    pub(super) lines: Vec<u64>,
+    pub(super) lines: RowLines,
     /// The lines that are left out.
     pub(super) left_out: Vec<(u64, Omission)>,
 }
@@ -74,7 +76,7 @@ pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Colu
     if let Some(row) = columns.time.iter().position(|time| time.abs() > LATEST) {
         let (column, value) = (time.unwrap_or_default().into(), columns.time[row]);
         let problem = LogProblem::BeyondReason { column, value, unit: "s" };
-        return Err(LogError::at(path, columns.lines[row], problem));
+        return Err(LogError::at(path, columns.lines.of(row), problem));
     }
     Ok(columns)
 }

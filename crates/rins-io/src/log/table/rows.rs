@@ -1,0 +1,70 @@
+//! The lines at which a log's rows stand.
+
+/// The line of each row; where one follows the other, only the first is kept.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::log) struct RowLines {
+    /// The row and the line where each series of them begins.
+    series: Vec<(usize, u64)>,
+    rows: usize,
+}
+
+impl RowLines {
+    /// Adds a row, which stands at `line`.
+    pub(in crate::log) fn push(&mut self, line: u64) {
+        let next = self.series.last().map(|(row, first)| first + (self.rows - row) as u64);
+        if next != Some(line) {
+            self.series.push((self.rows, line));
+        }
+        self.rows += 1;
+    }
+
+    /// How many rows there are.
+    pub(in crate::log) const fn len(&self) -> usize {
+        self.rows
+    }
+
+    /// Whether there is none.
+    pub(in crate::log) const fn is_empty(&self) -> bool {
+        self.rows == 0
+    }
+
+    /// The line of a row; zero, which no line has, if there is no such row.
+    pub(in crate::log) fn of(&self, row: usize) -> u64 {
+        let after = self.series.partition_point(|(first, _)| *first <= row);
+        let series = after.checked_sub(1).filter(|_| row < self.rows);
+        series.map_or(0, |index| {
+            let (first, line) = self.series[index];
+            line + (row - first) as u64
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RowLines;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn every_row_keeps_its_line(steps in prop::collection::vec(1..4_u64, 0..60)) {
+            let mut line = 0;
+            let lines: Vec<u64> = steps.iter().map(|step| { line += step; line }).collect();
+            let mut rows = RowLines::default();
+            for &line in &lines {
+                rows.push(line);
+            }
+            prop_assert_eq!((rows.len(), rows.is_empty()), (lines.len(), lines.is_empty()));
+            for (row, &line) in lines.iter().enumerate() {
+                prop_assert_eq!(rows.of(row), line);
+            }
+            prop_assert_eq!(rows.of(lines.len()), 0);
+        }
+    }
+
+    #[test]
+    fn a_log_without_holes_is_one_series() {
+        let mut rows = RowLines::default();
+        (3..100_003).for_each(|line| rows.push(line));
+        assert_eq!(rows.series, [(0, 3)]);
+    }
+}
