@@ -26,6 +26,7 @@ mod model;
 mod moment;
 mod page;
 mod signals;
+mod slope;
 mod term;
 mod track;
 mod triads;

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::moment::{Instant, Moment, Surroundings, turned_back};
+use crate::slope::slopes;
 
 /// A rate below which a table does not turn, and a change of rate that is none \[rad/s\].
 const LEAST_RATE: f64 = 5e-3;
@@ -20,6 +21,8 @@ pub struct Track {
     angles: Vec<f64>,
     /// The temperature at the end of each sample \[°C\].
     temperature: Option<Vec<f64>>,
+    /// How fast it changes \[K/s\].
+    warming_rates: Option<Vec<f64>>,
 }
 
 impl Track {
@@ -38,7 +41,8 @@ impl Track {
         assert_eq!(intervals.len(), times.len(), "an interval a sample");
         let matches = temperature.as_ref().is_none_or(|list| list.len() == times.len());
         assert!(matches, "a temperature a sample");
-        Self { surroundings, times, intervals, angles, temperature }
+        let warming_rates = temperature.as_ref().map(|list| slopes(&times, list));
+        Self { surroundings, times, intervals, angles, temperature, warming_rates }
     }
 
     /// The same with samples taken together: those up to each of `ends`, the sample after the last of them.
@@ -49,16 +53,21 @@ impl Track {
     pub fn thinned(&self, ends: &[usize]) -> Self {
         let starts = std::iter::once(0).chain(ends.iter().copied());
         let together = |(start, &end): (usize, &usize)| self.intervals[start..end].iter().sum();
+        let middle = |(start, &end): (usize, &usize)| usize::midpoint(start, end - 1);
         let last = |list: &[f64]| ends.iter().map(|&end| list[end - 1]).collect();
         Self {
             surroundings: self.surroundings,
             times: last(&self.times),
-            intervals: starts.zip(ends).map(together).collect(),
+            intervals: starts.clone().zip(ends).map(together).collect(),
             angles: std::iter::once(0)
                 .chain(ends.iter().copied())
                 .map(|end| self.angles[end])
                 .collect(),
             temperature: self.temperature.as_deref().map(last),
+            warming_rates: self
+                .warming_rates
+                .as_ref()
+                .map(|list| starts.zip(ends).map(|piece| list[middle(piece)]).collect()),
         }
     }
 
@@ -154,7 +163,7 @@ impl Track {
     }
 
     fn warming(&self, sample: usize) -> f64 {
-        self.temperature.as_ref().map_or(0.0, |list| list[sample.min(list.len() - 1)] - list[0])
+        self.temperature.as_ref().map_or(0.0, |list| list[sample] - list[0])
     }
 }
 
@@ -194,7 +203,7 @@ impl Moments<'_> {
             sense: self.sense,
             rate_change: self.rate_change,
             warming: 0.5 * (warming + warming_before),
-            warming_rate: (track.warming(sample + 1) - warming_before) / (2.0 * elapsed),
+            warming_rate: track.warming_rates.as_ref().map_or(0.0, |list| list[sample]),
         };
         // The mean of a vector that turns at a constant rate is shorter than the vector.
         let half_turn = 0.5 * rate * interval;
