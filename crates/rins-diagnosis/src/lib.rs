@@ -11,6 +11,7 @@
 mod candidates;
 mod probability;
 mod score;
+mod suggested;
 mod survey;
 mod trial;
 

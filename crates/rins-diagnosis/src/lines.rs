@@ -1,27 +1,15 @@
-//! Lines of a frequency of their own: those that are faster than an epoch, sample by sample, and where slower ones, and
-//! events, may be.
+//! Lines that are faster than an epoch, sample by sample.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::Vector3;
 use rins_estimation::{Fit, Reference, Run};
-use rins_terms::{Chosen, Term, catalogue, values};
+use rins_terms::{Chosen, catalogue, values};
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use crate::candidates::{Candidate, stands_for};
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
-use crate::disturbance::IN_ANGLE;
 use crate::noise::estimate;
-use crate::structure::{CHANNELS, Left, Structure};
-
-/// How many slow lines are tried at once.
-const SLOW: usize = 2;
-
-/// How many outliers are taken for the time of an event.
-const OUTLIERS: usize = 2;
-
-/// An innovation of so many sigmas is an outlier.
-const OUTLIER: f64 = 4.5;
+use crate::structure::CHANNELS;
 
 /// The noise under a line is the median of so many frequencies on each side.
 const AROUND: usize = 600;
@@ -36,68 +24,6 @@ const SHARE: f64 = 0.1;
 const MOST: usize = 4;
 
 impl Case<'_> {
-    /// The terms that have a frequency, an order of no known cause, and events, where the innovations are strongest.
-    pub(crate) fn suggested(&self, present: &Fit) -> Vec<Candidate> {
-        let mut list = Vec::new();
-        for run in 0..self.runs.len() {
-            let innovations = present.innovations(run);
-            let (angles, rates): (Vec<f64>, Vec<f64>) =
-                present.linear[run].motion().into_iter().unzip();
-            let epoch = present.linear[run].mean_epoch();
-            let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
-            let count = innovations.len() as f64;
-            // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
-            let in_body = left.in_body();
-            let body = Left { innovations: &in_body, ..left };
-            list.extend(left.strongest_order(&in_body).map(|(order, step, looks)| {
-                let mut chosen = Chosen::new(&IN_ANGLE).estimated();
-                chosen.settings[0] = order;
-                Candidate { chosen, looks, step: Some((0, step)) }
-            }));
-            list.extend(Self::events(&innovations, present, run));
-            let frequencies =
-                left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
-            for frequency in frequencies {
-                for chosen in at_frequency(frequency) {
-                    // Half an independent frequency is the distance of those that were looked at, in two frames.
-                    let step = Some((0, 0.5 / (count * epoch)));
-                    list.push(Candidate { chosen, looks: 2.0 * count, step });
-                }
-            }
-        }
-        list
-    }
-
-    /// Every event at the epochs whose innovations are largest: what is over in an instant shows in one of them only.
-    fn events(innovations: &[SVector<f64, CHANNELS>], present: &Fit, run: usize) -> Vec<Candidate> {
-        let linear = &present.linear[run];
-        let ends = linear.ends();
-        let begin = linear.track().start();
-        let mut order: Vec<usize> = (0..innovations.len()).collect();
-        order.sort_by(|&a, &b| innovations[b].amax().total_cmp(&innovations[a].amax()));
-        let outliers = order.into_iter().take(OUTLIERS);
-        let outliers: Vec<usize> =
-            outliers.filter(|&epoch| innovations[epoch].amax() > OUTLIER).collect();
-        let epoch = linear.mean_epoch();
-        let mut list = Vec::new();
-        let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
-        for chosen in terms.map(|term| Chosen::new(term).estimated()) {
-            let time = chosen.term.settings.iter().position(|setting| setting.name == "time");
-            let Some(place) = time else { continue };
-            // A base that steps time and again is no step.
-            if present.model().terms.iter().any(|own| stands_for(own, &chosen)) {
-                continue;
-            }
-            for &outlier in &outliers {
-                let mut chosen = chosen.clone();
-                chosen.settings[place] = ends[outlier] - begin - 0.5 * epoch;
-                let looks = innovations.len() as f64;
-                list.push(Candidate { chosen, looks, step: Some((place, epoch)) });
-            }
-        }
-        list
-    }
-
     /// Lines that are faster than an epoch shows, with their amplitudes.
     pub(crate) fn fast_lines(&self, fit: &Fit) -> Vec<(Chosen, Cause)> {
         let mut found: Vec<(Chosen, Cause)> = Vec::new();
@@ -116,15 +42,6 @@ impl Case<'_> {
         found.truncate(MOST);
         found
     }
-}
-
-/// Every term that has a frequency, at this one.
-pub(crate) fn at_frequency(frequency: f64) -> Vec<Chosen> {
-    let with =
-        |term: &'static Term| Chosen::new(term).estimated().with_setting("frequency", frequency);
-    let line = || with(&catalogue::INTERFERENCE_LINE);
-    let axes = [1.0, 2.0, 3.0].map(|axis| line().with_setting("axis", axis));
-    axes.into_iter().chain([with(&catalogue::BASE_SWAY)]).collect()
 }
 
 /// A line in the residuals of one sensor.
@@ -257,27 +174,4 @@ fn cause(channel: usize, line: &Line, ln_p: f64, run: usize) -> (Chosen, Cause) 
         rivals: Vec::new(),
     };
     (chosen, cause)
-}
-
-impl Left<'_> {
-    /// The order at which most is left on a sensor, the step to the next that was looked at, and how many there were.
-    fn strongest_order(&self, in_body: &[SVector<f64, CHANNELS>]) -> Option<(f64, f64, f64)> {
-        let (step, count) = self.orders()?;
-        let find = self.order(in_body)?;
-        let Structure::Order(order) = find.structure else { return None };
-        Some((order.abs(), step, 2.0 * count))
-    }
-
-    /// The frequencies at which most is left \[Hz\], strongest first.
-    fn strongest_lines(&self, count: usize) -> Vec<f64> {
-        let spectrum = self.spectrum(0, self.innovations.len());
-        let total = |bin: usize| spectrum[bin].iter().sum::<f64>();
-        let mut peaks: Vec<usize> = (1..spectrum.len().saturating_sub(1))
-            .filter(|&bin| total(bin) >= total(bin - 1) && total(bin) >= total(bin + 1))
-            .collect();
-        peaks.sort_by(|a, b| total(*b).total_cmp(&total(*a)));
-        peaks.truncate(count);
-        let lines = peaks.into_iter().map(|bin| self.frequency(bin, self.innovations.len()));
-        lines.collect()
-    }
 }

@@ -7,7 +7,7 @@ use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
-use crate::lines::at_frequency;
+use crate::suggested::at_frequency;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 

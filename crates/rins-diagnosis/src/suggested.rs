@@ -1,0 +1,162 @@
+//! Where events, slow lines and orders of no known cause may be: where the innovations are strongest.
+
+use std::ops::Range;
+
+use nalgebra::SVector;
+use rins_estimation::Fit;
+use rins_terms::{Chosen, Term, catalogue};
+
+use crate::candidates::{Candidate, stands_for};
+use crate::case::Case;
+use crate::disturbance::IN_ANGLE;
+use crate::structure::{CHANNELS, Left, Structure};
+
+/// How many slow lines are tried at once.
+const SLOW: usize = 2;
+
+/// How many outliers are taken for the time of an event.
+const OUTLIERS: usize = 2;
+
+/// An innovation of so many sigmas is an outlier.
+const OUTLIER: f64 = 4.5;
+
+/// Innovations of so many epochs in a row are taken together: a step that one of them does not show stands out of some.
+const TOGETHER: [usize; 5] = [1, 2, 4, 8, 16];
+
+impl Case<'_> {
+    /// The terms that have a frequency, an order of no known cause, and events, where the innovations are strongest.
+    pub(crate) fn suggested(&self, present: &Fit) -> Vec<Candidate> {
+        let mut list = Vec::new();
+        for run in 0..self.runs.len() {
+            let innovations = present.innovations(run);
+            let (angles, rates): (Vec<f64>, Vec<f64>) =
+                present.linear[run].motion().into_iter().unzip();
+            let epoch = present.linear[run].mean_epoch();
+            let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let count = innovations.len() as f64;
+            // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
+            let in_body = left.in_body();
+            let body = Left { innovations: &in_body, ..left };
+            list.extend(left.strongest_order(&in_body).map(|(order, step, looks)| {
+                let mut chosen = Chosen::new(&IN_ANGLE).estimated();
+                chosen.settings[0] = order;
+                Candidate { chosen, looks, step: Some((0, step)) }
+            }));
+            list.extend(Self::events(&innovations, present, run));
+            let frequencies =
+                left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
+            for frequency in frequencies {
+                for chosen in at_frequency(frequency) {
+                    // Half an independent frequency is the distance of those that were looked at, in two frames.
+                    let step = Some((0, 0.5 / (count * epoch)));
+                    list.push(Candidate { chosen, looks: 2.0 * count, step });
+                }
+            }
+        }
+        list
+    }
+
+    /// Every event where the innovations of some epochs are largest together: what is over in an instant shows in one or
+    /// a few of them only.
+    fn events(innovations: &[SVector<f64, CHANNELS>], present: &Fit, run: usize) -> Vec<Candidate> {
+        let linear = &present.linear[run];
+        let ends = linear.ends();
+        let begin = linear.track().start();
+        let epoch = linear.mean_epoch();
+        let outliers = outliers(innovations);
+        let mut list = Vec::new();
+        let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
+        for chosen in terms.map(|term| Chosen::new(term).estimated()) {
+            let time = chosen.term.settings.iter().position(|setting| setting.name == "time");
+            let Some(place) = time else { continue };
+            // A base that steps time and again is no step.
+            if present.model().terms.iter().any(|own| stands_for(own, &chosen)) {
+                continue;
+            }
+            for outlier in &outliers {
+                let mut chosen = chosen.clone();
+                chosen.settings[place] = ends[outlier.start] - begin - 0.5 * epoch;
+                let looks = innovations.len() as f64;
+                let step = 2.0 * outlier.len() as f64 * epoch;
+                list.push(Candidate { chosen, looks, step: Some((place, step)) });
+            }
+        }
+        list
+    }
+}
+
+/// The epochs, one or some in a row, whose innovations are largest together in one channel.
+fn outliers(innovations: &[SVector<f64, CHANNELS>]) -> Vec<Range<usize>> {
+    let mut sums = vec![SVector::<f64, CHANNELS>::zeros()];
+    for innovation in innovations {
+        sums.push(sums[sums.len() - 1] + innovation);
+    }
+    let mut found: Vec<(f64, Range<usize>)> = Vec::new();
+    for width in TOGETHER {
+        for first in 0..(innovations.len() + 1).saturating_sub(width) {
+            let size = (sums[first + width] - sums[first]).amax() / (width as f64).sqrt();
+            if size > OUTLIER {
+                found.push((size, first..first + width));
+            }
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut outliers: Vec<Range<usize>> = Vec::new();
+    for (_, range) in found {
+        let apart = |other: &Range<usize>| range.start >= other.end || other.start >= range.end;
+        if outliers.len() < OUTLIERS && outliers.iter().all(apart) {
+            outliers.push(range);
+        }
+    }
+    outliers
+}
+
+/// Every term that has a frequency, at this one.
+pub(crate) fn at_frequency(frequency: f64) -> Vec<Chosen> {
+    let with =
+        |term: &'static Term| Chosen::new(term).estimated().with_setting("frequency", frequency);
+    let line = || with(&catalogue::INTERFERENCE_LINE);
+    let axes = [1.0, 2.0, 3.0].map(|axis| line().with_setting("axis", axis));
+    axes.into_iter().chain([with(&catalogue::BASE_SWAY)]).collect()
+}
+
+impl Left<'_> {
+    /// The order at which most is left on a sensor, the step to the next that was looked at, and how many there were.
+    fn strongest_order(&self, in_body: &[SVector<f64, CHANNELS>]) -> Option<(f64, f64, f64)> {
+        let (step, count) = self.orders()?;
+        let find = self.order(in_body)?;
+        let Structure::Order(order) = find.structure else { return None };
+        Some((order.abs(), step, 2.0 * count))
+    }
+
+    /// The frequencies at which most is left \[Hz\], strongest first.
+    fn strongest_lines(&self, count: usize) -> Vec<f64> {
+        let spectrum = self.spectrum(0, self.innovations.len());
+        let total = |bin: usize| spectrum[bin].iter().sum::<f64>();
+        let mut peaks: Vec<usize> = (1..spectrum.len().saturating_sub(1))
+            .filter(|&bin| total(bin) >= total(bin - 1) && total(bin) >= total(bin + 1))
+            .collect();
+        peaks.sort_by(|a, b| total(*b).total_cmp(&total(*a)));
+        peaks.truncate(count);
+        let lines = peaks.into_iter().map(|bin| self.frequency(bin, self.innovations.len()));
+        lines.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_that_no_epoch_shows_by_itself_stands_out_of_some() {
+        let mut innovations: Vec<SVector<f64, CHANNELS>> = (0..300)
+            .map(|epoch| SVector::from_fn(|row, _| (f64::from(epoch) * 1.7 + row as f64).sin()))
+            .collect();
+        assert!(outliers(&innovations).is_empty());
+        for innovation in &mut innovations[120..128] {
+            innovation[2] += 3.0;
+        }
+        let found = outliers(&innovations);
+        assert!(matches!(&found[..], [step] if step.start.abs_diff(120) <= 2), "{found:?}");
+    }
+}
