@@ -47,7 +47,7 @@ pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
-    PsinsHeader, Redivided, peek, read, read_log,
+    PsinsHeader, Redivided, Rounded, peek, read, read_log,
 };
 pub use model::ModelFile;
 pub use output::{OutputProblem, Overwrite, write_file, write_files, write_folder};

@@ -18,6 +18,13 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
             summary.jitter_rms / summary.nominal_interval * 100.0
         ));
     }
+    if let Some(rounded) = summary.rounded {
+        told.push(format!(
+            "time stamps are rounded to {} ms: they are those of an even clock of {:.6} Hz, whose intervals are used",
+            rounded.unit * 1e3,
+            rounded.interval.recip()
+        ));
+    }
     if let Some(redivided) = summary.redivided {
         told.push(format!(
             "the accelerometers' {} samples have a clock of their own and were divided anew at the gyros' intervals; {} \

@@ -39,6 +39,7 @@ pub(super) fn read(
         _ => stamps.timed(&main.columns.time, policy)?,
     };
     clock.summary.left_out = files.left_out();
+    clock.summary.rounded = files.rounded;
     clock.summary.time_origin = files.instants.map_or(0.0, |instants| instants.origin());
     files.compare(clock.summary.nominal_interval)?;
 

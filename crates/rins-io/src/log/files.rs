@@ -4,9 +4,10 @@ use std::mem;
 use std::path::{Path, PathBuf};
 
 use super::clock::{Clock, Stamps};
+use super::even::undo_rounding;
 use super::instant::Instants;
 use super::problem::LogProblem;
-use super::summary::{LeftOut, LogPolicy};
+use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted};
 use crate::error::{IoError, LogError};
 use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, TimeUnit, TriadColumns};
@@ -31,6 +32,8 @@ pub(super) struct Files {
     /// That of accelerometers with a clock of their own.
     accel: Option<OneFile>,
     pub(super) instants: Option<Instants>,
+    /// What became of the stamps of the gyros' file.
+    pub(super) rounded: Option<Rounded>,
 }
 
 /// One file, and of its columns those that are asked for.
@@ -170,6 +173,7 @@ impl Files {
         });
         let mut instants = unit.map(Instants::new);
         let mut files = Vec::with_capacity(wanted.len());
+        let mut rounded = None;
         for (path, asked) in wanted {
             let time = spec.time.as_ref().map(|time| time.column.as_str());
             let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()) };
@@ -178,10 +182,16 @@ impl Files {
                 let interval = rig.log.rate.map_or(1.0, |rate| 1.0 / rate);
                 count(path, &time.column, &mut columns, interval)?;
             }
+            if spec.time.as_ref().is_some_and(|time| time.unit != TimeUnit::Samples) {
+                let undone = undo_rounding(&mut columns.time, rig.log.rate.map(f64::recip));
+                if files.is_empty() {
+                    rounded = undone;
+                }
+            }
             files.push(OneFile { path: path.into(), asked, columns });
         }
         let accel = spec.accel_clock.as_ref().map(|clock| own_clock(spec, clock, instants));
-        Ok(Self { together: files, instants, accel: accel.transpose()? })
+        Ok(Self { together: files, instants, accel: accel.transpose()?, rounded })
     }
 
     /// The lines of any of the files that are no samples.
@@ -265,6 +275,7 @@ fn own_clock(
     let asked = Asked::of(&spec.accel.columns);
     let wanted = Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)) };
     let mut columns = table::read(&spec.accel.path, spec.table, wanted)?;
+    let _rounded = undo_rounding(&mut columns.time, None);
     let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
     if shift != 0.0 {
         for time in &mut columns.time {

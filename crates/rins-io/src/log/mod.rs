@@ -2,6 +2,7 @@
 
 mod assemble;
 mod clock;
+mod even;
 mod fields;
 mod files;
 mod instant;
@@ -23,7 +24,7 @@ pub(crate) use lines::Lines;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
-pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided};
+pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded};
 pub(crate) use table::{Head, MOST_COLUMNS, most_rows};
 pub use table::{LogHead, peek};
 

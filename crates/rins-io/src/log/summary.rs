@@ -37,6 +37,17 @@ pub struct LogSummary {
     pub time_origin: f64,
     /// What became of accelerometers that have a clock of their own.
     pub redivided: Option<Redivided>,
+    /// The even clock whose stamps stand in the place of rounded ones.
+    pub rounded: Option<Rounded>,
+}
+
+/// Time stamps that are those of an even clock, rounded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rounded {
+    /// What they were rounded to \[s\].
+    pub unit: f64,
+    /// The interval of the clock \[s\].
+    pub interval: f64,
 }
 
 /// Samples of one clock that were divided anew at the ticks of another.
@@ -87,8 +98,15 @@ pub struct Gap {
 impl LogSummary {
     /// Of samples without jitter or gaps.
     pub(super) fn even(samples: usize, nominal_interval: f64) -> Self {
-        let (gaps, left_out) = (Vec::new(), Vec::new());
-        let (jitter_rms, time_origin, redivided) = (0.0, 0.0, None);
-        Self { samples, nominal_interval, jitter_rms, gaps, left_out, time_origin, redivided }
+        Self {
+            samples,
+            nominal_interval,
+            jitter_rms: 0.0,
+            gaps: Vec::new(),
+            left_out: Vec::new(),
+            time_origin: 0.0,
+            redivided: None,
+            rounded: None,
+        }
     }
 }

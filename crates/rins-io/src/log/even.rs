@@ -1,0 +1,141 @@
+//! Time stamps of an even clock that were rounded when they were written.
+
+use super::summary::Rounded;
+
+/// The finest decimal of a second that stamps are rounded to, as a power of ten.
+const FINEST: i32 = 9;
+
+/// How far, in units of the last decimal, rounded stamps may be from those of an even clock: half a unit at most, and
+/// 0.29 rms. Those of a clock that jumps to and fro by a unit are half a unit off, all of them.
+const APART: (f64, f64) = (0.6, 0.35);
+
+/// Steps that differ by less than this, in the same units, are even.
+const EVEN: f64 = 0.01;
+
+/// Of steps longer than this many medians the mean step says nothing.
+const GAP: f64 = 2.5;
+
+/// Puts the stamps of an even clock in the place of `times` \[s\], if these are the same but for rounding.
+///
+/// Rounded, a stamp of 1/123.4 s is now early and now late by a pattern, and intervals are twice as far off: a turn that
+/// is made of a rate and an interval would have lines of it. A clock of `nominal` intervals \[s\] is believed if it fits.
+pub(super) fn undo_rounding(times: &mut [f64], nominal: Option<f64>) -> Option<Rounded> {
+    let unit = last_decimal(times)?;
+    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut sorted: Vec<f64> = steps().collect();
+    let middle = sorted.len() / 2;
+    let median = *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let (count, sum) = steps()
+        .filter(|step| *step < GAP * median)
+        .fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));
+    let mean = nominal.unwrap_or(sum / count);
+    let ticks = || {
+        let tick = |tick: &mut f64, step: f64| {
+            *tick += (step / mean).round();
+            Some(*tick)
+        };
+        std::iter::once(0.0).chain(steps().scan(0.0, tick))
+    };
+    // Twice the same tick would be no time at all; and steps that are multiples of one were not rounded.
+    let multiple = |step: f64| (step - (step / median).round() * median).abs() < EVEN * unit;
+    let kept = |step: f64| step >= GAP * median || multiple(step);
+    if steps().any(|step| step < 0.5 * mean) || steps().all(kept) {
+        return None;
+    }
+    let fits = |&(start, interval): &(f64, f64)| {
+        let off = |(time, tick): (&f64, f64)| (time - start - interval * tick).abs() / unit;
+        let add = |(most, sum): (f64, f64), off: f64| (most.max(off), sum + off * off);
+        let (most, sum) = times.iter().zip(ticks()).map(off).fold((0.0, 0.0), add);
+        most < APART.0 && sum < APART.1 * APART.1 * times.len() as f64
+    };
+    let clocks = [nominal.map(|interval| clock(times, ticks, interval)), fitted(times, ticks)];
+    let (start, interval) = clocks.into_iter().flatten().find(fits)?;
+    let even: Vec<f64> = ticks().map(|tick| start + interval * tick).collect();
+    times.copy_from_slice(&even);
+    Some(Rounded { unit, interval })
+}
+
+/// The decimal \[s\] of which all times are multiples, to within what a double holds.
+fn last_decimal(times: &[f64]) -> Option<f64> {
+    let largest = times.iter().fold(0.0, |most: f64, time| most.max(time.abs()));
+    let is_multiple = |time: f64, per_second: f64| {
+        let ticks = time * per_second;
+        (ticks - ticks.round()).abs() <= 8.0 * f64::EPSILON * ticks.abs()
+    };
+    let decimals = (0..=FINEST).find(|&decimals| {
+        let per_second = 10_f64.powi(decimals);
+        times.iter().all(|&time| is_multiple(time, per_second))
+    })?;
+    let unit = 10_f64.powi(-decimals);
+    // Of late stamps a double does not hold enough for that to say anything.
+    (times.len() > 2 && 8.0 * f64::EPSILON * largest < EVEN * unit).then_some(unit)
+}
+
+/// Start and interval \[s\] of the clock of this interval that is nearest to `times`.
+fn clock<I: Iterator<Item = f64>>(
+    times: &[f64],
+    ticks: impl Fn() -> I,
+    interval: f64,
+) -> (f64, f64) {
+    let sum: f64 = times.iter().zip(ticks()).map(|(time, tick)| time - interval * tick).sum();
+    (sum / times.len() as f64, interval)
+}
+
+/// Start and interval \[s\] of the clock that is nearest to `times` in least squares.
+fn fitted<I: Iterator<Item = f64>>(times: &[f64], ticks: impl Fn() -> I) -> Option<(f64, f64)> {
+    let count = times.len() as f64;
+    let middle = ticks().sum::<f64>() / count;
+    let (mut across, mut along) = (0.0, 0.0);
+    for (time, tick) in times.iter().zip(ticks()) {
+        across += (tick - middle) * (time - times[0]);
+        along += (tick - middle) * (tick - middle);
+    }
+    (along > 0.0).then(|| clock(times, ticks, across / along))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stamps(rate: f64, unit: f64, count: u32) -> Vec<f64> {
+        // As text has them: the double next to a decimal.
+        let per_second = unit.recip().round();
+        (0..count).map(|tick| (f64::from(tick) / rate / unit).round() / per_second).collect()
+    }
+
+    #[test]
+    fn rounded_stamps_are_those_of_the_even_clock() {
+        for (rate, unit) in [(123.4, 1e-6), (123.4, 1e-3), (300.0, 1e-6), (75.0, 1e-3)] {
+            for nominal in [None, Some(1.0 / rate)] {
+                let mut times = stamps(rate, unit, 40_000);
+                let rounded = undo_rounding(&mut times, nominal).unwrap();
+                assert!((rounded.unit / unit - 1.0).abs() < 1e-12);
+                assert!((rounded.interval * rate - 1.0).abs() < 1e-9, "{rounded:?}");
+                let steps = times.windows(2).map(|pair| (pair[1] - pair[0]) * rate - 1.0);
+                assert!(steps.fold(0.0, |most: f64, off| most.max(off.abs())) < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn lost_samples_stay_lost() {
+        let mut times = stamps(123.4, 1e-3, 2_000);
+        times.drain(700..703);
+        undo_rounding(&mut times, None).unwrap();
+        assert!(((times[700] - times[699]) * 123.4 - 4.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn even_and_uneven_stamps_are_left_alone() {
+        let uneven = |tick: u32| f64::from(tick * 10_000 + tick % 2) / 1e6;
+        for mut times in [stamps(100.0, 1e-3, 500), (0..500).map(uneven).collect(), vec![0.1, 0.2]]
+        {
+            let before = times.clone();
+            assert_eq!(undo_rounding(&mut times, None), None);
+            assert_eq!(times, before);
+        }
+        // One that was never rounded.
+        let mut exact: Vec<f64> = (0..500).map(|tick| f64::from(tick) / 123.4).collect();
+        assert_eq!(undo_rounding(&mut exact, None), None);
+    }
+}
