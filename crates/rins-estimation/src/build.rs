@@ -118,6 +118,7 @@ impl<'a> Build<'a> {
             left_out: false,
             gains: self.growing.finish(readings),
             turning,
+            held: None,
         }
     }
 }

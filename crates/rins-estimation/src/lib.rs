@@ -21,6 +21,7 @@ mod run;
 mod strengths;
 
 mod gravity;
+mod held;
 mod path;
 mod sway;
 

@@ -9,6 +9,7 @@ use rins_terms::{Model, Surroundings, Track};
 
 use crate::build::{Build, Compared, Turning};
 use crate::gains::Gains;
+use crate::held::{Held, hold};
 use crate::path;
 use crate::run::{Reference, Run};
 use crate::step::SHOWN;
@@ -50,6 +51,8 @@ pub(crate) struct Epoch {
     pub(crate) left_out: bool,
     pub(crate) gains: Gains,
     pub(crate) turning: Turning,
+    /// What is not known of it where samples are missing.
+    pub(crate) held: Option<Held>,
 }
 
 /// A run, linear in the parameters that a model estimates.
@@ -154,6 +157,7 @@ pub(crate) fn linearised(
         },
     );
     let mut epochs = made.collect::<Vec<Vec<Epoch>>>().into_iter().flatten().collect::<Vec<_>>();
+    hold(&mut epochs, recording);
     leave_out(&mut epochs, &run.left_out);
     Linear {
         epochs,
@@ -167,7 +171,7 @@ pub(crate) fn linearised(
 }
 
 /// A ratio of positive durations or angles as a number of samples, one at least.
-fn whole(ratio: f64) -> usize {
+pub(crate) fn whole(ratio: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

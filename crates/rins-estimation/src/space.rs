@@ -8,6 +8,7 @@ use rins_frames::cross_matrix;
 
 use crate::build::Turning;
 use crate::colour::{Colours, Passage};
+use crate::held::Held;
 use crate::linear::{Epoch, Linear};
 use crate::run::Reference;
 use crate::step::{NAVIGATION, SHOWN, Step, Weight};
@@ -232,6 +233,22 @@ impl<'a> Space<'a> {
         set(0, 3, &-mean_across);
         set(3, 0, &-mean_across.transpose());
         set(3, 3, &(velocity + identity * base));
+        if let Some(held) = &epoch.held {
+            set_held(held, step);
+        }
+    }
+}
+
+/// Adds what is not known where samples are missing.
+fn set_held(held: &Held, step: &mut Step) {
+    for axis in 0..3 {
+        step.noise[(axis, axis)] += held.angle[axis];
+        step.cross[(axis, axis)] += held.angle_with_mean[axis];
+        step.shown[(axis, axis)] += held.mean_angle[axis];
+        let of_velocity = 3 + axis;
+        step.noise[(of_velocity, of_velocity)] += held.velocity[axis];
+        step.cross[(of_velocity, of_velocity)] += held.velocity[axis];
+        step.shown[(of_velocity, of_velocity)] += held.velocity[axis];
     }
 }
 

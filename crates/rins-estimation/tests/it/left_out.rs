@@ -100,3 +100,32 @@ fn right_parameters_foretell_best() {
     let wrong = density(&fit.models[0].clone().with_value("gyro.scale.z", scale + 5.0 * PPM));
     assert!(right > wrong + 10.0, "{right} against {wrong}");
 }
+
+/// Samples that were lost while the table changed its rate, and over which the rates of the next were held.
+#[test]
+fn lost_samples_put_nothing_off() {
+    let run = turned();
+    let whole = fitted(&run);
+    let mut lossy = run.clone();
+    let recording = Arc::make_mut(&mut lossy.recording);
+    // In the ramps, from the last on: what is before stays where it is.
+    for first in [2286, 1290, 1280, 255] {
+        let lost = first..first + 3;
+        let lasting: f64 = recording.increments[lost.clone()].iter().map(|one| one.interval).sum();
+        let after = &mut recording.increments[lost.end];
+        let longer = 1.0 + lasting / after.interval;
+        after.angle = after.angle * longer;
+        after.velocity = after.velocity * longer;
+        after.interval += lasting;
+        recording.increments.drain(lost.clone());
+        recording.times.drain(lost.clone());
+        recording.table_angle.as_mut().unwrap().drain(lost.clone());
+        recording.temperature.as_mut().unwrap().drain(lost);
+    }
+    let without = fitted(&lossy);
+    let moved = apart(&whole, &without);
+    assert!(moved < 1.0, "{moved} sigma");
+    let squares = without.innovations(0).iter().map(nalgebra::Matrix::norm_squared).sum::<f64>();
+    let mean = squares / without.innovations(0).len() as f64;
+    assert!((5.0..7.0).contains(&mean), "{mean}");
+}

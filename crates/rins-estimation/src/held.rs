@@ -1,0 +1,72 @@
+//! What is not known of the motion while samples were missing.
+
+use nalgebra::Vector3;
+use rins_frames::Increments;
+use rins_motion::Recording;
+
+use crate::linear::Epoch;
+
+/// An interval longer than this many mean ones has samples missing from it.
+const LONG: f64 = 1.5;
+
+/// At least so many samples on either side say how much the motion changes from one to the next.
+const FEWEST_AROUND: usize = 3;
+
+/// The variances that missing samples add to an epoch, along x, y and z of the axis frame.
+///
+/// The rates of the sample after a gap are held over it, and the motion went its own way.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Held {
+    /// Of attitude at the end \[rad²\].
+    pub(crate) angle: Vector3<f64>,
+    /// Its covariance with the mean attitude that is shown.
+    pub(crate) angle_with_mean: Vector3<f64>,
+    /// Of that mean.
+    pub(crate) mean_angle: Vector3<f64>,
+    /// Of the velocity gained \[m²/s²\].
+    pub(crate) velocity: Vector3<f64>,
+}
+
+/// Tells every epoch what is not known of it for want of samples.
+pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
+    let samples = &recording.increments;
+    let total: f64 = samples.iter().map(|sample| sample.interval).sum();
+    let usual = total / samples.len() as f64;
+    let long = samples.iter().enumerate().filter(|(_, one)| one.interval > LONG * usual);
+    for (sample, increments) in long {
+        let Some(epoch) = epochs.get_mut(epochs.partition_point(|e| e.samples.1 <= sample)) else {
+            continue;
+        };
+        let lasting = increments.interval - usual;
+        let [angle, velocity] =
+            scatter(recording, sample, lasting / usual).map(|v| v * lasting.powi(2));
+        // The readings from this sample's end on show it.
+        let part = (epoch.samples.1 - sample) as f64 / epoch.count();
+        let held = epoch.held.get_or_insert_default();
+        held.angle += angle;
+        held.angle_with_mean += angle * part;
+        held.mean_angle += angle * (part * part);
+        held.velocity += velocity;
+    }
+}
+
+/// The mean squares by which the rates around a sample differ from its own, \[rad²/s²\] and \[m²/s⁴\]: as many of them on
+/// either side as are `missing`. The body turns between x and y, which share theirs.
+fn scatter(recording: &Recording, sample: usize, missing: f64) -> [Vector3<f64>; 2] {
+    let samples = &recording.increments;
+    let reach = FEWEST_AROUND.max(crate::linear::whole(missing));
+    let around = &samples[sample.saturating_sub(reach)..samples.len().min(sample + reach + 1)];
+    let own = samples[sample].rates();
+    let mut sums = [Vector3::zeros(); 2];
+    for other in around.iter().map(Increments::rates) {
+        let gyro = other.angular_rate.components() - own.angular_rate.components();
+        let accel = other.specific_force.components() - own.specific_force.components();
+        sums[0] += gyro.component_mul(&gyro);
+        sums[1] += accel.component_mul(&accel);
+    }
+    let others = (around.len() - 1).max(1) as f64;
+    sums.map(|sum| {
+        let across = 0.5 * (sum.x + sum.y);
+        Vector3::new(across, across, sum.z) / others
+    })
+}
