@@ -15,13 +15,13 @@ use crate::structure::{CHANNELS, Left, Structure};
 const SLOW: usize = 2;
 
 /// How many outliers are taken for the time of an event.
-const OUTLIERS: usize = 2;
+const OUTLIERS: usize = 3;
 
-/// An innovation of so many sigmas is an outlier.
-const OUTLIER: f64 = 4.5;
+/// Innovations that are so many sigmas together are looked at: more is asked of them where they are tried.
+const OUTLIER: f64 = 3.0;
 
 /// Innovations of so many epochs in a row are taken together: a step that one of them does not show stands out of some.
-const TOGETHER: [usize; 5] = [1, 2, 4, 8, 16];
+const TOGETHER: [usize; 8] = [1, 2, 4, 8, 16, 32, 64, 128];
 
 impl Case<'_> {
     /// The terms that have a frequency, an order of no known cause, and events, where the innovations are strongest.
@@ -42,7 +42,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
-            list.extend(Self::events(&innovations, present, run));
+            list.extend(Self::events([&innovations, &in_body], present, run));
             let frequencies =
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
@@ -56,14 +56,19 @@ impl Case<'_> {
         list
     }
 
-    /// Every event where the innovations of some epochs are largest together: what is over in an instant shows in one or
-    /// a few of them only.
-    fn events(innovations: &[SVector<f64, CHANNELS>], present: &Fit, run: usize) -> Vec<Candidate> {
+    /// Every event where the innovations of some epochs, in the axis frame or in the body, are largest together: what is
+    /// over in an instant shows in one or a few of them only, what the noise swallows until it has gone along with it.
+    fn events(
+        innovations: [&[SVector<f64, CHANNELS>]; 2],
+        present: &Fit,
+        run: usize,
+    ) -> Vec<Candidate> {
         let linear = &present.linear[run];
         let ends = linear.ends();
         let begin = linear.track().start();
         let epoch = linear.mean_epoch();
         let outliers = outliers(innovations);
+        let count = innovations[0].len() as f64;
         let mut list = Vec::new();
         let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
         for chosen in terms.map(|term| Chosen::new(term).estimated()) {
@@ -76,9 +81,8 @@ impl Case<'_> {
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
                 chosen.settings[place] = ends[outlier.start] - begin - 0.5 * epoch;
-                let looks = innovations.len() as f64;
                 let step = 2.0 * outlier.len() as f64 * epoch;
-                list.push(Candidate { chosen, looks, step: Some((place, step)) });
+                list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
             }
         }
         list
@@ -86,17 +90,19 @@ impl Case<'_> {
 }
 
 /// The epochs, one or some in a row, whose innovations are largest together in one channel.
-fn outliers(innovations: &[SVector<f64, CHANNELS>]) -> Vec<Range<usize>> {
-    let mut sums = vec![SVector::<f64, CHANNELS>::zeros()];
-    for innovation in innovations {
-        sums.push(sums[sums.len() - 1] + innovation);
-    }
+fn outliers(innovations: [&[SVector<f64, CHANNELS>]; 2]) -> Vec<Range<usize>> {
     let mut found: Vec<(f64, Range<usize>)> = Vec::new();
-    for width in TOGETHER {
-        for first in 0..(innovations.len() + 1).saturating_sub(width) {
-            let size = (sums[first + width] - sums[first]).amax() / (width as f64).sqrt();
-            if size > OUTLIER {
-                found.push((size, first..first + width));
+    for innovations in innovations {
+        let mut sums = vec![SVector::<f64, CHANNELS>::zeros()];
+        for innovation in innovations {
+            sums.push(sums[sums.len() - 1] + innovation);
+        }
+        for width in TOGETHER {
+            for first in 0..(innovations.len() + 1).saturating_sub(width) {
+                let size = (sums[first + width] - sums[first]).amax() / (width as f64).sqrt();
+                if size > OUTLIER {
+                    found.push((size, first..first + width));
+                }
             }
         }
     }
@@ -152,11 +158,11 @@ mod tests {
         let mut innovations: Vec<SVector<f64, CHANNELS>> = (0..300)
             .map(|epoch| SVector::from_fn(|row, _| (f64::from(epoch) * 1.7 + row as f64).sin()))
             .collect();
-        assert!(outliers(&innovations).is_empty());
+        assert!(outliers([&innovations, &[]]).is_empty());
         for innovation in &mut innovations[120..128] {
             innovation[2] += 3.0;
         }
-        let found = outliers(&innovations);
-        assert!(matches!(&found[..], [step] if step.start.abs_diff(120) <= 2), "{found:?}");
+        let found = outliers([&innovations, &[]]);
+        assert!(found[0].start.abs_diff(120) <= 2, "{found:?}");
     }
 }
