@@ -53,6 +53,8 @@ struct Question<'a> {
     places: &'a [Vec<usize>],
     /// Every effect in its place.
     tried: Vec<Trial>,
+    /// The odds for it, if it is an event, at the time that was found.
+    as_found: Option<f64>,
 }
 
 impl Case<'_> {
@@ -77,8 +79,17 @@ impl Case<'_> {
                 let places = survey.of_term(given + index);
                 let Some(context) = Context::of(&survey, &places.concat(), &[]) else { continue };
                 let tried = trials(&survey, &context, &list);
-                let question =
-                    Question { survey: &survey, list: &list, found: &found, index, places, tried };
+                let is_found = |candidate: &Candidate| {
+                    let (own, found) = (&candidate.chosen, &found[index]);
+                    let is_event = own.term.settings.iter().any(|setting| setting.name == "time");
+                    is_event && own.term.id == found.term.id && own.settings == found.settings
+                };
+                let as_found = list.iter().position(is_found).and_then(|at| {
+                    let trial = context.trial(at, &list[at], survey.of_candidate(at))?;
+                    Some(trial.evidence)
+                });
+                let (survey, list, found) = (&survey, &list, &found);
+                let question = Question { survey, list, found, index, places, tried, as_found };
                 let mut look = match how {
                     Found::Searched => self.look(&question),
                     Found::Supposed => Look::Keep(question.cause()),
@@ -154,6 +165,10 @@ impl Case<'_> {
                 None => Look::Drop,
             };
         };
+        // The same at the time of another event, which it may make needless.
+        if question.as_found.is_some_and(|as_found| own.evidence > as_found + BETTER) {
+            return Look::Exchange(vec![expecting(own)]);
+        }
         let own = own.evidence + BETTER;
         if let Some(better) = better.filter(|better| better.evidence > own) {
             return Look::Exchange(vec![expecting(better)]);

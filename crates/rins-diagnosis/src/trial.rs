@@ -1,9 +1,13 @@
 //! Candidates against each other: the best shape and choice of parameters of every effect.
 
 use crate::candidates::Candidate;
+use crate::disturbance;
 use crate::probability::ln_tail;
 use crate::score::{Score, choices, scored};
 use crate::survey::{Left, Survey};
+
+/// By how many e-folds of odds the unknown has to be better than what is known.
+const UNKNOWN: f64 = 6.0;
 
 /// A shape of an effect with those of its parameters that are there.
 #[derive(Clone, Debug)]
@@ -61,13 +65,14 @@ impl Context {
         let choices = choices(shape.chosen.term);
         let of_choices = (choices.len() as f64).ln();
         let looks = shape.looks.ln() + of_choices;
+        let unknown = if shape.chosen.term.id == disturbance::ID { UNKNOWN } else { 0.0 };
         let mut best: Option<Trial> = None;
         let mut least_ln_p = 0.0_f64;
         for parameters in choices {
             let places: Vec<usize> = parameters.iter().flat_map(|&p| own[p].clone()).collect();
             let Some((score, statistic)) = self.scored(&places) else { continue };
             least_ln_p = least_ln_p.min(ln_tail(statistic, score.dof) + looks);
-            let evidence = score.evidence - looks;
+            let evidence = score.evidence - looks - unknown;
             if best.as_ref().is_none_or(|best| evidence > best.evidence) {
                 let Score { dof, amplitude, .. } = score;
                 best = Some(Trial {
