@@ -12,7 +12,7 @@ use super::files::{Files, OneFile, TriadValues};
 use super::instant::Instants;
 use super::problem::LogProblem;
 use super::redivide::redivide;
-use super::series::{between, unwrap};
+use super::series::{between, smoothly_between, unwrap};
 use super::summary::{LogPolicy, LogSummary, Redivided};
 use super::table::{self, Wanted};
 use crate::error::{IoError, LogError};
@@ -73,13 +73,13 @@ pub(super) fn read(
     let increments = joined([angles, velocities], mem::take(&mut clock.intervals));
 
     // A signal's values at the ends of the samples' intervals, which lie among its own times.
-    let at_ends = |mut values: Vec<f64>| match &times {
+    let at_ends = |mut values: Vec<f64>, between: Between| match &times {
         // The rows' times are those ends.
         None => {
             cut(&mut values, &kept);
             values
         }
-        Some(times) => at(times, &values, &clock.ends),
+        Some(times) => at(between, times, &values, &clock.ends),
     };
     let table_angle = match &spec.table_angle {
         Some(column) => {
@@ -89,7 +89,7 @@ pub(super) fn read(
                 let problem = LogProblem::AmbiguousAngle { turns };
                 LogError::at(&file.path, file.columns.lines.of(row), problem)
             })?;
-            Some(at_ends(angles))
+            Some(at_ends(angles, smoothly_between))
         }
         None => None,
     };
@@ -104,7 +104,7 @@ pub(super) fn read(
     };
     let temperature = match &spec.temperature {
         Some(TemperatureColumn { file: None, column, offset }) => {
-            Some(at_ends(files.file(&rig.log.path).temperatures(column, *offset)?))
+            Some(at_ends(files.file(&rig.log.path).temperatures(column, *offset)?, between))
         }
         Some(column) => {
             let own = temperature(column, files.instants, &clock.ends)?;
@@ -125,8 +125,11 @@ fn cut(list: &mut Vec<f64>, range: &Range<usize>) {
     list.drain(..range.start);
 }
 
+/// A signal's value at a time between those at which it was read.
+type Between = fn(&[f64], &[f64], f64) -> Option<f64>;
+
 /// A signal's values at the ends of the samples' intervals, which lie among its own times.
-fn at(times: &[f64], values: &[f64], ends: &[f64]) -> Vec<f64> {
+fn at(between: Between, times: &[f64], values: &[f64], ends: &[f64]) -> Vec<f64> {
     // The last values for a time that rounding has put beyond the last.
     let last = values.last().copied().unwrap_or_default();
     ends.iter().map(|&end| between(times, values, end).unwrap_or(last)).collect()

@@ -41,9 +41,32 @@ pub(super) fn between(times: &[f64], values: &[f64], time: f64) -> Option<f64> {
     Some(values[after - 1] + part * (values[after] - values[after - 1]))
 }
 
+/// The same of a signal that changes its slope: on the cubic whose slopes at the neighbours are those of the parabolas
+/// through these and theirs.
+///
+/// Half way between two readings of a table that gathers speed by 10 deg/s², 20 ms apart, the straight line is 1.8 arcsec off.
+pub(super) fn smoothly_between(times: &[f64], values: &[f64], time: f64) -> Option<f64> {
+    let after = times.partition_point(|&t| t < time);
+    if after < 2 || after + 1 >= times.len() || times[after] <= time {
+        return between(times, values, time);
+    }
+    let slope = |from: usize| (values[from + 1] - values[from]) / (times[from + 1] - times[from]);
+    let parabola = |at: usize| {
+        let (before, behind) = (times[at] - times[at - 1], times[at + 1] - times[at]);
+        (behind * slope(at - 1) + before * slope(at)) / (before + behind)
+    };
+    let step = times[after] - times[after - 1];
+    let part = (time - times[after - 1]) / step;
+    let rise = values[after] - values[after - 1];
+    let ahead = parabola(after - 1) * step - rise;
+    let back = rise - parabola(after) * step;
+    let bend = (1.0 - part) * ahead + part * back;
+    Some(values[after - 1] + part * rise + part * (1.0 - part) * bend)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{between, unwrap};
+    use super::{between, smoothly_between, unwrap};
     use proptest::prelude::*;
     use std::f64::consts::TAU;
 
@@ -76,6 +99,20 @@ mod tests {
             let value = between(&[0.0, 0.5, 3.0], &[1.0, 2.0, 7.0], time).unwrap();
             prop_assert!((value - (1.0 + 2.0 * time)).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_parabola_is_read_exactly() {
+        let times = [0.0, 0.4, 1.0, 1.5, 2.1, 2.4];
+        let parabola = |time: f64| 3.0 + 2.0 * time - 5.0 * time * time;
+        let values = times.map(parabola);
+        for time in [0.4, 0.41, 0.9, 1.0, 1.2, 1.9, 2.1] {
+            let value = smoothly_between(&times, &values, time).unwrap();
+            assert!((value - parabola(time)).abs() < 1e-13, "{time}: {value}");
+        }
+        // At the ends there is no parabola.
+        assert_eq!(smoothly_between(&times, &values, 0.2), between(&times, &values, 0.2));
+        assert_eq!(smoothly_between(&times, &values, 2.5), None);
     }
 
     #[test]
