@@ -55,7 +55,7 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
 }
 
 /// Which parameters of an effect may be there alone: every choice of up to three; of a matrix, elements, pairs
-/// within a row, rows, pairs within a column, columns, the first two rows, and all. Of a cosine and a sine there are both: the phase is anyone's guess.
+/// within a row, rows, columns, the first two of a column, the first two rows, and all. Of a cosine and a sine there are both: the phase is anyone's guess.
 pub(crate) fn choices(term: &Term) -> Vec<Vec<usize>> {
     let units = units(term);
     let flat =
@@ -96,10 +96,10 @@ fn choices_of(n: usize) -> Vec<Vec<usize>> {
         }
     }
     if row < n {
-        // One thing, a component of gravity or of a field, may act on two sensors or on all three.
+        // One thing, a component of gravity or of a field, may act on all three sensors, or on those that turn.
         for column in 0..row {
-            let [x, y, z] = [0, 1, 2].map(|sensor| sensor * row + column);
-            all.extend([vec![x, y], vec![x, z], vec![y, z], vec![x, y, z]]);
+            all.push(vec![column, row + column]);
+            all.push((column..n).step_by(row).collect());
         }
         all.push((0..2 * row).collect());
     }
