@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use nalgebra::SVector;
-use rins_estimation::Fit;
+use rins_estimation::{Fit, Reference};
 use rins_terms::{Chosen, Term, catalogue};
 
 use crate::candidates::{Candidate, stands_for};
@@ -13,6 +13,9 @@ use crate::structure::{CHANNELS, Left, Structure};
 
 /// How many slow lines are tried at once.
 const SLOW: usize = 2;
+
+/// A line has so many cycles in a run at least.
+const FEWEST_CYCLES: f64 = 5.0;
 
 /// How many outliers are taken for the time of an event.
 const OUTLIERS: usize = 3;
@@ -43,10 +46,13 @@ impl Case<'_> {
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
             list.extend(Self::events([&innovations, &in_body], present, run));
+            // What comes back less often is a drift.
+            let slowest = FEWEST_CYCLES / (count * epoch);
             let frequencies =
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
-                for chosen in at_frequency(frequency) {
+                let at = at_frequency(frequency).into_iter();
+                for chosen in at.filter(|line| frequency > slowest && self.shows(run, line)) {
                     // Half an independent frequency is the distance of those that were looked at, in two frames.
                     let step = Some((0, 0.5 / (count * epoch)));
                     list.push(Candidate { chosen, looks: 2.0 * count, step });
@@ -54,6 +60,13 @@ impl Case<'_> {
             }
         }
         list
+    }
+
+    /// Whether a line can be told from the table's motion: about an axis that only a command tells of it cannot.
+    fn shows(&self, run: usize, line: &Chosen) -> bool {
+        let commanded = matches!(self.runs[run].rig.reference, Reference::Command { .. });
+        let axis = line.term.settings.iter().position(|setting| setting.name == "axis");
+        !commanded || axis.is_none_or(|place| line.settings[place] < 3.0)
     }
 
     /// Every event where the innovations of some epochs, in the axis frame or in the body, are largest together: what is

@@ -1,11 +1,11 @@
 //! Epochs in the making: residuals sample by sample, derivatives piece by piece.
 
 use nalgebra::{Matrix3, Vector3};
-use rins_terms::{Acting, Model, Moment, Moments, values};
+use rins_terms::{Acting, Dual64, Model, Moment, Moments, Signals, values};
 
 use crate::gains::Growing;
 use crate::linear::{Epoch, Span};
-use crate::run::Run;
+use crate::run::{Reference, Run};
 use crate::sway::Sway;
 
 /// What a run is compared with: a model, and the parameters by which derivatives are taken.
@@ -127,15 +127,23 @@ impl Compared<'_> {
     /// What the parameters add to what is read in a piece.
     fn set_columns(&self, growing: &mut Growing, piece: &Moment) {
         for (column, acting) in self.columns.iter().enumerate() {
-            growing.set(column, &acting.signals(piece));
+            growing.set(column, &self.read(acting.signals(piece)));
         }
+    }
+
+    /// What of some signals is read: a command goes on whatever the table does.
+    fn read(&self, mut signals: Signals) -> Signals {
+        if let Reference::Command { .. } = self.run.rig.reference {
+            signals.angle = Dual64::from_re(0.0);
+        }
+        signals
     }
 
     /// What a sample was read beyond the model; the attitude of the body in the axis frame in its middle.
     fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> Matrix3<f64> {
         let measured = &self.run.recording.increments[sample];
         let mut table_from_body = turned_by(moment.mean.angle);
-        let predicted = Acting::together(&self.present, moment);
+        let predicted = self.read(Acting::together(&self.present, moment));
         let around = &moment.surroundings;
         let rates = measured.rates();
         let mut gyro = rates.angular_rate.components() - moment.rate;

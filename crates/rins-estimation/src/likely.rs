@@ -208,6 +208,10 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
         }
         add(Which::Wobble(runs), first.wobble, expected.wobble, UNKNOWN);
     }
+    // How well a table follows its command is told by nothing but the gyro.
+    if linear.iter().any(|linear| matches!(linear.reference, Reference::Command { .. })) {
+        add(Which::Sway(2), SWAYING, FIRM, ANYTHING);
+    }
     if free {
         add(Which::Velocity, UNSTEADY, expected[0].velocity, ANYTHING);
         let axes = if linear.iter().all(Linear::shows_angle) { 3 } else { 2 };

@@ -52,7 +52,7 @@ impl<'a> Space<'a> {
         let gyro = Colours::of(&strengths.gyro, epoch, duration);
         let accel = Colours::of(&strengths.accel, epoch, duration);
         let mut astray: Vec<(usize, f64)> = match linear.reference {
-            Reference::Command { noise } => vec![(2, noise)],
+            Reference::Command { noise: stated } => vec![(2, stated.hypot(noise.sway[2]))],
             Reference::Encoder { .. } => Vec::new(),
             Reference::Gravity => noise.sway.into_iter().enumerate().take(2).collect(),
             Reference::Rest => noise.sway.into_iter().enumerate().collect(),

@@ -52,7 +52,7 @@ pub struct Noise {
     /// How far the velocity of the base may be from zero at a reading, 1σ \[m/s\].
     pub velocity: f64,
     /// The root density with which the attitude of a base that nothing reads strays about each axis \[rad/√s\]; zero if
-    /// it is firm.
+    /// it is firm. About the third also that of a table from its command, beside what its rig states.
     pub sway: [f64; 3],
 }
 
