@@ -105,66 +105,88 @@ pub fn diagnose(
 ) -> Result<Diagnosis, DiagnosisError> {
     let case = Case { runs, given: model, imu, knowledge };
     let before = case.fit()?;
-    let mut present = before.clone();
     // Lines that are faster than an epoch would come back as slow ones.
-    let fast = case.fast_lines(&before);
-    let mut given = model.clone();
-    given.terms.extend(fast.iter().map(|(line, _)| line.clone()));
-    let case = Case { given: &given, ..case };
-    if !fast.is_empty() {
-        present = case.fit_near(&before, &[])?;
-    }
-    let mut found: Vec<Chosen> = Vec::new();
-    let mut not_testable = None;
-    while found.len() < MOST_CAUSES {
-        let mut list = candidates(runs, present.model());
-        list.extend(case.suggested(&present));
-        let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
-        let Some(context) = Context::of(&survey, &[], &[]) else { break };
-        let tried = trials(&survey, &context, &list);
-        not_testable.get_or_insert_with(|| unseen(&list, &tried));
-        let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
-        let Some((candidate, trial)) = case.best(&present, &list, &tried, threshold)? else {
-            break;
-        };
-        let as_listed = list[trial.candidate].chosen == candidate.chosen;
-        let mut accepted = vec![(candidate, trial)];
-        // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.
-        if as_listed && accepted[0].1.ln_p < threshold {
-            let most = AT_ONCE.min(MOST_CAUSES - found.len());
-            beside(&survey, &list, &mut accepted, threshold, most);
+    let mut fast = case.fast_lines(&before);
+    loop {
+        let diagnosis = case.beyond(&before, &fast, &mut progress)?;
+        // What was a line may be the table's own motion, read late.
+        let still = case.still_there(&diagnosis.after, &fast);
+        if still.len() == fast.len() {
+            return Ok(diagnosis);
         }
-        let earlier = found.len();
-        found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
-        let Ok(fitted) = case.fit_near(&present, &found) else {
-            found.truncate(earlier);
-            break;
-        };
-        if let [(_, trial)] = &accepted[..]
-            && case.ln_p(&present, &fitted, trial) > threshold
-        {
-            found.truncate(earlier);
-            break;
-        }
-        for (candidate, _) in &accepted {
-            progress(candidate.chosen.term.id);
-        }
-        present = fitted;
+        fast = still;
     }
-    let (after, causes) = case.settled(&before, present, found, Found::Searched)?;
-    let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
-        causes.into_iter().partition(|cause| cause.term.id == disturbance::ID);
-    let mut unexplained: Vec<Unexplained> =
-        unknown.iter().map(|cause| described(cause, &after)).collect();
-    unexplained.extend(case.unexplained((&before, &after), &causes)?);
-    causes.extend(fast.into_iter().map(|(_, cause)| cause));
-    // What is left unexplained is in the noise that was found: no level can be told then.
-    if unexplained.is_empty() {
-        causes.extend(case.noise_causes(&after)?);
+}
+
+impl Case<'_> {
+    /// What there is beyond a model and these fast lines.
+    fn beyond(
+        &self,
+        before: &Fit,
+        fast: &[(Chosen, Cause)],
+        progress: &mut impl FnMut(&'static str),
+    ) -> Result<Diagnosis, DiagnosisError> {
+        let mut present = before.clone();
+        let mut given = self.given.clone();
+        given.terms.extend(fast.iter().map(|(line, _)| line.clone()));
+        let case = Case { given: &given, ..*self };
+        let Case { runs, imu, .. } = case;
+        if !fast.is_empty() {
+            present = case.fit_near(before, &[])?;
+        }
+        let mut found: Vec<Chosen> = Vec::new();
+        let mut not_testable = None;
+        while found.len() < MOST_CAUSES {
+            let mut list = candidates(runs, present.model());
+            list.extend(case.suggested(&present));
+            let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
+            let Some(context) = Context::of(&survey, &[], &[]) else { break };
+            let tried = trials(&survey, &context, &list);
+            not_testable.get_or_insert_with(|| unseen(&list, &tried));
+            let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
+            let Some((candidate, trial)) = case.best(&present, &list, &tried, threshold)? else {
+                break;
+            };
+            let as_listed = list[trial.candidate].chosen == candidate.chosen;
+            let mut accepted = vec![(candidate, trial)];
+            // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.
+            if as_listed && accepted[0].1.ln_p < threshold {
+                let most = AT_ONCE.min(MOST_CAUSES - found.len());
+                beside(&survey, &list, &mut accepted, threshold, most);
+            }
+            let earlier = found.len();
+            found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
+            let Ok(fitted) = case.fit_near(&present, &found) else {
+                found.truncate(earlier);
+                break;
+            };
+            if let [(_, trial)] = &accepted[..]
+                && case.ln_p(&present, &fitted, trial) > threshold
+            {
+                found.truncate(earlier);
+                break;
+            }
+            for (candidate, _) in &accepted {
+                progress(candidate.chosen.term.id);
+            }
+            present = fitted;
+        }
+        let (after, causes) = case.settled(before, present, found, Found::Searched)?;
+        let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
+            causes.into_iter().partition(|cause| cause.term.id == disturbance::ID);
+        let mut unexplained: Vec<Unexplained> =
+            unknown.iter().map(|cause| described(cause, &after)).collect();
+        unexplained.extend(case.unexplained((before, &after), &causes)?);
+        causes.extend(fast.iter().map(|(_, cause)| cause.clone()));
+        // What is left unexplained is in the noise that was found: no level can be told then.
+        if unexplained.is_empty() {
+            causes.extend(case.noise_causes(&after)?);
+        }
+        causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
+        let not_testable = not_testable.unwrap_or_default();
+        let before = before.clone();
+        Ok(Diagnosis { causes, unexplained, before, after, not_testable })
     }
-    causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
-    let not_testable = not_testable.unwrap_or_default();
-    Ok(Diagnosis { causes, unexplained, before, after, not_testable })
 }
 
 /// What `supposed` effects explain in `runs` of one IMU beyond `model`, without a search for others.

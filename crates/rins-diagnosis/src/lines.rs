@@ -42,6 +42,22 @@ impl Case<'_> {
         found.truncate(MOST);
         found
     }
+
+    /// Those of some fast lines that would be found beside what else a model holds by now.
+    pub(crate) fn still_there(&self, fit: &Fit, lines: &[(Chosen, Cause)]) -> Vec<(Chosen, Cause)> {
+        let mut without = fit.clone();
+        for model in &mut without.models {
+            model.terms.retain(|term| lines.iter().all(|(line, _)| line != term));
+        }
+        let again = if lines.is_empty() { Vec::new() } else { self.fast_lines(&without) };
+        let is_there = |(line, _): &&(Chosen, Cause)| {
+            again.iter().any(|(other, _)| {
+                let apart = other.settings[0] - line.settings[0];
+                other.settings[1..] == line.settings[1..] && apart.abs() * self.duration() < 1.0
+            })
+        };
+        lines.iter().filter(is_there).cloned().collect()
+    }
 }
 
 /// A line in the residuals of one sensor.
