@@ -1,5 +1,7 @@
 //! Noise with more large values than a normal distribution has, sample by sample: means over epochs hide it.
 
+use std::ops::Range;
+
 use rins_estimation::Fit;
 
 use crate::case::Case;
@@ -16,14 +18,30 @@ const BLOCK: usize = 256;
 /// A smaller excess of the kurtosis is of no consequence, however sure it is.
 const SLIGHT: f64 = 0.2;
 
+/// An encoder that repeats more than one reading in so many is too coarse to show noise.
+const MOST_REPEATS: usize = 20;
+
+/// The gyro about the spin axis, which is seen against the encoder.
+const ABOUT_AXIS: usize = 2;
+
 /// The six sensors of a run.
 const SENSORS: f64 = 6.0;
 
 impl Case<'_> {
     /// The sensor of a run whose noise has the heaviest tails, if they are significant.
     pub(crate) fn tails(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
+        let recording = &self.runs[run].recording;
         let all = residuals(&self.runs[run], fit, run);
-        let excesses = all.iter().map(|residuals| excess(residuals)).enumerate();
+        // An encoder that often reads the same again shows its least bit, and no noise.
+        let angles = recording.table_angle.as_deref().unwrap_or_default();
+        #[expect(clippy::float_cmp, reason = "a repeated reading is the same to the last bit")]
+        let repeats = |samples: Range<usize>| {
+            let read = angles.get(samples).unwrap_or_default();
+            read.windows(2).filter(|pair| pair[0] == pair[1]).count() > BLOCK / MOST_REPEATS
+        };
+        let excesses = all.iter().enumerate().map(|(channel, residuals)| {
+            (channel, excess(residuals, |samples| channel != ABOUT_AXIS || !repeats(samples)))
+        });
         let (channel, (excess, ln_p)) =
             excesses.min_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (e, _))| *e > SLIGHT)?;
         let tests = SENSORS * self.runs.len() as f64;
@@ -43,14 +61,17 @@ impl Case<'_> {
 /// By how much the kurtosis of white noise is more than a normal distribution's, and the logarithm of the chance of that.
 ///
 /// It is taken of the differences of neighbours, in which what is slow is nothing: they have half the excess.
-fn excess(residuals: &[f64]) -> (f64, f64) {
+///
+/// Blocks of samples that do not `count` are left out.
+fn excess(residuals: &[f64], counts: impl Fn(Range<usize>) -> bool) -> (f64, f64) {
     let differences: Vec<f64> = residuals.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let blocks = differences.chunks_exact(BLOCK);
+    let of = |(block, values)| counts(block * BLOCK..(block + 1) * BLOCK).then_some(values);
+    let blocks: Vec<&[f64]> = differences.chunks_exact(BLOCK).enumerate().filter_map(of).collect();
     let count = blocks.len();
     let n = BLOCK as f64;
     // The mean of it over normal samples of this size, whose neighbours correlate by -1/2: 3 - 6/n without that.
     let normal = 3.0 - 9.0 / n;
-    let sum: f64 = blocks.map(|block| kurtosis(block) - normal).sum();
+    let sum: f64 = blocks.iter().map(|block| kurtosis(block) - normal).sum();
     let mean = sum / count as f64;
     // Neighbouring differences share a value: their squares correlate by 1/4, their fourth powers' part by 1/16.
     let sigma = (24.0 * (1.0 + 2.0 / 16.0) / (n * count as f64)).sqrt();
@@ -80,7 +101,7 @@ mod tests {
     /// The chance of normal noise is what it says: below a tenth in a tenth of all series.
     #[test]
     fn normal_noise_is_as_rare_as_it_says() {
-        let tenth = |seed: &u64| excess(&noise(StandardNormal, *seed)).1 < 0.1_f64.ln();
+        let tenth = |seed: &u64| excess(&noise(StandardNormal, *seed), |_| true).1 < 0.1_f64.ln();
         let share = (0..300).filter(tenth).count();
         assert!((15..48).contains(&share), "{share} of 300");
     }
@@ -88,7 +109,7 @@ mod tests {
     #[test]
     fn heavy_tails_are_told_with_their_excess() {
         // Student's t of ten degrees: 6 / (10 - 4).
-        let (found, ln_p) = excess(&noise(StudentT::new(10.0).unwrap(), 1));
+        let (found, ln_p) = excess(&noise(StudentT::new(10.0).unwrap(), 1), |_| true);
         // Blocks know their own spread, and less of the tails.
         assert!((0.6..1.1).contains(&found) && ln_p < -50.0, "{found} {ln_p}");
     }
@@ -100,7 +121,7 @@ mod tests {
         for (place, value) in growing.iter_mut().enumerate() {
             *value *= 1.0 + 4.0 * place as f64 / n;
         }
-        let (found, _) = excess(&growing);
+        let (found, _) = excess(&growing, |_| true);
         assert!(found < SLIGHT, "{found}");
     }
 }
