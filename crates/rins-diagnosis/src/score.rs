@@ -55,7 +55,7 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
 }
 
 /// Which parameters of an effect may be there alone: every choice of up to three; of a matrix, elements, pairs
-/// within a row, rows, columns, the first two of a column, the first two rows, and all. Of a cosine and a sine there are both: the phase is anyone's guess.
+/// within a row, rows, columns, the first two of a column and of the diagonal, the first two rows, and all. Of a cosine and a sine there are both: the phase is anyone's guess.
 pub(crate) fn choices(term: &Term) -> Vec<Vec<usize>> {
     let units = units(term);
     let flat =
@@ -101,6 +101,8 @@ fn choices_of(n: usize) -> Vec<Vec<usize>> {
             all.push(vec![column, row + column]);
             all.push((column..n).step_by(row).collect());
         }
+        // And the same of each, which nothing tells from a base that turns.
+        all.push(vec![0, row + 1]);
         all.push((0..2 * row).collect());
     }
     all.push((0..n).collect());

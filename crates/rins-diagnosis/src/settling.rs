@@ -53,7 +53,7 @@ struct Question<'a> {
     places: &'a [Vec<usize>],
     /// Every effect in its place.
     tried: Vec<Trial>,
-    /// The odds for it, if it is an event, at the time that was found.
+    /// The odds for it with the time, or the exponent, that was found.
     as_found: Option<f64>,
 }
 
@@ -81,8 +81,10 @@ impl Case<'_> {
                 let tried = trials(&survey, &context, &list);
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
-                    let is_event = own.term.settings.iter().any(|setting| setting.name == "time");
-                    is_event && own.term.id == found.term.id && own.settings == found.settings
+                    let is_sought = |name: &str| ["time", "exponent"].contains(&name);
+                    own.term.settings.iter().any(|setting| is_sought(setting.name))
+                        && own.term.id == found.term.id
+                        && own.settings == found.settings
                 };
                 let as_found = list.iter().position(is_found).and_then(|at| {
                     let trial = context.trial(at, &list[at], survey.of_candidate(at))?;
@@ -165,7 +167,7 @@ impl Case<'_> {
                 None => Look::Drop,
             };
         };
-        // The same at the time of another event, which it may make needless.
+        // The same at the time of another event, which it may make needless; or with another exponent.
         if question.as_found.is_some_and(|as_found| own.evidence > as_found + BETTER) {
             return Look::Exchange(vec![expecting(own)]);
         }

@@ -94,6 +94,13 @@ impl Case<'_> {
             let explained = after.log_likelihood - before.log_likelihood;
             switching = self.switching(before, explained.max(0.0))?;
         }
+        // A bias that switches once is one that stepped.
+        let stepped =
+            |triad: &str| causes.iter().any(|cause| cause.term.id == format!("{triad}_bias_step"));
+        switching.retain(|one| {
+            one.structure != Structure::Switching(1)
+                || !one.channel.split('.').next().is_some_and(stepped)
+        });
         found.extend(switching);
         found.extend(waveforms(after, causes));
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
