@@ -27,11 +27,15 @@ impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
     pub(super) fn new(with_state: &'a mut Rows<T, N>, innovation: [T; 6]) -> Self {
         let [s00, s10, s11, s20, s21, s22] = innovation;
         let one = s00.constant(1.0);
-        let i0 = one / s00.sqrt();
-        let (l10, l20) = (s10 * i0, s20 * i0);
-        let i1 = one / (s11 - l10 * l10).sqrt();
-        let l21 = (s21 - l20 * l10) * i1;
-        let i2 = one / (s22 - l20 * l20 - l21 * l21).sqrt();
+        // Pivots follow from each other by divisions alone, so that no square root, which takes longer,
+        // waits for another.
+        let r0 = one / s00;
+        let (m10, m20) = (s10 * r0, s20 * r0);
+        let r1 = one / (s11 - s10 * m10);
+        let t21 = s21 - s20 * m10;
+        let r2 = one / (s22 - s20 * m20 - t21 * t21 * r1);
+        let (i0, i1, i2) = (r0.sqrt(), r1.sqrt(), r2.sqrt());
+        let (l10, l20, l21) = (s10 * i0, s20 * i0, t21 * i1);
         let [first, second, third] = with_state;
         for j in 0..N {
             let x0 = first[j] * i0;
