@@ -1,4 +1,4 @@
-//! One prediction and update of 12, 24 and 40 states by 6 rows, beside the textbook's dense form, and in
+//! One prediction and update of 12, 24, 40 and 48 states by 6 rows, beside the textbook's dense form, and in
 //! lanes.
 
 use std::hint::black_box;
@@ -313,6 +313,11 @@ mod counted {
     }
 
     #[inline(never)]
+    pub(super) fn filter_step_48(case: &Case<48>) -> (Covariance<f64, 48>, f64) {
+        structured(black_box(&case.means), &case.rates)
+    }
+
+    #[inline(never)]
     pub(super) fn filter_lanes_12(case: &Case<12>) -> (usize, f64) {
         case.in_lanes()
     }
@@ -341,6 +346,7 @@ fn steps(criterion: &mut Criterion) {
     time(criterion, counted::filter_step_12, counted::filter_lanes_12);
     time(criterion, counted::filter_step_24, Case::in_lanes);
     time(criterion, counted::filter_step_40, Case::in_lanes);
+    time(criterion, counted::filter_step_48, Case::in_lanes);
 }
 
 criterion_group!(benches, steps);

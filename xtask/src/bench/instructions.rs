@@ -38,6 +38,7 @@ const ALL: &[Counted] = &[
     counted(["rins-calibration", "step"], ["filter_lanes_12", "filter_step_12/lanes"], 200.0),
     counted(["rins-calibration", "step"], ["filter_step_24", "filter_step_24/one"], 200.0),
     counted(["rins-calibration", "step"], ["filter_step_40", "filter_step_40/one"], 200.0),
+    counted(["rins-calibration", "step"], ["filter_step_48", "filter_step_48/one"], 200.0),
     counted(["rins-motion", "strapdown"], ["strapdown_step", "strapdown_step/one"], 1000.0),
     counted(["rins-motion", "strapdown"], ["strapdown_lanes", "strapdown_step/lanes"], 1000.0),
 ];
@@ -52,6 +53,12 @@ pub(super) fn run(root: &Path, keep: bool) -> Result<()> {
     let mut counts = BTreeMap::new();
     for counted in ALL {
         counts.insert(counted.name, (counted.count(root, &compiler.host)? / counted.steps).round());
+    }
+    let times = counts["filter_step_48"] / counts["filter_step_12"];
+    let power = f64::ln(times) / f64::ln(48.0 / 12.0);
+    println!("A filter's step grows with the number of its states to the power {power:.2}");
+    if power > 2.0 {
+        return Err("the power is more than 2".into());
     }
     let path = root.join(KEPT);
     if keep {

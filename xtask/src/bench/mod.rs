@@ -44,6 +44,8 @@ const ROWS: &[Row] = &[
     ("filter_step_24", "filter_step_24/one", Some("filter_step_24/dense")),
     ("filter_step_24_lanes", "filter_step_24/lanes", Some("filter_step_24/dense")),
     ("filter_step_40", "filter_step_40/one", Some("filter_step_40/dense")),
+    ("filter_step_48", "filter_step_48/one", Some("filter_step_48/dense")),
+    ("filter_step_48_lanes", "filter_step_48/lanes", Some("filter_step_48/dense")),
     ("strapdown_step", "strapdown_step/one", Some("strapdown_step/bare")),
     ("strapdown_step_lanes", "strapdown_step/lanes", Some("strapdown_step/bare")),
     (CAMPAIGN, "campaign_30/lanes", Some("campaign_30/dense")),
