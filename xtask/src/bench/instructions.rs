@@ -58,7 +58,7 @@ pub(super) fn run(root: &Path, keep: bool) -> Result<()> {
     let power = f64::ln(times) / f64::ln(48.0 / 12.0);
     println!("A filter's step grows with the number of its states to the power {power:.2}");
     if power > 2.0 {
-        return Err("the power is more than 2".into());
+        return Err("a filter's step grows faster than the square of its states".into());
     }
     let path = root.join(KEPT);
     if keep {
