@@ -295,6 +295,26 @@ fn exchanged_columns_and_a_table_of_the_other_sense_are_told() {
     }
 }
 
+/// Where only the commanded profile is known, its sense is stated there.
+#[test]
+fn a_profile_of_the_other_sense_is_told() {
+    for (folder, rig) in good_runs() {
+        let commanded: String =
+            rig.split_inclusive('\n').filter(|line| !line.starts_with("table_angle")).collect();
+        assert_ne!(rig, commanded);
+        assert_eq!(checked(folder.path(), &commanded)["mends"], json!([]));
+        let reversed = commanded.replacen("[table]\n", "[table]\nsense = \"reversed\"\n", 1);
+        assert_ne!(reversed, commanded);
+        let check = checked(folder.path(), &reversed);
+        let mend = json!([{"gyro_axes": null, "accel_axes": null, "table_sense": "forward"}]);
+        assert_eq!(check["mends"], mend, "{check:#}");
+        let aligned = rins_in(folder.path(), "navigate run/wrong.toml");
+        assert_eq!(aligned.code, Some(1), "{}", aligned.out);
+        let words = r#"set sense = "forward" under [table]"#;
+        assert!(aligned.err.contains(words), "{}", aligned.err);
+    }
+}
+
 /// A hundred runs of all kinds, each without a mistake.
 fn hundred() -> impl Iterator<Item = Bench> {
     (1..=100_u32).map(|seed| {

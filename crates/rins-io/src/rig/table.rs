@@ -2,6 +2,7 @@
 
 use rins_motion::{Profile, Segment};
 
+use super::table_columns::sense;
 use crate::error::IoError;
 use crate::quantity::kinds;
 use crate::section::Section;
@@ -16,6 +17,9 @@ pub struct TableSpec {
     pub profile: Option<Profile>,
     /// The segments of the profile.
     pub segments: Vec<Segment>,
+    /// By what the profile's rates were multiplied: -1 for a table that counts against the sense in
+    /// which the body turns about its axis, otherwise 1.
+    pub sense: f64,
     /// The table's acceleration at each change of rate \[rad/s²\]; without one the rate jumps.
     pub acceleration: Option<f64>,
     /// The standard deviation of the direction of the axis as it turns \[rad\].
@@ -23,15 +27,19 @@ pub struct TableSpec {
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
-    let Some(table) = root.section("table", &["profile", "acceleration", "wobble"])? else {
+    let Some(table) = root.section("table", &["profile", "sense", "acceleration", "wobble"])?
+    else {
         return Ok(None);
     };
     let acceleration = table.quantity("acceleration", &kinds::TABLE_ACCELERATION)?;
+    let sense = sense(&table)?;
     let mut segments = Vec::new();
     let profile = table.tables("profile", &["rate", "duration"])?;
     for segment in profile.iter().flatten().take(MOST_SEGMENTS + 1) {
+        let rate = segment.require_quantity("rate", &kinds::TABLE_RATE)?;
         segments.push(Segment {
-            rate: segment.require_quantity("rate", &kinds::TABLE_RATE)?,
+            // A rest has no sign.
+            rate: if rate == 0.0 { 0.0 } else { sense * rate },
             duration: segment.require_quantity("duration", &kinds::DURATION)?,
         });
     }
@@ -43,8 +51,11 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
             Profile::new(&segments, acceleration)
                 .map_err(|error| table.conflict("profile", error.to_string()))?,
         ),
+        None if sense < 0.0 => {
+            return Err(table.conflict("sense", "a sense without a profile"));
+        }
         None => None,
     };
     let wobble = table.quantity("wobble", &kinds::ANGLE_SIGMA)?;
-    Ok(Some(TableSpec { profile, segments, acceleration, wobble }))
+    Ok(Some(TableSpec { profile, segments, sense, acceleration, wobble }))
 }

@@ -37,7 +37,7 @@ pub(super) fn rate(log: &Section<'_>) -> Result<Option<ScaledColumn>, IoError> {
 }
 
 /// 1, or -1 for a table that counts against the sense in which the body turns about its axis.
-fn sense(section: &Section<'_>) -> Result<f64, IoError> {
+pub(super) fn sense(section: &Section<'_>) -> Result<f64, IoError> {
     Ok(section.choice("sense", &[("forward", 1.0), ("reversed", -1.0)])?.unwrap_or(1.0))
 }
 

@@ -62,6 +62,23 @@ fn a_table_profile_is_read() {
     assert_close!(table.wobble.unwrap(), ARCSEC, 1e-20);
 }
 
+#[test]
+fn a_table_profile_is_counted_in_the_sense_that_is_stated() {
+    let profile = "profile = [{ rate = \"0 deg/s\", duration = \"5 s\" }, \
+                   { rate = \"10 deg/s\", duration = \"1 min\" }]\n";
+    let table = |keys: &str| parse(&format!("{RIG}[table]\n{keys}")).map(|rig| rig.table.unwrap());
+    for (word, turn) in [("forward", 600.0), ("reversed", -600.0)] {
+        let table = table(&format!("sense = \"{word}\"\n{profile}")).unwrap();
+        assert_close!(table.profile.unwrap().angle(65.0), turn * DEG, 1e-12);
+        assert_close!(table.sense, turn / 600.0, 1e-15);
+        assert!(table.segments[0].rate.is_sign_positive());
+    }
+    let error = table("sense = \"reversed\"\n").unwrap_err().to_string();
+    assert!(error.contains("[table] sense") && error.contains("without a profile"), "{error}");
+    let error = table(&format!("sense = \"backwards\"\n{profile}")).unwrap_err().to_string();
+    assert!(error.contains("[table] sense") && error.contains("reversed"), "{error}");
+}
+
 /// What a rig file says, what it should rather say, and what is said of it.
 #[rustfmt::skip]
 const CASES: &[(&str, &str, &str)] = &[

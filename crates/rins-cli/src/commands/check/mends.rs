@@ -79,7 +79,8 @@ fn sense(rig: &Rig) -> Option<Sense> {
             return of(Place::Rate, rate.factor);
         }
     }
-    rig.table.as_ref()?.profile.as_ref().and_then(|_| of(Place::Profile, 1.0))
+    let table = rig.table.as_ref().filter(|table| table.profile.is_some())?;
+    of(Place::Profile, table.sense)
 }
 
 impl Sense {
@@ -92,7 +93,7 @@ impl Sense {
         match self.place {
             Place::Angle => format!("sense = {:?} under [log] table_angle", self.name),
             Place::Rate => format!("sense = {:?} under [log] table_rate", self.name),
-            Place::Profile => "the other sign on each rate under [table] profile".into(),
+            Place::Profile => format!("sense = {:?} under [table]", self.name),
         }
     }
 }
