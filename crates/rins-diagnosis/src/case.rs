@@ -33,6 +33,8 @@ pub(crate) struct Case<'a> {
     pub(crate) given: &'a Model,
     pub(crate) imu: &'a ImuSpec,
     pub(crate) knowledge: NoiseKnowledge,
+    /// Whether the biases of gyros and of accelerometers walk at random though the sheet says nothing of it.
+    pub(crate) walks: [bool; 2],
 }
 
 impl Case<'_> {

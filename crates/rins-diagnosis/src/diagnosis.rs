@@ -103,22 +103,31 @@ pub fn diagnose(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
-    let case = Case { runs, given: model, imu, knowledge };
-    let before = case.fit()?;
-    // Lines that are faster than an epoch would come back as slow ones.
-    let mut fast = case.fast_lines(&before);
-    loop {
-        let diagnosis = case.beyond(&before, &fast, &mut progress)?;
-        // What was a line may be the table's own motion, read late.
-        let still = case.still_there(&diagnosis.after, &fast);
-        if still.len() == fast.len() {
-            return Ok(diagnosis);
-        }
-        fast = still;
-    }
+    let case = Case { runs, given: model, imu, knowledge, walks: [false; 2] };
+    let found = case.searched(&mut progress)?;
+    case.wandering(found, |walking| walking.searched(&mut progress))
 }
 
 impl Case<'_> {
+    /// What there is beyond the model.
+    fn searched(
+        &self,
+        progress: &mut impl FnMut(&'static str),
+    ) -> Result<Diagnosis, DiagnosisError> {
+        let before = self.fit()?;
+        // Lines that are faster than an epoch would come back as slow ones.
+        let mut fast = self.fast_lines(&before);
+        loop {
+            let diagnosis = self.beyond(&before, &fast, progress)?;
+            // What was a line may be the table's own motion, read late.
+            let still = self.still_there(&diagnosis.after, &fast);
+            if still.len() == fast.len() {
+                return Ok(diagnosis);
+            }
+            fast = still;
+        }
+    }
+
     /// What there is beyond a model and these fast lines.
     fn beyond(
         &self,
@@ -178,10 +187,7 @@ impl Case<'_> {
             unknown.iter().map(|cause| described(cause, &after)).collect();
         unexplained.extend(case.unexplained((before, &after), &causes)?);
         causes.extend(fast.iter().map(|(_, cause)| cause.clone()));
-        // What is left unexplained is in the noise that was found: no level can be told then.
-        if unexplained.is_empty() {
-            causes.extend(case.noise_causes(&after)?);
-        }
+        causes.extend(case.noise_causes(&after, unexplained.is_empty())?);
         causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         let not_testable = not_testable.unwrap_or_default();
         let before = before.clone();
@@ -202,7 +208,7 @@ pub fn suppose(
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Diagnosis, DiagnosisError> {
-    let case = Case { runs, given: model, imu, knowledge };
+    let case = Case { runs, given: model, imu, knowledge, walks: [false; 2] };
     let before = case.fit()?;
     let found = supposed.to_vec();
     let present = case.fit_near(&before, &found)?;

@@ -30,6 +30,7 @@ mod structure;
 mod switching;
 mod tails;
 mod unexplained;
+mod wander;
 
 mod gain;
 mod gain_drift;

@@ -1,8 +1,6 @@
 //! Random errors that are not as the data sheet says.
 
-use rins_estimation::{
-    Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths, TriadStrengths,
-};
+use rins_estimation::{Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths};
 use rins_terms::{Free, Term, catalogue};
 
 use crate::case::Case;
@@ -19,24 +17,42 @@ const FLICKER: f64 = 2.0;
 /// The step, as a logarithm, by which the likelihood's curvature is found.
 const STEP: f64 = 0.1;
 
-/// A strength of one triad: how it is reached, and what the sheet says of it.
-struct Strength {
-    term: &'static Term,
-    of: fn(&mut Strengths) -> &mut TriadStrengths,
-    is_white: bool,
+/// The share of a walk that was found, of which a sheet says nothing, that is as good as none.
+const NO_WALK: f64 = 0.01;
+
+/// The colours of noise.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Colour {
+    White,
+    Flicker,
+    Walk,
 }
 
-const STRENGTHS: [Strength; 4] = [
-    Strength { term: &catalogue::GYRO_NOISE_LEVEL, of: |s| &mut s.gyro, is_white: true },
-    Strength { term: &catalogue::GYRO_BIAS_INSTABILITY, of: |s| &mut s.gyro, is_white: false },
-    Strength { term: &catalogue::ACCEL_NOISE_LEVEL, of: |s| &mut s.accel, is_white: true },
-    Strength { term: &catalogue::ACCEL_BIAS_INSTABILITY, of: |s| &mut s.accel, is_white: false },
+/// A strength of one triad.
+struct Strength {
+    term: &'static Term,
+    /// Which triad: the gyros, the accelerometers.
+    triad: usize,
+    colour: Colour,
+}
+
+const STRENGTHS: [Strength; 6] = [
+    Strength { term: &catalogue::GYRO_NOISE_LEVEL, triad: 0, colour: Colour::White },
+    Strength { term: &catalogue::GYRO_BIAS_INSTABILITY, triad: 0, colour: Colour::Flicker },
+    Strength { term: &catalogue::GYRO_RATE_RANDOM_WALK, triad: 0, colour: Colour::Walk },
+    Strength { term: &catalogue::ACCEL_NOISE_LEVEL, triad: 1, colour: Colour::White },
+    Strength { term: &catalogue::ACCEL_BIAS_INSTABILITY, triad: 1, colour: Colour::Flicker },
+    Strength { term: &catalogue::ACCEL_RATE_RANDOM_WALK, triad: 1, colour: Colour::Walk },
 ];
 
 impl Strength {
     fn slot<'a>(&self, strengths: &'a mut Strengths) -> &'a mut f64 {
-        let triad = (self.of)(strengths);
-        if self.is_white { &mut triad.white } else { &mut triad.flicker }
+        let triad = if self.triad == 0 { &mut strengths.gyro } else { &mut strengths.accel };
+        match self.colour {
+            Colour::White => &mut triad.white,
+            Colour::Flicker => &mut triad.flicker,
+            Colour::Walk => &mut triad.walk,
+        }
     }
 
     fn value(&self, strengths: &Strengths) -> f64 {
@@ -56,20 +72,32 @@ impl Strength {
 impl Case<'_> {
     /// The strengths that were found where the sheet says otherwise, or where it says nothing and they are beyond what
     /// is usual.
-    pub(crate) fn noise_causes(&self, after: &Fit) -> Result<Vec<Cause>, Indefinite> {
+    ///
+    /// What is left unexplained is in the noise that was found, so that no level can be told then; a walk that the sheet
+    /// says nothing of was asked for by itself.
+    pub(crate) fn noise_causes(
+        &self,
+        after: &Fit,
+        is_all_explained: bool,
+    ) -> Result<Vec<Cause>, Indefinite> {
         let NoiseKnowledge::Likely(sheet) = self.knowledge else { return Ok(Vec::new()) };
         let mut causes = Vec::new();
         for strength in &STRENGTHS {
-            let (said, found) = (strength.value(&sheet), strength.value(&after.noise[0].imu));
+            let found = strength.value(&after.noise[0].imu);
+            let is_white = strength.colour == Colour::White;
+            let asked = strength.colour == Colour::Walk && self.walks[strength.triad];
+            // Where a walk was asked for, the sheet's is where its search began.
+            let said = if asked { 0.0 } else { strength.value(&sheet) };
             let usual = strength.term.parameters[0].range(self.imu).1;
-            let (as_said, limit) = match (strength.is_white, said > 0.0) {
-                (true, _) => (said, WHITE),
-                (false, true) => (said, FLICKER),
-                (false, false) => (usual, 1.0),
+            let (as_said, limit) = match (strength.colour, said > 0.0) {
+                (Colour::White, _) => (said, WHITE),
+                (_, true) => (said, FLICKER),
+                (Colour::Flicker, false) => (usual, 1.0),
+                (Colour::Walk, false) => (NO_WALK * found, 1.0),
             };
             let ratio = (found / as_said).ln();
-            let strange = if strength.is_white { ratio.abs() } else { ratio } > limit.ln();
-            if !strange || !ratio.is_finite() {
+            let strange = if is_white { ratio.abs() } else { ratio } > limit.ln();
+            if !strange || !ratio.is_finite() || !(is_all_explained || asked) {
                 continue;
             }
             let [here, there, above, below] = self.likelihoods(
@@ -85,7 +113,7 @@ impl Case<'_> {
             let curvature = (2.0 * here - above - below) / (STEP * STEP);
             let sigma = found * curvature.max(1e-6).sqrt().recip();
             // White noise is told as an excess over the sheet's, flicker as what comes to the sheet's.
-            let (value, sigma) = if strength.is_white {
+            let (value, sigma) = if is_white {
                 (found / said - 1.0, sigma / said)
             } else {
                 ((found * found - said * said).sqrt(), sigma)

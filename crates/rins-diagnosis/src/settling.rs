@@ -12,7 +12,7 @@ use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
 
 /// A rival is kept whose odds are no worse than one to this many e-folds: 1 to 55.
-const RIVALS: f64 = 4.0;
+pub(crate) const RIVALS: f64 = 4.0;
 
 /// An effect takes another's place if its odds are better by this many e-folds.
 const BETTER: f64 = 0.5;

@@ -7,7 +7,7 @@ use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
 use rins_imu::Seed;
-use rins_terms::{Chosen, Model, Term, catalogue};
+use rins_terms::{Chosen, Model, Term, Unit, catalogue};
 
 use crate::support::{fibre, run};
 
@@ -59,6 +59,22 @@ fn hidden_effects_are_named_with_their_size() {
             let off = (estimate.value - truth) / estimate.sigma;
             assert!(off.abs() < 4.0, "{}: {off} sigma off", estimate.parameter.id);
         }
+    }
+}
+
+/// Biases that walk at random, of which the data sheet says nothing, are no ramp, step or slow line.
+#[test]
+fn a_random_walk_is_named_with_its_density() {
+    let density = 0.5 * Unit::DEG_PER_HOUR_PER_ROOT_HOUR.factor;
+    for seed in 60..63 {
+        let walk = hiding(&[(&catalogue::GYRO_RATE_RANDOM_WALK, &[density])]);
+        let diagnosis = found(&run(&RATES, walk, 0.0, seed), NoiseKnowledge::Likely);
+        let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, "gyro_rate_random_walk");
+        let [estimate] = &cause.parameters[..] else { panic!("{:?}", cause.parameters) };
+        let off = (estimate.value - density) / estimate.sigma;
+        assert!(off.abs() < 3.0 && estimate.value > 5.0 * estimate.sigma, "{off} sigma off");
+        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
     }
 }
 

@@ -1,0 +1,135 @@
+//! A bias that walks at random, which passes for ramps, warm-ups and steps as long as a sheet says nothing of it.
+
+use rins_estimation::{NoiseKnowledge, Strengths, TriadStrengths};
+use rins_terms::{Chosen, Term, catalogue};
+
+use crate::case::Case;
+use crate::diagnosis::{Diagnosis, DiagnosisError, Rival};
+use crate::settling::RIVALS;
+use crate::structure::Structure;
+
+/// The effects of a triad that change its biases slowly.
+const SLOW: [&str; 6] =
+    ["bias_ramp", "bias_step", "warmup", "thermal_bias", "hysteresis", "bias_instability"];
+
+/// A line of fewer cycles in a run is slow.
+const SLOW_CYCLES: f64 = 20.0;
+
+/// How many e-folds of odds it costs to have chosen one slow effect among all, and when it happens.
+const CHOSEN: f64 = 5.0;
+
+/// The search starts from a walk that over the run is so many times as far as white noise lets it be seen.
+const SEEN: f64 = 3.0;
+
+/// The same of a walk, whose strength is chosen.
+const WALKED: f64 = 8.0;
+
+/// The terms of the walks of either triad.
+const WALKS: [&Term; 2] = [&catalogue::GYRO_RATE_RANDOM_WALK, &catalogue::ACCEL_RATE_RANDOM_WALK];
+
+/// The triads by what their effects and channels begin with.
+const TRIADS: [&str; 2] = ["gyro", "accel"];
+
+fn triad(strengths: &mut Strengths, which: usize) -> &mut TriadStrengths {
+    [&mut strengths.gyro, &mut strengths.accel].into_iter().nth(which).expect("there are two")
+}
+
+/// Slow effects, and how much better a walk of the biases explains the run.
+struct Instead {
+    /// Which triad.
+    triad: usize,
+    /// The places of the slow effects among the causes.
+    slow: Vec<usize>,
+    /// The logarithm of the odds for the walk against them.
+    odds: f64,
+}
+
+impl Case<'_> {
+    /// What `found` is if biases may walk at random though the sheet says nothing of it: where that explains as much as the
+    /// slow effects that were found, or more.
+    pub(crate) fn wandering(
+        &self,
+        mut found: Diagnosis,
+        search: impl FnOnce(&Self) -> Result<Diagnosis, DiagnosisError>,
+    ) -> Result<Diagnosis, DiagnosisError> {
+        let NoiseKnowledge::Likely(mut sheet) = self.knowledge else { return Ok(found) };
+        let of_triads: Vec<Instead> = (0..TRIADS.len())
+            .filter(|&which| triad(&mut { sheet }, which).walk == 0.0)
+            .filter_map(|which| self.instead(&found, which, sheet))
+            .collect();
+        let mut walking = *self;
+        for Instead { triad: which, slow, odds } in
+            of_triads.iter().filter(|one| one.odds > -RIVALS)
+        {
+            if *odds > 0.0 {
+                walking.walks[*which] = true;
+                self.walk(triad(&mut sheet, *which));
+                continue;
+            }
+            for &place in slow {
+                found.causes[place].rivals.push(walk(*which, *odds));
+            }
+        }
+        if walking.walks == self.walks {
+            return Ok(found);
+        }
+        let mut walked = search(&Case { knowledge: NoiseKnowledge::Likely(sheet), ..walking })?;
+        for Instead { triad: which, slow, odds } in of_triads {
+            let own = walked.causes.iter_mut().find(|cause| cause.term.id == WALKS[which].id);
+            if let Some(own) = own.filter(|_| odds > 0.0 && odds < RIVALS) {
+                let of = |&place: &usize| &found.causes[place];
+                own.rivals.extend(slow.iter().map(of).map(|slow| Rival {
+                    term: slow.term,
+                    settings: slow.settings.clone(),
+                    odds: -odds,
+                }));
+            }
+        }
+        Ok(walked)
+    }
+
+    /// Gives a triad a walk where the search for it may start.
+    fn walk(&self, triad: &mut TriadStrengths) {
+        triad.walk = SEEN * triad.white / self.duration();
+    }
+
+    /// How well a walk of one triad's biases explains what slow effects of it were found for, if there are any or
+    /// anything is left of them.
+    fn instead(&self, found: &Diagnosis, which: usize, mut sheet: Strengths) -> Option<Instead> {
+        let name = TRIADS[which];
+        self.walk(triad(&mut sheet, which));
+        let is_slow = |id: &str, settings: &[f64]| {
+            let of_triad = id.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
+            let few_cycles = || settings[0] * self.duration() < SLOW_CYCLES;
+            of_triad.is_some_and(|rest| SLOW.contains(&rest))
+                || (id == "interference_line" && few_cycles())
+        };
+        let causes = found.causes.iter().enumerate();
+        let slow: Vec<usize> = causes
+            .filter(|(_, one)| is_slow(one.term.id, &one.settings))
+            .map(|(place, _)| place)
+            .collect();
+        let left = found.unexplained.iter().any(|one| match one.structure {
+            Structure::Drift | Structure::Switching(_) => one.channel.starts_with(name),
+            Structure::Line(frequency) => {
+                one.channel.starts_with(name) && frequency * self.duration() < SLOW_CYCLES
+            }
+            Structure::Inconstant(_) => one.of.is_some_and(|id| is_slow(id, &[f64::INFINITY])),
+            _ => false,
+        });
+        if slow.is_empty() && !left {
+            return None;
+        }
+        let beyond = &found.after.model().terms[self.given.terms.len()..];
+        let kept: Vec<Chosen> =
+            beyond.iter().filter(|one| !is_slow(one.term.id, &one.settings)).cloned().collect();
+        let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
+        let walked = other.fit_near(&found.after, &kept).ok()?;
+        let gained = walked.log_likelihood - found.after.log_likelihood;
+        Some(Instead { triad: which, odds: gained + CHOSEN * slow.len() as f64 - WALKED, slow })
+    }
+}
+
+fn walk(which: usize, odds: f64) -> Rival {
+    Rival { term: WALKS[which], settings: Vec::new(), odds }
+}
