@@ -1,8 +1,9 @@
 //! For the workspace's own tests: strategies over physical quantities, `assert_close!`, the bounds that
-//! a statistic must keep, and covariances in long numbers.
+//! a statistic must keep, covariances in long numbers, and sections of files.
 #![expect(clippy::missing_panics_doc, reason = "tests are meant to panic")]
 
 mod long;
+mod sections;
 mod statistics;
 mod strategies;
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::{DMatrix, DVector};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_frames::{Dcm, EulerAngles, Nav, Table};
+use rins_testing::{data_sheets, site};
 use rins_tests::outside_data;
 use serde_json::Value;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -129,11 +130,7 @@ fn one_rate_after_a_rest_shows_the_rest_in_combinations() {
 /// A scenario on an axis tilted by `roll`: `effects` are in it besides three gyro errors.
 fn scenario(roll: f64, seed: u64, effects: &str) -> String {
     format!(
-        r#"[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+        r#"{site}
 [log]
 rate = "20 Hz"
 table_angle = {{ noise = "0.3 arcsec" }}
@@ -152,18 +149,7 @@ pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.05 deg"
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-
+{data_sheets}
 [truth]
 seed = {seed}
 effects = [{effects}]
@@ -172,7 +158,9 @@ effects = [{effects}]
 bias = ["0.05 deg/h", "-0.03 deg/h", "0.08 deg/h"]
 scale = ["100 ppm", "-200 ppm", "300 ppm"]
 misalignment = {{ xy = "20 arcsec", xz = "60 arcsec", yx = "20 arcsec", yz = "-40 arcsec", zx = "20 arcsec", zy = "20 arcsec" }}
-"#
+"#,
+        site = site!(),
+        data_sheets = data_sheets!()
     )
 }
 

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use rins_testing::site;
 use rins_tests::rins;
 use tempfile::TempDir;
 
@@ -16,14 +17,13 @@ use crate::support::Finished;
 const MEMORY: u64 = 1 << 20;
 const TIME: Duration = Duration::from_secs(10);
 
-const RIG: &str = r#"[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+const RIG: &str = concat!(
+    site!(),
+    r#"
 [log]
 path = "LOG"
-"#;
+"#
+);
 
 const COLUMNS: &str = r#"time = { column = "t", unit = "s" }
 gyro = { columns = ["gx", "gy", "gz"], unit = "rad/s" }

@@ -10,7 +10,7 @@ use rins_imu::{ImuSpec, TriadSpec};
 use rins_io::ScenarioFile;
 use rins_motion::{Recording, Station};
 use rins_simulation::simulate;
-use rins_testing::assert_close;
+use rins_testing::{assert_close, data_sheets, site};
 use serde_json::Value;
 
 use crate::support::{list, number, numbers, result_in};
@@ -18,11 +18,7 @@ use crate::support::{list, number, numbers, result_in};
 /// Two rates and a reversal after a rest; `table` is what the log is to hold of the table.
 fn scenario(table: &str) -> String {
     format!(
-        r#"[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+        r#"{site}
 [log]
 rate = "20 Hz"
 {table}
@@ -41,18 +37,7 @@ pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.05 deg"
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-
+{data_sheets}
 [truth]
 seed = 7
 
@@ -64,7 +49,9 @@ yaw = "40.03 deg"
 [truth.gyro]
 scale = ["100 ppm", "100 ppm", "300 ppm"]
 misalignment = {{ xz = "60 arcsec", yz = "-40 arcsec" }}
-"#
+"#,
+        site = site!(),
+        data_sheets = data_sheets!()
     )
 }
 

@@ -4,13 +4,12 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use rins_io::ScenarioGrid;
+use rins_testing::site;
 
-const SCENARIO: &str = r#"
-[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-[log]
+const SCENARIO: &str = concat!(
+    "\n",
+    site!(),
+    r#"[log]
 rate = "50 Hz"
 table_rate = {}
 [table]
@@ -20,7 +19,8 @@ seed = 1
 attitude = { roll = "30 deg", pitch = "20 deg", yaw = "40 deg" }
 noise = { gyro = "off", accel = "off" }
 [grid]
-"#;
+"#
+);
 
 /// A grid of `axes` keys that have 65,536 values each.
 fn of(axes: usize) -> String {

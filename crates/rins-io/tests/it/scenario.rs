@@ -6,16 +6,14 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::Quantisation;
 use rins_io::{IoError, ScenarioFile, read};
 use rins_simulation::{TableRecord, Temperature, simulate};
-use rins_testing::assert_close;
+use rins_testing::{assert_close, data_sheets, site};
 
 use crate::support::replaced;
 
-const SCENARIO: &str = r#"
-[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+const SCENARIO: &str = concat!(
+    "\n",
+    site!(),
+    r#"
 [log]
 rate = "50 Hz"
 table_angle = { noise = "0.3 arcsec", resolution = "0.1 arcsec" }
@@ -33,18 +31,9 @@ profile = [
     { rate = "10 deg/s", duration = "8 s" },
 ]
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-
+"#,
+    data_sheets!(),
+    r#"
 [truth]
 seed = 7
 temperature = "20 degC"
@@ -62,7 +51,8 @@ resolution = "0.01 arcsec"
 
 [truth.accel]
 bias = ["100 ug", "0 ug", "0 ug"]
-"#;
+"#
+);
 
 fn parse(text: &str) -> Result<ScenarioFile, IoError> {
     ScenarioFile::parse(text, Path::new("scenario.toml"))
@@ -241,13 +231,12 @@ fn a_simulated_run_is_read_back_to_the_last_bit() {
 fn the_rig_of_a_run_keeps_what_was_written() {
     let file = parse(SCENARIO).unwrap();
     let recording = simulate(&file.scenario).unwrap().recording;
-    let expected = r#"# A simulated run: where it was measured, and with what.
+    let expected = concat!(
+        r#"# A simulated run: where it was measured, and with what.
 
-[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+"#,
+        site!(),
+        r#"
 [log]
 path = "run.csv"
 rate = "50 Hz"
@@ -270,18 +259,9 @@ profile = [
     { rate = "10 deg/s", duration = "8 s" },
 ]
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-"#;
+"#,
+        data_sheets!()
+    );
     assert_eq!(file.rig_toml(&recording), expected);
 }
 

@@ -4,19 +4,17 @@ use std::fs;
 use std::path::Path;
 
 use rins_io::{IoError, Loaded, read};
+use rins_testing::{data_sheets, site};
 use tempfile::TempDir;
 
 /// The section of a site.
-pub(crate) const SITE: &str =
-    "[site]\nlatitude = \"34.25 deg\"\nlongitude = \"108.9 deg\"\nheight = \"400 m\"\n\n";
+pub(crate) const SITE: &str = concat!(site!(), "\n");
 
 /// A rig file that is right.
-pub(crate) const RIG: &str = r#"
-[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+pub(crate) const RIG: &str = concat!(
+    "\n",
+    site!(),
+    r#"
 [log]
 path = "run.csv"
 rate = "50 Hz"
@@ -31,18 +29,9 @@ pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.1 deg"
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-"#;
+"#,
+    data_sheets!()
+);
 
 /// [`RIG`] without its table angle.
 pub(crate) fn plain_rig() -> String {

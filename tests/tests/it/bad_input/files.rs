@@ -4,16 +4,15 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use rins_testing::{data_sheets, site};
 use tempfile::TempDir;
 
 use crate::support::rins_in;
 
 /// 20 s of rest, a turn of 30 s, 32 samples a second, so that times are exact in binary.
-const SCENARIO: &str = r#"[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+const SCENARIO: &str = concat!(
+    site!(),
+    r#"
 [log]
 rate = "32 Hz"
 table_angle = { noise = "0.3 arcsec", resolution = "0.01 arcsec" }
@@ -27,29 +26,19 @@ pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.05 deg"
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-
+"#,
+    data_sheets!(),
+    r#"
 [truth]
 seed = 1
 gyro = { scale = ["0 ppm", "0 ppm", "300 ppm"] }
-"#;
+"#
+);
 
 /// The rig of the run that the scenario makes.
-const RIG: &str = r#"[site]
-latitude = "34.25 deg"
-longitude = "108.9 deg"
-height = "400 m"
-
+const RIG: &str = concat!(
+    site!(),
+    r#"
 [log]
 path = "run.csv"
 rate = "32 Hz"
@@ -64,18 +53,9 @@ pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.05 deg"
 
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
-"#;
+"#,
+    data_sheets!()
+);
 
 /// The files of a good run.
 const FILES: [&str; 4] = ["scenario.toml", "rig.toml", "run.csv", "calibration.toml"];
