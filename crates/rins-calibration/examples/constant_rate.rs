@@ -17,16 +17,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .with_misalignment(Axis::X, Axis::Z, 60.0 * ARCSEC)
         .with_misalignment(Axis::Y, Axis::Z, -40.0 * ARCSEC)
         .with_scale(Axis::Z, 300.0 * PPM);
-    let gyro = TriadSpec {
-        noise_density: 0.02 * DEG_PER_HOUR,
-        bias_sigma: 0.1 * DEG_PER_HOUR,
-        scale_sigma: 500.0 * PPM,
-        misalignment_sigma: 120.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let gyro =
+        TriadSpec::white(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC);
     let imu = ImuSpec {
         gyro,
         accel: TriadSpec { noise_density: 30.0 * MICRO_G, bias_sigma: 200.0 * MICRO_G, ..gyro },

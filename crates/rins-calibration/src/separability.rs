@@ -54,16 +54,7 @@ mod tests {
     use rins_frames::units::{ARCSEC, DEG_PER_HOUR, DEG_PER_SECOND};
     use rins_testing::assert_close;
 
-    const SPEC: TriadSpec = TriadSpec {
-        noise_density: 0.02 * DEG_PER_HOUR,
-        bias_sigma: 0.1 * DEG_PER_HOUR,
-        scale_sigma: 5e-4,
-        misalignment_sigma: 5e-4,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    const SPEC: TriadSpec = TriadSpec::white(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR, 5e-4, 5e-4);
 
     const SIGMA: f64 = 0.006 * ARCSEC;
 

@@ -26,16 +26,7 @@ fn cell() -> Cell {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let station = Station::with_normal_gravity(site);
     let angles = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
-    let triad = |noise_density| TriadSpec {
-        noise_density,
-        bias_sigma: 0.0,
-        scale_sigma: 500.0 * PPM,
-        misalignment_sigma: 120.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let triad = |noise_density| TriadSpec::white(noise_density, 0.0, 500.0 * PPM, 120.0 * ARCSEC);
     let imu = ImuSpec { gyro: triad(0.02 * DEG_PER_HOUR), accel: triad(30.0 * MICRO_G) };
     let noise = ImuNoise { gyro: NoiseModel::from(&imu.gyro), accel: NoiseModel::from(&imu.accel) };
     let turn = Segment { rate: 10.0 * DEG_PER_SECOND, duration: 360.0 };

@@ -56,16 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn data_sheet() -> ImuSpec {
-    let triad = |noise, bias| TriadSpec {
-        noise_density: noise,
-        bias_sigma: bias,
-        scale_sigma: 500.0 * PPM,
-        misalignment_sigma: 120.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let triad = |noise, bias| TriadSpec::white(noise, bias, 500.0 * PPM, 120.0 * ARCSEC);
     ImuSpec {
         gyro: triad(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR),
         accel: triad(30.0 * MICRO_G, 200.0 * MICRO_G),

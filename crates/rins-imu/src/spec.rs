@@ -23,6 +23,27 @@ pub struct TriadSpec {
     pub resolution: Option<f64>,
 }
 
+impl TriadSpec {
+    /// The figures of a sheet that tells of white noise and of constant errors only.
+    pub const fn white(
+        noise_density: f64,
+        bias_sigma: f64,
+        scale_sigma: f64,
+        misalignment_sigma: f64,
+    ) -> Self {
+        Self {
+            noise_density,
+            bias_sigma,
+            scale_sigma,
+            misalignment_sigma,
+            bias_instability: None,
+            random_walk: None,
+            range: None,
+            resolution: None,
+        }
+    }
+}
+
 /// A data sheet's figures for an IMU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImuSpec {

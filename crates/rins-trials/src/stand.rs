@@ -45,15 +45,8 @@ pub struct Stand {
 impl Stand {
     /// What is true of an experiment, all effects but its baseline left out.
     pub fn of(experiment: &Experiment, known: &Known) -> Self {
-        let sheet = |of: &rins_blind::SensorsKnown| TriadSpec {
-            noise_density: of.noise,
-            bias_sigma: of.bias,
-            scale_sigma: of.scale,
-            misalignment_sigma: of.misalignment,
-            bias_instability: None,
-            random_walk: None,
-            range: None,
-            resolution: None,
+        let sheet = |of: &rins_blind::SensorsKnown| {
+            TriadSpec::white(of.noise, of.bias, of.scale, of.misalignment)
         };
         let strengths = |of: &rins_blind::Noise| TriadStrengths {
             white: of.white,

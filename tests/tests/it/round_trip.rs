@@ -60,16 +60,6 @@ const COMMANDED: &str = "table_rate = {}";
 
 /// What the scenario's figures mean to the calibration, put down apart from how a file is read.
 fn setup(angle_noise: f64) -> Setup {
-    let triad = |noise, bias, scale, misalignment| TriadSpec {
-        noise_density: noise,
-        bias_sigma: bias,
-        scale_sigma: scale,
-        misalignment_sigma: misalignment,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let hour = DEG_PER_HOUR;
     Setup {
@@ -80,8 +70,8 @@ fn setup(angle_noise: f64) -> Setup {
         }),
         table: TableSpec { angle_noise, wobble: angle_noise, rate_noise: 0.0, latency: 0.0 },
         imu: ImuSpec {
-            gyro: triad(0.02 * hour, 0.1 * hour, 500.0 * PPM, 120.0 * ARCSEC),
-            accel: triad(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC),
+            gyro: TriadSpec::white(0.02 * hour, 0.1 * hour, 500.0 * PPM, 120.0 * ARCSEC),
+            accel: TriadSpec::white(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC),
         },
         velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
     }

@@ -46,15 +46,8 @@ fn motion(table: Table) -> TrueMotion {
 /// A rig whose table is read `root` times as well as the axis is known, or has gyros that much better
 /// than their misalignments.
 fn rig(motion: &TrueMotion, root: f64) -> (Setup, Start) {
-    let triad = |noise_density, misalignment_sigma| TriadSpec {
-        noise_density,
-        bias_sigma: 0.0,
-        scale_sigma: misalignment_sigma,
-        misalignment_sigma,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
+    let triad = |noise_density, misalignment_sigma| {
+        TriadSpec::white(noise_density, 0.0, misalignment_sigma, misalignment_sigma)
     };
     let read = AXIS_SIGMA / root;
     let table = TableSpec { angle_noise: read, wobble: 2.0 * read, rate_noise: 0.0, latency: 0.0 };

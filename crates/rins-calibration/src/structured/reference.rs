@@ -298,16 +298,8 @@ mod tests {
             nav_from_table: angles.dcm(),
             profile: Profile::new(&[turn], None).unwrap(),
         };
-        let triad = |noise_density, bias_sigma| TriadSpec {
-            noise_density,
-            bias_sigma,
-            scale_sigma: 500e-6,
-            misalignment_sigma: 6e-4,
-            bias_instability: None,
-            random_walk: None,
-            range: None,
-            resolution: None,
-        };
+        let triad =
+            |noise_density, bias_sigma| TriadSpec::white(noise_density, bias_sigma, 500e-6, 6e-4);
         let setup = Setup {
             station: motion.station,
             axis: None,

@@ -24,16 +24,7 @@ const AXIS_SIGMA: f64 = 0.01 * DEG;
 const NO_WOBBLE: f64 = 1e-4 * ARCSEC;
 
 fn setup() -> Setup {
-    let gyro = TriadSpec {
-        noise_density: 0.02 * DEG_PER_HOUR,
-        bias_sigma: 0.0,
-        scale_sigma: 300.0 * PPM,
-        misalignment_sigma: 60.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let gyro = TriadSpec::white(0.02 * DEG_PER_HOUR, 0.0, 300.0 * PPM, 60.0 * ARCSEC);
     let accel = TriadSpec { noise_density: 30.0 * MICRO_G, ..gyro };
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     Setup {

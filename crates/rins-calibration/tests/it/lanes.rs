@@ -30,16 +30,8 @@ fn motion() -> TrueMotion {
 }
 
 fn start(motion: &TrueMotion) -> (Setup, Start) {
-    let triad = |noise_density, bias_sigma| TriadSpec {
-        noise_density,
-        bias_sigma,
-        scale_sigma: 500.0 * PPM,
-        misalignment_sigma: 6e-4,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let triad =
+        |noise_density, bias_sigma| TriadSpec::white(noise_density, bias_sigma, 500.0 * PPM, 6e-4);
     let gyro = triad(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR);
     let setup = Setup {
         station: motion.station,

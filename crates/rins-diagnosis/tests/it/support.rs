@@ -12,19 +12,14 @@ const ENCODER: f64 = 0.5 * ARCSEC;
 
 /// The data sheet of a navigation-grade fibre-optic unit.
 pub(crate) fn fibre() -> ImuSpec {
-    let triad = |noise, bias, scale, misalignment| TriadSpec {
-        noise_density: noise,
-        bias_sigma: bias,
-        scale_sigma: scale,
-        misalignment_sigma: misalignment,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
     ImuSpec {
-        gyro: triad(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC),
-        accel: triad(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC),
+        gyro: TriadSpec::white(
+            0.02 * DEG_PER_HOUR,
+            0.1 * DEG_PER_HOUR,
+            500.0 * PPM,
+            120.0 * ARCSEC,
+        ),
+        accel: TriadSpec::white(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC),
     }
 }
 

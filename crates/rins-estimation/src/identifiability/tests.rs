@@ -14,26 +14,8 @@ use crate::run::{Reference, Rig, Run};
 use crate::strengths::Strengths;
 
 const IMU: ImuSpec = ImuSpec {
-    gyro: TriadSpec {
-        noise_density: 0.02 * DEG_PER_HOUR,
-        bias_sigma: 0.1 * DEG_PER_HOUR,
-        scale_sigma: 500.0 * PPM,
-        misalignment_sigma: 120.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    },
-    accel: TriadSpec {
-        noise_density: 30.0 * MICRO_G,
-        bias_sigma: 200.0 * MICRO_G,
-        scale_sigma: 300.0 * PPM,
-        misalignment_sigma: 60.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    },
+    gyro: TriadSpec::white(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC),
+    accel: TriadSpec::white(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC),
 };
 
 /// A run at these rates [deg/s], each for so long [s], on an axis tilted by so much, turned to an azimuth [deg].

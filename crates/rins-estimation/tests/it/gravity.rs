@@ -13,16 +13,7 @@ use crate::support::{profile, scenario, tilted, white};
 
 /// A micromechanical unit.
 fn mems() -> ImuSpec {
-    let triad = |noise, bias| TriadSpec {
-        noise_density: noise,
-        bias_sigma: bias,
-        scale_sigma: 5000.0 * PPM,
-        misalignment_sigma: 3000.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let triad = |noise, bias| TriadSpec::white(noise, bias, 5000.0 * PPM, 3000.0 * ARCSEC);
     ImuSpec {
         gyro: triad(20.0 * DEG_PER_HOUR, 500.0 * DEG_PER_HOUR),
         accel: triad(150.0 * MICRO_G, 5000.0 * MICRO_G),

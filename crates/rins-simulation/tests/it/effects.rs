@@ -111,15 +111,8 @@ fn temperature_is_recorded_as_it_goes() {
 
 /// A data sheet of fibre gyros, from which usual magnitudes follow.
 fn sheet() -> ImuSpec {
-    let triad = |noise_density, bias_sigma| TriadSpec {
-        noise_density,
-        bias_sigma,
-        scale_sigma: 500e-6,
-        misalignment_sigma: 120.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
+    let triad = |noise_density, bias_sigma| {
+        TriadSpec::white(noise_density, bias_sigma, 500e-6, 120.0 * ARCSEC)
     };
     ImuSpec {
         gyro: triad(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR),

@@ -26,15 +26,8 @@ fn motion() -> TrueMotion {
 
 /// A data sheet of fibre gyros.
 fn sheet() -> ImuSpec {
-    let triad = |noise_density, bias_sigma| TriadSpec {
-        noise_density,
-        bias_sigma,
-        scale_sigma: 500.0 * PPM,
-        misalignment_sigma: 120.0 * ARCSEC,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
+    let triad = |noise_density, bias_sigma| {
+        TriadSpec::white(noise_density, bias_sigma, 500.0 * PPM, 120.0 * ARCSEC)
     };
     ImuSpec {
         gyro: triad(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR),

@@ -54,16 +54,7 @@ pub(crate) fn turning(segments: &[Segment]) -> Run {
 
 /// A navigation-grade data sheet.
 pub(crate) fn sheet() -> ImuSpec {
-    let none = TriadSpec {
-        noise_density: 0.0,
-        bias_sigma: 0.0,
-        scale_sigma: 500e-6,
-        misalignment_sigma: 6e-4,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let none = TriadSpec::white(0.0, 0.0, 500e-6, 6e-4);
     ImuSpec {
         gyro: TriadSpec {
             noise_density: 0.02 * DEG_PER_HOUR_PER_ROOT_HZ,

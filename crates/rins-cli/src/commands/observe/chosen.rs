@@ -56,16 +56,7 @@ fn sought(term: &'static Term) -> Chosen {
 
 /// A data sheet of nothing in particular, which is that of a fibre gyro.
 const USUAL: ImuSpec = {
-    let triad = rins_imu::TriadSpec {
-        noise_density: 0.0,
-        bias_sigma: 0.0,
-        scale_sigma: 0.0,
-        misalignment_sigma: 0.0,
-        bias_instability: None,
-        random_walk: None,
-        range: None,
-        resolution: None,
-    };
+    let triad = rins_imu::TriadSpec::white(0.0, 0.0, 0.0, 0.0);
     ImuSpec { gyro: triad, accel: triad }
 };
 
