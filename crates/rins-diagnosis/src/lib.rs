@@ -43,6 +43,7 @@ pub use gain::{Foresight, Gain, GainError, GainVerdict};
 pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;
 pub use limits::{Limit, chance, limits};
+pub use noise::stuck;
 pub use structure::{Along, Structure};
 pub use unexplained::Unexplained;
 

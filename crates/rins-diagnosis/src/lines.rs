@@ -20,6 +20,9 @@ const MEDIAN: f64 = 0.48;
 /// The part of the false alarms that fast lines may cause: they are one effect of many.
 const SHARE: f64 = 0.1;
 
+/// An interval of more than so many mean ones has samples missing from it.
+const LONGEST: f64 = 1.5;
+
 /// The most fast lines that are looked for in a run.
 const MOST: usize = 4;
 
@@ -69,7 +72,8 @@ struct Line {
     ln_p: f64,
 }
 
-/// What the sensors read beyond what the model says, sample by sample: rates \[rad/s\] and forces \[m/s²\].
+/// What the sensors read beyond what the model says, sample by sample: rates \[rad/s\] and forces \[m/s²\]. Nothing where
+/// samples are missing and one is held for them.
 ///
 /// About the spin axis it is what the gyro reads beyond the encoder: a table that turns unevenly moves both. Without an
 /// encoder nothing tells them apart, and nothing is there.
@@ -81,6 +85,8 @@ pub(crate) fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS]
     };
     let mut before: Option<f64> = None;
     let samples = &run.recording.increments;
+    let lasting: f64 = samples.iter().map(|sample| sample.interval).sum();
+    let longest = LONGEST * lasting / samples.len() as f64;
     for (index, (moment, sample)) in fit.linear[of].track().moments().zip(samples).enumerate() {
         let predicted = fit.models[of].signals(&moment);
         let rates = sample.rates();
@@ -94,6 +100,12 @@ pub(crate) fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS]
                     rates.angular_rate.components().z - gain * (angle - before) / sample.interval;
             }
             before = Some(angle);
+        }
+        if sample.interval > longest {
+            for channel in &mut all {
+                channel.push(0.0);
+            }
+            continue;
         }
         let accel = rates.specific_force.components() - moment.force - values(&predicted.accel);
         for axis in 0..3 {

@@ -1,6 +1,7 @@
 //! Random errors that are not as the data sheet says.
 
 use rins_estimation::{Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths};
+use rins_motion::Repeats;
 use rins_terms::{Free, Term, catalogue};
 
 use crate::case::Case;
@@ -144,6 +145,27 @@ impl Case<'_> {
         let of =
             |noise| survey.left(noise, &[], &[]).map_or(f64::NEG_INFINITY, |l| l.log_likelihood);
         Ok([0, 1, 2, 3].map(of))
+    }
+}
+
+/// Samples that are stuck, as they were found in a log of so many.
+pub fn stuck(repeats: &Repeats, run: usize, samples: usize) -> Cause {
+    let term = &catalogue::STUCK_SAMPLES;
+    let (count, all) = (repeats.samples as f64, samples as f64);
+    // At least so many where so few are expected: Chernoff's bound of a Poisson distribution.
+    let expected = repeats.by_chance.max(f64::MIN_POSITIVE);
+    let ln_p = count - expected - count * (count / expected).ln();
+    let share = count / all;
+    let sigma = share / (repeats.rows as f64).sqrt();
+    Cause {
+        term,
+        settings: vec![count / repeats.rows as f64],
+        sought: None,
+        parameters: vec![estimate(term, 0, Some(run), share, sigma)],
+        ln_p: ln_p.min(0.0),
+        dof: 1,
+        gain: -ln_p.min(0.0),
+        rivals: Vec::new(),
     }
 }
 

@@ -41,6 +41,7 @@ mod fine_alignment;
 mod inspection;
 pub mod mechanism;
 mod recording;
+mod repeats;
 mod rest;
 mod station;
 mod strapdown;
@@ -56,6 +57,7 @@ pub use inspection::{
     ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect,
 };
 pub use recording::Recording;
+pub use repeats::Repeats;
 pub use rest::{RestMean, rest_spans};
 pub use station::Station;
 pub use strapdown::{Figures, Mechanisation, NavState, Navigator, VerticalChannel};

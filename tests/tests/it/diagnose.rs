@@ -109,6 +109,21 @@ fn hidden_effects_are_named_with_their_size() {
     }
 }
 
+/// A driver that hands out old samples: they are named and taken out, and mislead nobody.
+#[test]
+fn stuck_samples_are_named_and_do_no_harm() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = "\n[[truth.effects]]\nid = \"stuck_samples\"\nshare = 0.01\nlength = 5\n";
+    fs::write(folder.path().join("scenario.toml"), scenario(truth)).unwrap();
+    result_in(folder.path(), "simulate scenario.toml -o run");
+    let result = result_in(folder.path(), "diagnose run/rig.toml");
+    let [cause] = list(&result, "/causes") else { panic!("{}", result["causes"]) };
+    assert_eq!((&cause["effect"], &result["verdict"]), (&"stuck_samples".into(), &"named".into()));
+    let share = number(cause, "/parameters/0/value");
+    let off = (share - 0.01) / number(cause, "/parameters/0/sigma");
+    assert!(off.abs() < 3.0 && share > 0.003, "{share}, {off} sigma off");
+}
+
 /// The paper's Table 4: the attitude that the table gives is that of half a sample before, and nobody has said so.
 #[test]
 fn a_read_out_that_lags_by_half_a_sample_is_told_in_samples() {

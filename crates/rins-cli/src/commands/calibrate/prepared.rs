@@ -10,7 +10,7 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
 use rins_io::Loaded;
-use rins_motion::Recording;
+use rins_motion::{Recording, Repeats};
 
 use crate::args::NoiseChoice;
 use crate::commands::align::{Found, found};
@@ -45,6 +45,8 @@ pub(crate) struct Prepared {
     pub(crate) run: Run,
     /// The other rests.
     pub(crate) others: Vec<Run>,
+    /// What repeated in the log, and was taken out of the samples that are used.
+    pub(crate) repeats: Option<Repeats>,
     /// How well the axis' attitude is known beforehand.
     pub(crate) attitude: Attitude,
     /// What a reader must know of how it was prepared.
@@ -124,13 +126,19 @@ impl Prepared {
         if let Some(angles) = axis.brought_forward {
             recording.table_angle = Some(angles);
         }
+        let repeats = recording.take_out_repeats();
         let run = Run::new(rig, recording).with_context(log)?;
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
             Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
         });
         let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
-        let (attitude, remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
-        Ok(Self { name: shown(path), loaded, imu, run, others, attitude, remarks })
+        let (attitude, mut remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
+        remarks.extend(repeats.map(|Repeats { samples, rows, .. }| {
+            format!(
+                "{samples} samples, in {rows} row(s), repeat all six readings of the one before: they are taken for lost."
+            )
+        }));
+        Ok(Self { name: shown(path), loaded, imu, run, others, repeats, attitude, remarks })
     }
 
     /// How many samples are used.

@@ -5,10 +5,11 @@ use std::time::Instant;
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
 use rins_diagnosis::{
-    Cause, FALSE_ALARMS, Limit, Overlay, Unexplained, chance, diagnose, limits, suppose,
+    Cause, FALSE_ALARMS, Limit, Overlay, Unexplained, chance, diagnose, limits, stuck, suppose,
 };
 use rins_estimation::{Estimate, Fit, Indefinite};
 use rins_imu::{ImuSpec, Seed};
+use rins_motion::Repeats;
 use rins_terms::{Chosen, Unit};
 
 use crate::commands::calibrate::{Case, Certificate, Prepared};
@@ -137,7 +138,12 @@ impl Found {
                 spinner.set_message(format!("found: {}", named.join(", ")));
             }),
         };
-        let diagnosis = diagnosed.with_context(|| case.names())?;
+        let mut diagnosis = diagnosed.with_context(|| case.names())?;
+        for (run, prepared) in case.runs.iter().enumerate() {
+            let all = |repeats: &Repeats| prepared.run.recording.len() + repeats.samples;
+            let cause = prepared.repeats.map(|repeats| stuck(&repeats, run, all(&repeats)));
+            diagnosis.causes.splice(0..0, cause);
+        }
         spinner.set_message("measuring the gain");
         let fits = (&diagnosis.before, &diagnosis.after);
         let gain = Measured::of(&case, asked.held_out.as_ref(), fits);

@@ -1,0 +1,183 @@
+//! Samples that repeat the one before to the last bit, as a driver hands them out that has no new ones.
+
+use std::ops::Range;
+
+use rins_frames::Increments;
+
+use crate::recording::Recording;
+
+/// Readings are the same if they differ by no more than rounding, relative to the larger.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// A longer row of equal samples is no hiccup of a driver: a recording without noise, or one that stands still.
+const LONGEST: usize = 50;
+
+/// Nor is it one if more than this share of all samples repeats.
+const MOST: f64 = 0.2;
+
+/// So many times what chance would make of sensors that read in steps.
+const BEYOND_CHANCE: f64 = 10.0;
+
+/// What repeats in a recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Repeats {
+    /// How many samples are those of the sample before.
+    pub samples: usize,
+    /// In how many rows.
+    pub rows: usize,
+    /// How many of all samples would be so by chance.
+    pub by_chance: f64,
+}
+
+impl Recording {
+    /// Takes out the samples whose six readings are those of the sample before, as if they had been lost: the first new
+    /// sample after each row covers its time.
+    ///
+    /// None, and nothing is changed, if there are none, if they are not more than chance makes of coarse readings, or if
+    /// so many or so long a row of them is there that it says something else.
+    pub fn take_out_repeats(&mut self) -> Option<Repeats> {
+        let rows = self.repeats();
+        let samples: usize = rows.iter().map(Range::len).sum();
+        let longest = rows.iter().map(Range::len).max()?;
+        let by_chance = self.equal_by_chance(&rows);
+        let few = (samples as f64) < MOST * self.len() as f64 && longest <= LONGEST;
+        if !few || (samples as f64) < 1.0 + BEYOND_CHANCE * by_chance {
+            return None;
+        }
+        for row in &rows {
+            let lost: f64 = self.increments[row.clone()].iter().map(|one| one.interval).sum();
+            if let Some(after) = self.increments.get_mut(row.end) {
+                *after = after.rates().over(after.interval + lost);
+            }
+        }
+        let mut stays = vec![true; self.len()];
+        for row in &rows {
+            stays[row.clone()].fill(false);
+        }
+        let keep = |list: &mut Vec<f64>| retain(list, &stays);
+        retain(&mut self.increments, &stays);
+        keep(&mut self.times);
+        [&mut self.table_angle, &mut self.table_rate, &mut self.temperature]
+            .into_iter()
+            .flatten()
+            .for_each(keep);
+        Some(Repeats { samples, rows: rows.len(), by_chance })
+    }
+
+    /// The rows of samples that are those before them.
+    fn repeats(&self) -> Vec<Range<usize>> {
+        let mut rows: Vec<Range<usize>> = Vec::new();
+        for sample in 1..self.len() {
+            let pair = [sample - 1, sample].map(|at| readings(&self.increments[at]));
+            if !(0..6).all(|channel| same(pair, channel)) {
+                continue;
+            }
+            match rows.last_mut().filter(|row| row.end == sample) {
+                Some(row) => row.end += 1,
+                None => rows.push(sample..sample + 1),
+            }
+        }
+        rows
+    }
+
+    /// How many samples would be those before them if the channels repeated each by itself as often as they do elsewhere.
+    fn equal_by_chance(&self, rows: &[Range<usize>]) -> f64 {
+        let mut equal = [0.0; 6];
+        let mut row = 0;
+        let mut others = 0.0;
+        for sample in 1..self.len() {
+            while rows.get(row).is_some_and(|row| row.end <= sample) {
+                row += 1;
+            }
+            if rows.get(row).is_some_and(|row| row.contains(&sample)) {
+                continue;
+            }
+            others += 1.0;
+            let pair = [sample - 1, sample].map(|at| readings(&self.increments[at]));
+            for (channel, equal) in equal.iter_mut().enumerate() {
+                *equal += f64::from(u8::from(same(pair, channel)));
+            }
+        }
+        // One more of each: that none was seen does not say that there is none.
+        let all = f64::max(others, 1.0);
+        self.len() as f64 * equal.iter().map(|count| (count + 1.0) / (all + 1.0)).product::<f64>()
+    }
+}
+
+fn readings(increments: &Increments) -> [f64; 6] {
+    let rates = increments.rates();
+    let (gyro, accel) = (rates.angular_rate.components(), rates.specific_force.components());
+    [gyro.x, gyro.y, gyro.z, accel.x, accel.y, accel.z]
+}
+
+fn same([before, now]: [[f64; 6]; 2], channel: usize) -> bool {
+    let (before, now) = (before[channel], now[channel]);
+    (now - before).abs() <= ROUNDING * before.abs().max(now.abs())
+}
+
+fn retain<T>(list: &mut Vec<T>, stays: &[bool]) {
+    let mut stays = stays.iter();
+    list.retain(|_| stays.next().copied().unwrap_or(true));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_frames::InFrame;
+
+    /// Readings of which none is that before it; `coarse` ones often are, in every channel.
+    fn recording(coarse: bool) -> Recording {
+        let reading = |sample: u32, channel: u32| {
+            let x = f64::from((sample * 7919 + channel * 104_729) % 1009) / 1009.0;
+            if coarse { (1.2 * x).floor() } else { x }
+        };
+        let sample = |sample: u32| {
+            let of = |first: u32| {
+                InFrame::new(
+                    reading(sample, first),
+                    reading(sample, first + 1),
+                    reading(sample, first + 2),
+                )
+            };
+            Increments { angle: of(0), velocity: of(3), interval: 0.01 }
+        };
+        Recording {
+            times: (1..=2000).map(|at| 0.01 * f64::from(at)).collect(),
+            increments: (0..2000).map(sample).collect(),
+            table_angle: Some((0..2000).map(f64::from).collect()),
+            ..Recording::default()
+        }
+    }
+
+    #[test]
+    fn repeated_samples_become_gaps() {
+        let mut stuck = recording(false);
+        for at in [300..303, 1200..1201] {
+            for sample in at {
+                stuck.increments[sample] = stuck.increments[sample - 1];
+            }
+        }
+        let before = stuck.clone();
+        let repeats = stuck.take_out_repeats().unwrap();
+        assert_eq!((repeats.samples, repeats.rows, stuck.len()), (4, 2, 1996));
+        assert!(repeats.by_chance < 1e-6);
+        assert_eq!(stuck.table_angle.as_ref().unwrap()[300..302], [303.0, 304.0]);
+        let after = &stuck.increments[300];
+        assert!((after.interval - 0.04).abs() < 1e-12);
+        let rate = |one: &Increments| *one.rates().angular_rate.components();
+        assert!((rate(after) - rate(&before.increments[303])).norm() < 1e-12);
+        assert_eq!(stuck.take_out_repeats(), None);
+    }
+
+    #[test]
+    fn what_is_coarse_or_without_noise_does_not_repeat() {
+        let mut still = recording(false);
+        let first = still.increments[0];
+        still.increments[100..200].fill(first);
+        for mut fine in [recording(false), recording(true), still] {
+            let before = fine.clone();
+            assert_eq!(fine.take_out_repeats(), None);
+            assert_eq!(fine, before);
+        }
+    }
+}
