@@ -65,7 +65,7 @@ impl Case<'_> {
         before: &Fit,
         mut present: Fit,
         mut found: Vec<Chosen>,
-        how: Found,
+        mut how: Found,
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
         let mut changes = 0;
@@ -110,9 +110,10 @@ impl Case<'_> {
                 }
             }
             changes += 1;
+            let mut changed = found.clone();
             match change {
-                Some((index, Look::Exchange(better))) => _ = found.splice(index..=index, better),
-                Some((index, _)) => _ = found.remove(index),
+                Some((index, Look::Exchange(better))) => _ = changed.splice(index..=index, better),
+                Some((index, _)) => _ = changed.remove(index),
                 None => {
                     let (present, sought) = self.sharpened(present, &mut found)?;
                     for (index, cause) in causes.iter_mut().enumerate() {
@@ -126,7 +127,11 @@ impl Case<'_> {
                     return Ok((present, causes));
                 }
             }
-            present = self.fit_near(&present, &found)?;
+            match self.fit_near(&present, &changed) {
+                Ok(fitted) => (present, found) = (fitted, changed),
+                // Without it the model is too far from the run: what was found stays.
+                Err(_) => how = Found::Supposed,
+            }
         }
         Ok((present, Vec::new()))
     }
