@@ -66,7 +66,7 @@ pub struct Instant {
     pub rate_change: f64,
     /// Its temperature above that at the start \[K\]; zero where none is known.
     pub warming: f64,
-    /// How fast that changes, over ten seconds on either side \[K/s\].
+    /// How fast that changes, over five seconds on either side \[K/s\].
     pub warming_rate: f64,
 }
 

@@ -4,10 +4,13 @@
 ///
 /// From one sample to the next a thermometer's resolution, 0.001 K in 0.01 s, is a hundred times what a warm-up does.
 /// Heat takes longer than this to go through a sensor.
-const REACH: f64 = 10.0;
+const REACH: f64 = 5.0;
+
+/// As little as is taken near an end of the run, where there is no more on one side \[s\].
+const LEAST_REACH: f64 = 2.0;
 
 /// The slope of `values` at each of `times`, a unit of theirs a second: of the means before and after, over the
-/// [`REACH`] on either side or as much of it as there is.
+/// [`REACH`] on either side, or as much of it as there is on both.
 ///
 /// Times rise; a value that stands alone has no slope.
 pub(crate) fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
@@ -15,10 +18,12 @@ pub(crate) fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     let mean = |sums: &[f64], from: usize, to: usize| (sums[to] - sums[from]) / (to - from) as f64;
     let (mut first, mut end) = (0, 0);
     let slope = |&time: &f64| {
-        while times[first] < time - REACH {
+        let both = f64::min(time - times[0], times[times.len() - 1] - time);
+        let reach = both.clamp(LEAST_REACH, REACH);
+        while times[first] < time - reach {
             first += 1;
         }
-        while end < times.len() && times[end] <= time + REACH {
+        while end < times.len() && times[end] <= time + reach {
             end += 1;
         }
         let middle = usize::midpoint(first, end);
@@ -58,8 +63,8 @@ mod tests {
         let (times, values) = read();
         for (time, slope) in times.iter().zip(slopes(&times, &values)) {
             let rate = 4.0 / 180.0 * (-time / 180.0).exp();
-            // At the ends the slope is that of the ten seconds there.
-            let allowed = if (10.0..350.0).contains(time) { 0.01 } else { 0.04 };
+            // At the ends the slope is that of the two seconds there.
+            let allowed = if (10.0..350.0).contains(time) { 0.01 } else { 0.03 };
             assert!((slope - rate).abs() < allowed * rate, "{time}: {slope}, {rate}");
         }
     }
