@@ -51,7 +51,26 @@ pub(super) fn suspicions(
         let cut = range.and_then(|range| saturated(&readings, range, name, recording));
         found.extend(cut.or_else(|| flat_top(&readings, stands, name, recording)));
     }
+    if is_jolt(&found) {
+        found.retain(|one| !matches!(one, Suspicion::Spike { .. }));
+    }
     found
+}
+
+/// Whether the only spikes are those of the gyros across the axis, at the same samples: the base tips over in an instant.
+/// What spoils a line of a log, or a sensor, spoils others or one alone.
+fn is_jolt(found: &[Suspicion]) -> bool {
+    let spikes = found.iter().filter_map(|one| match *one {
+        Suspicion::Spike { channel, count, time, .. } => Some((channel, count, time)),
+        _ => None,
+    });
+    match spikes.collect::<Vec<_>>()[..] {
+        [(x, x_count, x_time), (y, y_count, y_time)] => {
+            let across = x == CHANNELS[0] && y == CHANNELS[1];
+            across && x_count == y_count && (x_time - y_time).abs() <= f64::EPSILON * x_time.abs()
+        }
+        _ => false,
+    }
 }
 
 pub(super) fn longest_repeat(readings: &[f64]) -> usize {

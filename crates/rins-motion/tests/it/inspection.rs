@@ -126,6 +126,19 @@ fn spikes_are_found_in_each_channel() {
     }
 }
 
+/// A base that tips over within a sample turns both gyros across the axis, once.
+#[test]
+fn base_that_tips_over_is_no_spike() {
+    for (shown, spikes) in [([100.0, -60.0, 0.0], 0), ([100.0, 0.0, -60.0], 2)] {
+        let mut recording = record(usual(), NAVIGATION, 4);
+        let pulse = Vector3::from(shown) * INTERVAL;
+        recording.increments[1000].angle += InFrame::from_components(pulse);
+        let found = inspect(&recording, &expected(NAVIGATION)).suspicions;
+        let count = found.iter().filter(|one| matches!(one, Suspicion::Spike { .. })).count();
+        assert_eq!(count, spikes, "{found:?}");
+    }
+}
+
 /// Turned by hand, set down with a knock, and picked up again: none of it is a spike.
 #[test]
 fn motion_by_hand_is_no_spike() {
