@@ -20,8 +20,8 @@ const MEDIAN: f64 = 0.48;
 /// The part of the false alarms that fast lines may cause: they are one effect of many.
 const SHARE: f64 = 0.1;
 
-/// An interval of more than so many mean ones has samples missing from it.
-const LONGEST: f64 = 1.5;
+/// The gyro about the spin axis, which is seen against the encoder.
+pub(crate) const ABOUT_AXIS: usize = 2;
 
 /// The most fast lines that are looked for in a run.
 const MOST: usize = 4;
@@ -85,8 +85,7 @@ pub(crate) fn residuals(run: &Run, fit: &Fit, of: usize) -> [Vec<f64>; CHANNELS]
     };
     let mut before: Option<f64> = None;
     let samples = &run.recording.increments;
-    let lasting: f64 = samples.iter().map(|sample| sample.interval).sum();
-    let longest = LONGEST * lasting / samples.len() as f64;
+    let longest = run.recording.longest_interval();
     for (index, (moment, sample)) in fit.linear[of].track().moments().zip(samples).enumerate() {
         let predicted = fit.models[of].signals(&moment);
         let rates = sample.rates();

@@ -1,6 +1,8 @@
 //! Random errors that are not as the data sheet says.
 
-use rins_estimation::{Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths};
+use rins_estimation::{
+    Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths, TriadStrengths,
+};
 use rins_motion::Repeats;
 use rins_terms::{Free, Term, catalogue};
 
@@ -29,6 +31,11 @@ enum Colour {
     Walk,
 }
 
+/// The gyros' strengths, which are the first, or the accelerometers'.
+pub(crate) fn triad(strengths: &mut Strengths, which: usize) -> &mut TriadStrengths {
+    if which == 0 { &mut strengths.gyro } else { &mut strengths.accel }
+}
+
 /// A strength of one triad.
 struct Strength {
     term: &'static Term,
@@ -48,7 +55,7 @@ const STRENGTHS: [Strength; 6] = [
 
 impl Strength {
     fn slot<'a>(&self, strengths: &'a mut Strengths) -> &'a mut f64 {
-        let triad = if self.triad == 0 { &mut strengths.gyro } else { &mut strengths.accel };
+        let triad = triad(strengths, self.triad);
         match self.colour {
             Colour::White => &mut triad.white,
             Colour::Flicker => &mut triad.flicker,

@@ -10,16 +10,13 @@ use crate::case::{Case, WEAKER};
 use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
 use crate::levels::{Path, two_levels};
-use crate::lines::residuals;
+use crate::lines::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
 use crate::unexplained::{Unexplained, worst};
 
 /// The biases that may switch.
 const BIASES: [&str; 6] =
     ["gyro.bias.x", "gyro.bias.y", "gyro.bias.z", "accel.bias.x", "accel.bias.y", "accel.bias.z"];
-
-/// The gyro about the spin axis, which is seen against the encoder.
-const ABOUT_AXIS: usize = 2;
 
 /// Over how many epochs rates are made of an encoder's readings.
 const OVER: [usize; 4] = [2, 4, 8, 16];

@@ -7,7 +7,7 @@ use rins_estimation::Fit;
 use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
-use crate::lines::residuals;
+use crate::lines::{ABOUT_AXIS, residuals};
 use crate::probability::ln_tail;
 use crate::structure::Structure;
 use crate::unexplained::Unexplained;
@@ -20,9 +20,6 @@ const SLIGHT: f64 = 0.2;
 
 /// An encoder that repeats more than one reading in so many is too coarse to show noise.
 const MOST_REPEATS: usize = 20;
-
-/// The gyro about the spin axis, which is seen against the encoder.
-const ABOUT_AXIS: usize = 2;
 
 /// The six sensors of a run.
 const SENSORS: f64 = 6.0;

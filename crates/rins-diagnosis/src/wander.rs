@@ -5,6 +5,7 @@ use rins_terms::{Chosen, Term, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::{Diagnosis, DiagnosisError, Rival};
+use crate::noise::triad;
 use crate::settling::RIVALS;
 use crate::structure::Structure;
 
@@ -29,10 +30,6 @@ const WALKS: [&Term; 2] = [&catalogue::GYRO_RATE_RANDOM_WALK, &catalogue::ACCEL_
 
 /// The triads by what their effects and channels begin with.
 const TRIADS: [&str; 2] = ["gyro", "accel"];
-
-fn triad(strengths: &mut Strengths, which: usize) -> &mut TriadStrengths {
-    [&mut strengths.gyro, &mut strengths.accel].into_iter().nth(which).expect("there are two")
-}
 
 /// Slow effects, and how much better a walk of the biases explains the run.
 struct Instead {
@@ -67,7 +64,8 @@ impl Case<'_> {
                 continue;
             }
             for &place in slow {
-                found.causes[place].rivals.push(walk(*which, *odds));
+                let (term, settings) = (WALKS[*which], Vec::new());
+                found.causes[place].rivals.push(Rival { term, settings, odds: *odds });
             }
         }
         if walking.walks == self.walks {
@@ -128,8 +126,4 @@ impl Case<'_> {
         let gained = walked.log_likelihood - found.after.log_likelihood;
         Some(Instead { triad: which, odds: gained + CHOSEN * slow.len() as f64 - WALKED, slow })
     }
-}
-
-fn walk(which: usize, odds: f64) -> Rival {
-    Rival { term: WALKS[which], settings: Vec::new(), odds }
 }

@@ -6,9 +6,6 @@ use rins_motion::Recording;
 
 use crate::linear::Epoch;
 
-/// An interval longer than this many mean ones has samples missing from it.
-const LONG: f64 = 1.5;
-
 /// At least so many samples on either side say how much the motion changes from one to the next.
 const FEWEST_AROUND: usize = 3;
 
@@ -30,9 +27,8 @@ pub(crate) struct Held {
 /// Tells every epoch what is not known of it for want of samples.
 pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
     let samples = &recording.increments;
-    let total: f64 = samples.iter().map(|sample| sample.interval).sum();
-    let usual = total / samples.len() as f64;
-    let long = samples.iter().enumerate().filter(|(_, one)| one.interval > LONG * usual);
+    let (usual, longest) = (recording.mean_interval(), recording.longest_interval());
+    let long = samples.iter().enumerate().filter(|(_, one)| one.interval > longest);
     for (sample, increments) in long {
         let Some(epoch) = epochs.get_mut(epochs.partition_point(|e| e.samples.1 <= sample)) else {
             continue;

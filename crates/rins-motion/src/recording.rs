@@ -2,6 +2,9 @@
 
 use rins_frames::Increments;
 
+/// In an interval that is longer than so many mean ones there are samples missing.
+const LONGEST: f64 = 1.5;
+
 /// The samples of one run, in order of time, all in SI units.
 ///
 /// Sample `k` covers the interval that ends at `times[k]`. Every list is as long as `times`.
@@ -28,6 +31,17 @@ impl Recording {
     /// Whether there is no sample.
     pub fn is_empty(&self) -> bool {
         self.times.is_empty()
+    }
+
+    /// How long a sample is in the mean \[s\].
+    pub fn mean_interval(&self) -> f64 {
+        let total: f64 = self.increments.iter().map(|sample| sample.interval).sum();
+        total / self.increments.len() as f64
+    }
+
+    /// The longest interval from which no sample is missing \[s\].
+    pub fn longest_interval(&self) -> f64 {
+        LONGEST * self.mean_interval()
     }
 
     /// The samples from index `first` up to, not including, `end`.
