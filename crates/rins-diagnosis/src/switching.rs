@@ -10,7 +10,7 @@ use crate::case::{Case, WEAKER};
 use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
 use crate::levels::{Path, two_levels};
-use crate::lines::{ABOUT_AXIS, residuals};
+use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
 use crate::unexplained::{Unexplained, worst};
 

@@ -7,8 +7,8 @@ use rins_estimation::Fit;
 use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
-use crate::lines::{ABOUT_AXIS, residuals};
 use crate::probability::ln_tail;
+use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
 use crate::unexplained::Unexplained;
 

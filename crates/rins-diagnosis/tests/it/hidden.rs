@@ -78,44 +78,6 @@ fn a_random_walk_is_named_with_its_density() {
     }
 }
 
-/// Lines slower and faster than an epoch, and a base that sways: each at its frequency.
-#[test]
-fn lines_are_found_at_their_frequency() {
-    let line = |frequency: f64, values: &[f64]| {
-        Chosen::new(&catalogue::INTERFERENCE_LINE)
-            .with_setting("frequency", frequency)
-            .with_setting("axis", 2.0)
-            .with_values(values)
-    };
-    let sway = Chosen::new(&catalogue::BASE_SWAY).with_setting("frequency", 0.21).with_values(&[
-        0.3 * ARCSEC,
-        0.0,
-        0.0,
-        0.2 * ARCSEC,
-    ]);
-    let amplitude = 0.03 * DEG_PER_HOUR;
-    let slow = line(0.137, &[amplitude, 0.0, 0.0, 0.0]);
-    let fast = line(7.31, &[0.0, 2.0 * amplitude, 0.0, 0.0]);
-    for (seed, (chosen, first)) in
-        [(slow, amplitude), (fast, 0.0), (sway, 0.3 * ARCSEC)].into_iter().enumerate()
-    {
-        let frequency = chosen.settings[0];
-        let id = chosen.term.id;
-        let hidden = Model { terms: vec![chosen] };
-        let diagnosis = found(&run(&RATES, hidden, 0.0, seed as u64 + 200), NoiseKnowledge::Likely);
-        let [cause] = &diagnosis.causes[..] else {
-            panic!("{id} {frequency}: {:?}", diagnosis.causes)
-        };
-        assert_eq!(cause.term.id, id);
-        assert!((cause.settings[0] - frequency).abs() < 5e-4, "{id}: {:?}", cause.settings);
-        let estimate = &cause.parameters[0];
-        let off = (estimate.value - first) / estimate.sigma;
-        // The frequency is found with the amplitude, and turns its phase.
-        assert!(off.abs() < 6.0, "{id}: {off} sigma");
-        assert!(diagnosis.unexplained.is_empty(), "{id}: {:?}", diagnosis.unexplained);
-    }
-}
-
 #[test]
 fn two_effects_are_both_found() {
     let effects = hiding(&[

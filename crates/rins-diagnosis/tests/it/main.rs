@@ -3,5 +3,6 @@
 
 mod gain;
 mod hidden;
+mod lines;
 mod outside;
 mod support;

@@ -1,0 +1,84 @@
+//! Lines, slower and faster than an epoch, of a sensor and of the base.
+
+use rins_diagnosis::{Cause, Diagnosis};
+use rins_estimation::NoiseKnowledge;
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
+use rins_terms::{Chosen, Model, catalogue};
+
+use crate::hidden::{RATES, found};
+use crate::support::run;
+
+fn line(frequency: f64, axis: f64, values: &[f64]) -> Chosen {
+    Chosen::new(&catalogue::INTERFERENCE_LINE)
+        .with_setting("frequency", frequency)
+        .with_setting("axis", axis)
+        .with_values(values)
+}
+
+fn sway(frequency: f64, values: &[f64]) -> Chosen {
+    Chosen::new(&catalogue::BASE_SWAY).with_setting("frequency", frequency).with_values(values)
+}
+
+fn hiding(terms: &[Chosen], rates: &[f64], seed: u64) -> Diagnosis {
+    let hidden = Model { terms: terms.to_vec() };
+    found(&run(rates, hidden, 0.0, seed), NoiseKnowledge::Likely)
+}
+
+/// That the frequency of a cause and all its amplitudes are these, within their sigmas.
+fn assert_is(cause: &Cause, truth: &Chosen) {
+    assert_eq!(cause.term.id, truth.term.id);
+    assert_eq!(cause.settings[1..], truth.settings[1..], "{cause:?}");
+    let (place, sigma) = cause.sought.unwrap();
+    let off = (cause.settings[place] - truth.settings[place]) / sigma;
+    assert!(off.abs() < 4.0 && sigma < 1e-3, "{off} sigma of {sigma} Hz");
+    for estimate in &cause.parameters {
+        let off = (estimate.value - truth.values[estimate.parameter.parameter]) / estimate.sigma;
+        assert!(off.abs() < 4.0, "{}: {off} sigma", estimate.parameter.id);
+    }
+}
+
+#[test]
+fn lines_are_found_at_their_frequency() {
+    let rate = 0.03 * DEG_PER_HOUR;
+    let hidden = [
+        line(0.137, 2.0, &[rate, 0.0, 0.0, 0.0]),
+        line(7.31, 2.0, &[0.0, 2.0 * rate, 0.0, 0.0]),
+        sway(0.21, &[0.3 * ARCSEC, 0.0, 0.0, 0.2 * ARCSEC]),
+        // An epoch shows these at 0.3 Hz, if at all.
+        sway(2.3, &[0.05 * ARCSEC, 0.0, 0.0, -0.05 * ARCSEC]),
+        sway(2.3, &[0.01 * ARCSEC, 0.06 * ARCSEC, 0.0, 0.0]),
+        // One cause on both sensors of an axis.
+        line(5.77, 1.0, &[2.0 * rate, 0.0, 0.0, 60.0 * MICRO_G]),
+    ];
+    for (seed, chosen) in hidden.iter().enumerate() {
+        let diagnosis = hiding(std::slice::from_ref(chosen), &RATES, seed as u64 + 200);
+        let [cause] = &diagnosis.causes[..] else { panic!("{chosen:?}: {:?}", diagnosis.causes) };
+        assert_is(cause, chosen);
+        assert!(cause.rivals.is_empty(), "{:?}", cause.rivals);
+        assert!(diagnosis.unexplained.is_empty(), "{chosen:?}: {:?}", diagnosis.unexplained);
+    }
+}
+
+/// A term is of one axis: the same line on two of them is two causes, and no base that sways.
+#[test]
+fn line_on_two_axes_is_no_sway() {
+    let rate = 0.05 * DEG_PER_HOUR;
+    let both =
+        [1.0, 2.0].map(|axis| line(6.2, axis, &[rate / axis, 0.0, 0.0, 80.0 * MICRO_G * axis]));
+    let mut diagnosis = hiding(&both, &RATES, 210);
+    diagnosis.causes.sort_by(|a, b| a.settings[1].total_cmp(&b.settings[1]));
+    let [x, y] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_is(x, &both[0]);
+    assert_is(y, &both[1]);
+}
+
+/// On a table that stands still the gyros do not tell a base that sways from a line in them.
+#[test]
+fn sway_of_a_table_at_rest_may_be_a_line() {
+    let swaying = sway(3.3, &[0.0, 0.1 * ARCSEC, 0.0, 0.0]);
+    let diagnosis = hiding(&[swaying], &[0.0; 7], 211);
+    assert!(!diagnosis.causes.is_empty());
+    for cause in &diagnosis.causes {
+        assert!(cause.rivals.iter().any(|rival| rival.term.id == "base_sway"), "{cause:?}");
+    }
+}
