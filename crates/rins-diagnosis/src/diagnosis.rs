@@ -4,6 +4,7 @@ use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
 use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Term};
 
+use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::disturbance;
@@ -187,6 +188,15 @@ impl Case<'_> {
             unknown.iter().map(|cause| described(cause, &after)).collect();
         unexplained.extend(case.unexplained((before, &after), &causes)?);
         causes.extend(fast.iter().map(|(_, cause)| cause.clone()));
+        let (mut causes, bursts) = gathered(causes, case.duration());
+        let known = |burst: &Unexplained| {
+            let alike = |one: &Unexplained| {
+                (one.run, one.of, one.structure) == (burst.run, burst.of, burst.structure)
+            };
+            unexplained.iter().any(alike)
+        };
+        let bursts: Vec<Unexplained> = bursts.into_iter().filter(|burst| !known(burst)).collect();
+        unexplained.extend(bursts);
         causes.extend(case.noise_causes(&after, unexplained.is_empty())?);
         causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         let not_testable = not_testable.unwrap_or_default();

@@ -20,6 +20,7 @@ mod diagnosis;
 mod settling;
 mod sought;
 
+mod bursts;
 mod disturbance;
 mod levels;
 mod limits;

@@ -140,6 +140,12 @@ impl Case<'_> {
     /// The causes that are not the same all along.
     fn inconstant(&self, after: &Fit, causes: &[Cause]) -> Result<Vec<Unexplained>, Indefinite> {
         let ways = [Along::Time, Along::Sense, Along::Rate];
+        // All of one term are asked together.
+        let first = |(place, cause): &(usize, &Cause)| {
+            causes[..*place].iter().all(|earlier| earlier.term.id != cause.term.id)
+        };
+        let causes: Vec<&Cause> =
+            causes.iter().enumerate().filter(first).map(|(_, cause)| cause).collect();
         let tests = (causes.len() * self.runs.len() * ways.len()) as f64;
         let mut found = Vec::new();
         for cause in causes {

@@ -1,11 +1,12 @@
-//! Lines, slower and faster than an epoch, of a sensor and of the base.
+//! Lines, slower and faster than an epoch: of a sensor, of the base, and such as come and go.
 
-use rins_diagnosis::{Cause, Diagnosis};
+use rins_diagnosis::{Along, Cause, Diagnosis, Structure};
 use rins_estimation::NoiseKnowledge;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::hidden::{RATES, found};
+use crate::outside::with;
 use crate::support::run;
 
 fn line(frequency: f64, axis: f64, values: &[f64]) -> Chosen {
@@ -81,4 +82,43 @@ fn sway_of_a_table_at_rest_may_be_a_line() {
     for cause in &diagnosis.causes {
         assert!(cause.rivals.iter().any(|rival| rival.term.id == "base_sway"), "{cause:?}");
     }
+}
+
+/// Whether something of the catalogue was found that is not the same all along the time.
+fn changes(diagnosis: &Diagnosis) -> bool {
+    let along_time = Structure::Inconstant(Along::Time);
+    diagnosis.unexplained.iter().any(|one| one.structure == along_time)
+}
+
+/// A line that is there in every other ninth of the run only stands between sidebands.
+#[test]
+fn line_that_comes_and_goes_is_one() {
+    let height = 0.2 * DEG_PER_HOUR;
+    for (seed, frequency) in [(220, 0.73), (221, 4.41)] {
+        let run = with(0.0, seed, |time| {
+            let is_there = (time / 39.0).floor() % 2.0 > 0.5;
+            let rate = if is_there { height } else { 0.0 };
+            ([0.0, rate * (std::f64::consts::TAU * frequency * time).sin(), 0.0], [0.0; 3])
+        });
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let [cause] = &diagnosis.causes[..] else {
+            panic!("{frequency}: {:?} {:?}", diagnosis.causes, diagnosis.unexplained)
+        };
+        assert_eq!(cause.term.id, "interference_line");
+        assert!((cause.settings[0] - frequency).abs() < 1e-3, "{:?}", cause.settings);
+        assert!(changes(&diagnosis), "{frequency}: {:?}", diagnosis.unexplained);
+    }
+}
+
+/// Two lines near each other beat: they are two, and the same all along.
+#[test]
+fn lines_that_beat_are_two() {
+    let height = 0.1 * DEG_PER_HOUR;
+    let both = [4.41, 4.47].map(|frequency| line(frequency, 2.0, &[height, 0.0, 0.0, 0.0]));
+    let mut diagnosis = hiding(&both, &RATES, 222);
+    diagnosis.causes.sort_by(|a, b| a.settings[0].total_cmp(&b.settings[0]));
+    let [low, high] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_is(low, &both[0]);
+    assert_is(high, &both[1]);
+    assert!(!changes(&diagnosis), "{:?}", diagnosis.unexplained);
 }

@@ -12,7 +12,7 @@ use crate::hidden::{RATES, found};
 use crate::support::run;
 
 /// A clean run with something more in each sample, told from the time since its start \[s\]: rates \[rad/s\], forces \[m/s²\].
-fn with(flicker: f64, seed: u64, added: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> Run {
+pub(crate) fn with(flicker: f64, seed: u64, added: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> Run {
     let mut run = run(&RATES, Model::default(), flicker, seed);
     let times = run.recording.times.clone();
     for (sample, time) in Arc::make_mut(&mut run.recording).increments.iter_mut().zip(&*times) {
