@@ -37,6 +37,7 @@
 )]
 
 mod alignment;
+mod comb;
 mod fine_alignment;
 mod inspection;
 pub mod mechanism;
@@ -51,6 +52,7 @@ mod turntable;
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
+pub use comb::{Comb, Combs};
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,

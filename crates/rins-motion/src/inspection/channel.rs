@@ -2,6 +2,7 @@
 
 use super::suspicion::Suspicion;
 use super::{CHANNELS, Expected};
+use crate::comb::comb;
 use crate::recording::Recording;
 
 /// A spike is so many times the robust scatter of the differences between neighbours ...
@@ -22,9 +23,6 @@ const MOST_REPEATS: f64 = 0.2;
 
 /// The shortest run of equal readings that is a flat top.
 const SHORTEST_TOP: usize = 5;
-
-/// Half of the steps between distinct readings are at most so many times the resolution.
-const USUAL_STEPS: f64 = 10.0;
 
 /// The mistakes that the six channels show, one at a time. `stands` tells which samples are at rest.
 pub(super) fn suspicions(
@@ -77,29 +75,14 @@ pub(super) fn longest_repeat(readings: &[f64]) -> usize {
     runs(readings).map(|(_, length)| length).max().unwrap_or_default()
 }
 
-/// The least step between distinct readings, if most readings are shared by several samples and
-/// every step is a multiple of it.
+/// The distance of the teeth of a comb on which readings stand, if most teeth are shared by several samples: the digits of a
+/// log are no sensor's.
 pub(super) fn resolution(readings: &[f64]) -> Option<f64> {
+    let step = comb(readings)?.step;
     let mut sorted = readings.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let range = sorted.last()? - sorted.first()?;
-    // Readings that differ by rounding only are one.
-    let same = 1e-9 * range;
-    let mut steps: Vec<f64> =
-        sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > same).collect();
-    if steps.is_empty() || (steps.len() + 1) * 4 >= readings.len() {
-        return None;
-    }
-    steps.sort_unstable_by(f64::total_cmp);
-    let least = steps[0];
-    // Of decimals that were rounded to so many digits, the least step is not a sensor's.
-    let dense = steps[steps.len() / 2] <= USUAL_STEPS * least;
-    let multiple = |step: &f64| {
-        let count = step / least;
-        // The rounding of the least step itself grows with the count.
-        count > 100.0 || (count - count.round()).abs() < 0.01 + 1e-3 * count
-    };
-    (dense && steps.iter().all(multiple)).then_some(least)
+    let teeth = 1 + sorted.windows(2).filter(|pair| pair[1] - pair[0] > 0.5 * step).count();
+    (4 * teeth < readings.len()).then_some(step)
 }
 
 /// Each run of equal readings: its start and its length.

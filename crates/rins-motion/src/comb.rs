@@ -1,0 +1,145 @@
+//! Readings that stand on a comb: the least bit of a sensor, or the last digit of a log.
+
+use rins_frames::Increments;
+
+use crate::recording::Recording;
+
+/// Readings are the same if they differ by no more than this part of the largest.
+const ROUNDING: f64 = 1e-9;
+
+/// A comb is looked for in so many samples: those after them stand on the same.
+const ENOUGH: usize = 100_000;
+
+/// The fewest readings that differ from the one before.
+const FEWEST: usize = 6;
+
+/// So many of the smallest differences may be no tooth of the comb.
+const ODD: usize = 5;
+
+/// How far a difference may be from a whole number of teeth, and how many may be further.
+const OFF: f64 = 0.05;
+const MOST_OFF: f64 = 0.02;
+
+/// The distance of the teeth is found from differences of no more than so many, one after the other: a wrong distance
+/// miscounts the many.
+const TEETH: [f64; 4] = [2.0, 10.0, 100.0, 1e4];
+
+/// The distance of the teeth is known no better than this part of it: to the digits of a log.
+const DIGITS: f64 = 1e-9;
+
+/// How far the teeth of a comb are apart on which readings stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comb {
+    /// The distance.
+    pub step: f64,
+    /// Its 1σ.
+    pub sigma: f64,
+    /// The logarithm of the probability that readings off any comb lie as they do.
+    pub ln_p: f64,
+}
+
+/// On which comb the readings of a sensor stand, if on any: where samples are even, its increments and its rates do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Combs {
+    /// That of its increments \[rad or m/s\].
+    pub increments: Option<Comb>,
+    /// That of its mean rates or forces \[rad/s or m/s²\].
+    pub rates: Option<Comb>,
+}
+
+impl Recording {
+    /// The combs of the three gyros and the three accelerometers.
+    pub fn combs(&self) -> [Combs; 6] {
+        let samples = &self.increments[..self.len().min(ENOUGH)];
+        std::array::from_fn(|channel| {
+            let reading = |sample: &Increments| {
+                let triad = if channel < 3 { &sample.angle } else { &sample.velocity };
+                triad.components()[channel % 3]
+            };
+            let increments: Vec<f64> = samples.iter().map(reading).collect();
+            let rates: Vec<f64> =
+                samples.iter().map(|sample| reading(sample) / sample.interval).collect();
+            Combs { increments: comb(&increments), rates: comb(&rates) }
+        })
+    }
+}
+
+/// The comb on which all but a few of `readings` stand, wherever its first tooth is.
+pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
+    let largest = readings.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let differences = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let mut apart: Vec<f64> = differences.filter(|apart| *apart > ROUNDING * largest).collect();
+    let odd = ODD.min(apart.len() / 100);
+    if apart.len() < FEWEST {
+        return None;
+    }
+    let (_, &mut smallest, _) = apart.select_nth_unstable_by(odd, f64::total_cmp);
+    let off = |apart: f64, step: f64| apart / step - (apart / step).round();
+    let mut step = smallest;
+    let mut sigma = f64::INFINITY;
+    for most in TEETH {
+        let counted = apart.iter().filter(|apart| {
+            (0.5..most + 0.5).contains(&(*apart / step)) && off(**apart, step).abs() < 2.0 * OFF
+        });
+        let (mut squares, mut across, mut left, mut count) = (0.0, 0.0, 0.0, 0.0);
+        for &apart in counted {
+            let teeth = (apart / step).round();
+            squares += teeth * teeth;
+            across += teeth * apart;
+            left += (step * off(apart, step)).powi(2);
+            count += 1.0;
+        }
+        if count == 0.0 {
+            return None;
+        }
+        step = across / squares;
+        sigma = (left / count / squares).sqrt();
+    }
+    let stands = apart.iter().filter(|apart| off(**apart, step).abs() < OFF).count() as f64;
+    let share = stands / apart.len() as f64;
+    // Of differences off any comb a share of 2 OFF is as near to a tooth: Chernoff's bound.
+    let by_chance = 2.0 * OFF;
+    let rest =
+        if share < 1.0 { (1.0 - share) * ((1.0 - share) / (1.0 - by_chance)).ln() } else { 0.0 };
+    let ln_p = -(apart.len() as f64) * (share * (share / by_chance).ln() + rest);
+    (share >= 1.0 - MOST_OFF).then_some(Comb { step, sigma: sigma.max(DIGITS * step), ln_p })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Readings that no comb holds: an irrational number times squares, without its whole part.
+    fn readings() -> Vec<f64> {
+        let of = |k: u32| 40.0 + 3.0 * (f64::from(k * k) * 0.618_033_988_749_895).fract();
+        (0..5000).map(of).collect()
+    }
+
+    #[test]
+    fn distance_of_the_teeth_is_found_to_the_digits_of_the_log() {
+        for step in [0.3, 1.7] {
+            let on_comb = readings().into_iter().map(|x| 0.11 + step * (x / step).round());
+            // As a log of ten digits has them.
+            let found = comb(&on_comb.map(|x| (x * 1e8).round() / 1e8).collect::<Vec<_>>());
+            let Comb { step: found, sigma, ln_p } = found.unwrap();
+            assert!((found - step).abs() < 4.0 * sigma, "{found} {sigma}");
+            assert!(sigma < 1e-6 && ln_p < -100.0, "{sigma} {ln_p}");
+        }
+    }
+
+    #[test]
+    fn a_few_readings_off_the_comb_do_not_hide_it() {
+        let mut on_comb: Vec<f64> = readings().iter().map(|x| 0.5 * (x / 0.5).round()).collect();
+        for k in 1..4 {
+            on_comb[1000 * k] += 0.123;
+        }
+        assert!((comb(&on_comb).unwrap().step - 0.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_is_fine_or_never_changes_stands_on_no_comb() {
+        assert_eq!(comb(&readings()), None);
+        assert_eq!(comb(&[1.0; 1000]), None);
+        assert_eq!(comb(&[]), None);
+    }
+}
