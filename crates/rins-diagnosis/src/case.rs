@@ -1,12 +1,15 @@
 //! The question put to some runs, and how an answer is tried.
 
 use nalgebra::DMatrix;
-use rins_estimation::{Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, fit, fit_near};
+use rins_estimation::{
+    Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, Strengths, fit, fit_near,
+};
 use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Role};
 
 use crate::candidates::{Candidate, duration};
 use crate::probability::ln_tail;
+use crate::rounding::Rounding;
 use crate::score::USUAL;
 use crate::survey::{RunNoise, Survey};
 use crate::trial::{Context, Trial, trials};
@@ -33,8 +36,28 @@ pub(crate) struct Case<'a> {
     pub(crate) given: &'a Model,
     pub(crate) imu: &'a ImuSpec,
     pub(crate) knowledge: NoiseKnowledge,
-    /// Whether the biases of gyros and of accelerometers walk at random though the sheet says nothing of it.
-    pub(crate) walks: [bool; 2],
+    /// What the sheet says of the noise; `knowledge` may ask for more.
+    pub(crate) sheet: Strengths,
+    /// In how coarse steps the sensors read.
+    pub(crate) rounding: &'a Rounding,
+}
+
+impl<'a> Case<'a> {
+    pub(crate) fn new(
+        runs: &'a [Run],
+        given: &'a Model,
+        imu: &'a ImuSpec,
+        knowledge: NoiseKnowledge,
+        rounding: &'a Rounding,
+    ) -> Self {
+        Self { runs, given, imu, knowledge, sheet: *stated(&knowledge), rounding }
+    }
+}
+
+/// What a sheet says of the noise.
+pub(crate) fn stated(knowledge: &NoiseKnowledge) -> &Strengths {
+    let (NoiseKnowledge::Given(sheet) | NoiseKnowledge::Likely(sheet)) = knowledge;
+    sheet
 }
 
 impl Case<'_> {
@@ -194,6 +217,7 @@ fn mixed(one: &Noise, other: &Noise, part: f64) -> Noise {
         to.flicker = mix(to.flicker, from.flicker);
         to.walk = mix(to.walk, from.walk);
     }
+    mixed.imu.jitter = mix(one.imu.jitter, other.imu.jitter);
     mixed.wobble = mix(one.wobble, other.wobble);
     mixed.encoder = mix(one.encoder, other.encoder);
     mixed.velocity = mix(one.velocity, other.velocity);

@@ -6,8 +6,9 @@ use rins_terms::{Chosen, Model, Term};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
-use crate::case::Case;
+use crate::case::{Case, stated};
 use crate::disturbance;
+use crate::rounding::Rounding;
 use crate::settling::Found;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, trials};
@@ -104,8 +105,10 @@ pub fn diagnose(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
-    let case = Case { runs, given: model, imu, knowledge, walks: [false; 2] };
+    let rounding = Rounding::of(runs, stated(&knowledge));
+    let case = Case::new(runs, model, imu, knowledge, &rounding);
     let found = case.searched(&mut progress)?;
+    let (case, found) = case.read_unevenly(found, |uneven| uneven.searched(&mut progress))?;
     case.wandering(found, |walking| walking.searched(&mut progress))
 }
 
@@ -187,6 +190,8 @@ impl Case<'_> {
         let mut unexplained: Vec<Unexplained> =
             unknown.iter().map(|cause| described(cause, &after)).collect();
         unexplained.extend(case.unexplained((before, &after), &causes)?);
+        unexplained.retain(|left| !self.rounding.explains(left));
+        causes.extend(self.quantisation(&after));
         causes.extend(fast.iter().map(|(_, cause)| cause.clone()));
         let (mut causes, bursts) = gathered(causes, case.duration());
         let known = |burst: &Unexplained| {
@@ -218,7 +223,8 @@ pub fn suppose(
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Diagnosis, DiagnosisError> {
-    let case = Case { runs, given: model, imu, knowledge, walks: [false; 2] };
+    let rounding = Rounding::of(runs, stated(&knowledge));
+    let case = Case::new(runs, model, imu, knowledge, &rounding);
     let before = case.fit()?;
     let found = supposed.to_vec();
     let present = case.fit_near(&before, &found)?;

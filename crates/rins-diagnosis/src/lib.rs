@@ -28,11 +28,13 @@ mod lines;
 mod noise;
 mod periodic;
 mod residuals;
+mod rounding;
 mod sinusoid;
 mod spectrum;
 mod structure;
 mod switching;
 mod tails;
+mod uneven;
 mod unexplained;
 mod wander;
 

@@ -31,8 +31,15 @@ impl Case<'_> {
             let mut model = fit.models[run].clone();
             while found.len() < earlier + MOST {
                 let track = fit.linear[run].track();
+                let mut of_sensors = beyond(recorded, track, &model);
+                // Rounding makes lines that are not there.
+                for (channel, values) in of_sensors.iter_mut().enumerate() {
+                    if self.rounding.is_coarse(run, channel) {
+                        values.fill(0.0);
+                    }
+                }
                 let readings = Readings {
-                    of_sensors: beyond(recorded, track, &model),
+                    of_sensors,
                     run: recorded,
                     slowest: 0.5 / fit.linear[run].mean_epoch(),
                 };

@@ -20,15 +20,18 @@ const FLICKER: f64 = 2.0;
 /// The step, as a logarithm, by which the likelihood's curvature is found.
 const STEP: f64 = 0.1;
 
-/// The share of a walk that was found, of which a sheet says nothing, that is as good as none.
-const NO_WALK: f64 = 0.01;
+/// The share of a walk or a jitter that was found, of which a sheet says nothing, that is as good as none.
+const AS_GOOD_AS_NONE: f64 = 0.01;
 
-/// The colours of noise.
+/// The kinds of noise.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Colour {
-    White,
-    Flicker,
-    Walk,
+enum Kind {
+    /// Of one triad: the gyros, the accelerometers.
+    White(usize),
+    Flicker(usize),
+    Walk(usize),
+    /// Of the moments at which the encoder is read.
+    Jitter,
 }
 
 /// The gyros' strengths, which are the first, or the accelerometers'.
@@ -36,30 +39,29 @@ pub(crate) fn triad(strengths: &mut Strengths, which: usize) -> &mut TriadStreng
     if which == 0 { &mut strengths.gyro } else { &mut strengths.accel }
 }
 
-/// A strength of one triad.
+/// One strength of the noise.
 struct Strength {
     term: &'static Term,
-    /// Which triad: the gyros, the accelerometers.
-    triad: usize,
-    colour: Colour,
+    kind: Kind,
 }
 
-const STRENGTHS: [Strength; 6] = [
-    Strength { term: &catalogue::GYRO_NOISE_LEVEL, triad: 0, colour: Colour::White },
-    Strength { term: &catalogue::GYRO_BIAS_INSTABILITY, triad: 0, colour: Colour::Flicker },
-    Strength { term: &catalogue::GYRO_RATE_RANDOM_WALK, triad: 0, colour: Colour::Walk },
-    Strength { term: &catalogue::ACCEL_NOISE_LEVEL, triad: 1, colour: Colour::White },
-    Strength { term: &catalogue::ACCEL_BIAS_INSTABILITY, triad: 1, colour: Colour::Flicker },
-    Strength { term: &catalogue::ACCEL_RATE_RANDOM_WALK, triad: 1, colour: Colour::Walk },
+const STRENGTHS: [Strength; 7] = [
+    Strength { term: &catalogue::GYRO_NOISE_LEVEL, kind: Kind::White(0) },
+    Strength { term: &catalogue::GYRO_BIAS_INSTABILITY, kind: Kind::Flicker(0) },
+    Strength { term: &catalogue::GYRO_RATE_RANDOM_WALK, kind: Kind::Walk(0) },
+    Strength { term: &catalogue::ACCEL_NOISE_LEVEL, kind: Kind::White(1) },
+    Strength { term: &catalogue::ACCEL_BIAS_INSTABILITY, kind: Kind::Flicker(1) },
+    Strength { term: &catalogue::ACCEL_RATE_RANDOM_WALK, kind: Kind::Walk(1) },
+    Strength { term: &catalogue::TIMESTAMP_JITTER, kind: Kind::Jitter },
 ];
 
 impl Strength {
     fn slot<'a>(&self, strengths: &'a mut Strengths) -> &'a mut f64 {
-        let triad = triad(strengths, self.triad);
-        match self.colour {
-            Colour::White => &mut triad.white,
-            Colour::Flicker => &mut triad.flicker,
-            Colour::Walk => &mut triad.walk,
+        match self.kind {
+            Kind::White(which) => &mut triad(strengths, which).white,
+            Kind::Flicker(which) => &mut triad(strengths, which).flicker,
+            Kind::Walk(which) => &mut triad(strengths, which).walk,
+            Kind::Jitter => &mut strengths.jitter,
         }
     }
 
@@ -81,27 +83,33 @@ impl Case<'_> {
     /// The strengths that were found where the sheet says otherwise, or where it says nothing and they are beyond what
     /// is usual.
     ///
-    /// What is left unexplained is in the noise that was found, so that no level can be told then; a walk that the sheet
-    /// says nothing of was asked for by itself.
+    /// What is left unexplained is in the noise that was found, so that no level can be told then; what the sheet says
+    /// nothing of was asked for by itself.
     pub(crate) fn noise_causes(
         &self,
         after: &Fit,
         is_all_explained: bool,
     ) -> Result<Vec<Cause>, Indefinite> {
-        let NoiseKnowledge::Likely(sheet) = self.knowledge else { return Ok(Vec::new()) };
+        let NoiseKnowledge::Likely(sought) = self.knowledge else { return Ok(Vec::new()) };
         let mut causes = Vec::new();
         for strength in &STRENGTHS {
             let found = strength.value(&after.noise[0].imu);
-            let is_white = strength.colour == Colour::White;
-            let asked = strength.colour == Colour::Walk && self.walks[strength.triad];
-            // Where a walk was asked for, the sheet's is where its search began.
-            let said = if asked { 0.0 } else { strength.value(&sheet) };
+            let is_white = matches!(strength.kind, Kind::White(_));
+            let said = strength.value(&self.sheet);
+            let asked = said == 0.0 && strength.value(&sought) > 0.0;
             let usual = strength.term.parameters[0].range(self.imu).1;
-            let (as_said, limit) = match (strength.colour, said > 0.0) {
-                (Colour::White, _) => (said, WHITE),
+            let (as_said, limit) = match (strength.kind, said > 0.0) {
+                (Kind::White(_), _) => (said, WHITE),
                 (_, true) => (said, FLICKER),
-                (Colour::Flicker, false) => (usual, 1.0),
-                (Colour::Walk, false) => (NO_WALK * found, 1.0),
+                (Kind::Flicker(_), false) => (usual, 1.0),
+                (Kind::Walk(_) | Kind::Jitter, false) => (AS_GOOD_AS_NONE * found, 1.0),
+            };
+            let as_said = match strength.kind {
+                // Rounding comes to what the sheet says, as far as it is white.
+                Kind::White(which) => {
+                    found.clamp(as_said, as_said.hypot(self.rounding.white(which)))
+                }
+                _ => as_said,
             };
             let ratio = (found / as_said).ln();
             let strange = if is_white { ratio.abs() } else { ratio } > limit.ln();

@@ -39,8 +39,10 @@ impl Case<'_> {
         let excesses = all.iter().enumerate().map(|(channel, residuals)| {
             (channel, excess(residuals, |samples| channel != ABOUT_AXIS || !repeats(samples)))
         });
-        let (channel, (excess, ln_p)) =
-            excesses.min_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (e, _))| *e > SLIGHT)?;
+        let (channel, (excess, ln_p)) = excesses
+            .filter(|(channel, _)| !self.rounding.is_coarse(run, *channel))
+            .min_by(|a, b| a.1.1.total_cmp(&b.1.1))
+            .filter(|(_, (e, _))| *e > SLIGHT)?;
         let tests = SENSORS * self.runs.len() as f64;
         let one = Unexplained {
             run,

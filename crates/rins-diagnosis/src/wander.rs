@@ -59,8 +59,8 @@ impl Case<'_> {
             of_triads.iter().filter(|one| one.odds > -RIVALS)
         {
             if *odds > 0.0 {
-                walking.walks[*which] = true;
                 self.walk(triad(&mut sheet, *which));
+                walking.knowledge = NoiseKnowledge::Likely(sheet);
                 continue;
             }
             for &place in slow {
@@ -68,10 +68,10 @@ impl Case<'_> {
                 found.causes[place].rivals.push(Rival { term, settings, odds: *odds });
             }
         }
-        if walking.walks == self.walks {
+        if walking.knowledge == self.knowledge {
             return Ok(found);
         }
-        let mut walked = search(&Case { knowledge: NoiseKnowledge::Likely(sheet), ..walking })?;
+        let mut walked = search(&walking)?;
         for Instead { triad: which, slow, odds } in of_triads {
             let own = walked.causes.iter_mut().find(|cause| cause.term.id == WALKS[which].id);
             if let Some(own) = own.filter(|_| odds > 0.0 && odds < RIVALS) {

@@ -69,6 +69,7 @@ enum Which {
     AccelWhite,
     AccelFlicker,
     AccelWalk,
+    Jitter,
     /// Of the runs on one rig.
     Wobble(Vec<usize>),
     Encoder(Vec<usize>),
@@ -85,6 +86,7 @@ impl Which {
             Self::AccelWhite => noise.iter_mut().map(|n| &mut n.imu.accel.white).collect(),
             Self::AccelFlicker => noise.iter_mut().map(|n| &mut n.imu.accel.flicker).collect(),
             Self::AccelWalk => noise.iter_mut().map(|n| &mut n.imu.accel.walk).collect(),
+            Self::Jitter => noise.iter_mut().map(|n| &mut n.imu.jitter).collect(),
             Self::Wobble(runs) => on(noise, runs).map(|n| &mut n.wobble).collect(),
             Self::Encoder(runs) => on(noise, runs).map(|n| &mut n.encoder).collect(),
             Self::Velocity => noise.iter_mut().map(|n| &mut n.velocity).collect(),
@@ -199,6 +201,9 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     }
     if sheet.accel.walk > 0.0 {
         add(Which::AccelWalk, sheet.accel.walk, sheet.accel.walk, UNKNOWN);
+    }
+    if sheet.jitter > 0.0 {
+        add(Which::Jitter, sheet.jitter, sheet.jitter, UNKNOWN);
     }
     for runs in rigs(linear) {
         let (first, expected) = (first[runs[0]], expected[runs[0]]);

@@ -264,12 +264,18 @@ impl Linear {
         if self.shows_angle() { SHOWN } else { SHOWN - 1 }
     }
 
+    /// How far the table turns in an epoch \[rad\].
+    pub(crate) fn turned(&self, epoch: &Epoch) -> f64 {
+        let angles = self.track.angles();
+        angles[epoch.samples.1] - angles[epoch.samples.0]
+    }
+
     /// The table angle in the middle of each epoch \[rad\], and its mean rate over it \[rad/s\].
     pub fn motion(&self) -> Vec<(f64, f64)> {
         let angles = self.track.angles();
         let of = |epoch: &Epoch| {
-            let (first, end) = (angles[epoch.samples.0], angles[epoch.samples.1]);
-            (0.5 * (first + end), (end - first) / epoch.duration)
+            let middle = 0.5 * (angles[epoch.samples.0] + angles[epoch.samples.1]);
+            (middle, self.turned(epoch) / epoch.duration)
         };
         self.epochs.iter().map(of).collect()
     }

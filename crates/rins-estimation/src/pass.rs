@@ -317,7 +317,11 @@ mod tests {
         let free: Vec<(usize, usize)> = (0..3).flat_map(|term| [(term, 0), (term, 2)]).collect();
         let linear = linearise_coarsely(&run, &model, &free);
         let triad = |white| TriadStrengths { white, flicker: 0.1 * white, walk: 0.0 };
-        let imu = Strengths { gyro: triad(1e-3 * DEG_PER_HOUR), accel: triad(10.0 * MICRO_G) };
+        let imu = Strengths {
+            gyro: triad(1e-3 * DEG_PER_HOUR),
+            accel: triad(10.0 * MICRO_G),
+            jitter: 0.0,
+        };
         let noise = Noise::on(&run.rig, &imu);
         let space = Space::new(&linear, &noise);
         let [mut wide, mut narrow] = [(); 2].map(|()| Pass::new(&space, free.len() + 1));

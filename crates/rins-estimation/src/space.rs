@@ -42,6 +42,8 @@ pub(crate) struct Space<'a> {
     force_cross: Matrix3<f64>,
     wobble: f64,
     encoder: f64,
+    /// 1σ of the moments at which the encoder is read \[s\].
+    jitter: f64,
     velocity: f64,
 }
 
@@ -75,6 +77,7 @@ impl<'a> Space<'a> {
             force_cross: cross_matrix(&linear.force),
             wobble: noise.wobble,
             encoder: noise.encoder,
+            jitter: strengths.jitter,
             velocity: noise.velocity,
         }
     }
@@ -219,7 +222,11 @@ impl<'a> Space<'a> {
         set(&mut step.cross, 3, 3, &velocity);
         let wobble = self.wobble * self.wobble / m;
         let angle = match self.linear.reference {
-            Reference::Encoder { .. } => self.encoder * self.encoder / m,
+            Reference::Encoder { .. } => {
+                // Read too late, a table that turns is further on.
+                let further = self.jitter * self.linear.turned(epoch) / epoch.duration;
+                (self.encoder.powi(2) + further.powi(2)) / m
+            }
             Reference::Command { .. } => EXACT * EXACT,
             Reference::Gravity | Reference::Rest => wobble,
         };

@@ -13,13 +13,15 @@ pub struct TriadStrengths {
     pub walk: f64,
 }
 
-/// The random errors of an IMU.
+/// The random errors of an IMU, and of the clock that reads the encoder beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Strengths {
     /// Of the gyros \[rad/s\].
     pub gyro: TriadStrengths,
     /// Of the accelerometers \[m/s²\].
     pub accel: TriadStrengths,
+    /// 1σ of the moments at which the encoder is read, about those of the samples \[s\]; zero if it is read with them.
+    pub jitter: f64,
 }
 
 impl TriadStrengths {
@@ -36,7 +38,11 @@ impl TriadStrengths {
 impl Strengths {
     /// Those of a data sheet; what it leaves out is zero.
     pub fn of(imu: &ImuSpec) -> Self {
-        Self { gyro: TriadStrengths::of(&imu.gyro), accel: TriadStrengths::of(&imu.accel) }
+        Self {
+            gyro: TriadStrengths::of(&imu.gyro),
+            accel: TriadStrengths::of(&imu.accel),
+            jitter: 0.0,
+        }
     }
 }
 

@@ -68,6 +68,7 @@ impl Level {
                 "accel_bias_instability",
                 "gyro_quantisation",
                 "accel_quantisation",
+                "timestamp_jitter",
             ],
         }
     }

@@ -64,6 +64,7 @@ impl Stand {
         let strengths = Strengths {
             gyro: strengths(&experiment.gyro.noise),
             accel: strengths(&experiment.accel.noise),
+            jitter: 0.0,
         };
         let noise = Noise::on(&rig, &strengths);
         Self { imu, noise, model: baseline(experiment), rig }

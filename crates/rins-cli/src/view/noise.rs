@@ -95,6 +95,10 @@ fn strengths(certificate: &Certificate) -> Vec<Vec<Cell>> {
         if let Reference::Encoder { noise: given } = rig.reference {
             rows.push(row(name("encoder"), noise.encoder, Some(given), ARCSEC, "arcsec"));
         }
+        if noise.imu.jitter > 0.0 {
+            let moments = name("moments at which the encoder is read");
+            rows.push(row(moments, noise.imu.jitter, None, 1e-6, "µs"));
+        }
         let velocity = name("velocity of the base");
         rows.push(row(velocity, noise.velocity, Some(rig.velocity), 1e-3, "mm/s"));
         for (axis, sway) in ["x", "y", "z"].into_iter().zip(noise.sway) {

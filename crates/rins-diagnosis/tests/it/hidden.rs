@@ -78,6 +78,29 @@ fn a_random_walk_is_named_with_its_density() {
     }
 }
 
+/// An encoder that is read when a computer has time, and sensors that read in steps: neither is a signal, and what they do
+/// is not left unexplained.
+#[test]
+fn what_a_logger_does_to_readings_is_named_with_its_size() {
+    let cases: [(&'static Term, &[f64], usize); 4] = [
+        (&catalogue::TIMESTAMP_JITTER, &[20e-6], 0),
+        (&catalogue::GYRO_QUANTISATION, &[0.1 * ARCSEC, 0.0], 0),
+        (&catalogue::GYRO_QUANTISATION, &[0.0, 0.2 * DEG_PER_HOUR], 1),
+        (&catalogue::ACCEL_QUANTISATION, &[1e-4, 0.0], 0),
+    ];
+    for (seed, (term, values, place)) in cases.into_iter().enumerate() {
+        let run = run(&RATES, hiding(&[(term, values)]), 0.0, seed as u64 + 90);
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let [cause] = &diagnosis.causes[..] else { panic!("{}: {:?}", term.id, diagnosis.causes) };
+        assert_eq!(cause.term.id, term.id);
+        let [estimate] = &cause.parameters[..] else { panic!("{:?}", cause.parameters) };
+        assert_eq!(estimate.parameter.parameter, place, "{}", term.id);
+        let off = (estimate.value - values[place]) / estimate.sigma;
+        assert!(off.abs() < 3.0 && estimate.value > 5.0 * estimate.sigma, "{off} sigma off");
+        assert!(diagnosis.unexplained.is_empty(), "{}: {:?}", term.id, diagnosis.unexplained);
+    }
+}
+
 #[test]
 fn two_effects_are_both_found() {
     let effects = hiding(&[

@@ -30,6 +30,7 @@ fn filter_ends_where_the_batch_does() {
     let coloured = Strengths {
         gyro: TriadStrengths { flicker: 0.02 * DEG_PER_HOUR, walk: 1e-10, ..sheet.gyro },
         accel: TriadStrengths { flicker: 10.0 * MICRO_G, ..sheet.accel },
+        jitter: 1e-6,
     };
     for (strengths, run) in [(sheet, &run), (coloured, &run), (coloured, &parted)] {
         let linear = linearise(run, &model, &places);

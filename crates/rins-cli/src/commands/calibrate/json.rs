@@ -147,6 +147,7 @@ fn run_json(certificate: &Certificate, place: usize, run: &CertifiedRun) -> Valu
             across_axis(run.prepared.loaded.station.gravity, &run.nav_from_table),
         "wobble_arcsec": noise.wobble / ARCSEC,
         "encoder_noise_arcsec": encoder.then_some(noise.encoder / ARCSEC),
+        "encoder_jitter_us": encoder.then_some(noise.imu.jitter * 1e6),
         "base_velocity_m_s": noise.velocity,
         "base_sway_arcsec_sqrt_s": noise.sway.map(|sway| sway / ARCSEC),
         "navigation": {
