@@ -2,7 +2,7 @@
 //!
 //! Only gyro z has scale effects of second order: x and y see no more than the Earth's rate.
 
-use num_dual::{Dual64, DualNum};
+use num_dual::Dual64;
 
 use crate::catalogue::parameters::{parameter, per_axis, usual};
 use crate::term::{Action, Need, Owner, Term};
@@ -125,7 +125,7 @@ pub static GYRO_HYSTERESIS: Term = Term {
 
 /// Gyros that do not see a slow rate.
 ///
-/// The derivative by a width of zero is zero: linearise at a width that is usual.
+/// The derivative by a width of zero is zero: linearise at a width that is not.
 pub static GYRO_DEAD_ZONE: Term = Term {
     id: "gyro_dead_zone",
     also: &[],
@@ -142,13 +142,28 @@ pub static GYRO_DEAD_ZONE: Term = Term {
     action: Action::Signal(|p, _, moment, out| {
         for (axis, &width) in p.iter().enumerate() {
             let rate = moment.rate[axis];
-            out.gyro[axis] += if rate.abs() <= width.re.abs() {
-                Dual64::from_re(-rate)
+            let missing = |width: f64| missing(rate, width);
+            let apart = SLOPE_OVER * width.re;
+            let slope = if width.eps == 0.0 || apart == 0.0 {
+                0.0
             } else {
-                // √(ω² - d²) - |ω| without the difference of two nearly equal numbers.
-                let left = (-width * width + rate * rate).sqrt() + rate.abs();
-                -width * width / left * rate.signum()
+                (missing(width.re + apart) - missing(width.re - apart)) / (2.0 * apart)
             };
+            out.gyro[axis] += Dual64::new(missing(width.re), slope * width.eps);
         }
     }),
 };
+
+/// The slope by a width is taken between widths so much smaller and larger, as a part of it: at the zone's edge it has
+/// no bound, and would be that of whichever sample is nearest.
+const SLOPE_OVER: f64 = 0.1;
+
+/// What a gyro with a dead zone of this width reads beyond a rate.
+fn missing(rate: f64, width: f64) -> f64 {
+    if rate.abs() <= width.abs() {
+        return -rate;
+    }
+    // √(ω² - d²) - |ω| without the difference of two nearly equal numbers.
+    let left = (rate * rate - width * width).sqrt() + rate.abs();
+    -width * width / left * rate.signum()
+}
