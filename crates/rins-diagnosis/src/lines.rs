@@ -15,6 +15,9 @@ use crate::structure::CHANNELS;
 /// The part of the false alarms that fast lines may cause: they are one effect of many.
 const SHARE: f64 = 0.1;
 
+/// A run hardly tells lines apart that differ by fewer cycles over it.
+const BESIDE: f64 = 4.0;
+
 /// The most fast lines that are looked for in a run.
 const MOST: usize = 4;
 
@@ -65,7 +68,8 @@ impl Case<'_> {
     pub(crate) fn still_there(&self, fit: &Fit, lines: &[(Chosen, Cause)]) -> Vec<(Chosen, Cause)> {
         let mut without = fit.clone();
         for model in &mut without.models {
-            model.terms.retain(|term| lines.iter().all(|(line, _)| line != term));
+            // Another may do no more than take back a line that is none.
+            model.terms.retain(|term| !lines.iter().any(|(line, _)| self.is_beside(line, term)));
         }
         let again = if lines.is_empty() { Vec::new() } else { self.fast_lines(&without) };
         let is_there = |(line, _): &&(Chosen, Cause)| {
@@ -77,6 +81,13 @@ impl Case<'_> {
             })
         };
         lines.iter().filter(is_there).cloned().collect()
+    }
+
+    /// Whether a run hardly tells one line from another.
+    fn is_beside(&self, line: &Chosen, other: &Chosen) -> bool {
+        other.term.id == line.term.id
+            && other.settings[1..] == line.settings[1..]
+            && (other.settings[0] - line.settings[0]).abs() * self.duration() < BESIDE
     }
 }
 
