@@ -3,6 +3,8 @@
 use rins_estimation::{Reference, Run};
 use rins_terms::{Chosen, Model, Need, Setting, Term, catalogue};
 
+use crate::dead_zone;
+
 /// Choices of a frame: nothing could be named by them that a baseline does not hold.
 const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
 
@@ -96,7 +98,9 @@ fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
         fitting.into_iter().map(candidate).collect()
     };
     let alike = |_: f64| 1.0;
-    if place("frequency").is_some() {
+    if dead_zone::is_true(&chosen) {
+        dead_zone::shapes()
+    } else if place("frequency").is_some() {
         Vec::new()
     } else if let Some(place) = place("time") {
         let step = duration / f64::from(EVENTS);

@@ -8,6 +8,7 @@ use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Role};
 
 use crate::candidates::{Candidate, duration};
+use crate::dead_zone;
 use crate::probability::ln_tail;
 use crate::rounding::Rounding;
 use crate::score::USUAL;
@@ -142,6 +143,9 @@ impl Case<'_> {
                 best = refined;
             }
         }
+        if dead_zone::is_of_widths(&best.0.chosen) {
+            best = self.with_further_gyros(present, best)?;
+        }
         Ok(Some(best))
     }
 
@@ -165,6 +169,27 @@ impl Case<'_> {
             }
         }
         Ok(best)
+    }
+
+    /// A dead zone with those of further gyros, each as wide as fits best.
+    fn with_further_gyros(
+        &self,
+        present: &Fit,
+        mut best: (Candidate, Trial),
+    ) -> Result<(Candidate, Trial), Indefinite> {
+        let noises = self.noises(present);
+        loop {
+            let widths = dead_zone::of_shape(&best.0.chosen, &best.1.parameters).values;
+            let list = dead_zone::with_another(&widths);
+            let survey = Survey::of(self.runs, present, self.imu, &list, &noises)?;
+            let Some(context) = Context::of(&survey, &[], &[]) else { return Ok(best) };
+            match trials(&survey, &context, &list).into_iter().next() {
+                Some(found) if found.parameters.len() > best.1.parameters.len() => {
+                    best = (list[found.candidate].clone(), found);
+                }
+                _ => return Ok(best),
+            }
+        }
     }
 
     /// The logarithm of the chance of a trial, once its effect has been fitted with its own noise: the last term
@@ -192,6 +217,14 @@ impl Case<'_> {
 impl Candidate {
     /// The term to be estimated, its amplitudes expected within what the trial found them to need.
     pub(crate) fn expecting(&self, trial: &Trial, imu: &ImuSpec) -> Chosen {
+        if dead_zone::is_of_widths(&self.chosen) {
+            let mut zone = dead_zone::of_shape(&self.chosen, &trial.parameters);
+            for &gyro in &trial.parameters {
+                let usual = zone.term.parameters[gyro].sigma(imu);
+                zone.roles[gyro] = Role::Within(USUAL * usual * trial.amplitude.max(1.0));
+            }
+            return zone;
+        }
         let mut chosen = self.chosen.clone();
         let n = chosen.values.len();
         for parameter in 0..n {

@@ -2,11 +2,12 @@
 
 use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Term};
+use rins_terms::{Chosen, Model, Term, catalogue};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
 use crate::case::{Case, stated};
+use crate::dead_zone;
 use crate::disturbance;
 use crate::rounding::Rounding;
 use crate::settling::Found;
@@ -149,9 +150,11 @@ impl Case<'_> {
         }
         let mut found: Vec<Chosen> = Vec::new();
         let mut not_testable = None;
+        let mut refused = None;
         while found.len() < MOST_CAUSES {
             let mut list = candidates(runs, present.model());
             list.extend(case.suggested(&present));
+            list.retain(|candidate| refused != Some(candidate.chosen.term.id));
             let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
             let Some(context) = Context::of(&survey, &[], &[]) else { break };
             let tried = trials(&survey, &context, &list);
@@ -169,16 +172,22 @@ impl Case<'_> {
             }
             let earlier = found.len();
             found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
-            let Ok(fitted) = case.fit_near(&present, &found) else {
+            let fitted = case.fit_near(&present, &found);
+            let significant = |fitted: &Fit| match &accepted[..] {
+                [(_, trial)] => case.ln_p(&present, fitted, trial) <= threshold,
+                _ => true,
+            };
+            let Some(fitted) = fitted.ok().filter(significant) else {
                 found.truncate(earlier);
+                // A narrow one may be nothing but what is not linear in it; what else there is may be more.
+                if refused.is_none()
+                    && accepted.iter().any(|(one, _)| dead_zone::is_of_widths(&one.chosen))
+                {
+                    refused = Some(catalogue::GYRO_DEAD_ZONE.id);
+                    continue;
+                }
                 break;
             };
-            if let [(_, trial)] = &accepted[..]
-                && case.ln_p(&present, &fitted, trial) > threshold
-            {
-                found.truncate(earlier);
-                break;
-            }
             for (candidate, _) in &accepted {
                 progress(candidate.chosen.term.id);
             }

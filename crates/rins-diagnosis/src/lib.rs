@@ -9,6 +9,7 @@
 //!
 //! Numbers are in SI units and radians.
 mod candidates;
+mod dead_zone;
 mod probability;
 mod score;
 mod suggested;

@@ -10,6 +10,7 @@ use rins_terms::Term;
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::candidates::{Candidate, candidates};
+use crate::dead_zone;
 use crate::diagnosis::FALSE_ALARMS;
 use crate::score::choices;
 use crate::survey::Survey;
@@ -68,7 +69,16 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
             }
             let sigma = usual / information[(0, 0)].sqrt();
             let term = candidate.chosen.term;
-            let limit = Limit { term, parameter, sigma, detectable: reach * sigma, significant };
+            let mut detectable = reach * sigma;
+            if dead_zone::is_of_widths(&candidate.chosen) {
+                // It is as deep as it is wide.
+                let width = candidate.chosen.settings[parameter];
+                if detectable > width {
+                    continue;
+                }
+                detectable = width;
+            }
+            let limit = Limit { term, parameter, sigma, detectable, significant };
             let same =
                 |other: &&mut Limit| other.term.id == limit.term.id && other.parameter == parameter;
             match limits.iter_mut().find(same) {
@@ -105,14 +115,14 @@ pub fn chance(
             let mut random = Pcg64::new(u128::from(seed.seed), u128::from(draw));
             let n = root.ncols();
             let white = DVector::from_fn(n, |_, _| StandardNormal.sample(&mut random));
-            let context = Context::drawn(left.with_score(&root * white));
+            let context = Context::drawn(&survey, left.with_score(&root * white));
             passes(&survey, &context, &list)
         })
         .count();
     Ok(named as f64 / f64::from(draws))
 }
 
-fn passes(survey: &Survey, context: &Context, list: &[Candidate]) -> bool {
+fn passes(survey: &Survey, context: &Context<'_>, list: &[Candidate]) -> bool {
     let tried = trials(survey, context, list);
     let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
     tried.iter().any(|trial| trial.ln_p < threshold && trial.evidence > 0.0)

@@ -18,6 +18,8 @@ const UNUSUAL: f64 = 2.0;
 /// What data say of some parameters of an effect.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Score {
+    /// The amplitudes, in units of what is usual of them; of what is not shown they are nothing.
+    pub(crate) estimate: DVector<f64>,
     /// By how much the squares would fall: a chi-square of `dof` degrees if the effect is not there.
     pub(crate) statistic: f64,
     /// How many directions of the parameters are shown.
@@ -35,19 +37,19 @@ pub(crate) struct Score {
 /// usual costs more, but is not ruled out: nature is not bound by a table.
 pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score {
     let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(information.clone());
-    let mut estimate = DVector::zeros(score.len());
     let mut shown = Vec::new();
-    let mut sum = Score { statistic: 0.0, dof: 0, evidence: 0.0, amplitude: 0.0 };
+    let estimate = DVector::zeros(score.len());
+    let mut sum = Score { estimate, statistic: 0.0, dof: 0, evidence: 0.0, amplitude: 0.0 };
     for (value, direction) in eigenvalues.iter().zip(eigenvectors.column_iter()) {
         if value * USUAL * USUAL > LEAST_SHOWN {
             let along = direction.dot(score);
-            estimate += direction * (along / value);
+            sum.estimate += direction * (along / value);
             sum.statistic += along * along / value;
             sum.dof += 1;
             shown.push(*value);
         }
     }
-    sum.amplitude = estimate.amax();
+    sum.amplitude = sum.estimate.amax();
     let scale = sum.amplitude.max(SLIGHT);
     let precision: f64 = shown.iter().map(|value| 0.5 * (1.0 + value * scale * scale).ln()).sum();
     sum.evidence = 0.5 * sum.statistic - precision - UNUSUAL * (scale / USUAL).ln().max(0.0);

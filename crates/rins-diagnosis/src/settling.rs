@@ -5,6 +5,7 @@ use rins_terms::{Chosen, Role};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
+use crate::dead_zone;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
 use crate::suggested::at_frequency;
@@ -70,7 +71,7 @@ impl Case<'_> {
         let given = self.given.terms.len();
         let mut changes = 0;
         while !found.is_empty() {
-            let list = self.with_events(&found);
+            let list = self.with_events(&present, &found);
             let noises = self.between(before, &present);
             let survey = Survey::of(self.runs, &present, self.imu, &list, &noises)?;
             let mut causes = Vec::new();
@@ -81,6 +82,9 @@ impl Case<'_> {
                 let tried = trials(&survey, &context, &list);
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
+                    if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
+                        return own.settings == present.model().terms[given + index].values;
+                    }
                     let is_sought = |name: &str| ["time", "exponent"].contains(&name);
                     own.term.settings.iter().any(|setting| is_sought(setting.name))
                         && own.term.id == found.term.id
@@ -136,10 +140,16 @@ impl Case<'_> {
         Ok((present, Vec::new()))
     }
 
-    /// All candidates, and every event at the times of those that were found, every line at their frequencies.
-    fn with_events(&self, found: &[Chosen]) -> Vec<Candidate> {
+    /// All candidates, and every event at the times of those that were found, every line at their frequencies; of a dead
+    /// zone that was found what was found, and such of further gyros.
+    fn with_events(&self, present: &Fit, found: &[Chosen]) -> Vec<Candidate> {
         let mut list = candidates(self.runs, self.given);
-        for cause in found {
+        for (index, cause) in found.iter().enumerate() {
+            if dead_zone::is_true(cause) {
+                list.retain(|other| other.chosen.term.id != cause.term.id);
+                let widths = &present.model().terms[self.given.terms.len() + index].values;
+                list.extend(dead_zone::with_another(widths));
+            }
             let at: Vec<Candidate> =
                 list.iter().filter_map(|candidate| candidate.at_the_time_of(cause)).collect();
             for candidate in at {

@@ -7,6 +7,7 @@ use rins_imu::ImuSpec;
 use rins_terms::Free;
 
 use crate::candidates::Candidate;
+use crate::dead_zone;
 
 /// The prior's information on an effect that has been found, in units of what is usual of it.
 const FREE: f64 = 1e-4;
@@ -77,6 +78,10 @@ impl Survey {
         let mut linear: Vec<Linear> = Vec::new();
         for (run, model) in runs.iter().zip(&fit.models) {
             let mut model = model.clone();
+            for chosen in model.terms.iter_mut().filter(|chosen| dead_zone::is_true(chosen)) {
+                // Its slope does not lead to nothing, which is where an effect goes that is dropped.
+                *chosen = dead_zone::linear(chosen);
+            }
             model.terms.extend(candidates.iter().map(|candidate| candidate.chosen.clone()));
             free = model.free(imu);
             let columns: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
@@ -88,7 +93,9 @@ impl Survey {
         let known = layout.known;
         let off = DVector::from_fn(known, |place, _| {
             let estimate = &fit.parameters[place];
-            (estimate.value - estimate.expected) / estimate.parameter.sigma
+            let of = &fit.model().terms[estimate.parameter.term];
+            let nothing = if dead_zone::is_true(of) { 0.0 } else { estimate.expected };
+            (estimate.value - nothing) / estimate.parameter.sigma
         });
         let said = noises
             .par_iter()
@@ -107,6 +114,11 @@ impl Survey {
     /// How many strengths of the noise there are.
     pub(crate) const fn noises(&self) -> usize {
         self.said.len()
+    }
+
+    /// The 1σ that is expected of what stands at these places, in SI units.
+    pub(crate) fn sigmas(&self, places: &[usize]) -> DVector<f64> {
+        DVector::from_iterator(places.len(), places.iter().map(|&place| self.sigmas[place]))
     }
 
     /// The places of the parameters of one of the model's terms.

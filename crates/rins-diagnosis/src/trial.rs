@@ -1,6 +1,9 @@
 //! Candidates against each other: the best shape and choice of parameters of every effect.
 
+use nalgebra::DVector;
+
 use crate::candidates::Candidate;
+use crate::dead_zone;
 use crate::disturbance;
 use crate::probability::ln_tail;
 use crate::score::{Score, choices, scored};
@@ -33,24 +36,25 @@ pub(crate) struct Trial {
 }
 
 /// What is left to say, for each strength of the noise, and the most likely of these.
-pub(crate) struct Context {
+pub(crate) struct Context<'a> {
+    survey: &'a Survey,
     left: Vec<Left>,
     most: f64,
 }
 
-impl Context {
+impl<'a> Context<'a> {
     /// With these of the model's parameters dropped, and these of the candidates' taken into it.
-    pub(crate) fn of(survey: &Survey, dropped: &[usize], taken: &[usize]) -> Option<Self> {
+    pub(crate) fn of(survey: &'a Survey, dropped: &[usize], taken: &[usize]) -> Option<Self> {
         let left: Vec<Left> = (0..survey.noises())
             .map(|noise| survey.left(noise, dropped, taken))
             .collect::<Option<_>>()?;
         let most = left.iter().map(|left| left.log_likelihood).fold(f64::NEG_INFINITY, f64::max);
-        Some(Self { left, most })
+        Some(Self { survey, left, most })
     }
 
     /// Of one strength of the noise.
-    pub(crate) fn drawn(left: Left) -> Self {
-        Self { most: left.log_likelihood, left: vec![left] }
+    pub(crate) fn drawn(survey: &'a Survey, left: Left) -> Self {
+        Self { survey, most: left.log_likelihood, left: vec![left] }
     }
 
     /// The best choice of a candidate's parameters; `own` lists the places of each of them.
@@ -71,8 +75,13 @@ impl Context {
         for parameters in choices {
             let places: Vec<usize> = parameters.iter().flat_map(|&p| own[p].clone()).collect();
             let Some((score, statistic)) = self.scored(&places) else { continue };
-            least_ln_p = least_ln_p.min(ln_tail(statistic, score.dof) + looks);
-            let evidence = score.evidence - looks - unknown;
+            let sigmas = self.survey.sigmas(&places);
+            let possible = is_possible(shape, &parameters, &score.estimate.component_mul(&sigmas));
+            let evidence =
+                if possible { score.evidence - looks - unknown } else { f64::NEG_INFINITY };
+            if possible {
+                least_ln_p = least_ln_p.min(ln_tail(statistic, score.dof) + looks);
+            }
             if best.as_ref().is_none_or(|best| evidence > best.evidence) {
                 let Score { dof, amplitude, .. } = score;
                 best = Some(Trial {
@@ -113,8 +122,14 @@ impl Context {
     }
 }
 
+/// Whether a shape can have these amplitudes, in SI units.
+fn is_possible(shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
+    !dead_zone::is_of_widths(&shape.chosen)
+        || dead_zone::is_as_deep(&shape.chosen, parameters, amplitudes.as_slice())
+}
+
 /// The best shape of every term that the runs show anything of, most likely first.
-pub(crate) fn trials(survey: &Survey, context: &Context, list: &[Candidate]) -> Vec<Trial> {
+pub(crate) fn trials(survey: &Survey, context: &Context<'_>, list: &[Candidate]) -> Vec<Trial> {
     let mut best: Vec<Trial> = Vec::new();
     for (index, candidate) in list.iter().enumerate() {
         let Some(trial) = context.trial(index, candidate, survey.of_candidate(index)) else {

@@ -38,9 +38,6 @@ pub(crate) fn untestable(runs: &[Run], model: &Model, unseen: &[&str]) -> Vec<Un
 
 /// Why an effect that was tried does not show.
 fn unseen_for(term: &Term) -> String {
-    if term.id == catalogue::GYRO_DEAD_ZONE.id {
-        return "it is not searched for: what it does grows with the square of its width".into();
-    }
     let needs: Vec<&str> = term.needs.iter().map(|need| in_words(*need)).collect();
     if needs.is_empty() {
         format!(
