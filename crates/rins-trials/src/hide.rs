@@ -77,9 +77,11 @@ impl Ground {
         let told = self.stand.told(&self.plain, std::slice::from_ref(&chosen))?;
         let Some((values, dof)) = sized(&told, meant, random) else { return Ok(None) };
         chosen.values = values;
-        let mut strength = self.strength(&chosen)?;
+        let mut run = self.with(&chosen)?;
+        let mut strength = self.strength(&run)?;
+        let mut bounds = bounds(&told);
         if term.id == DEAD_ZONE {
-            // It grows with the square of its width.
+            // It grows with the square of its width at least.
             let times = (meant / strength).sqrt();
             chosen.values.iter_mut().for_each(|width| *width = width.abs() * times);
             let usual = |(width, p): (&f64, &rins_terms::Parameter)| {
@@ -88,10 +90,11 @@ impl Ground {
             if !chosen.values.iter().zip(term.parameters).all(usual) {
                 return Ok(None);
             }
-            strength = self.strength(&chosen)?;
+            run = self.with(&chosen)?;
+            strength = self.strength(&run)?;
+            bounds = self::bounds(&self.stand.told(&self.plain, std::slice::from_ref(&chosen))?);
         }
-        let bounds = bounds(&told);
-        let confusable = self.confusable(&chosen, strength)?;
+        let confusable = self.confusable(&chosen, &run, strength)?;
         let record = Hidden {
             id: term.id.into(),
             meant,
@@ -106,12 +109,16 @@ impl Ground {
         Ok(Some((chosen, record)))
     }
 
-    /// The root of the squares that an effect adds to what the baseline leaves.
-    fn strength(&self, chosen: &Chosen) -> Result<f64, StandError> {
+    /// The run without noise, with an effect.
+    fn with(&self, chosen: &Chosen) -> Result<Run, StandError> {
         let mut quiet = quiet(&self.laboratory);
         quiet.effects.push(hidden(chosen));
-        let run = self.stand.run(&record(&quiet), quiet.interval)?;
-        Ok(self.stand.told(&run, &[])?.square.max(0.0).sqrt())
+        self.stand.run(&record(&quiet), quiet.interval)
+    }
+
+    /// The root of the squares that the effect in a run adds to what the baseline leaves.
+    fn strength(&self, run: &Run) -> Result<f64, StandError> {
+        Ok(self.stand.told(run, &[])?.square.max(0.0).sqrt())
     }
 
     /// An effect with random settings.
@@ -142,21 +149,20 @@ impl Ground {
         chosen
     }
 
-    /// What would be left of an effect beside each other one.
-    fn confusable(&self, chosen: &Chosen, strength: f64) -> Result<Vec<(String, f64)>, StandError> {
-        let mut all = vec![chosen.clone()];
-        let mut rivals = rivals(self.duration);
-        rivals.extend(alike(chosen));
-        all.extend(rivals.into_iter().filter(|rival| rival.term.id != chosen.term.id));
-        let told = self.stand.told(&self.plain, &all)?;
-        let own = told.places(0);
-        let along = DVector::from_iterator(
-            own.len(),
-            own.clone().map(|place| chosen.values[place] / told.scale[place]),
-        );
+    /// What is left of an effect in a run beside each other one.
+    fn confusable(
+        &self,
+        chosen: &Chosen,
+        run: &Run,
+        strength: f64,
+    ) -> Result<Vec<(String, f64)>, StandError> {
+        let mut others = rivals(self.duration);
+        others.extend(alike(chosen));
+        others.retain(|rival| rival.term.id != chosen.term.id);
+        let told = self.stand.told(run, &others)?;
         let mut least: Vec<(String, f64)> = Vec::new();
-        for (number, rival) in all.iter().enumerate().skip(1) {
-            let left = left_beside(&told, &along, number).max(0.0).sqrt();
+        for (number, rival) in others.iter().enumerate() {
+            let left = (told.square - explained(&told, number)).max(0.0).sqrt();
             match least.iter_mut().find(|(id, _)| id == rival.term.id) {
                 Some((_, known)) => *known = known.min(left),
                 None => least.push((rival.term.id.into(), left)),
@@ -211,26 +217,16 @@ fn bounds(told: &Told) -> Vec<f64> {
     covariance.diagonal().iter().zip(&told.scale).map(|(v, scale)| v.sqrt() * scale).collect()
 }
 
-fn block(told: &Told, rows: usize, columns: usize) -> DMatrix<f64> {
-    let (rows, columns) = (told.places(rows), told.places(columns));
-    let size = (rows.len(), columns.len());
-    told.information.view((rows.start, columns.start), size).into_owned()
-}
-
-/// What of the information on the first term's direction is left where term `rival` is free.
-fn left_beside(told: &Told, along: &DVector<f64>, rival: usize) -> f64 {
-    let across = block(told, rival, 0) * along;
-    let own = along.dot(&(block(told, 0, 0) * along));
-    own - with_rival(told, rival, &across)
-}
-
-/// By how much a score of term `rival` lets the squares fall.
-pub(crate) fn with_rival(told: &Told, rival: usize, score: &DVector<f64>) -> f64 {
-    let mut information = block(told, rival, rival);
+/// By how much the squares fall where term `rival` is free.
+pub(crate) fn explained(told: &Told, rival: usize) -> f64 {
+    let places = told.places(rival);
+    let (start, size) = (places.start, places.len());
+    let mut information = told.information.view((start, start), (size, size)).into_owned();
+    let score = told.score.rows(start, size).into_owned();
     for place in 0..information.nrows() {
         information[(place, place)] += RIVAL.powi(-2);
     }
-    information.cholesky().map_or(0.0, |factor| score.dot(&factor.solve(score)))
+    information.cholesky().map_or(0.0, |factor| score.dot(&factor.solve(&score)))
 }
 
 /// The effects that may be hidden.

@@ -8,9 +8,9 @@ use rins_terms::{Chosen, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::rivals;
-use crate::hide::{Ground, quiet, with_rival};
+use crate::hide::{Ground, explained, quiet};
 use crate::laboratory::log_uniform;
-use crate::stand::{StandError, Told};
+use crate::stand::StandError;
 
 /// A structure outside the catalogue that was hidden.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -122,10 +122,4 @@ impl Ground {
         let unit = if shape.is_signal() { known.noise } else { 1.0 };
         Unknown { channel, shape, size: size * unit }
     }
-}
-
-/// By how much the squares fall where term `rival` is free.
-fn explained(told: &Told, rival: usize) -> f64 {
-    let places = told.places(rival);
-    with_rival(told, rival, &told.score.rows(places.start, places.len()).into_owned())
 }
