@@ -341,7 +341,8 @@ impl<'a> Problem<'a> {
                 }
             }
         }
-        let last = until == Until::Converged && largest < NEAR;
+        // Once they have been exact they stay so: where the two differ, as by an event within an epoch, it would go to and fro.
+        let last = until == Until::Converged && (largest < NEAR || self.pieces == Pieces::Samples);
         self.take_values(if last { Pieces::Samples } else { Pieces::Coarse });
         largest
     }
