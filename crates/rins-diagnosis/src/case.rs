@@ -5,7 +5,7 @@ use rins_estimation::{
     Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, Strengths, fit, fit_near,
 };
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Role};
+use rins_terms::{Chosen, Model, Role, catalogue};
 
 use crate::candidates::{Candidate, duration};
 use crate::dead_zone;
@@ -167,6 +167,12 @@ impl Case<'_> {
                     best = (list[found.candidate].clone(), found);
                 }
             }
+        }
+        let chosen = &mut best.0.chosen;
+        if chosen.term.id == catalogue::BASE_TILT_STEP.id
+            && let Some(time) = self.jolt(present, chosen.settings[0])
+        {
+            chosen.settings[0] = time;
         }
         Ok(best)
     }

@@ -23,6 +23,7 @@ mod sought;
 
 mod bursts;
 mod disturbance;
+mod jolt;
 mod levels;
 mod limits;
 mod lines;

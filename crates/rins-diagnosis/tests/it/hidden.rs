@@ -182,6 +182,22 @@ fn a_step_is_found_at_its_instant() {
 }
 
 /// Noise that is not as the sheet says is named as such, and with its size.
+/// A base that tips over within an epoch: the gyros show in which sample.
+#[test]
+fn a_base_that_tips_over_is_found_in_its_sample() {
+    let tilt = [3.0 * ARCSEC, -2.0 * ARCSEC];
+    let step = Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 151.13);
+    let hidden = Model { terms: vec![step.with_values(&tilt)] };
+    let diagnosis = found(&run(&RATES, hidden, 0.0, 75), NoiseKnowledge::Likely);
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_eq!(cause.term.id, "base_tilt_step");
+    assert!((cause.settings[0] - 151.13).abs() < 0.04, "{:?}", cause.settings);
+    for (estimate, truth) in cause.parameters.iter().zip(tilt) {
+        let off = (estimate.value - truth) / estimate.sigma;
+        assert!(off.abs() < 4.0 && estimate.sigma < 0.1 * ARCSEC, "{off} sigma off");
+    }
+}
+
 #[test]
 fn stronger_noise_than_the_sheet_says_is_named() {
     let louder = hiding(&[(&catalogue::ACCEL_NOISE_LEVEL, &[0.6])]);
