@@ -39,6 +39,9 @@ struct Instead {
     slow: Vec<usize>,
     /// The logarithm of the odds for the walk against them.
     odds: f64,
+    /// How much of these is what was left open of the slow effects before they were found: were they expected as they are,
+    /// the odds would be less by so much.
+    open: f64,
 }
 
 impl Case<'_> {
@@ -55,7 +58,7 @@ impl Case<'_> {
             .filter_map(|which| self.instead(&found, which, sheet))
             .collect();
         let mut walking = *self;
-        for Instead { triad: which, slow, odds } in
+        for Instead { triad: which, slow, odds, .. } in
             of_triads.iter().filter(|one| one.odds > -RIVALS)
         {
             if *odds > 0.0 {
@@ -72,14 +75,16 @@ impl Case<'_> {
             return Ok(found);
         }
         let mut walked = search(&walking)?;
-        for Instead { triad: which, slow, odds } in of_triads {
+        for Instead { triad: which, slow, odds, open } in of_triads {
             let own = walked.causes.iter_mut().find(|cause| cause.term.id == WALKS[which].id);
-            if let Some(own) = own.filter(|_| odds > 0.0 && odds < RIVALS) {
+            // A walk has one parameter that is open, a few effects have many: that alone does not rule them out.
+            let least = (odds - open).max(0.0);
+            if let Some(own) = own.filter(|_| odds > 0.0 && least < RIVALS) {
                 let of = |&place: &usize| &found.causes[place];
                 own.rivals.extend(slow.iter().map(of).map(|slow| Rival {
                     term: slow.term,
                     settings: slow.settings.clone(),
-                    odds: -odds,
+                    odds: -least,
                 }));
             }
         }
@@ -124,6 +129,9 @@ impl Case<'_> {
         let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let walked = other.fit_near(&found.after, &kept).ok()?;
         let gained = walked.log_likelihood - found.after.log_likelihood;
-        Some(Instead { triad: which, odds: gained + CHOSEN * slow.len() as f64 - WALKED, slow })
+        let odds = gained + CHOSEN * slow.len() as f64 - WALKED;
+        let of_slow = slow.iter().flat_map(|&place| &found.causes[place].parameters);
+        let open = of_slow.map(|one| (one.parameter.sigma / one.sigma).ln().max(0.0)).sum();
+        Some(Instead { triad: which, slow, odds, open })
     }
 }
