@@ -18,11 +18,16 @@ const HIGHEST_ORDER: f64 = 24.0;
 /// A run is also looked at in so many parts, for what comes and goes.
 const PARTS: usize = 3;
 
+/// So many epochs times ways of changing a frequency are looked at: in a run of a day, slow changes only.
+const MOST_CHANGES: usize = 400_000;
+
 /// A shape that is left in the innovations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Structure {
     /// A line of this frequency \[Hz\].
     Line(f64),
+    /// A line whose frequency goes from one to another, evenly \[Hz\].
+    Chirp(f64, f64),
     /// This order of the table angle, in body axes; negative where it goes against the table.
     Order(f64),
     /// Something slower than three times in the run.
@@ -81,6 +86,8 @@ impl Left<'_> {
         let body = Left { innovations: &in_body, ..*self };
         finds.extend(self.line());
         finds.extend(body.line());
+        finds.extend(self.chirp());
+        finds.extend(body.chirp());
         finds.extend(self.order(&in_body));
         finds.extend([Along::Time, Along::Sense, Along::Rate].map(|along| self.spread(along)));
         let kinds = finds.len() as f64;
@@ -130,6 +137,48 @@ impl Left<'_> {
                     if best.is_none_or(|best| find.ln_p < best.ln_p) {
                         best = Some(find);
                     }
+                }
+            }
+        }
+        best
+    }
+
+    /// The strongest line whose frequency changes evenly, from one end of the run to the other.
+    fn chirp(&self) -> Option<Find> {
+        let n = self.innovations.len();
+        let count = n as f64;
+        // By two periods of the run and more, up to the highest frequency there is.
+        let steps = (n / 4).min(MOST_CHANGES / n.max(1));
+        if steps == 0 {
+            return None;
+        }
+        let fft = FftPlanner::new().plan_fft_forward(n);
+        let growths = (1..=steps).flat_map(|step| [2.0, -2.0].map(|sign| sign * step as f64));
+        let looks = count * 2.0 * steps as f64;
+        let mut best: Option<Find> = None;
+        for grown in growths {
+            let mut power = vec![[0.0; CHANNELS]; n];
+            for channel in 0..CHANNELS {
+                let slowed = |(place, nu): (usize, &SVector<f64, CHANNELS>)| {
+                    let part = place as f64 / count;
+                    Complex::from_polar(nu[channel], -std::f64::consts::PI * grown * part * part)
+                };
+                let mut series: Vec<_> = self.innovations.iter().enumerate().map(slowed).collect();
+                fft.process(&mut series);
+                for (bin, value) in power.iter_mut().zip(series) {
+                    bin[channel] = value.norm_sqr() / count;
+                }
+            }
+            for (bin, power) in power.iter().enumerate() {
+                let from = bin as f64;
+                let to = from + grown;
+                if to < 0.0 || from.max(to) > 0.5 * count {
+                    continue;
+                }
+                let frequency = |periods: f64| periods / (count * self.epoch);
+                let find = of_bin(Structure::Chirp(frequency(from), frequency(to)), looks, power);
+                if best.is_none_or(|best| find.ln_p < best.ln_p) {
+                    best = Some(find);
                 }
             }
         }

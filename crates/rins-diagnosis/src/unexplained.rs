@@ -59,9 +59,8 @@ impl Case<'_> {
             let epoch = after.linear[run].mean_epoch();
             let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
             let finds = left.finds();
-            let is_signal = |structure| {
-                matches!(structure, Structure::Line(_) | Structure::Order(_) | Structure::Drift)
-            };
+            let is_signal =
+                |structure| is_steady(structure) || matches!(structure, Structure::Chirp(..));
             // The strongest signal, and the strongest of what is none: each is seen in many ways.
             for signal in [true, false] {
                 let strongest = finds.iter().find(|find| is_signal(find.structure) == signal);
@@ -75,7 +74,7 @@ impl Case<'_> {
                     amplitude: None,
                     worst: Vec::new(),
                 };
-                if signal {
+                if is_steady(find.structure) {
                     self.measure(&mut one, after, epoch * innovations.len() as f64)?;
                 }
                 found.push(one);
@@ -248,6 +247,11 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
     let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * statistic.sqrt()));
     OF_INTEREST.iter().filter_map(of).collect()
+}
+
+/// Whether it is a signal of one shape all along, whose size can be told.
+fn is_steady(structure: Structure) -> bool {
+    matches!(structure, Structure::Line(_) | Structure::Order(_) | Structure::Drift)
 }
 
 /// The logarithm of the chance that what comes after the `known` parameters, which are estimated, is nothing.

@@ -1,5 +1,6 @@
 //! What is in no catalogue: a bias that switches, a wave that is no sine.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use rins_diagnosis::{Diagnosis, Structure};
@@ -70,6 +71,21 @@ fn flicker_is_no_bias_that_switches() {
 }
 
 /// A sawtooth is a line and its harmonics, and more than that.
+/// A line whose frequency grows all along is none of one frequency.
+#[test]
+fn line_that_grows_faster_is_described() {
+    let (from, to, duration) = (0.02, 0.3, 50.0 * RATES.len() as f64);
+    let chirp = |time: f64| {
+        let turns = time * (from + 0.5 * (to - from) * time / duration);
+        ([0.02 * DEG_PER_HOUR * (TAU * turns).sin(), 0.0, 0.0], [0.0; 3])
+    };
+    let diagnosis = found(&with(0.0, 340, chirp), NoiseKnowledge::Likely);
+    assert!(diagnosis.causes.is_empty(), "{:?}", diagnosis.causes);
+    let [one] = &diagnosis.unexplained[..] else { panic!("{:?}", diagnosis.unexplained) };
+    let Structure::Chirp(begins, ends) = one.structure else { panic!("{one:?}") };
+    assert!((begins - from).abs() < 0.01 && (ends - to).abs() < 0.01, "{begins} to {ends}");
+}
+
 #[test]
 fn lines_of_one_waveform_are_one() {
     const PERIOD: f64 = 31.0;

@@ -11,6 +11,9 @@ const NEARLY: f64 = 5e-3;
 pub(crate) fn structure_in_words(one: &Unexplained) -> String {
     match one.structure {
         Structure::Line(frequency) => format!("line of {} Hz", figure(frequency, 4)),
+        Structure::Chirp(from, to) => {
+            format!("line that goes from {} to {} Hz", figure(from, 3), figure(to, 3))
+        }
         Structure::Order(order) => order_in_words(order),
         Structure::Drift => "drift, slower than three times in the run".into(),
         Structure::Waveform(frequency) => {

@@ -164,15 +164,20 @@ fn doubt(named: &Named) -> Option<String> {
 
 /// The other effects of a cause's set, in words.
 pub(super) fn rivals(named: &Named) -> String {
-    let rivals = named.cause.rivals.iter().map(|rival| {
-        let odds = (-rival.odds).exp();
-        format!("{} ({} times less likely)", rival.term.name, figure_of_odds(odds))
-    });
+    let rivals = named
+        .cause
+        .rivals
+        .iter()
+        .map(|rival| format!("{} ({})", rival.term.name, odds_in_words((-rival.odds).exp())));
     rivals.collect::<Vec<_>>().join(", ")
 }
 
-fn figure_of_odds(odds: f64) -> String {
-    if odds < 9.5 { format!("{odds:.1}") } else { format!("{odds:.0}") }
+fn odds_in_words(odds: f64) -> String {
+    match odds {
+        ..1.05 => "as likely".into(),
+        1.05..9.5 => format!("{odds:.1} times less likely"),
+        _ => format!("{odds:.0} times less likely"),
+    }
 }
 
 /// What the causes did to the estimates as long as they were not in the model.
