@@ -25,6 +25,10 @@ const SEEN: f64 = 3.0;
 /// The same of a walk, whose strength is chosen.
 const WALKED: f64 = 8.0;
 
+/// A walk that is so many times stronger than is usual at most is none: something else wanders, such as what carries the
+/// sensors.
+const UNHEARD_OF: f64 = 100.0;
+
 /// The terms of the walks of either triad.
 const WALKS: [&Term; 2] = [&catalogue::GYRO_RATE_RANDOM_WALK, &catalogue::ACCEL_RATE_RANDOM_WALK];
 
@@ -128,6 +132,11 @@ impl Case<'_> {
             beyond.iter().filter(|one| !is_slow(one.term.id, &one.settings)).cloned().collect();
         let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let walked = other.fit_near(&found.after, &kept).ok()?;
+        let mut strengths = walked.noise[0].imu;
+        let usual = WALKS[which].parameters[0].range(self.imu).1;
+        if triad(&mut strengths, which).walk > UNHEARD_OF * usual {
+            return None;
+        }
         let gained = walked.log_likelihood - found.after.log_likelihood;
         let odds = gained + CHOSEN * slow.len() as f64 - WALKED;
         let of_slow = slow.iter().flat_map(|&place| &found.causes[place].parameters);
