@@ -167,7 +167,10 @@ impl Gain {
             None => fit(&rest, model, imu, knowledge, |_| ()),
         };
         let first = fitted(near_before, &before)?;
-        let second = if before == after { first.clone() } else { fitted(near_after, &after)? };
+        // A model may have nothing more than another sort of noise.
+        let noise = |near: Option<&'_ Fit>| near.map(|near| near.noise.clone());
+        let alike = before == after && noise(near_before) == noise(near_after);
+        let second = if alike { first.clone() } else { fitted(near_after, &after)? };
         let scores = [scored(runs, held, &first)?, scored(runs, held, &second)?];
         let rises: Vec<f64> =
             scores[0].blocks.iter().zip(&scores[1].blocks).map(|(a, b)| b - a).collect();

@@ -34,9 +34,14 @@ impl Case<'_> {
         // The noise that was found is about what it does at the fastest rate.
         sheet.jitter = encoder / fastest;
         let uneven = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
-        let other = search(&uneven)?;
+        let mut other = search(&uneven)?;
         let is_named =
             other.causes.iter().any(|cause| cause.term.id == catalogue::TIMESTAMP_JITTER.id);
-        Ok(if is_named { (uneven, other) } else { (*self, found) })
+        if !is_named {
+            return Ok((*self, found));
+        }
+        // What it gains is over the model that knows nothing of it.
+        other.before = found.before;
+        Ok((uneven, other))
     }
 }

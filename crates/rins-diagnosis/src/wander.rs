@@ -92,6 +92,8 @@ impl Case<'_> {
                 }));
             }
         }
+        // What it gains is over the model without a walk.
+        walked.before = found.before;
         Ok(walked)
     }
 

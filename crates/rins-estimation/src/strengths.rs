@@ -1,6 +1,7 @@
 //! How strong the random errors are.
 
-use rins_imu::{ImuSpec, TriadSpec};
+use rins_imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
+use rins_terms::{Model, Noises};
 
 /// The random errors of one triad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,6 +45,29 @@ impl Strengths {
             jitter: 0.0,
         }
     }
+
+    /// The same with what the noise among a model's terms makes of it, as it does of a simulation's.
+    #[must_use]
+    pub fn with(&self, model: &Model) -> Self {
+        let noise = |triad: &TriadStrengths| NoiseModel {
+            bias_random_walk: triad.walk,
+            flicker: (triad.flicker > 0.0).then_some(triad.flicker),
+            ..NoiseModel::white(triad.white)
+        };
+        let strengths = |noise: &NoiseModel| TriadStrengths {
+            white: noise.white_density,
+            flicker: noise.flicker.unwrap_or_default(),
+            walk: noise.bias_random_walk,
+        };
+        let imu = ImuNoise { gyro: noise(&self.gyro), accel: noise(&self.accel) };
+        let Noises { imu, .. } = model.stirred(Noises { imu, encoder: 0.0 });
+        let jitter = model.value("timestamp_jitter.sigma").unwrap_or_default();
+        Self {
+            gyro: strengths(&imu.gyro),
+            accel: strengths(&imu.accel),
+            jitter: self.jitter.hypot(jitter),
+        }
+    }
 }
 
 /// All noise of a run.
@@ -70,5 +94,29 @@ impl Noise {
             _ => rig.wobble,
         };
         Self { imu: *imu, wobble: rig.wobble, encoder, velocity: rig.velocity, sway: [0.0; 3] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_terms::{Chosen, catalogue};
+
+    #[test]
+    fn noise_of_a_model_comes_to_that_of_the_sheet() {
+        let triad = TriadStrengths { white: 2.0, flicker: 0.3, walk: 0.0 };
+        let sheet = Strengths { gyro: triad, accel: triad, jitter: 0.0 };
+        let terms = [
+            Chosen::new(&catalogue::GYRO_NOISE_LEVEL).with_values(&[0.5]),
+            Chosen::new(&catalogue::ACCEL_RATE_RANDOM_WALK).with_values(&[0.07]),
+            Chosen::new(&catalogue::TIMESTAMP_JITTER).with_values(&[1e-5]),
+            // What is a signal is none.
+            Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY).with_values(&[1.0]),
+        ];
+        let found = sheet.with(&Model { terms: terms.to_vec() });
+        let gyro = TriadStrengths { white: 3.0, ..triad };
+        let accel = TriadStrengths { walk: 0.07, ..triad };
+        assert_eq!(found, Strengths { gyro, accel, jitter: 1e-5 });
+        assert_eq!(sheet.with(&Model::default()), sheet);
     }
 }

@@ -75,6 +75,9 @@ fn a_random_walk_is_named_with_its_density() {
         let off = (estimate.value - density) / estimate.sigma;
         assert!(off.abs() < 3.0 && estimate.value > 5.0 * estimate.sigma, "{off} sigma off");
         assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
+        // What it gains is over a model that has none.
+        let walks = [&diagnosis.before, &diagnosis.after].map(|fit| fit.noise[0].imu.gyro.walk);
+        assert!(walks[0] == 0.0 && walks[1] > 0.0, "{walks:?}");
     }
 }
 

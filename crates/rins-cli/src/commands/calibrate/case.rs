@@ -85,9 +85,9 @@ impl Case {
         self.runs.iter().enumerate().map(of_log).collect()
     }
 
-    /// What is known of the random errors.
+    /// What is known of the random errors: what the sheet says, and what of them is in the model.
     pub(crate) fn knowledge(&self) -> NoiseKnowledge {
-        let sheet = Strengths::of(self.imu());
+        let sheet = Strengths::of(self.imu()).with(&self.model);
         match self.noise {
             NoiseChoice::Likely => NoiseKnowledge::Likely(sheet),
             NoiseChoice::Given => NoiseKnowledge::Given(sheet),

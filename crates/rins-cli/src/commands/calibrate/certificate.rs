@@ -9,7 +9,7 @@ use rins_estimation::{Fit, Identifiability, Run, fit};
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
 use rins_motion::Recording;
-use rins_terms::{Model, NotUndone, Owner, Surroundings, compensated};
+use rins_terms::{Chosen, Model, NotUndone, Owner, Surroundings, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
@@ -35,6 +35,8 @@ pub(crate) struct Certificate {
     pub(crate) consistency: Consistency,
     /// Whether the noise was found, or given.
     pub(crate) noise: NoiseChoice,
+    /// What else was found that the model is to hold, such as noise: what it adds to no signal.
+    pub(crate) besides: Vec<Chosen>,
     /// What else a reader must know.
     pub(crate) remarks: Vec<String>,
 }
@@ -98,7 +100,8 @@ impl Certificate {
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
         let Case { name: model, noise, remarks, .. } = case;
-        Ok(Self { model, runs: certified, fit, told, consistency, noise, remarks })
+        let besides = Vec::new();
+        Ok(Self { model, runs: certified, fit, told, consistency, noise, besides, remarks })
     }
 
     /// What the command delivers.
@@ -116,10 +119,10 @@ impl Certificate {
     /// The model with the estimates in it, and a calibration file for each run.
     pub(crate) fn files(&self) -> Vec<(String, Vec<u8>)> {
         let several = self.runs.len() > 1;
-        let mut delivered = vec![(
-            "model.toml".into(),
-            ModelFile::of(files::model(&self.fit)).to_toml().into_bytes(),
-        )];
+        let mut model = files::model(&self.fit);
+        model.terms.extend(self.besides.iter().cloned());
+        let mut delivered =
+            vec![("model.toml".into(), ModelFile::of(model).to_toml().into_bytes())];
         for run in 0..self.runs.len() {
             let name = match (several, run) {
                 (true, 1..) => format!("calibration-{}.toml", run + 1),

@@ -186,7 +186,8 @@ impl Found {
             [&diagnosis.before, &diagnosis.after].map(|fit| Overlay::of(&runs[place], fit, place))
         };
         let overlays = (0..runs.len()).map(left).collect();
-        let certificate = Certificate::with(case, diagnosis.after)?;
+        let mut certificate = Certificate::with(case, diagnosis.after)?;
+        certificate.besides = causes.iter().filter_map(|named| no_signal(&named.cause)).collect();
         let seconds = started.elapsed().as_secs_f64();
         let unexplained = diagnosis.unexplained;
         Ok(Self {
@@ -240,6 +241,16 @@ impl Named {
         });
         Self { cause, sigmas, plausible, next_test }
     }
+}
+
+/// A cause as a term with the values that were found, if it is noise, or what a logger does.
+fn no_signal(cause: &Cause) -> Option<Chosen> {
+    let mut chosen = Chosen::new(cause.term);
+    chosen.settings.clone_from(&cause.settings);
+    for estimate in &cause.parameters {
+        chosen.values[estimate.parameter.parameter] = estimate.value;
+    }
+    (!cause.term.is_signal()).then_some(chosen)
 }
 
 /// How many sigmas these of a fit's parameters are from zero, all together.
