@@ -51,14 +51,8 @@ impl<'a> Case<'a> {
         knowledge: NoiseKnowledge,
         rounding: &'a Rounding,
     ) -> Self {
-        Self { runs, given, imu, knowledge, sheet: *stated(&knowledge), rounding }
+        Self { runs, given, imu, knowledge, sheet: knowledge.sheet(), rounding }
     }
-}
-
-/// What a sheet says of the noise.
-pub(crate) fn stated(knowledge: &NoiseKnowledge) -> &Strengths {
-    let (NoiseKnowledge::Given(sheet) | NoiseKnowledge::Likely(sheet)) = knowledge;
-    sheet
 }
 
 impl Case<'_> {

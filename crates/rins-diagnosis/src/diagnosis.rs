@@ -6,7 +6,7 @@ use rins_terms::{Chosen, Model, Term, catalogue};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
-use crate::case::{Case, stated};
+use crate::case::Case;
 use crate::dead_zone;
 use crate::disturbance;
 use crate::rounding::Rounding;
@@ -106,7 +106,7 @@ pub fn diagnose(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
-    let rounding = Rounding::of(runs, stated(&knowledge));
+    let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     let found = case.searched(&mut progress)?;
     let (case, found) = case.read_unevenly(found, |uneven| uneven.searched(&mut progress))?;
@@ -232,7 +232,7 @@ pub fn suppose(
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Diagnosis, DiagnosisError> {
-    let rounding = Rounding::of(runs, stated(&knowledge));
+    let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     let before = case.fit()?;
     let found = supposed.to_vec();

@@ -44,13 +44,12 @@ struct Steps {
 
 impl Rounding {
     /// The steps of all sensors that are told of, beside the noise that a sheet states.
-    pub(crate) fn of(runs: &[Run], sheet: &Strengths) -> Self {
+    pub(crate) fn of(runs: &[Run], sheet: Strengths) -> Self {
         let of_run = |run: &Run| {
             let combs = run.recording.combs();
-            let times = &run.recording.times;
-            let interval = (times[times.len() - 1] - times[0]) / (times.len() as f64 - 1.0);
+            let interval = run.recording.mean_interval();
             [0, 1].map(|which| {
-                let stated = triad(&mut { *sheet }, which).white;
+                let stated = triad(&mut { sheet }, which).white;
                 let steps = (3 * which..3 * which + 3).filter_map(|channel| {
                     let Combs { increments, rates } = combs[channel];
                     let of_increments = increments.map(|comb| comb.step / interval);

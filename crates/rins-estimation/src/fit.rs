@@ -13,7 +13,7 @@ use crate::likely::likely_noise;
 use crate::linear::{Linear, Pieces, linearised};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
-use crate::strengths::{Noise, Strengths};
+use crate::strengths::{Noise, NoiseKnowledge};
 
 /// The most times that a run is made linear.
 const MOST_ITERATIONS: usize = 20;
@@ -26,16 +26,6 @@ const NEAR: f64 = 1.0;
 
 /// The cosine of the angle between a step and the way back beyond which it only turns back.
 const TURNING_BACK: f64 = 0.5;
-
-/// What is known of the sensors' random errors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoiseKnowledge {
-    /// They are this strong.
-    Given(Strengths),
-    /// These strengths are a first guess, and the most likely ones are found from the data, those of
-    /// the encoder and of the axis' wobble with them.
-    Likely(Strengths),
-}
 
 /// Why no estimate was found.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -115,7 +105,7 @@ fn fitted(
     if free.is_empty() {
         return Err(FitError::NothingFree);
     }
-    let (NoiseKnowledge::Given(strengths) | NoiseKnowledge::Likely(strengths)) = knowledge;
+    let strengths = knowledge.sheet();
     let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
     let mut problem = Problem::new((runs, near), model, free);
     let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();

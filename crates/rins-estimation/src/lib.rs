@@ -48,7 +48,7 @@ mod identifiability;
 pub use estimate::{Estimate, Fit, Iteration};
 pub use evidence::{Foretold, Indefinite, foretold, innovations};
 pub use filter::Filter;
-pub use fit::{FitError, NoiseKnowledge, fit, fit_near};
+pub use fit::{FitError, fit, fit_near};
 pub use gravity::{axis_from_gravity, turning_span};
 pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
@@ -58,7 +58,7 @@ pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};
-pub use strengths::{Noise, Strengths, TriadStrengths};
+pub use strengths::{Noise, NoiseKnowledge, Strengths, TriadStrengths};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

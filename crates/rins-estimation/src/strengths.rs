@@ -70,6 +70,24 @@ impl Strengths {
     }
 }
 
+/// What is known of the sensors' random errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoiseKnowledge {
+    /// They are this strong.
+    Given(Strengths),
+    /// These strengths are a first guess, and the most likely ones are found from the data, those of
+    /// the encoder and of the axis' wobble with them.
+    Likely(Strengths),
+}
+
+impl NoiseKnowledge {
+    /// The strengths that were stated, be they trusted or a first guess.
+    pub const fn sheet(&self) -> Strengths {
+        let (Self::Given(strengths) | Self::Likely(strengths)) = self;
+        *strengths
+    }
+}
+
 /// All noise of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {

@@ -9,9 +9,9 @@ use rins_terms::{Chosen, Model, catalogue};
 use rins_testing::assert_close;
 
 use super::*;
-use crate::fit::{NoiseKnowledge, fit};
+use crate::fit::fit;
 use crate::run::{Reference, Rig, Run};
-use crate::strengths::Strengths;
+use crate::strengths::{NoiseKnowledge, Strengths};
 
 const IMU: ImuSpec = ImuSpec {
     gyro: TriadSpec::white(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC),
