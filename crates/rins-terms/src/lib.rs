@@ -25,6 +25,7 @@ mod making;
 mod model;
 mod moment;
 mod page;
+mod senses;
 mod signals;
 mod slope;
 mod term;

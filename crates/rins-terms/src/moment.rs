@@ -60,7 +60,7 @@ pub struct Instant {
     pub rate: f64,
     /// Its acceleration \[rad/s²\].
     pub acceleration: f64,
-    /// The way the table turned last: 1, -1, or 0 before it ever turned.
+    /// The way the table turned last: 1, -1, or 0 before it ever turned; the mean of both while it turns round.
     pub sense: f64,
     /// The way its rate changed last: 1, -1, or 0 before it ever changed.
     pub rate_change: f64,

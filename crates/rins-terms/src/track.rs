@@ -3,10 +3,11 @@
 use nalgebra::Vector3;
 
 use crate::moment::{Instant, Moment, Surroundings, turned_back};
+use crate::senses::senses;
 use crate::slope::slopes;
 
-/// A rate below which a table does not turn, and a change of rate that is none \[rad/s\].
-const LEAST_RATE: f64 = 5e-3;
+/// A change of rate that is none \[rad/s\].
+const LEAST_RATE_CHANGE: f64 = 5e-3;
 
 /// The table's motion over a run, from which every sample's [`Moment`] follows.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +20,8 @@ pub struct Track {
     intervals: Vec<f64>,
     /// The table angle before the first sample, and at the end of each \[rad\].
     angles: Vec<f64>,
+    /// The way the table turned last, at the end of each sample.
+    senses: Vec<i8>,
     /// The temperature at the end of each sample \[°C\].
     temperature: Option<Vec<f64>>,
     /// How fast it changes \[K/s\].
@@ -42,7 +45,8 @@ impl Track {
         let matches = temperature.as_ref().is_none_or(|list| list.len() == times.len());
         assert!(matches, "a temperature a sample");
         let warming_rates = temperature.as_ref().map(|list| slopes(&times, list));
-        Self { surroundings, times, intervals, angles, temperature, warming_rates }
+        let senses = senses(&intervals, &angles);
+        Self { surroundings, times, intervals, angles, senses, temperature, warming_rates }
     }
 
     /// The same with samples taken together: those up to each of `ends`, the sample after the last of them.
@@ -63,6 +67,7 @@ impl Track {
                 .chain(ends.iter().copied())
                 .map(|end| self.angles[end])
                 .collect(),
+            senses: ends.iter().map(|&end| self.senses[end - 1]).collect(),
             temperature: self.temperature.as_deref().map(last),
             warming_rates: self
                 .warming_rates
@@ -121,7 +126,6 @@ impl Track {
                 surroundings: self.surroundings,
             },
             rates: [first; 2],
-            sense: 0.0,
             rate_change: 0.0,
             settled_rate: 0.0,
         }
@@ -162,6 +166,10 @@ impl Track {
         (self.angles[sample + 1] - self.angles[sample]) / elapsed
     }
 
+    fn sense(&self, sample: usize) -> f64 {
+        f64::from(self.senses[sample])
+    }
+
     fn warming(&self, sample: usize) -> f64 {
         self.temperature.as_ref().map_or(0.0, |list| list[sample] - list[0])
     }
@@ -178,7 +186,6 @@ pub struct Moments<'a> {
     moment: Moment,
     /// The mean rates over the sample before and over this one \[rad/s\].
     rates: [f64; 2],
-    sense: f64,
     rate_change: f64,
     settled_rate: f64,
 }
@@ -200,7 +207,7 @@ impl Moments<'_> {
             angle: track.angles[sample + 1] - 0.5 * rate * interval,
             rate,
             acceleration: 0.5 * (after - before) / elapsed,
-            sense: self.sense,
+            sense: 0.5 * (track.sense(sample.saturating_sub(1)) + track.sense(sample)),
             rate_change: self.rate_change,
             warming: 0.5 * (warming + warming_before),
             warming_rate: track.warming_rates.as_ref().map_or(0.0, |list| list[sample]),
@@ -226,6 +233,7 @@ impl Moments<'_> {
             angle: track.angles[sample + 1],
             rate: 0.5 * (rate + after),
             acceleration: (after - rate) / elapsed,
+            sense: track.sense(sample),
             warming,
             ..mean
         };
@@ -236,10 +244,7 @@ impl Moments<'_> {
     /// Goes on to the next sample.
     fn pass(&mut self) {
         let rate = self.rates[1];
-        if rate.abs() > LEAST_RATE {
-            self.sense = rate.signum();
-        }
-        if (rate - self.settled_rate).abs() > LEAST_RATE {
+        if (rate - self.settled_rate).abs() > LEAST_RATE_CHANGE {
             self.rate_change = (rate - self.settled_rate).signum();
             self.settled_rate = rate;
         }
