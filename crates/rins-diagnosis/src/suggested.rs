@@ -45,7 +45,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
-            list.extend(Self::events([&innovations, &in_body], present, run));
+            list.extend(self.events([&innovations, &in_body], present, run));
             // What comes back less often is a drift.
             let slowest = FEWEST_CYCLES / (count * epoch);
             let frequencies =
@@ -72,6 +72,7 @@ impl Case<'_> {
     /// Every event where the innovations of some epochs, in the axis frame or in the body, are largest together: what is
     /// over in an instant shows in one or a few of them only, what the noise swallows until it has gone along with it.
     fn events(
+        &self,
         innovations: [&[SVector<f64, CHANNELS>]; 2],
         present: &Fit,
         run: usize,
@@ -93,7 +94,10 @@ impl Case<'_> {
             }
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
-                chosen.settings[place] = ends[outlier.start] - begin - 0.5 * epoch;
+                let within = ends[outlier.start] - begin - 0.5 * epoch;
+                let jolt = || self.jolt(present, within);
+                let tips = chosen.term.id == catalogue::BASE_TILT_STEP.id;
+                chosen.settings[place] = tips.then(jolt).flatten().unwrap_or(within);
                 let step = 2.0 * outlier.len() as f64 * epoch;
                 list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
             }

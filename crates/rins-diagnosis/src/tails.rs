@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use rins_estimation::Fit;
+use rins_terms::catalogue;
 
 use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
@@ -36,8 +37,16 @@ impl Case<'_> {
             let read = angles.get(samples).unwrap_or_default();
             read.windows(2).filter(|pair| pair[0] == pair[1]).count() > BLOCK / MOST_REPEATS
         };
+        let jolts = jolted(fit, run);
+        let jolted = |samples: &Range<usize>| {
+            let within = |jolt: &Range<usize>| jolt.start < samples.end && samples.start < jolt.end;
+            jolts.iter().any(within)
+        };
         let excesses = all.iter().enumerate().map(|(channel, residuals)| {
-            (channel, excess(residuals, |samples| channel != ABOUT_AXIS || !repeats(samples)))
+            let counts = |samples: Range<usize>| {
+                !jolted(&samples) && (channel != ABOUT_AXIS || !repeats(samples))
+            };
+            (channel, excess(residuals, counts))
         });
         let (channel, (excess, ln_p)) = excesses
             .filter(|(channel, _)| !self.rounding.is_coarse(run, *channel))
@@ -55,6 +64,20 @@ impl Case<'_> {
         };
         (excess.is_finite() && one.ln_p < FALSE_ALARMS.ln()).then_some(one)
     }
+}
+
+/// The samples in which a base that tips over does so: not at once, and what it does in between no step describes.
+fn jolted(fit: &Fit, run: usize) -> Vec<Range<usize>> {
+    let linear = &fit.linear[run];
+    let (begin, epoch) = (linear.track().start(), linear.mean_epoch());
+    let times = linear.track().times();
+    let first = |after: f64| times.partition_point(|time| time - begin < after);
+    fit.models[run]
+        .terms
+        .iter()
+        .filter(|chosen| chosen.term.id == catalogue::BASE_TILT_STEP.id)
+        .map(|step| first(step.settings[0] - epoch)..first(step.settings[0] + epoch))
+        .collect()
 }
 
 /// By how much the kurtosis of white noise is more than a normal distribution's, and the logarithm of the chance of that.

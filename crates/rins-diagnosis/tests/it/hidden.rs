@@ -184,7 +184,22 @@ fn a_step_is_found_at_its_instant() {
     assert!(off.abs() < 4.0, "{off}");
 }
 
-/// Noise that is not as the sheet says is named as such, and with its size.
+/// One reversal, within an epoch: play shifts the reading from that very sample on, and a slip would need its time.
+#[test]
+fn backlash_shows_at_the_instant_of_a_reversal() {
+    for (seed, rate) in [11.0, 12.5, 14.3].into_iter().enumerate() {
+        let play = -2.0 * ARCSEC;
+        let hidden = hiding(&[(&catalogue::ENCODER_BACKLASH, &[play])]);
+        let run = run(&[0.0, rate, -rate], hidden, 0.0, seed as u64 + 320);
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let [cause] = &diagnosis.causes[..] else { panic!("{rate}: {:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, "encoder_backlash", "{rate}");
+        let [of] = &cause.parameters[..] else { panic!("{:?}", cause.parameters) };
+        assert!((of.value - play).abs() < 4.0 * of.sigma, "{rate}: {} of {play}", of.value);
+        assert!(diagnosis.unexplained.is_empty(), "{rate}: {:?}", diagnosis.unexplained);
+    }
+}
+
 /// A base that tips over within an epoch: the gyros show in which sample.
 #[test]
 fn a_base_that_tips_over_is_found_in_its_sample() {
@@ -199,8 +214,10 @@ fn a_base_that_tips_over_is_found_in_its_sample() {
         let off = (estimate.value - truth) / estimate.sigma;
         assert!(off.abs() < 4.0 && estimate.sigma < 0.1 * ARCSEC, "{off} sigma off");
     }
+    assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
 }
 
+/// Noise that is not as the sheet says is named as such, and with its size.
 #[test]
 fn stronger_noise_than_the_sheet_says_is_named() {
     let louder = hiding(&[(&catalogue::ACCEL_NOISE_LEVEL, &[0.6])]);
