@@ -1,6 +1,6 @@
 //! From what is felt to what an IMU delivers: errors on every short step, means and scatter on every sample.
 
-use nalgebra::{Complex, Vector3};
+use nalgebra::{Complex, Matrix3, Vector3};
 
 use crate::drive::Way;
 use crate::effect::{Effect, Law};
@@ -80,6 +80,7 @@ pub(crate) fn sums(
     let field = experiment.place.magnetic_field();
     let warm = |time: f64| experiment.temperature.at(time);
     let start = warm(0.0);
+    let axes = experiment.gyro.axes();
     // The first and the last point have one neighbour only.
     let points = way.angles.len() - 2;
     let zero = Vector3::zeros();
@@ -89,13 +90,15 @@ pub(crate) fn sums(
         let next = motion.force(attitudes, place + 1);
         let time = grid.time(place) + 0.5 * grid.step;
         let angle = 0.5 * (way.angles[place] + way.angles[place + 1]);
+        let turning = motion.turning(attitudes, place);
         let now = Instant {
             time,
             rate: (way.angles[place + 1] - way.angles[place]) / grid.step,
             rise: way.rises[place + 1],
             warming: warm(time) - start,
             warming_rate: (warm(time + grid.step) - warm(time)) / grid.step,
-            turning: motion.turning(attitudes, place),
+            turning,
+            about_axes: Vector3::from_fn(|gyro, _| axes[gyro].dot(&turning)),
             force: (force + next) * 0.5,
             field: attitudes.in_body(place, &field),
         };
@@ -196,5 +199,11 @@ impl Sensors {
     /// What is read beyond what is true.
     fn error(&self, of: &Vector3<f64>) -> Vector3<f64> {
         self.bias + self.matrix * of
+    }
+
+    /// The direction of each sensor's own axis in the body: along it is what a sensor reads most of.
+    fn axes(&self) -> [Vector3<f64>; 3] {
+        let seen = Matrix3::identity() + self.matrix;
+        [0, 1, 2].map(|sensor| seen.row(sensor).transpose().normalize())
     }
 }

@@ -179,8 +179,8 @@ impl Case<'_> {
     ) -> Result<(Candidate, Trial), Indefinite> {
         let noises = self.noises(present);
         loop {
-            let widths = dead_zone::of_shape(&best.0.chosen, &best.1.parameters).values;
-            let list = dead_zone::with_another(&widths);
+            let zone = dead_zone::of_shape(&best.0.chosen, &best.1.parameters);
+            let list = dead_zone::with_another(&zone);
             let survey = Survey::of(self.runs, present, self.imu, &list, &noises)?;
             let Some(context) = Context::of(&survey, &[], &[]) else { return Ok(best) };
             match trials(&survey, &context, &list).into_iter().next() {

@@ -1,7 +1,9 @@
 //! A dead zone, which has no slope at the width zero: it is tried at one width after the other.
 
 use rins_frames::units::DEG_PER_HOUR;
-use rins_terms::{Chosen, Dual64, Role, Setting, Signals, Term, Unit, catalogue::GYRO_DEAD_ZONE};
+use rins_terms::{
+    Action, Chosen, Dual64, Role, Setting, Signals, Term, Unit, catalogue::GYRO_DEAD_ZONE,
+};
 
 use crate::candidates::Candidate;
 
@@ -25,6 +27,12 @@ const AS_DEEP: f64 = 2.0;
 /// a rate uncertain by more than a zone is wide, and so what is lost by it.
 const ACROSS: usize = 2;
 
+/// About which axes a zone may be: the gyros' own, or the body's.
+const AXES: [f64; 2] = [0.0, 1.0];
+
+/// How often a zone is about the gyros' own axes.
+const OWN: f64 = 0.9;
+
 const fn width(name: &'static str) -> Setting {
     let meaning = "below which rate the gyro shows nothing";
     Setting { name, meaning, unit: Unit::DEG_PER_HOUR, default: 0.0, within: (0.0, WIDTHS[0]) }
@@ -32,66 +40,76 @@ const fn width(name: &'static str) -> Setting {
 
 /// The dead zone of given widths, of any depth: linear, and at a depth that is the width the true one.
 static OF_WIDTHS: Term = Term {
-    settings: &[width("width_x"), width("width_y"), width("width_z")],
-    action: rins_terms::Action::Signal(|depths, widths, moment, out| {
+    settings: &[width("width_x"), width("width_y"), width("width_z"), GYRO_DEAD_ZONE.settings[0]],
+    action: Action::Sensed(|depths, settings, moment, sensed, out| {
+        let (widths, axes) = settings.split_at(depths.len());
         let mut zone = Signals::default();
         let whole = [0, 1, 2].map(|axis| Dual64::from_re(widths[axis]));
-        GYRO_DEAD_ZONE.act(&whole, &[], moment, &mut zone);
+        GYRO_DEAD_ZONE.act_on((&whole, axes), moment, sensed, &mut zone);
         for (axis, &depth) in depths.iter().enumerate() {
             if widths[axis] > 0.0 {
-                out.gyro[axis] += depth * (zone.gyro[axis].re / widths[axis]);
+                out.gyro[axis] += depth * zone.gyro[axis] / widths[axis];
             }
         }
     }),
     ..GYRO_DEAD_ZONE
 };
 
-/// A dead zone in every width, the same for the gyros across the spin axis.
+/// A dead zone in every width, the same for the gyros across the spin axis, about either axes.
 pub(crate) fn shapes() -> Vec<Candidate> {
-    WIDTHS.into_iter().map(|width| of_widths(&[width, width, 0.0])).collect()
+    let about = |axes: f64| WIDTHS.map(|width| of_widths(&[width, width, 0.0], axes));
+    AXES.into_iter().flat_map(about).collect()
 }
 
-/// A dead zone of these widths, and every one that a further gyro has besides.
-pub(crate) fn with_another(widths: &[f64]) -> Vec<Candidate> {
-    let mut list = vec![of_widths(widths)];
+/// The dead zone that was found, and every one that a further gyro has besides.
+pub(crate) fn with_another(zone: &Chosen) -> Vec<Candidate> {
+    let (widths, axes) = (&zone.values, zone.settings[0]);
+    let mut list = vec![of_widths(widths, axes)];
     for axis in (0..ACROSS).filter(|&axis| widths[axis] == 0.0) {
         for another in WIDTHS {
-            let mut widths = widths.to_vec();
+            let mut widths = widths.clone();
             widths[axis] = another;
-            list.push(of_widths(&widths));
+            list.push(of_widths(&widths, axes));
         }
     }
     list
 }
 
-fn of_widths(widths: &[f64]) -> Candidate {
+fn of_widths(widths: &[f64], axes: f64) -> Candidate {
     let mut chosen = Chosen::new(&OF_WIDTHS).estimated();
-    chosen.settings.copy_from_slice(widths);
+    chosen.settings = [widths, &[axes]].concat();
     // Each width of its own has been sought.
     let own = |&place: &usize| widths[place] > 0.0 && !widths[..place].contains(&widths[place]);
-    let looks = (0..widths.len()).filter(own).map(|_| WIDTHS.len() as f64).product();
-    Candidate { chosen, looks, step: None }
+    let widths: f64 = (0..widths.len()).filter(own).map(|_| WIDTHS.len() as f64).product();
+    let often = if axes == 0.0 { OWN } else { 1.0 - OWN };
+    Candidate { chosen, looks: widths / often, step: None }
 }
 
 /// Whether this is a dead zone of given widths.
 pub(crate) fn is_of_widths(chosen: &Chosen) -> bool {
-    chosen.term.id == OF_WIDTHS.id && !chosen.settings.is_empty()
+    chosen.term.id == OF_WIDTHS.id && chosen.settings.len() == OF_WIDTHS.settings.len()
 }
 
 /// Whether this is a dead zone whose widths are its parameters.
 pub(crate) fn is_true(chosen: &Chosen) -> bool {
-    chosen.term.id == GYRO_DEAD_ZONE.id && chosen.settings.is_empty()
+    chosen.term.id == GYRO_DEAD_ZONE.id && !is_of_widths(chosen)
 }
 
 /// What stands for a dead zone of these widths where a model has to be linear from there down to nothing.
 pub(crate) fn linear(zone: &Chosen) -> Chosen {
-    let values = zone.values.clone();
-    Chosen { term: &OF_WIDTHS, settings: values.clone(), values, roles: zone.roles.clone() }
+    let settings = [&zone.values[..], &zone.settings].concat();
+    Chosen { term: &OF_WIDTHS, settings, ..zone.clone() }
+}
+
+/// Whether a shape is that of a true dead zone.
+pub(crate) fn is_shape_of(shape: &Chosen, zone: &Chosen) -> bool {
+    is_of_widths(shape) && shape.settings == linear(zone).settings
 }
 
 /// The true dead zone of which a shape is one width, of these gyros and of no other.
 pub(crate) fn of_shape(shape: &Chosen, gyros: &[usize]) -> Chosen {
     let mut zone = Chosen::new(&GYRO_DEAD_ZONE);
+    zone.settings.copy_from_slice(&shape.settings[zone.values.len()..]);
     for &gyro in gyros {
         zone.values[gyro] = shape.settings[gyro];
         zone.roles[gyro] = Role::Free;

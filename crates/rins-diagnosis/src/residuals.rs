@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use rins_estimation::{Fit, Reference, Run};
-use rins_terms::{Model, Track, values};
+use rins_terms::{Acting, Model, Track, values};
 
 use crate::structure::CHANNELS;
 
@@ -26,12 +26,13 @@ pub(crate) fn beyond(run: &Run, track: &Track, model: &Model) -> [Vec<f64>; CHAN
         _ => None,
     };
     let mut before: Option<f64> = None;
-    let opening = track.opening().map(|moment| values(&model.signals(&moment).tilt));
+    let terms = Acting::present(model);
+    let opening = track.opening().map(|moment| values(&Acting::together(&terms, &moment).tilt));
     let mut tilt_before = opening.unwrap_or_default();
     let samples = &run.recording.increments;
     let longest = run.recording.longest_interval();
     for (index, (moment, sample)) in track.moments().zip(samples).enumerate() {
-        let predicted = model.signals(&moment);
+        let predicted = Acting::together(&terms, &moment);
         let rates = sample.rates();
         // A base that tilts turns the gyros, and the direction of all that is felt.
         let tilt = values(&predicted.tilt);

@@ -83,7 +83,7 @@ impl Case<'_> {
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
-                        return own.settings == present.model().terms[given + index].values;
+                        return dead_zone::is_shape_of(own, &present.model().terms[given + index]);
                     }
                     let is_sought = |name: &str| ["time", "exponent"].contains(&name);
                     own.term.settings.iter().any(|setting| is_sought(setting.name))
@@ -147,8 +147,8 @@ impl Case<'_> {
         for (index, cause) in found.iter().enumerate() {
             if dead_zone::is_true(cause) {
                 list.retain(|other| other.chosen.term.id != cause.term.id);
-                let widths = &present.model().terms[self.given.terms.len() + index].values;
-                list.extend(dead_zone::with_another(widths));
+                let zone = &present.model().terms[self.given.terms.len() + index];
+                list.extend(dead_zone::with_another(zone));
             }
             let at: Vec<Candidate> =
                 list.iter().filter_map(|candidate| candidate.at_the_time_of(cause)).collect();

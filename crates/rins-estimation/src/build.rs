@@ -13,8 +13,8 @@ pub(crate) struct Compared<'a> {
     run: &'a Run,
     /// The terms that do anything: hundreds may stand by to be tried.
     present: Vec<Acting<'a>>,
-    /// Of each column the term, with a derivative by one of its parameters.
-    columns: Vec<Acting<'a>>,
+    /// Of each column the term, with a derivative by one of its parameters, and what follows from that one too.
+    columns: Vec<Vec<Acting<'a>>>,
     readings: Option<&'a [f64]>,
     sway: Option<Sway>,
     /// What turns a difference in readings into one in what was true, `(I + [S, M])⁻¹`, of gyros and accelerometers.
@@ -36,7 +36,7 @@ impl<'a> Compared<'a> {
             present: Acting::present(model),
             columns: free
                 .iter()
-                .map(|&(term, parameter)| Acting::by(&model.terms[term], parameter))
+                .map(|&(term, parameter)| Acting::by(model, term, parameter))
                 .collect(),
             readings,
             sway: Sway::of(run),
@@ -127,7 +127,7 @@ impl Compared<'_> {
     /// What the parameters add to what is read in a piece.
     fn set_columns(&self, growing: &mut Growing, piece: &Moment) {
         for (column, acting) in self.columns.iter().enumerate() {
-            growing.set(column, &self.read(acting.signals(piece)));
+            growing.set(column, &self.read(Acting::together(acting, piece)));
         }
     }
 

@@ -2,35 +2,59 @@
 
 use num_dual::Dual64;
 
+use crate::catalogue::GYRO_MISALIGNMENT;
 use crate::model::{Chosen, Model};
 use crate::moment::Moment;
 use crate::signals::Signals;
+use crate::term::Action;
 
-/// A term at work: with its parameters, and perhaps a derivative by one of them.
+/// A term of a model at work: with its parameters, and perhaps a derivative by one of the model's.
 #[derive(Clone, Debug)]
 pub struct Acting<'a> {
     chosen: &'a Chosen,
     parameters: Vec<Dual64>,
+    /// What turns the gyros' axes from the body's, where the term acts on the rate about them.
+    axes: Vec<Self>,
 }
 
 impl<'a> Acting<'a> {
-    /// With its parameters.
-    pub fn new(chosen: &'a Chosen) -> Self {
-        let parameters = chosen.values.iter().map(|&value| Dual64::from_re(value)).collect();
-        Self { chosen, parameters }
+    /// The term at `place` in a model, with a derivative by parameter `by` of this or another term.
+    fn of(model: &'a Model, place: usize, by: Option<(usize, usize)>) -> Self {
+        let chosen = &model.terms[place];
+        let mut parameters: Vec<Dual64> =
+            chosen.values.iter().map(|&value| Dual64::from_re(value)).collect();
+        if let Some((_, parameter)) = by.filter(|by| by.0 == place) {
+            parameters[parameter].eps = 1.0;
+        }
+        let mut axes = Vec::new();
+        if let Action::Sensed(_) = chosen.term.action {
+            let turning = (0..model.terms.len()).filter(|&other| turns_axes(&model.terms[other]));
+            axes = turning.map(|other| Self::of(model, other, by)).collect();
+        }
+        Self { chosen, parameters, axes }
     }
 
-    /// With a derivative by one of its parameters.
-    pub fn by(chosen: &'a Chosen, parameter: usize) -> Self {
-        let mut acting = Self::new(chosen);
-        acting.parameters[parameter].eps = 1.0;
-        acting
+    /// What has a derivative by a parameter of a model's term: the term itself, and what acts on a rate that it turns.
+    pub fn by(model: &'a Model, term: usize, parameter: usize) -> Vec<Self> {
+        let by = Some((term, parameter));
+        let mut list = vec![Self::of(model, term, by)];
+        if turns_axes(&model.terms[term]) {
+            let sensed = |chosen: &Chosen| matches!(chosen.term.action, Action::Sensed(_));
+            let on_it =
+                |&place: &usize| sensed(&model.terms[place]) && does_anything(&model.terms[place]);
+            let others = (0..model.terms.len()).filter(on_it);
+            list.extend(others.map(|place| Self::of(model, place, by)));
+        }
+        list
     }
 
     /// The terms of a model that do anything.
     pub fn present(model: &'a Model) -> Vec<Self> {
-        let present = |chosen: &&Chosen| chosen.values.iter().any(|value| *value != 0.0);
-        model.terms.iter().filter(present).map(Self::new).collect()
+        let places = 0..model.terms.len();
+        places
+            .filter(|&place| does_anything(&model.terms[place]))
+            .map(|place| Self::of(model, place, None))
+            .collect()
     }
 
     /// What it adds.
@@ -43,9 +67,32 @@ impl<'a> Acting<'a> {
     #[inline]
     pub fn together(terms: &[Self], moment: &Moment) -> Signals {
         let mut signals = Signals::default();
-        for Self { chosen, parameters } in terms {
-            chosen.term.act(parameters, &chosen.settings, moment, &mut signals);
+        for acting in terms {
+            acting.act(moment, &mut signals);
         }
         signals
     }
+
+    #[inline]
+    fn act(&self, moment: &Moment, signals: &mut Signals) {
+        let Self { chosen, parameters, axes } = self;
+        if axes.is_empty() {
+            chosen.term.act(parameters, &chosen.settings, moment, signals);
+        } else {
+            let mut sensed = Self::together(axes, moment).gyro;
+            for (sensed, rate) in sensed.iter_mut().zip(&moment.rate) {
+                *sensed += *rate;
+            }
+            chosen.term.act_on((parameters, &chosen.settings), moment, &sensed, signals);
+        }
+    }
+}
+
+/// Whether a term says in which directions the gyros' own axes are.
+fn turns_axes(chosen: &Chosen) -> bool {
+    chosen.term.id == GYRO_MISALIGNMENT.id
+}
+
+fn does_anything(chosen: &Chosen) -> bool {
+    chosen.values.iter().any(|value| *value != 0.0)
 }

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use rins_frames::{Dcm, InFrame, Increments, Table};
 
+use crate::acting::Acting;
 use crate::model::Model;
 use crate::moment::Moment;
 use crate::signals::values;
@@ -22,15 +23,16 @@ pub struct Reading {
 /// A model at work: it makes readings from true motion.
 #[derive(Clone, Debug)]
 pub struct Making<'a> {
-    model: &'a Model,
+    terms: Vec<Acting<'a>>,
     tilt: Vector3<f64>,
 }
 
 impl<'a> Making<'a> {
     /// A model at work from the start of `track` on.
     pub fn new(model: &'a Model, track: &Track) -> Self {
-        let tilt = track.opening().map(|moment| values(&model.signals(&moment).tilt));
-        Self { model, tilt: tilt.unwrap_or_default() }
+        let terms = Acting::present(model);
+        let tilt = track.opening().map(|moment| values(&Acting::together(&terms, &moment).tilt));
+        Self { terms, tilt: tilt.unwrap_or_default() }
     }
 
     /// The tilt before the next sample: a rotation vector in the axis frame \[rad\].
@@ -43,13 +45,13 @@ impl<'a> Making<'a> {
     ///
     /// Terms act on the rate and force that are felt, which `truth` holds more exactly than `moment`.
     pub fn read(&mut self, moment: &Moment, truth: &Increments) -> Reading {
-        let mut signals = self.model.signals(&moment.feeling(truth));
+        let mut signals = Acting::together(&self.terms, &moment.feeling(truth));
         let (before, after) = (self.tilt, values(&signals.tilt));
         self.tilt = after;
         let mut felt = *truth;
         if before != Vector3::zeros() || after != Vector3::zeros() {
             felt = tilted(moment, truth, &before, &after);
-            signals = self.model.signals(&moment.feeling(&felt));
+            signals = Acting::together(&self.terms, &moment.feeling(&felt));
         }
         let interval = felt.interval;
         Reading {

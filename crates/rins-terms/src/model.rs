@@ -4,6 +4,7 @@ use num_dual::Dual64;
 use rins_imu::{ImuSpec, Seed};
 use rins_motion::Recording;
 
+use crate::acting::Acting;
 use crate::catalogue;
 use crate::moment::Moment;
 use crate::signals::Signals;
@@ -95,7 +96,8 @@ impl Chosen {
         self
     }
 
-    /// What it adds at `moment`, with the derivative by parameter `by`, if one is asked for.
+    /// What it adds at `moment` to sensors whose axes are the body's, with the derivative by parameter `by`, if one is asked
+    /// for.
     pub fn signals(&self, moment: &Moment, by: Option<usize>) -> Signals {
         let mut duals = [Dual64::from_re(0.0); catalogue::MOST_PARAMETERS];
         for (dual, &value) in duals.iter_mut().zip(&self.values) {
@@ -242,11 +244,7 @@ impl Model {
 
     /// What all its terms add at `moment`.
     pub fn signals(&self, moment: &Moment) -> Signals {
-        let mut sum = Signals::default();
-        for chosen in self.terms.iter().filter(|chosen| chosen.term.is_signal()) {
-            sum.add(&chosen.signals(moment, None));
-        }
-        sum
+        Acting::together(&Acting::present(self), moment)
     }
 
     /// The noise that its terms make of `noises`.

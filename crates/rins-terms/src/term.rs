@@ -6,7 +6,7 @@ use rins_motion::Recording;
 
 use crate::grade::Grade;
 use crate::moment::Moment;
-use crate::signals::Signals;
+use crate::signals::{DualVector, Signals};
 use crate::unit::Unit;
 
 /// One physical effect: what it is, how large it is, and what it does.
@@ -154,6 +154,9 @@ pub enum Action {
     /// It adds to what the sensors or the encoder read, or tilts the axis: parameters, settings, the
     /// moment, and what is added to.
     Signal(fn(&[Dual64], &[f64], &Moment, &mut Signals)),
+    /// It does so by the rate about the gyros' own axes, which misalignments turn from the body's: parameters, settings,
+    /// the moment, that rate \[rad/s\], and what is added to.
+    Sensed(fn(&[Dual64], &[f64], &Moment, &DualVector, &mut Signals)),
     /// It changes the random errors: parameters, settings, and the noise.
     Noise(fn(&[f64], &[f64], &mut Noises)),
     /// It changes the log: parameters, settings, random numbers, and the recording.
@@ -164,6 +167,7 @@ impl std::fmt::Debug for Action {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Signal(_) => "Signal",
+            Self::Sensed(_) => "Sensed",
             Self::Noise(_) => "Noise",
             Self::Log(_) => "Log",
         })
@@ -182,7 +186,7 @@ pub struct Noises {
 impl Term {
     /// Whether it adds to signals, and so can be estimated.
     pub const fn is_signal(&self) -> bool {
-        matches!(self.action, Action::Signal(_))
+        matches!(self.action, Action::Signal(_) | Action::Sensed(_))
     }
 
     /// The full ids of its parameters, such as `accel_lever_arm.r_x`.
@@ -205,7 +209,7 @@ impl Term {
         signals
     }
 
-    /// Adds what it does at `moment`, with the derivative that the parameters carry.
+    /// Adds what it does at `moment`, with the derivative that the parameters carry, to gyros whose axes are the body's.
     #[inline]
     pub fn act(
         &self,
@@ -216,6 +220,25 @@ impl Term {
     ) {
         if let Action::Signal(act) = self.action {
             act(parameters, settings, moment, signals);
+        } else {
+            let aligned = [0, 1, 2].map(|axis| Dual64::from_re(moment.rate[axis]));
+            self.act_on((parameters, settings), moment, &aligned, signals);
+        }
+    }
+
+    /// The same to gyros that see the rate `sensed` about their own axes \[rad/s\].
+    #[inline]
+    pub fn act_on(
+        &self,
+        (parameters, settings): (&[Dual64], &[f64]),
+        moment: &Moment,
+        sensed: &DualVector,
+        signals: &mut Signals,
+    ) {
+        match self.action {
+            Action::Signal(act) => act(parameters, settings, moment, signals),
+            Action::Sensed(act) => act(parameters, settings, moment, sensed, signals),
+            Action::Noise(_) | Action::Log(_) => {}
         }
     }
 }

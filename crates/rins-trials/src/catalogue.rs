@@ -1,7 +1,7 @@
 //! The catalogue's effects as hidden ones, and as their rivals.
 
 use rins_blind::Effect;
-use rins_terms::{Action, Chosen, Term, catalogue};
+use rins_terms::{Chosen, Term, catalogue};
 
 /// What the baseline holds anyway, what is a choice of frame, and what leaves nothing behind.
 const NEVER_HIDDEN: [&str; 10] = [
@@ -25,7 +25,7 @@ const PARTS: u32 = 16;
 
 /// Whether a term is a signal that can be hidden in a run.
 pub fn is_hideable(term: &Term) -> bool {
-    matches!(term.action, Action::Signal(_)) && !NEVER_HIDDEN.contains(&term.id)
+    term.is_signal() && !NEVER_HIDDEN.contains(&term.id)
 }
 
 /// A term with its numbers, as the generator takes it.

@@ -43,9 +43,11 @@ fn rate_dependent_bias(p: &[f64], _: &[f64], now: &Instant) -> Read {
     gyro(axes(p) * speed.powi(2) + Vector3::new(p[3], p[4], 0.0) * speed)
 }
 
-/// Below its width a gyro reads nothing; above it what is left of a lock-in.
-fn dead_zone(p: &[f64], _: &[f64], now: &Instant) -> Read {
-    gyro(now.turning.zip_map(&axes(p), |rate, width| {
+/// Below its width a gyro reads nothing of what it turns about its own axis, or an IMU of what it turns about its body's;
+/// above it what is left of a lock-in.
+fn dead_zone(p: &[f64], s: &[f64], now: &Instant) -> Read {
+    let rates = if s[0] == 0.0 { now.about_axes } else { now.turning };
+    gyro(rates.zip_map(&axes(p), |rate, width| {
         let read = (rate * rate - width * width).max(0.0).sqrt();
         read.copysign(rate) - rate
     }))

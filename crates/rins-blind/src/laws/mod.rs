@@ -37,6 +37,8 @@ pub struct Instant {
     pub warming_rate: f64,
     /// The body's rate with respect to inertial space \[rad/s\].
     pub turning: Vector3<f64>,
+    /// Of that, what each gyro turns about its own axis \[rad/s\].
+    pub about_axes: Vector3<f64>,
     /// The specific force \[m/s²\].
     pub force: Vector3<f64>,
     /// The magnetic flux density in body axes \[T\].

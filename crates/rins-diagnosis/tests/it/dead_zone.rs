@@ -7,22 +7,27 @@ use rins_terms::{Chosen, Model, catalogue};
 use crate::hidden::{RATES, found};
 use crate::support::run;
 
-fn zones(widths: [f64; 3]) -> Model {
-    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE);
+fn zones(widths: [f64; 3], axes: f64) -> Model {
+    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_setting("axes", axes);
     Model { terms: vec![zone.with_values(&widths.map(|width| width * DEG_PER_HOUR))] }
 }
 
 /// Each gyro's own width, from where it is hardly seen to where a third of what a gyro sees of the Earth's rate is lost;
-/// and no width of a gyro that has none.
+/// and no width of a gyro that has none. Gyro x is 40 arcsec off the body's axis, and sees 7 deg/h of a table at 10 deg/s.
 #[test]
-fn dead_zones_are_found_with_their_widths() {
-    for (seed, widths) in
-        [[0.3, 0.0, 0.0], [0.0, 1.0, 0.0], [2.5, 0.4, 0.0]].into_iter().enumerate()
-    {
-        let run = run(&RATES, zones(widths), 0.0, seed as u64 + 300);
+fn dead_zones_are_found_with_their_widths_about_whichever_axes() {
+    let cases = [
+        (0.0, [0.3, 0.0, 0.0]),
+        (0.0, [0.0, 1.0, 0.0]),
+        (0.0, [2.5, 0.4, 0.0]),
+        (1.0, [0.6, 0.0, 0.0]),
+    ];
+    for (seed, (axes, widths)) in cases.into_iter().enumerate() {
+        let run = run(&RATES, zones(widths, axes), 0.0, seed as u64 + 300);
         let diagnosis = found(&run, NoiseKnowledge::Likely);
         let [cause] = &diagnosis.causes[..] else { panic!("{widths:?}: {:?}", diagnosis.causes) };
         assert_eq!(cause.term.id, "gyro_dead_zone", "{widths:?}");
+        assert_eq!(cause.settings, [axes], "{widths:?}");
         assert!(cause.ln_p < -20.0, "{widths:?}: {}", cause.ln_p);
         let there = widths.iter().filter(|width| **width > 0.0).count();
         assert_eq!(cause.parameters.len(), there, "{widths:?}: {:?}", cause.parameters);

@@ -5,7 +5,7 @@
 use num_dual::Dual64;
 
 use crate::catalogue::parameters::{parameter, per_axis, usual};
-use crate::term::{Action, Need, Owner, Term};
+use crate::term::{Action, Need, Owner, Setting, Term};
 use crate::unit::Unit;
 
 /// A scale error that changes sign with the rate.
@@ -125,41 +125,62 @@ pub static GYRO_HYSTERESIS: Term = Term {
 
 /// Gyros that do not see a slow rate.
 ///
+/// What is slow is the rate about a gyro's own axis: 100 arcsec of misalignment see 17 deg/h of a table that turns at
+/// 10 deg/s, more than the 12 deg/h that the Earth's rate has for x and y. A zone that is a processor's, before it resolves
+/// readings along the body's axes, is about these.
+///
 /// The derivative by a width of zero is zero: linearise at a width that is not.
 pub static GYRO_DEAD_ZONE: Term = Term {
     id: "gyro_dead_zone",
     also: &[],
     name: "gyro dead zone",
     cause: "backscatter locks a laser gyro in, or a closed loop has a dead band",
-    equation: "|ω| ≤ d: gyro -= ω; else gyro += sgn(ω) (√(ω² - d²) - |ω|)",
+    equation: "|ω| ≤ d: gyro -= ω; else gyro += sgn(ω) (√(ω² - d²) - |ω|), ω about the gyro's own axis",
     source: "the lock-in equation, titterton2004",
     parameters: &per_axis(Unit::DEG_PER_HOUR, usual((0.01, 0.5), (0.001, 0.05), (0.1, 20.0))),
-    settings: &[],
+    settings: &[Setting {
+        name: "axes",
+        meaning: "about which axes the rate is: 0 the gyros' own, 1 the body's",
+        unit: Unit::ONE,
+        default: 0.0,
+        within: (0.0, 1.0),
+    }],
     needs: &[],
     partners: &["gyro_quantisation", "gyro_g2_sensitivity"],
-    told_apart_by: "turn slowly enough for the Earth's rate to cross zero in x and y",
+    told_apart_by: "turn slowly enough for the rate about the gyro's own axis to cross zero in x and y",
     owner: Owner::Sensor,
-    action: Action::Signal(|p, _, moment, out| {
+    action: Action::Sensed(|p, settings, moment, sensed, out| {
+        let of_body = settings[0] != 0.0;
         for (axis, &width) in p.iter().enumerate() {
-            let rate = moment.rate[axis];
-            let missing = |width: f64| missing(rate, width);
-            let apart = SLOPE_OVER * width.re;
-            let slope = if width.eps == 0.0 || apart == 0.0 {
-                0.0
-            } else {
-                (missing(width.re + apart) - missing(width.re - apart)) / (2.0 * apart)
-            };
-            out.gyro[axis] += Dual64::new(missing(width.re), slope * width.eps);
+            let rate = if of_body { Dual64::from_re(moment.rate[axis]) } else { sensed[axis] };
+            out.gyro[axis] += missing(rate, width);
         }
     }),
 };
 
-/// The slope by a width is taken between widths so much smaller and larger, as a part of it: at the zone's edge it has
-/// no bound, and would be that of whichever sample is nearest.
+/// The slope by a rate or a width is taken between such so much smaller and larger, as a part of the width: at the zone's
+/// edge it has no bound, and would be that of whichever sample is nearest.
 const SLOPE_OVER: f64 = 0.1;
 
 /// What a gyro with a dead zone of this width reads beyond a rate.
-fn missing(rate: f64, width: f64) -> f64 {
+fn missing(rate: Dual64, width: Dual64) -> Dual64 {
+    let apart = SLOPE_OVER * width.re;
+    let by = |of_rate: f64, of_width: f64| {
+        let at = |times: f64| beyond(rate.re + times * of_rate, width.re + times * of_width);
+        (at(apart) - at(-apart)) / (2.0 * apart)
+    };
+    let mut slope = 0.0;
+    if apart != 0.0 && rate.eps != 0.0 {
+        slope += by(1.0, 0.0) * rate.eps;
+    }
+    if apart != 0.0 && width.eps != 0.0 {
+        slope += by(0.0, 1.0) * width.eps;
+    }
+    Dual64::new(beyond(rate.re, width.re), slope)
+}
+
+/// The same, as numbers without derivatives.
+fn beyond(rate: f64, width: f64) -> f64 {
     if rate.abs() <= width.abs() {
         return -rate;
     }

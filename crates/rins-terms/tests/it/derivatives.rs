@@ -6,7 +6,7 @@ use rins_frames::units::DEG;
 use rins_frames::{EulerAngles, Site};
 use rins_motion::Station;
 use rins_terms::catalogue::CATALOGUE;
-use rins_terms::{Chosen, Dual64, Instant, Moment, Signals, Surroundings};
+use rins_terms::{Acting, Chosen, Dual64, Instant, Model, Moment, Signals, Surroundings};
 use rins_testing::assert_close;
 use rins_testing::{any_euler_angles, any_latitude};
 
@@ -142,4 +142,40 @@ fn slopes_of_a_dead_zone_add_up_over_a_sweep() {
     let rates = (0..30_000).map(|place| (f64::from(place) + 0.5) * step);
     let sum: f64 = rates.map(|rate| zone(WIDTH, rate).eps * step).sum();
     assert_close!(sum, -WIDTH * 3.0_f64.acosh(), 5e-3 * WIDTH);
+}
+
+/// What a misalignment turns is what a zone takes away: in it a gyro shows nothing of either.
+#[test]
+fn a_misalignment_turns_a_dead_zone_too() {
+    let track =
+        crate::support::turning(&[rins_motion::Segment { rate: 5.0 * DEG, duration: 1.0 }]).track;
+    let mut moment = track.moments().next().unwrap();
+    moment.rate = Vector3::new(3e-6, -4e-5, 0.1);
+    let misalignment =
+        Chosen::new(&rins_terms::catalogue::GYRO_MISALIGNMENT).with_values(&[1e-5; 6]);
+    let zone = Chosen::new(&rins_terms::catalogue::GYRO_DEAD_ZONE).with_values(&[1e-5, 2e-5, 1e-6]);
+    let model = Model { terms: vec![zone, misalignment] };
+    let read = |model: &Model| numbers(&model.signals(&moment));
+    for (term, chosen) in model.terms.iter().enumerate() {
+        for (place, value) in chosen.values.iter().enumerate() {
+            let exact = numbers(&Acting::together(&Acting::by(&model, term, place), &moment));
+            let moved = |by: f64| {
+                let mut model = model.clone();
+                model.terms[term].values[place] += by;
+                read(&model)
+            };
+            let step = 1e-3 * value;
+            for ((above, below), exact) in moved(step).iter().zip(&moved(-step)).zip(&exact) {
+                let slope = (above.re - below.re) / (2.0 * step);
+                // Outside the zone the slope is a mean over a tenth of it on either side.
+                assert_close!(exact.eps, slope, 4e-3 * slope.abs() + 1e-9);
+            }
+        }
+    }
+    // Gyro x is in its zone, and shows nothing of what its axis is turned by; gyro y is outside.
+    let shown = |place: usize, gyro: usize| {
+        Acting::together(&Acting::by(&model, 1, place), &moment).gyro[gyro].eps
+    };
+    assert_close!(shown(1, 0), 0.0, 1e-12);
+    assert!(shown(3, 1) > 0.1);
 }

@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector3;
-use rins_frames::units::{DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, STANDARD_GRAVITY};
+use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EulerAngles, Site};
 use rins_motion::{Segment, Station};
-use rins_terms::{Chosen, Moment, Surroundings, catalogue, values};
+use rins_terms::{Chosen, Model, Moment, Surroundings, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run, turning};
@@ -96,6 +96,35 @@ fn dead_zone_follows_the_lock_in_equation() {
     assert_close!(read.x, 0.0, 1e-15);
     assert_close!(read.y, -0.3, 1e-12); // √(0.5² - 0.4²)
     assert_close!(read.z, 10.0 - 0.008, 1e-5); // -0.4² / 20
+}
+
+/// 100 arcsec of misalignment see 17.45 deg/h of a table at 10 deg/s.
+#[test]
+fn dead_zone_is_about_the_gyros_own_axis_or_the_bodys() {
+    let mut moment = moment();
+    // Gyro x stands still about its own axis, though the body does not; y is the other way round.
+    let seen = 100.0 * ARCSEC * 36_000.0;
+    moment.rate = Vector3::new(0.1 - seen, 0.1, 36_000.0) * DEG_PER_HOUR;
+    let misalignment = [0.0, 100.0, 0.0, 100.0, 0.0, 0.0].map(|arcsec| arcsec * ARCSEC);
+    let misalignment = Chosen::new(&catalogue::GYRO_MISALIGNMENT).with_values(&misalignment);
+    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
+    let lost = |axes: f64, in_order: bool| {
+        let mut terms = vec![misalignment.clone(), zone.clone().with_setting("axes", axes)];
+        if !in_order {
+            terms.reverse();
+        }
+        let read = Model { terms }.signals(&moment);
+        let without = Model { terms: vec![misalignment.clone()] }.signals(&moment);
+        (values(&read.gyro) - values(&without.gyro)) / DEG_PER_HOUR
+    };
+    for in_order in [true, false] {
+        let own = lost(0.0, in_order);
+        assert_close!(own.x, -0.1, 1e-9);
+        assert_close!(own.y, -0.16 / (2.0 * (seen + 0.1)), 1e-5); // d² / 2ω
+        let of_body = lost(1.0, in_order);
+        assert_close!(of_body.x, 0.16 / (2.0 * (seen - 0.1)), 1e-5);
+        assert_close!(of_body.y, -0.1, 1e-9);
+    }
 }
 
 #[test]
