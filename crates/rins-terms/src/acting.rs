@@ -2,10 +2,10 @@
 
 use num_dual::Dual64;
 
-use crate::catalogue::GYRO_MISALIGNMENT;
+use crate::catalogue::{AXIS_ATTITUDE, GYRO_MISALIGNMENT};
 use crate::model::{Chosen, Model};
 use crate::moment::Moment;
-use crate::signals::Signals;
+use crate::signals::{Signals, derivatives};
 use crate::term::Action;
 
 /// A term of a model at work: with its parameters, and perhaps a derivative by one of the model's.
@@ -79,18 +79,21 @@ impl<'a> Acting<'a> {
         if axes.is_empty() {
             chosen.term.act(parameters, &chosen.settings, moment, signals);
         } else {
-            let mut sensed = Self::together(axes, moment).gyro;
-            for (sensed, rate) in sensed.iter_mut().zip(&moment.rate) {
-                *sensed += *rate;
+            let Signals { gyro: mut sensed, tilt, .. } = Self::together(axes, moment);
+            // A tilt is felt, and is in the rate; a derivative by it is not.
+            let earth_rate = &moment.surroundings.earth_rate;
+            let turned = moment.in_body(&earth_rate.cross(&derivatives(&tilt)));
+            for (axis, sensed) in sensed.iter_mut().enumerate() {
+                *sensed += Dual64::new(moment.rate[axis], turned[axis]);
             }
             chosen.term.act_on((parameters, &chosen.settings), moment, &sensed, signals);
         }
     }
 }
 
-/// Whether a term says in which directions the gyros' own axes are.
+/// Whether a term says in which directions the gyros' own axes are, in the body or with it.
 fn turns_axes(chosen: &Chosen) -> bool {
-    chosen.term.id == GYRO_MISALIGNMENT.id
+    [GYRO_MISALIGNMENT.id, AXIS_ATTITUDE.id].contains(&chosen.term.id)
 }
 
 fn does_anything(chosen: &Chosen) -> bool {

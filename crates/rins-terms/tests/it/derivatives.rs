@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use rins_frames::units::DEG;
-use rins_frames::{EulerAngles, Site};
+use rins_frames::{Dcm, EulerAngles, Site, Table};
 use rins_motion::Station;
 use rins_terms::catalogue::CATALOGUE;
 use rins_terms::{Acting, Chosen, Dual64, Instant, Model, Moment, Signals, Surroundings};
@@ -178,4 +178,35 @@ fn a_misalignment_turns_a_dead_zone_too() {
     };
     assert_close!(shown(1, 0), 0.0, 1e-12);
     assert!(shown(3, 1) > 0.1);
+}
+
+/// Where the axis is turned, the Earth's rate crosses a zone at another place.
+#[test]
+fn an_attitude_moves_a_dead_zone() {
+    let track =
+        crate::support::turning(&[rins_motion::Segment { rate: 5.0 * DEG, duration: 1.0 }]).track;
+    let moment = track.moments().next().unwrap();
+    let around = moment.surroundings;
+    let zone = Chosen::new(&rins_terms::catalogue::GYRO_DEAD_ZONE).with_values(&[8e-5; 3]);
+    let attitude = Chosen::new(&rins_terms::catalogue::AXIS_ATTITUDE);
+    let model = Model { terms: vec![attitude, zone.clone()] };
+    let mut shown = 0.0_f64;
+    for place in 0..3 {
+        let by = Acting::together(&Acting::by(&model, 0, place), &moment);
+        let turned = |angle: f64| {
+            let mut tilt = Vector3::zeros();
+            tilt[place] = angle;
+            let turn = Dcm::<Table, Table>::from_rotation_vector(&tilt);
+            let around = Surroundings::new(around.station, around.nav_from_table * turn);
+            let spin = Vector3::z() * moment.mean.rate;
+            let rate = moment.in_body(&around.earth_rate) + spin;
+            numbers(&zone.signals(&Moment { rate, ..moment }, None))
+        };
+        for ((above, below), exact) in turned(1e-4).iter().zip(&turned(-1e-4)).zip(&by.gyro) {
+            let slope = (above.re - below.re) / 2e-4;
+            assert_close!(exact.eps, slope, 0.01 * slope.abs() + 1e-9);
+            shown = shown.max(slope.abs());
+        }
+    }
+    assert!(shown > 1e-5);
 }
