@@ -48,7 +48,8 @@ static OF_WIDTHS: Term = Term {
         GYRO_DEAD_ZONE.act_on((&whole, axes), moment, sensed, &mut zone);
         for (axis, &depth) in depths.iter().enumerate() {
             if widths[axis] > 0.0 {
-                out.gyro[axis] += depth * zone.gyro[axis] / widths[axis];
+                // What turns its axes does nothing to a zone that is not there.
+                out.gyro[axis] += depth * (zone.gyro[axis].re / widths[axis]);
             }
         }
     }),
