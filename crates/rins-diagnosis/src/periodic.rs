@@ -1,4 +1,6 @@
-//! Lines that are one thing: multiples of one frequency.
+//! Lines that are one thing: multiples of one frequency, or a wave of the turning table that comes and goes.
+
+use std::f64::consts::TAU;
 
 use rins_estimation::{Estimate, Fit};
 use rins_terms::catalogue;
@@ -15,28 +17,77 @@ const MULTIPLES: [f64; 2] = [2.0, 3.0];
 /// it would be one by chance.
 const WITHIN: (f64, f64) = (3.0, 0.01);
 
+/// A wave so many times a turn at most is looked for between two lines.
+const MOST_A_TURN: u32 = 3;
+
+/// The frequencies of what comes and goes are this near to the one between them, as a part of it.
+const BESIDE: f64 = 0.3;
+
+/// Whatever comes and goes with the turning table is no interference: two lines as far below and above what the table
+/// does most of the time, and in truth one wave whose strength changes its sign.
+pub(crate) fn modulated(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
+    let mut found: Vec<Unexplained> = Vec::new();
+    for (one, other) in pairs(causes) {
+        let (low, high) = (one.settings[0], other.settings[0]);
+        let (middle, apart) = (0.5 * (low + high), 0.5 * (high - low).abs());
+        let Some((sensor, estimate, height)) = strongest(one) else { continue };
+        let run = estimate.run.unwrap_or_default();
+        let linear = &after.linear[run];
+        // Two lines so near to each other are hardly told apart, and their mean is known to that at best.
+        let resolved = 1.0 / linear.track().duration();
+        let motion = linear.motion();
+        let is_often = |times: &u32| {
+            let frequency = |rate: f64| f64::from(*times) * rate.abs() / TAU;
+            let there = |(_, rate): &&(f64, f64)| (frequency(*rate) - middle).abs() < resolved;
+            2 * motion.iter().filter(there).count() > motion.len()
+        };
+        let Some(times) = (1..=MOST_A_TURN).find(is_often) else { continue };
+        let known = |other: &Unexplained| (other.run, other.channel) == (run, sensor);
+        if apart > BESIDE * middle || found.iter().any(known) {
+            continue;
+        }
+        found.push(Unexplained {
+            run,
+            channel: sensor,
+            structure: Structure::Modulated(f64::from(times)),
+            of: None,
+            ln_p: one.ln_p.max(other.ln_p),
+            // Each of the two has half of it.
+            amplitude: Some((2.0 * height, estimate.parameter.unit)),
+            worst: worst(after, 2.0 * (one.gain + other.gain)),
+        });
+    }
+    found
+}
+
+/// Lines of one axis, two and two.
+fn pairs(causes: &[Cause]) -> impl Iterator<Item = (&Cause, &Cause)> {
+    let is_line = |cause: &&Cause| cause.term.id == catalogue::INTERFERENCE_LINE.id;
+    let lines = causes.iter().enumerate().filter(move |(_, cause)| is_line(cause));
+    lines.flat_map(move |(place, line)| {
+        let others = causes[place + 1..].iter().filter(is_line);
+        others.filter(|other| axis(line) == axis(other)).map(move |other| (line, other))
+    })
+}
+
 /// Interference whose frequencies are multiples of one: every line of it is explained, that there are several is not.
 pub(crate) fn waveforms(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
-    let lines: Vec<&Cause> =
-        causes.iter().filter(|cause| cause.term.id == catalogue::INTERFERENCE_LINE.id).collect();
     let mut found: Vec<Unexplained> = Vec::new();
-    for (place, line) in lines.iter().enumerate() {
-        for other in &lines[place + 1..] {
-            let Some(frequency) = common(line, other) else { continue };
-            let Some((sensor, estimate, height)) = strongest(line) else { continue };
-            if axis(line) != axis(other) || found.iter().any(|one| one.channel == sensor) {
-                continue;
-            }
-            found.push(Unexplained {
-                run: estimate.run.unwrap_or_default(),
-                channel: sensor,
-                structure: Structure::Waveform(frequency),
-                of: None,
-                ln_p: line.ln_p.max(other.ln_p),
-                amplitude: Some((height, estimate.parameter.unit)),
-                worst: worst(after, 2.0 * (line.gain + other.gain)),
-            });
+    for (line, other) in pairs(causes) {
+        let Some(frequency) = common(line, other) else { continue };
+        let Some((sensor, estimate, height)) = strongest(line) else { continue };
+        if found.iter().any(|one| one.channel == sensor) {
+            continue;
         }
+        found.push(Unexplained {
+            run: estimate.run.unwrap_or_default(),
+            channel: sensor,
+            structure: Structure::Waveform(frequency),
+            of: None,
+            ln_p: line.ln_p.max(other.ln_p),
+            amplitude: Some((height, estimate.parameter.unit)),
+            worst: worst(after, 2.0 * (line.gain + other.gain)),
+        });
     }
     found
 }

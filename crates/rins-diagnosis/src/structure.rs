@@ -30,6 +30,8 @@ pub enum Structure {
     Chirp(f64, f64),
     /// This order of the table angle, in body axes; negative where it goes against the table.
     Order(f64),
+    /// This order of the table angle, which comes and goes.
+    Modulated(f64),
     /// Something slower than three times in the run.
     Drift,
     /// Lines whose frequencies are multiples of this one \[Hz\]: it comes back, and is no sine.

@@ -8,7 +8,7 @@ use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
 use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
-use crate::periodic::waveforms;
+use crate::periodic::{modulated, waveforms};
 use crate::probability::ln_tail;
 use crate::score::scored;
 use crate::structure::{Along, Left, Structure, groups};
@@ -102,6 +102,7 @@ impl Case<'_> {
         });
         found.extend(switching);
         found.extend(waveforms(after, causes));
+        found.extend(modulated(after, causes));
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         Ok(found)
     }

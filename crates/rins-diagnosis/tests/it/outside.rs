@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use rins_diagnosis::{Diagnosis, Structure};
+use rins_diagnosis::{Diagnosis, Structure, Unexplained};
 use rins_estimation::{NoiseKnowledge, Run};
 use rins_frames::InFrame;
 use rins_frames::units::{DEG_PER_HOUR, MICRO_G};
@@ -12,12 +12,22 @@ use rins_terms::Model;
 use crate::hidden::{RATES, found};
 use crate::support::run;
 
-/// A clean run with something more in each sample, told from the time since its start \[s\]: rates \[rad/s\], forces \[m/s²\].
-pub(crate) fn with(flicker: f64, seed: u64, added: impl Fn(f64) -> ([f64; 3], [f64; 3])) -> Run {
-    let mut run = run(&RATES, Model::default(), flicker, seed);
+/// Rates \[rad/s\] and forces \[m/s²\] of a sample.
+type Readings = ([f64; 3], [f64; 3]);
+
+/// A clean run with something more in each sample, told from the time since its start \[s\].
+pub(crate) fn with(flicker: f64, seed: u64, added: impl Fn(f64) -> Readings) -> Run {
+    over(&RATES, flicker, seed, |time, _| added(time))
+}
+
+/// The same over these rates \[deg/s\], told from the table angle \[rad\] too.
+fn over(rates: &[f64], flicker: f64, seed: u64, added: impl Fn(f64, f64) -> Readings) -> Run {
+    let mut run = run(rates, Model::default(), flicker, seed);
     let times = run.recording.times.clone();
-    for (sample, time) in Arc::make_mut(&mut run.recording).increments.iter_mut().zip(&*times) {
-        let (rate, force) = added(time - times[0]);
+    let angles = run.recording.table_angle.clone().unwrap();
+    let samples = &mut Arc::make_mut(&mut run.recording).increments;
+    for (sample, (time, angle)) in samples.iter_mut().zip(times.iter().zip(angles)) {
+        let (rate, force) = added(time - times[0], angle);
         let [x, y, z] = rate.map(|rate| rate * sample.interval);
         sample.angle += InFrame::new(x, y, z);
         let [x, y, z] = force.map(|force| force * sample.interval);
@@ -70,7 +80,6 @@ fn flicker_is_no_bias_that_switches() {
     }
 }
 
-/// A sawtooth is a line and its harmonics, and more than that.
 /// A line whose frequency grows all along is none of one frequency.
 #[test]
 fn line_that_grows_faster_is_described() {
@@ -86,6 +95,24 @@ fn line_that_grows_faster_is_described() {
     assert!((begins - from).abs() < 0.01 && (ends - to).abs() < 0.01, "{begins} to {ends}");
 }
 
+/// A wave of the turning table whose strength changes its sign is no two lines of whatever is plugged in.
+#[test]
+fn wave_of_the_table_that_comes_and_goes_is_no_interference() {
+    let height = 0.05 * DEG_PER_HOUR;
+    let wave = |time: f64, angle: f64| {
+        ([height * (angle + 1.0).cos() * (TAU * time / 230.0).sin(), 0.0, 0.0], [0.0; 3])
+    };
+    let run = over(&[11.0, 11.0, 11.0, 11.0, -11.0, -11.0, -11.0, -11.0], 0.0, 360, wave);
+    let diagnosis = found(&run, NoiseKnowledge::Likely);
+    let modulated = |one: &&Unexplained| one.structure == Structure::Modulated(1.0);
+    let found: Vec<_> = diagnosis.unexplained.iter().filter(modulated).collect();
+    let [one] = found[..] else { panic!("{:?} {:?}", diagnosis.causes, diagnosis.unexplained) };
+    assert_eq!(one.channel, "gyro.x");
+    let (amplitude, _) = one.amplitude.unwrap();
+    assert!((amplitude / height - 1.0).abs() < 0.3, "{amplitude} of {height}");
+}
+
+/// A sawtooth is a line and its harmonics, and more than that.
 #[test]
 fn lines_of_one_waveform_are_one() {
     const PERIOD: f64 = 31.0;

@@ -15,6 +15,7 @@ pub(crate) fn structure_in_words(one: &Unexplained) -> String {
             format!("line that goes from {} to {} Hz", figure(from, 3), figure(to, 3))
         }
         Structure::Order(order) => order_in_words(order),
+        Structure::Modulated(order) => format!("{}, which comes and goes", order_in_words(order)),
         Structure::Drift => "drift, slower than three times in the run".into(),
         Structure::Waveform(frequency) => {
             format!("repeats every {} s, and is no sine", figure(1.0 / frequency, 3))
