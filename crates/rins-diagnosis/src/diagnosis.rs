@@ -2,12 +2,11 @@
 
 use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Term, catalogue};
+use rins_terms::{Chosen, Model, Term};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
-use crate::dead_zone;
 use crate::disturbance;
 use crate::rounding::Rounding;
 use crate::settling::Found;
@@ -20,6 +19,9 @@ pub const FALSE_ALARMS: f64 = 0.01;
 
 /// The most effects that are looked for.
 const MOST_CAUSES: usize = 8;
+
+/// After so many effects that looked significant and were not, the search ends.
+const MOST_REFUSED: usize = 2;
 
 /// How many effects are accepted before the noise is found anew and the model made linear about them.
 const AT_ONCE: usize = 3;
@@ -150,11 +152,11 @@ impl Case<'_> {
         }
         let mut found: Vec<Chosen> = Vec::new();
         let mut not_testable = None;
-        let mut refused = None;
+        let mut refused: Vec<&str> = Vec::new();
         while found.len() < MOST_CAUSES {
             let mut list = candidates(runs, present.model());
             list.extend(case.suggested(&present));
-            list.retain(|candidate| refused != Some(candidate.chosen.term.id));
+            list.retain(|candidate| !refused.contains(&candidate.chosen.term.id));
             let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
             let Some(context) = Context::of(&survey, &[], &[]) else { break };
             let tried = trials(&survey, &context, &list);
@@ -179,11 +181,9 @@ impl Case<'_> {
             };
             let Some(fitted) = fitted.ok().filter(significant) else {
                 found.truncate(earlier);
-                // A narrow one may be nothing but what is not linear in it; what else there is may be more.
-                if refused.is_none()
-                    && accepted.iter().any(|(one, _)| dead_zone::is_of_widths(&one.chosen))
-                {
-                    refused = Some(catalogue::GYRO_DEAD_ZONE.id);
+                // One that is not linear, or that noise explains as well, hides what else there is.
+                if refused.len() < MOST_REFUSED {
+                    refused.extend(accepted.iter().map(|(one, _)| one.chosen.term.id));
                     continue;
                 }
                 break;
