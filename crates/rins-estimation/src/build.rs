@@ -127,23 +127,25 @@ impl Compared<'_> {
     /// What the parameters add to what is read in a piece.
     fn set_columns(&self, growing: &mut Growing, piece: &Moment) {
         for (column, acting) in self.columns.iter().enumerate() {
-            growing.set(column, &self.read(Acting::together(acting, piece)));
+            let mut signals = Acting::together(acting, piece);
+            self.leave_what_is_read(&mut signals);
+            growing.set(column, &signals);
         }
     }
 
-    /// What of some signals is read: a command goes on whatever the table does.
-    fn read(&self, mut signals: Signals) -> Signals {
+    /// Leaves of some signals what is read: a command goes on whatever the table does.
+    fn leave_what_is_read(&self, signals: &mut Signals) {
         if let Reference::Command { .. } = self.run.rig.reference {
             signals.angle = Dual64::from_re(0.0);
         }
-        signals
     }
 
     /// What a sample was read beyond the model; the attitude of the body in the axis frame in its middle.
     fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> Matrix3<f64> {
         let measured = &self.run.recording.increments[sample];
         let mut table_from_body = turned_by(moment.mean.angle);
-        let predicted = self.read(Acting::together(&self.present, moment));
+        let mut predicted = Acting::together(&self.present, moment);
+        self.leave_what_is_read(&mut predicted);
         let around = &moment.surroundings;
         let rates = measured.rates();
         let mut gyro = rates.angular_rate.components() - moment.rate;

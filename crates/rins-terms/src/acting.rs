@@ -75,19 +75,29 @@ impl<'a> Acting<'a> {
 
     #[inline]
     fn act(&self, moment: &Moment, signals: &mut Signals) {
-        let Self { chosen, parameters, axes } = self;
-        if axes.is_empty() {
-            chosen.term.act(parameters, &chosen.settings, moment, signals);
+        if self.axes.is_empty() {
+            self.chosen.term.act(&self.parameters, &self.chosen.settings, moment, signals);
         } else {
-            let Signals { gyro: mut sensed, tilt, .. } = Self::together(axes, moment);
-            // A tilt is felt, and is in the rate; a derivative by it is not.
-            let earth_rate = &moment.surroundings.earth_rate;
-            let turned = moment.in_body(&earth_rate.cross(&derivatives(&tilt)));
-            for (axis, sensed) in sensed.iter_mut().enumerate() {
-                *sensed += Dual64::new(moment.rate[axis], turned[axis]);
-            }
-            chosen.term.act_on((parameters, &chosen.settings), moment, &sensed, signals);
+            self.act_about_axes(moment, signals);
         }
+    }
+
+    /// Apart from the others, which are many.
+    #[cold]
+    fn act_about_axes(&self, moment: &Moment, signals: &mut Signals) {
+        let mut turned = Signals::default();
+        for Self { chosen, parameters, .. } in &self.axes {
+            chosen.term.act(parameters, &chosen.settings, moment, &mut turned);
+        }
+        // A tilt is felt, and is in the rate; a derivative by it is not.
+        let earth_rate = &moment.surroundings.earth_rate;
+        let tilted = moment.in_body(&earth_rate.cross(&derivatives(&turned.tilt)));
+        let mut sensed = turned.gyro;
+        for (axis, sensed) in sensed.iter_mut().enumerate() {
+            *sensed += Dual64::new(moment.rate[axis], tilted[axis]);
+        }
+        let Self { chosen, parameters, .. } = self;
+        chosen.term.act_on((parameters, &chosen.settings), moment, &sensed, signals);
     }
 }
 
