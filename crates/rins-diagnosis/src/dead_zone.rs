@@ -2,7 +2,8 @@
 
 use rins_frames::units::DEG_PER_HOUR;
 use rins_terms::{
-    Action, Chosen, Dual64, Role, Setting, Signals, Term, Unit, catalogue::GYRO_DEAD_ZONE,
+    Action, Chosen, Dual64, DualVector, Moment, Role, Setting, Signals, Term, Unit,
+    catalogue::GYRO_DEAD_ZONE,
 };
 
 use crate::candidates::Candidate;
@@ -41,54 +42,80 @@ const fn width(name: &'static str) -> Setting {
 /// The dead zone of given widths, of any depth: linear, and at a depth that is the width the true one.
 static OF_WIDTHS: Term = Term {
     settings: &[width("width_x"), width("width_y"), width("width_z"), GYRO_DEAD_ZONE.settings[0]],
-    action: Action::Sensed(|depths, settings, moment, sensed, out| {
-        let (widths, axes) = settings.split_at(depths.len());
-        let mut zone = Signals::default();
-        let whole = [0, 1, 2].map(|axis| Dual64::from_re(widths[axis]));
-        GYRO_DEAD_ZONE.act_on((&whole, axes), moment, sensed, &mut zone);
-        for (axis, &depth) in depths.iter().enumerate() {
-            if widths[axis] > 0.0 {
-                // What turns its axes does nothing to a zone that is not there.
-                out.gyro[axis] += depth * (zone.gyro[axis].re / widths[axis]);
-            }
-        }
-    }),
+    action: Action::Sensed(as_deep),
     ..GYRO_DEAD_ZONE
 };
 
+/// The same of the gyros across the spin axis alone.
+static ACROSS_OF_WIDTHS: Term = Term {
+    parameters: GYRO_DEAD_ZONE.parameters.split_at(ACROSS).0,
+    settings: &[width("width_x"), width("width_y"), GYRO_DEAD_ZONE.settings[0]],
+    ..OF_WIDTHS
+};
+
+/// Adds what is lost in zones of so many depths: the settings are their widths, and about which axes they are.
+fn as_deep(
+    depths: &[Dual64],
+    settings: &[f64],
+    moment: &Moment,
+    sensed: &DualVector,
+    out: &mut Signals,
+) {
+    let (widths, axes) = settings.split_at(depths.len());
+    let mut zone = Signals::default();
+    let mut whole = [Dual64::from_re(0.0); 3];
+    for (whole, &width) in whole.iter_mut().zip(widths) {
+        whole.re = width;
+    }
+    GYRO_DEAD_ZONE.act_on((&whole, axes), moment, sensed, &mut zone);
+    for (axis, &depth) in depths.iter().enumerate() {
+        if widths[axis] > 0.0 {
+            // What turns its axes does nothing to a zone that is not there.
+            out.gyro[axis] += depth * (zone.gyro[axis].re / widths[axis]);
+        }
+    }
+}
+
 /// A dead zone in every width, the same for the gyros across the spin axis, about either axes.
 pub(crate) fn shapes() -> Vec<Candidate> {
-    let about = |axes: f64| WIDTHS.map(|width| of_widths(&[width, width, 0.0], axes));
+    let about = |axes: f64| WIDTHS.map(|width| across([width; ACROSS], axes));
     AXES.into_iter().flat_map(about).collect()
 }
 
 /// The dead zone that was found, and every one that a further gyro has besides.
 pub(crate) fn with_another(zone: &Chosen) -> Vec<Candidate> {
-    let (widths, axes) = (&zone.values, zone.settings[0]);
-    let mut list = vec![of_widths(widths, axes)];
-    for axis in (0..ACROSS).filter(|&axis| widths[axis] == 0.0) {
+    let axes = zone.settings[0];
+    let nothing = vec![0.0; zone.values.len()];
+    let mut list = vec![tried(linear(zone).with_values(&nothing))];
+    let widths = [0, 1].map(|gyro| zone.values[gyro]);
+    for gyro in (0..ACROSS).filter(|&gyro| widths[gyro] == 0.0) {
         for another in WIDTHS {
-            let mut widths = widths.clone();
-            widths[axis] = another;
-            list.push(of_widths(&widths, axes));
+            let mut widths = widths;
+            widths[gyro] = another;
+            list.push(across(widths, axes));
         }
     }
     list
 }
 
-fn of_widths(widths: &[f64], axes: f64) -> Candidate {
-    let mut chosen = Chosen::new(&OF_WIDTHS).estimated();
-    chosen.settings = [widths, &[axes]].concat();
+fn across([x, y]: [f64; ACROSS], axes: f64) -> Candidate {
+    let mut chosen = Chosen::new(&ACROSS_OF_WIDTHS);
+    chosen.settings.copy_from_slice(&[x, y, axes]);
+    tried(chosen)
+}
+
+fn tried(shape: Chosen) -> Candidate {
+    let (widths, axes) = shape.settings.split_at(shape.values.len());
     // Each width of its own has been sought.
     let own = |&place: &usize| widths[place] > 0.0 && !widths[..place].contains(&widths[place]);
     let widths: f64 = (0..widths.len()).filter(own).map(|_| WIDTHS.len() as f64).product();
-    let often = if axes == 0.0 { OWN } else { 1.0 - OWN };
-    Candidate { chosen, looks: widths / often, step: None }
+    let often = if axes[0] == 0.0 { OWN } else { 1.0 - OWN };
+    Candidate { chosen: shape.estimated(), looks: widths / often, step: None }
 }
 
 /// Whether this is a dead zone of given widths.
 pub(crate) fn is_of_widths(chosen: &Chosen) -> bool {
-    chosen.term.id == OF_WIDTHS.id && chosen.settings.len() == OF_WIDTHS.settings.len()
+    chosen.term.id == OF_WIDTHS.id && chosen.settings.len() > GYRO_DEAD_ZONE.settings.len()
 }
 
 /// Whether this is a dead zone whose widths are its parameters.
@@ -110,7 +137,7 @@ pub(crate) fn is_shape_of(shape: &Chosen, zone: &Chosen) -> bool {
 /// The true dead zone of which a shape is one width, of these gyros and of no other.
 pub(crate) fn of_shape(shape: &Chosen, gyros: &[usize]) -> Chosen {
     let mut zone = Chosen::new(&GYRO_DEAD_ZONE);
-    zone.settings.copy_from_slice(&shape.settings[zone.values.len()..]);
+    zone.settings.copy_from_slice(&shape.settings[shape.values.len()..]);
     for &gyro in gyros {
         zone.values[gyro] = shape.settings[gyro];
         zone.roles[gyro] = Role::Free;
