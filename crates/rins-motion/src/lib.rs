@@ -41,6 +41,7 @@ mod comb;
 mod fine_alignment;
 mod inspection;
 pub mod mechanism;
+mod ramps;
 mod recording;
 mod repeats;
 mod rest;
@@ -58,6 +59,7 @@ pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,
     ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect,
 };
+pub use ramps::with_ramps;
 pub use recording::Recording;
 pub use repeats::Repeats;
 pub use rest::{RestMean, rest_spans};

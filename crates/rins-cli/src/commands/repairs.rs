@@ -32,6 +32,13 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
             redivided.samples, redivided.left_out
         ));
     }
+    if summary.ramps > 0 {
+        told.push(format!(
+            "over {} change(s) of rate the table's way is as the z gyro shows it, and as far as [table] profile says, which \
+             tells the ramps otherwise or not at all",
+            summary.ramps
+        ));
+    }
     if !has_time(rig) {
         told.push("no time column: samples are taken to follow each other without a gap".into());
     }

@@ -16,7 +16,7 @@ mod table;
 
 use std::path::Path;
 
-use rins_motion::{Recording, Station};
+use rins_motion::{Recording, Station, with_ramps};
 
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
@@ -66,7 +66,7 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// more of them than `policy` accepts or do not fit the stated rate, if a gyro never moves, or if the table angle
 /// steps by about half a turn.
 pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
-    let (mut recording, summary, psins_header) = match &rig.log.format {
+    let (mut recording, mut summary, psins_header) = match &rig.log.format {
         LogFormat::Columns(columns) => {
             let (recording, summary) = assemble::read(&rig, columns, policy)?;
             (recording, summary, None)
@@ -84,6 +84,9 @@ pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     if recording.table_angle.is_none() && recording.table_rate.is_none() {
         let late = summary.redivided.map_or(0.0, |redivided| redivided.late);
         recording.table_rate = commanded(&rig, &recording, late)?;
+        if let Some(rates) = &mut recording.table_rate {
+            summary.ramps = with_ramps(rates, &recording.increments);
+        }
     }
     Ok(Loaded { rig, station, recording, summary, psins_header })
 }

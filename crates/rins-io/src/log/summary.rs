@@ -39,6 +39,9 @@ pub struct LogSummary {
     pub redivided: Option<Redivided>,
     /// The even clock whose stamps stand in the place of rounded ones.
     pub rounded: Option<Rounded>,
+    /// How many ramps between the rates of a commanded profile are shaped as the gyro about the axis shows them, and not
+    /// as the profile says.
+    pub ramps: usize,
 }
 
 /// Time stamps that are those of an even clock, rounded.
@@ -107,6 +110,7 @@ impl LogSummary {
             time_origin: 0.0,
             redivided: None,
             rounded: None,
+            ramps: 0,
         }
     }
 }

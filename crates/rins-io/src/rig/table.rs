@@ -20,7 +20,7 @@ pub struct TableSpec {
     /// By what the profile's rates were multiplied: -1 for a table that counts against the sense in
     /// which the body turns about its axis, otherwise 1.
     pub sense: f64,
-    /// The table's acceleration at each change of rate \[rad/s²\]; without one the rate jumps.
+    /// The table's acceleration at each change of rate \[rad/s²\]; without one the rate is commanded to jump.
     pub acceleration: Option<f64>,
     /// The standard deviation of the direction of the axis as it turns \[rad\].
     pub wobble: Option<f64>,
