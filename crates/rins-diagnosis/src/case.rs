@@ -164,7 +164,7 @@ impl Case<'_> {
         }
         let chosen = &mut best.0.chosen;
         if chosen.term.id == catalogue::BASE_TILT_STEP.id
-            && let Some(time) = self.jolt(present, chosen.settings[0])
+            && let Some(time) = self.jolts(present).about(chosen.settings[0])
         {
             chosen.settings[0] = time;
         }

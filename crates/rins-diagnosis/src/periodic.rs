@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use rins_estimation::{Estimate, Fit};
-use rins_terms::catalogue;
+use rins_terms::{Unit, catalogue};
 
 use crate::diagnosis::Cause;
 use crate::disturbance::CHANNELS;
@@ -46,16 +46,10 @@ pub(crate) fn modulated(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
         if apart > BESIDE * middle || found.iter().any(known) {
             continue;
         }
-        found.push(Unexplained {
-            run,
-            channel: sensor,
-            structure: Structure::Modulated(f64::from(times)),
-            of: None,
-            ln_p: one.ln_p.max(other.ln_p),
-            // Each of the two has half of it.
-            amplitude: Some((2.0 * height, estimate.parameter.unit)),
-            worst: worst(after, 2.0 * (one.gain + other.gain)),
-        });
+        // Each of the two has half of it.
+        let amplitude = (2.0 * height, estimate.parameter.unit);
+        let structure = Structure::Modulated(f64::from(times));
+        found.push(of_pair(after, [one, other], (run, sensor), structure, amplitude));
     }
     found
 }
@@ -79,17 +73,31 @@ pub(crate) fn waveforms(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
         if found.iter().any(|one| one.channel == sensor) {
             continue;
         }
-        found.push(Unexplained {
-            run: estimate.run.unwrap_or_default(),
-            channel: sensor,
-            structure: Structure::Waveform(frequency),
-            of: None,
-            ln_p: line.ln_p.max(other.ln_p),
-            amplitude: Some((height, estimate.parameter.unit)),
-            worst: worst(after, 2.0 * (line.gain + other.gain)),
-        });
+        let place = (estimate.run.unwrap_or_default(), sensor);
+        let amplitude = (height, estimate.parameter.unit);
+        let structure = Structure::Waveform(frequency);
+        found.push(of_pair(after, [line, other], place, structure, amplitude));
     }
     found
+}
+
+/// What two lines of a channel of a run are.
+fn of_pair(
+    after: &Fit,
+    [one, other]: [&Cause; 2],
+    (run, channel): (usize, &'static str),
+    structure: Structure,
+    amplitude: (f64, Unit),
+) -> Unexplained {
+    Unexplained {
+        run,
+        channel,
+        structure,
+        of: None,
+        ln_p: one.ln_p.max(other.ln_p),
+        amplitude: Some(amplitude),
+        worst: worst(after, 2.0 * (one.gain + other.gain)),
+    }
 }
 
 /// The axis of a line, from zero.

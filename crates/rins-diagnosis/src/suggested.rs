@@ -9,6 +9,7 @@ use rins_terms::{Chosen, Term, catalogue};
 use crate::candidates::{Candidate, stands_for};
 use crate::case::Case;
 use crate::disturbance::IN_ANGLE;
+use crate::jolt::Jolts;
 use crate::structure::{CHANNELS, Left, Structure};
 
 /// How many slow lines are tried at once.
@@ -30,6 +31,7 @@ impl Case<'_> {
     /// The terms that have a frequency, an order of no known cause, and events, where the innovations are strongest.
     pub(crate) fn suggested(&self, present: &Fit) -> Vec<Candidate> {
         let mut list = Vec::new();
+        let jolts = self.jolts(present);
         for run in 0..self.runs.len() {
             let innovations = present.innovations(run);
             let (angles, rates): (Vec<f64>, Vec<f64>) =
@@ -45,7 +47,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
-            list.extend(self.events([&innovations, &in_body], present, run));
+            list.extend(Self::events([&innovations, &in_body], present, run, &jolts));
             // What comes back less often is a drift.
             let slowest = FEWEST_CYCLES / (count * epoch);
             let frequencies =
@@ -72,10 +74,10 @@ impl Case<'_> {
     /// Every event where the innovations of some epochs, in the axis frame or in the body, are largest together: what is
     /// over in an instant shows in one or a few of them only, what the noise swallows until it has gone along with it.
     fn events(
-        &self,
         innovations: [&[SVector<f64, CHANNELS>]; 2],
         present: &Fit,
         run: usize,
+        jolts: &Jolts,
     ) -> Vec<Candidate> {
         let linear = &present.linear[run];
         let ends = linear.ends();
@@ -95,9 +97,9 @@ impl Case<'_> {
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
                 let within = ends[outlier.start] - begin - 0.5 * epoch;
-                let jolt = || self.jolt(present, within);
                 let tips = chosen.term.id == catalogue::BASE_TILT_STEP.id;
-                chosen.settings[place] = tips.then(jolt).flatten().unwrap_or(within);
+                let jolt = tips.then(|| jolts.about(within)).flatten();
+                chosen.settings[place] = jolt.unwrap_or(within);
                 let step = 2.0 * outlier.len() as f64 * epoch;
                 list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
             }

@@ -8,6 +8,7 @@ use rins_terms::catalogue;
 use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
+use crate::jolt;
 use crate::probability::ln_tail;
 use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
@@ -37,7 +38,12 @@ impl Case<'_> {
             let read = angles.get(samples).unwrap_or_default();
             read.windows(2).filter(|pair| pair[0] == pair[1]).count() > BLOCK / MOST_REPEATS
         };
-        let jolts = jolted(fit, run);
+        let linear = &fit.linear[run];
+        let steps = fit.models[run].terms.iter();
+        let jolts: Vec<Range<usize>> = steps
+            .filter(|chosen| chosen.term.id == catalogue::BASE_TILT_STEP.id)
+            .map(|step| jolt::around(step, linear.track(), linear.mean_epoch()))
+            .collect();
         let jolted = |samples: &Range<usize>| {
             let within = |jolt: &Range<usize>| jolt.start < samples.end && samples.start < jolt.end;
             jolts.iter().any(within)
@@ -64,20 +70,6 @@ impl Case<'_> {
         };
         (excess.is_finite() && one.ln_p < FALSE_ALARMS.ln()).then_some(one)
     }
-}
-
-/// The samples in which a base that tips over does so: not at once, and what it does in between no step describes.
-fn jolted(fit: &Fit, run: usize) -> Vec<Range<usize>> {
-    let linear = &fit.linear[run];
-    let (begin, epoch) = (linear.track().start(), linear.mean_epoch());
-    let times = linear.track().times();
-    let first = |after: f64| times.partition_point(|time| time - begin < after);
-    fit.models[run]
-        .terms
-        .iter()
-        .filter(|chosen| chosen.term.id == catalogue::BASE_TILT_STEP.id)
-        .map(|step| first(step.settings[0] - epoch)..first(step.settings[0] + epoch))
-        .collect()
 }
 
 /// By how much the kurtosis of white noise is more than a normal distribution's, and the logarithm of the chance of that.

@@ -8,19 +8,20 @@ const STILL: f64 = 0.01;
 
 /// The way the table turned last at the end of each sample: 1, -1, or 0 before it ever turned.
 ///
-/// `angles` are that before the first sample and that at the end of each \[rad\], `intervals` the samples' lengths
-/// \[s\]. That it turns is seen after it has turned by a milliradian, and dated back to when it began: between two
-/// samples a turning table comes to rest for an instant, which the rates after it tell.
-pub(crate) fn senses(intervals: &[f64], angles: &[f64]) -> Vec<i8> {
-    let mut senses = vec![0_i8; intervals.len()];
-    let Some(&(mut furthest)) = angles.first() else { return senses };
+/// `angles` are that before the first sample and that at the end of each \[rad\], `rate` is the mean one over a sample;
+/// after the last there is none but the last's \[rad/s\]. That it turns is seen after it has turned by a milliradian, and
+/// dated back to when it began: between two samples a turning table comes to rest for an instant, which the rates after
+/// it tell.
+pub(crate) fn senses(angles: &[f64], rate: impl Fn(usize) -> f64) -> Vec<i8> {
+    let Some((&(mut furthest), ends)) = angles.split_first() else { return Vec::new() };
+    let mut senses = vec![0_i8; ends.len()];
     let mut sense = 0_i8;
-    for (sample, &angle) in angles.iter().skip(1).enumerate() {
+    for (sample, &angle) in ends.iter().enumerate() {
         let beyond = angle - furthest;
         let onward = f64::from(sense) * beyond;
         if onward < -LEAST_TURN || sense == 0 && beyond.abs() > LEAST_TURN {
             sense = if beyond > 0.0 { 1 } else { -1 };
-            let began = beginning(intervals, angles, sample, f64::from(sense));
+            let began = beginning(sample, |of| f64::from(sense) * rate(of));
             senses[began..sample].fill(sense);
             furthest = angle;
         } else if onward > 0.0 {
@@ -31,13 +32,9 @@ pub(crate) fn senses(intervals: &[f64], angles: &[f64]) -> Vec<i8> {
     senses
 }
 
-/// The first sample at whose end the table, which at the end of `sample` is under way, turns already.
-fn beginning(intervals: &[f64], angles: &[f64], sample: usize, sense: f64) -> usize {
-    let last = intervals.len() - 1;
-    let rate = |of: usize| {
-        let of = of.min(last);
-        sense * (angles[of + 1] - angles[of]) / intervals[of]
-    };
+/// The first sample at whose end the table, which at the end of `sample` is under way, turns already; rates are
+/// positive in the sense in which it does.
+fn beginning(sample: usize, rate: impl Fn(usize) -> f64) -> usize {
     let least = STILL * rate(sample);
     let turns = |of: &usize| {
         // The rate at its end if it changes evenly before, and if it does after it: at a start from rest one is none.
@@ -78,7 +75,11 @@ mod tests {
     }
 
     fn of(angles: &[f64]) -> Vec<i8> {
-        senses(&vec![INTERVAL; angles.len() - 1], angles)
+        let last = angles.len() - 2;
+        senses(angles, |sample| {
+            let sample = sample.min(last);
+            (angles[sample + 1] - angles[sample]) / INTERVAL
+        })
     }
 
     /// The samples at whose ends the sense is another than at the end of the one before.

@@ -45,8 +45,18 @@ impl Track {
         let matches = temperature.as_ref().is_none_or(|list| list.len() == times.len());
         assert!(matches, "a temperature a sample");
         let warming_rates = temperature.as_ref().map(|list| slopes(&times, list));
-        let senses = senses(&intervals, &angles);
-        Self { surroundings, times, intervals, angles, senses, temperature, warming_rates }
+        let none = Vec::new();
+        let mut track = Self {
+            surroundings,
+            times,
+            intervals,
+            angles,
+            senses: none,
+            temperature,
+            warming_rates,
+        };
+        track.senses = senses(&track.angles, |sample| track.rate(sample));
+        track
     }
 
     /// The same with samples taken together: those up to each of `ends`, the sample after the last of them.
