@@ -1,5 +1,7 @@
 //! What each channel's readings show by themselves: steps, repeats, spikes and cut-off tops.
 
+use rins_frames::Increments;
+
 use super::suspicion::Suspicion;
 use super::{CHANNELS, Expected};
 use crate::comb::comb;
@@ -10,6 +12,9 @@ const SPIKE_RATIO: f64 = 50.0;
 
 /// ... and so many times the largest difference nearby: an impact has others beside it.
 const SPIKE_ALONE: f64 = 10.0;
+
+/// What stands so many times its scatter out of its neighbours is part of what another sensor shows as a spike.
+const BESIDE: f64 = 6.0;
 
 /// How many samples to each side are nearby.
 const NEARBY: usize = 25;
@@ -31,44 +36,81 @@ pub(super) fn suspicions(
     stands: &[bool],
 ) -> Vec<Suspicion> {
     let mut found = Vec::new();
+    let channels: Vec<Vec<f64>> = (0..CHANNELS.len()).map(|of| readings(recording, of)).collect();
+    let mut alone = Vec::new();
     for (channel, name) in CHANNELS.into_iter().enumerate() {
-        let readings: Vec<f64> = recording
-            .increments
-            .iter()
-            .map(|sample| {
-                let rates = sample.rates();
-                if channel < 3 {
-                    rates.angular_rate.components()[channel]
-                } else {
-                    rates.specific_force.components()[channel - 3]
-                }
-            })
-            .collect();
+        let readings = &channels[channel];
         let range = if channel < 3 { expected.gyro.range } else { expected.accel.range };
-        found.extend(spikes(&readings, name, recording));
-        let cut = range.and_then(|range| saturated(&readings, range, name, recording));
-        found.extend(cut.or_else(|| flat_top(&readings, stands, name, recording)));
+        if let Some(spikes) = spikes(readings) {
+            alone.push((channel, spikes));
+        }
+        let cut = range.and_then(|range| saturated(readings, range, name, recording));
+        found.extend(cut.or_else(|| flat_top(readings, stands, name, recording)));
     }
-    if is_jolt(&found) {
-        found.retain(|one| !matches!(one, Suspicion::Spike { .. }));
+    if is_jolt(&alone, &channels) {
+        return found;
     }
+    found.extend(alone.iter().map(|(channel, spikes)| Suspicion::Spike {
+        channel: CHANNELS[*channel],
+        count: spikes.count,
+        time: recording.times[spikes.largest],
+        reading: channels[*channel][spikes.largest],
+    }));
     found
 }
 
-/// Whether the only spikes are those of the gyros across the axis, at the same samples: the base tips over in an instant.
-/// What spoils a line of a log, or a sensor, spoils others or one alone.
-fn is_jolt(found: &[Suspicion]) -> bool {
-    let spikes = found.iter().filter_map(|one| match *one {
-        Suspicion::Spike { channel, count, time, .. } => Some((channel, count, time)),
-        _ => None,
-    });
-    match spikes.collect::<Vec<_>>()[..] {
-        [(x, x_count, x_time), (y, y_count, y_time)] => {
-            let across = x == CHANNELS[0] && y == CHANNELS[1];
-            across && x_count == y_count && (x_time - y_time).abs() <= f64::EPSILON * x_time.abs()
+/// What a channel reads as mean rates \[rad/s\] or specific forces \[m/s²\].
+fn readings(recording: &Recording, channel: usize) -> Vec<f64> {
+    let of_sample = |sample: &Increments| {
+        let rates = sample.rates();
+        if channel < 3 {
+            rates.angular_rate.components()[channel]
+        } else {
+            rates.specific_force.components()[channel - 3]
+        }
+    };
+    recording.increments.iter().map(of_sample).collect()
+}
+
+/// Single readings of a channel that lie far outside of what comes before and after them.
+#[derive(Clone, Copy, Debug)]
+struct Spikes {
+    count: usize,
+    /// The sample of the largest.
+    largest: usize,
+}
+
+/// Whether the only spikes are those of the gyros across the axis at the same samples, or the one of one of them while
+/// the other shows it too: the base tips over in an instant. What spoils a line of a log, or a sensor, spoils others or
+/// one alone.
+fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
+    match *found {
+        [(0, x), (1, y)] => x.count == y.count && x.largest == y.largest,
+        [(gyro @ (0 | 1), Spikes { count: 1, largest })] => {
+            let steps = steps(&channels[1 - gyro]);
+            let Some(scatter) = scatter(&steps) else { return false };
+            let least = BESIDE * scatter;
+            let out = |at: usize| steps.get(at).is_some_and(|step| step.abs() > least);
+            out(largest - 1) && out(largest)
         }
         _ => false,
     }
+}
+
+/// From each reading to the next.
+fn steps(readings: &[f64]) -> Vec<f64> {
+    readings.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+/// The robust scatter of steps; none if there is no step.
+fn scatter(steps: &[f64]) -> Option<f64> {
+    let mut sizes: Vec<f64> = steps.iter().map(|step| step.abs()).collect();
+    let middle = sizes.len() / 2;
+    sizes.get(middle)?;
+    let usual = 1.4826 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
+    let coarse = sizes.into_iter().filter(|size| *size > 0.0).min_by(f64::total_cmp)?;
+    Some(if usual > 0.0 { usual } else { coarse })
 }
 
 pub(super) fn longest_repeat(readings: &[f64]) -> usize {
@@ -101,16 +143,10 @@ fn runs(readings: &[f64]) -> impl Iterator<Item = (usize, usize)> {
         })
 }
 
-fn spikes(readings: &[f64], channel: &'static str, recording: &Recording) -> Option<Suspicion> {
-    let steps: Vec<f64> = readings.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let mut sizes: Vec<f64> = steps.iter().map(|step| step.abs()).collect();
-    let middle = sizes.len() / 2;
-    sizes.get(middle)?;
-    let usual = 1.4826 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-    // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
-    let coarse = sizes.iter().copied().filter(|size| *size > 0.0).min_by(f64::total_cmp)?;
+fn spikes(readings: &[f64]) -> Option<Spikes> {
+    let steps = steps(readings);
+    let scatter = scatter(&steps)?;
     let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
-    let scatter = if usual > 0.0 { usual } else { coarse };
     // What is left of rounding in readings without noise is no scatter.
     let least = (SPIKE_RATIO * scatter).max(1e-9 * most);
     let alone = |index: usize, size: f64| {
@@ -132,13 +168,7 @@ fn spikes(readings: &[f64], channel: &'static str, recording: &Recording) -> Opt
             }
         }
     }
-    let (_, index) = largest;
-    (count > 0).then(|| Suspicion::Spike {
-        channel,
-        count,
-        time: recording.times[index],
-        reading: readings[index],
-    })
+    (count > 0).then_some(Spikes { count, largest: largest.1 })
 }
 
 /// Whether the step is one of the two that a spike makes.
