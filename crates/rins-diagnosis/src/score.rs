@@ -10,10 +10,10 @@ const LEAST_SHOWN: f64 = 1.0;
 pub(crate) const USUAL: f64 = 3.0;
 
 /// The least part of its usual amplitude at which an effect is looked for.
-const SLIGHT: f64 = 0.01;
+const SLIGHT: f64 = 0.001;
 
 /// How many e-folds of odds an e-fold of amplitude beyond the usual costs.
-const UNUSUAL: f64 = 2.0;
+const UNUSUAL: f64 = 1.0;
 
 /// What data say of some parameters of an effect.
 #[derive(Clone, Debug, PartialEq)]
