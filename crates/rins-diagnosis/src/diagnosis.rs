@@ -8,10 +8,11 @@ use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::disturbance;
+use crate::probability::ln_tail;
 use crate::rounding::Rounding;
 use crate::settling::Found;
 use crate::survey::Survey;
-use crate::trial::{Context, Trial, trials};
+use crate::trial::{Context, Trial, best_pair, trials};
 use crate::unexplained::{Unexplained, described};
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
@@ -22,6 +23,9 @@ const MOST_CAUSES: usize = 8;
 
 /// After so many effects that looked significant and were not, the search ends.
 const MOST_REFUSED: usize = 2;
+
+/// How many effects are tried as the first of two that mask each other.
+const FIRST_OF_TWO: usize = 8;
 
 /// How many effects are accepted before the noise is found anew and the model made linear about them.
 const AT_ONCE: usize = 3;
@@ -162,16 +166,25 @@ impl Case<'_> {
             let tried = trials(&survey, &context, &list);
             not_testable.get_or_insert_with(|| unseen(&list, &tried));
             let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
-            let Some((candidate, trial)) = case.best(&present, &list, &tried, threshold)? else {
-                break;
+            let best = case.best(&present, &list, &tried, threshold)?;
+            let accepted = match best {
+                Some((candidate, trial)) => {
+                    let as_listed = list[trial.candidate].chosen == candidate.chosen;
+                    let mut accepted = vec![(candidate, trial)];
+                    // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.
+                    if as_listed && accepted[0].1.ln_p < threshold {
+                        let most = AT_ONCE.min(MOST_CAUSES - found.len());
+                        beside(&survey, &list, &mut accepted, threshold, most);
+                    }
+                    accepted
+                }
+                None => match masked(&survey, &list, &tried, threshold) {
+                    Some(pair) if found.len() + 2 <= MOST_CAUSES => {
+                        pair.map(|trial| (list[trial.candidate].clone(), trial)).into()
+                    }
+                    _ => break,
+                },
             };
-            let as_listed = list[trial.candidate].chosen == candidate.chosen;
-            let mut accepted = vec![(candidate, trial)];
-            // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.
-            if as_listed && accepted[0].1.ln_p < threshold {
-                let most = AT_ONCE.min(MOST_CAUSES - found.len());
-                beside(&survey, &list, &mut accepted, threshold, most);
-            }
             let earlier = found.len();
             found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
             let fitted = case.fit_near(&present, &found);
@@ -240,6 +253,23 @@ pub fn suppose(
     let (after, causes) = case.settled(&before, present, found, Found::Supposed)?;
     let unexplained = case.unexplained((&before, &after), &causes)?;
     Ok(Diagnosis { causes, unexplained, before, after, not_testable: Vec::new() })
+}
+
+/// Two effects that mask each other: neither shows alone, both do together.
+fn masked(
+    survey: &Survey,
+    list: &[Candidate],
+    tried: &[Trial],
+    threshold: f64,
+) -> Option<[Trial; 2]> {
+    let as_listed = |trial: &Trial| list[trial.candidate].step.is_none();
+    let firsts = tried.iter().filter(|trial| as_listed(trial)).take(FIRST_OF_TWO);
+    let is_second = |trial: &Trial| as_listed(trial) && trial.ln_p < threshold;
+    let pair = best_pair(survey, list, &[], firsts, is_second)?;
+    let [one, other] = &pair;
+    let looks = one.looks + other.looks + 2.0 * (tried.len() as f64).ln();
+    let ln_p = ln_tail(one.statistic + other.statistic, one.dof + other.dof) + looks;
+    (ln_p < FALSE_ALARMS.ln() && one.evidence + other.evidence > 0.0).then_some(pair)
 }
 
 /// Adds what is significant beside the effects that have been accepted, as long as nothing has to be sought.

@@ -10,7 +10,7 @@ use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
 use crate::suggested::at_frequency;
 use crate::survey::Survey;
-use crate::trial::{Context, Trial, trials};
+use crate::trial::{Context, Trial, best_pair, trials};
 
 /// A rival is kept whose odds are no worse than one to this many e-folds: 1 to 55.
 pub(crate) const RIVALS: f64 = 4.0;
@@ -224,22 +224,11 @@ impl Question<'_> {
         if self.own().is_some_and(|own| own.dof < FEWEST_FOR_TWO) {
             return None;
         }
-        let mut best: Option<([Trial; 2], f64)> = None;
-        for first in self.tried.iter().filter(|trial| self.is_new(trial)).take(FIRST_OF_TWO) {
-            let taken = self.survey.of_candidate(first.candidate).concat();
-            let context = Context::of(self.survey, &self.places.concat(), &taken)?;
-            let second = trials(self.survey, &context, self.list).into_iter().find(|trial| {
-                self.is_new(trial)
-                    && self.id(trial) != self.id(first)
-                    && trial.ln_p < self.threshold()
-            });
-            let Some(second) = second else { continue };
-            let evidence = first.evidence + second.evidence;
-            if best.as_ref().is_none_or(|(_, most)| evidence > *most) {
-                best = Some(([first.clone(), second], evidence));
-            }
-        }
-        best
+        let firsts = self.tried.iter().filter(|trial| self.is_new(trial)).take(FIRST_OF_TWO);
+        let is_second = |trial: &Trial| self.is_new(trial) && trial.ln_p < self.threshold();
+        let pair = best_pair(self.survey, self.list, &self.places.concat(), firsts, is_second)?;
+        let evidence = pair[0].evidence + pair[1].evidence;
+        Some((pair, evidence))
     }
 
     fn cause(&self) -> Cause {

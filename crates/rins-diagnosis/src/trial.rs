@@ -122,6 +122,31 @@ impl<'a> Context<'a> {
     }
 }
 
+/// Two effects that explain most together, the one of `firsts` and the other of those that `is_second` beside it, in place
+/// of what is `dropped`.
+pub(crate) fn best_pair<'a>(
+    survey: &Survey,
+    list: &[Candidate],
+    dropped: &[usize],
+    firsts: impl Iterator<Item = &'a Trial>,
+    is_second: impl Fn(&Trial) -> bool,
+) -> Option<[Trial; 2]> {
+    let id = |trial: &Trial| list[trial.candidate].chosen.term.id;
+    let mut best: Option<(f64, [Trial; 2])> = None;
+    for first in firsts {
+        let taken = survey.of_candidate(first.candidate).concat();
+        let context = Context::of(survey, dropped, &taken)?;
+        let tried = trials(survey, &context, list);
+        let other = |trial: &Trial| id(trial) != id(first) && is_second(trial);
+        let Some(second) = tried.into_iter().find(other) else { continue };
+        let evidence = first.evidence + second.evidence;
+        if best.as_ref().is_none_or(|(most, _)| evidence > *most) {
+            best = Some((evidence, [first.clone(), second]));
+        }
+    }
+    best.map(|(_, pair)| pair)
+}
+
 /// Whether a shape can have these amplitudes, in SI units.
 fn is_possible(shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
     !dead_zone::is_of_widths(&shape.chosen)

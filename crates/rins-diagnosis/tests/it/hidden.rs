@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use rins_diagnosis::{Along, Diagnosis, Structure, chance, diagnose, limits};
+use rins_diagnosis::{Along, Diagnosis, Structure, chance, diagnose, limits, suppose};
 use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
@@ -102,6 +102,27 @@ fn what_a_logger_does_to_readings_is_named_with_its_size() {
         assert!(off.abs() < 3.0 && estimate.value > 5.0 * estimate.sigma, "{off} sigma off");
         assert!(diagnosis.unexplained.is_empty(), "{}: {:?}", term.id, diagnosis.unexplained);
     }
+}
+
+/// Of what one effect does, another takes away as much as it can: the run shows little of either alone.
+#[test]
+fn effects_that_mask_each_other_are_both_found() {
+    let imu = fibre();
+    let knowledge = NoiseKnowledge::Given(Strengths::of(&imu));
+    let terms = [&catalogue::GYRO_SCALE_RAMP, &catalogue::GYRO_SCALE_NONLINEARITY];
+    // The first is 8 of its sigmas beside the other, which is a little more than what it would be taken for.
+    let hidden: [&[f64]; 2] = [&[4.5e-9], &[-12.8e-6, 13.6e-6]];
+    let effects = hiding(&[(terms[0], hidden[0]), (terms[1], hidden[1])]);
+    let run = run(&RATES, effects, 0.0, 120);
+    let runs = std::slice::from_ref(&run);
+    for term in terms {
+        let alone = [Chosen::new(term).estimated()];
+        let alone = suppose(runs, &Model::full(), &alone, &imu, knowledge).unwrap();
+        assert!(alone.causes[0].ln_p > 0.01_f64.ln(), "{:?}", alone.causes);
+    }
+    let diagnosis = found(&run, NoiseKnowledge::Given);
+    assert_eq!(diagnosis.causes.len(), 2, "{:?}", diagnosis.causes);
+    assert!(terms.iter().all(|term| names(&diagnosis, term.id)), "{:?}", diagnosis.causes);
 }
 
 #[test]
