@@ -212,7 +212,6 @@ impl Case<'_> {
         let mut unexplained: Vec<Unexplained> =
             unknown.iter().map(|cause| described(cause, &after)).collect();
         unexplained.extend(case.unexplained((before, &after), &causes)?);
-        unexplained.retain(|left| !self.rounding.explains(left));
         causes.extend(self.quantisation(&after));
         causes.extend(fast.iter().map(|(_, cause)| cause.clone()));
         let (mut causes, bursts) = gathered(causes, case.duration());

@@ -12,8 +12,11 @@ pub(crate) const USUAL: f64 = 3.0;
 /// The least part of its usual amplitude at which an effect is looked for.
 const SLIGHT: f64 = 0.001;
 
-/// How many e-folds of odds an e-fold of amplitude beyond the usual costs.
+/// How many e-folds of odds an e-fold of amplitude beyond the usual costs ...
 const UNUSUAL: f64 = 1.0;
+
+/// ... and how many at most: less than what the unknown costs, which has no usual amplitude.
+const MOST_UNUSUAL: f64 = 5.0;
 
 /// What data say of some parameters of an effect.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +55,8 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
     sum.amplitude = sum.estimate.amax();
     let scale = sum.amplitude.max(SLIGHT);
     let precision: f64 = shown.iter().map(|value| 0.5 * (1.0 + value * scale * scale).ln()).sum();
-    sum.evidence = 0.5 * sum.statistic - precision - UNUSUAL * (scale / USUAL).ln().max(0.0);
+    let unusual = UNUSUAL * (scale / USUAL).ln().max(0.0);
+    sum.evidence = 0.5 * sum.statistic - precision - unusual.min(MOST_UNUSUAL);
     sum
 }
 
@@ -150,6 +154,7 @@ mod tests {
         };
         assert_close!(at(0.03), at(1.0), 1e-9);
         assert_close!(at(3.0) - at(30.0), UNUSUAL * 10.0_f64.ln(), 1e-9);
+        assert_close!(at(3.0) - at(1e6), MOST_UNUSUAL, 1e-9);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::score::{Score, choices, scored};
 use crate::survey::{Left, Survey};
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
-const UNKNOWN: f64 = 6.0;
+const UNKNOWN: f64 = 8.0;
 
 /// A shape of an effect with those of its parameters that are there.
 #[derive(Clone, Debug)]
