@@ -27,6 +27,9 @@ const EXPONENTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 /// A temperature that changes by less \[K\] shows no effect of temperature.
 const LEAST_WARMING: f64 = 0.05;
 
+/// A table that has turned by less [rad] may stand.
+const LEAST_TURN: f64 = 1e-3;
+
 /// A term in one shape, to be tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
@@ -50,7 +53,20 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
         .filter(|term| term.needs.iter().all(|need| runs.iter().any(|run| offers(run, *need))))
         .flat_map(|term| shapes(duration(runs), term))
         .filter(|candidate| !model.terms.iter().any(|own| stands_for(own, &candidate.chosen)))
+        .filter(|candidate| !is_latency(runs, &candidate.chosen))
         .collect()
+}
+
+/// Whether these are samples that an encoder loses before the table ever turns, which is nothing but a latency.
+fn is_latency(runs: &[Run], chosen: &Chosen) -> bool {
+    let turns_by = |run: &Run, time: f64| {
+        let (angles, times) = (run.recording.table_angle.as_deref()?, &run.recording.times);
+        let first = angles.iter().position(|angle| (angle - angles[0]).abs() > LEAST_TURN)?;
+        Some(times[first] - times[0] < time)
+    };
+    let time = chosen.settings.first();
+    chosen.term.id == catalogue::DROPPED_SAMPLES.id
+        && time.is_some_and(|time| runs.iter().all(|run| turns_by(run, *time) == Some(false)))
 }
 
 /// Whether a term of a model leaves no room for another shape of it: two orders are two effects.

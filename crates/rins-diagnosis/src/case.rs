@@ -25,7 +25,7 @@ const FINER: [f64; 3] = [0.125, 0.03, 0.0075];
 const SWALLOWED: f64 = 4.0;
 
 /// Weaker flicker that is tried, as parts of what was found.
-pub(crate) const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
+const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
 
 /// A term of at most so many parameters is estimated whole: what the others of them are is not known to be nothing.
 const WHOLE: usize = 6;

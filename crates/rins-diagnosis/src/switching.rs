@@ -4,7 +4,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
 
-use crate::case::{Case, WEAKER};
+use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
 use crate::levels::{Parts, Path};
@@ -17,7 +17,10 @@ const BIASES: [&str; 6] =
     ["gyro.bias.x", "gyro.bias.y", "gyro.bias.z", "accel.bias.x", "accel.bias.y", "accel.bias.z"];
 
 /// Into how many parts a run is divided, in each of which a bias is on one level.
-const PARTS: usize = 64;
+const PARTS: usize = 96;
+
+/// What is left of flicker, as parts of what was found, if it was a bias that switches.
+const WITHOUT: [f64; 4] = [1.0, 0.5, 0.25, 0.02];
 
 /// Of how many epochs a part is at least.
 const LEAST_EPOCHS: usize = 2;
@@ -60,7 +63,7 @@ impl Case<'_> {
         let apart = linear.in_groups(&[own], &part_of, parts);
         let mut without = f64::NEG_INFINITY;
         let mut best: Option<(f64, Path)> = None;
-        for part in WEAKER {
+        for part in WITHOUT {
             let mut noise = fit.noise[run];
             let flicker = &mut triad(&mut noise.imu, channel / 3).flicker;
             if part < 1.0 && *flicker == 0.0 {

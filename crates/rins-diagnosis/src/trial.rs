@@ -1,6 +1,7 @@
 //! Candidates against each other: the best shape and choice of parameters of every effect.
 
 use nalgebra::DVector;
+use rins_terms::Term;
 
 use crate::candidates::Candidate;
 use crate::dead_zone;
@@ -10,7 +11,10 @@ use crate::score::{Score, choices, scored};
 use crate::survey::{Left, Survey};
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
-const UNKNOWN: f64 = 8.0;
+const UNKNOWN: f64 = 10.0;
+
+/// The same of an effect of any frequency: lines explain a little of all that is no line.
+const OF_ANY_FREQUENCY: f64 = 3.0;
 
 /// A shape of an effect with those of its parameters that are there.
 #[derive(Clone, Debug)]
@@ -69,7 +73,7 @@ impl<'a> Context<'a> {
         let choices = choices(shape.chosen.term);
         let of_choices = (choices.len() as f64).ln();
         let looks = shape.looks.ln() + of_choices;
-        let unknown = if shape.chosen.term.id == disturbance::ID { UNKNOWN } else { 0.0 };
+        let unlikely = unlikely(shape.chosen.term);
         let mut best: Option<Trial> = None;
         let mut least_ln_p = 0.0_f64;
         for parameters in choices {
@@ -78,7 +82,7 @@ impl<'a> Context<'a> {
             let sigmas = self.survey.sigmas(&places);
             let possible = is_possible(shape, &parameters, &score.estimate.component_mul(&sigmas));
             let evidence =
-                if possible { score.evidence - looks - unknown } else { f64::NEG_INFINITY };
+                if possible { score.evidence - looks - unlikely } else { f64::NEG_INFINITY };
             if possible {
                 least_ln_p = least_ln_p.min(ln_tail(statistic, score.dof) + looks);
             }
@@ -119,6 +123,17 @@ impl<'a> Context<'a> {
             }
         }
         best.map(|best| (best, statistic))
+    }
+}
+
+/// What the odds for an effect pay beforehand.
+fn unlikely(term: &Term) -> f64 {
+    if term.id == disturbance::ID {
+        UNKNOWN
+    } else if term.settings.iter().any(|setting| setting.name == "frequency") {
+        OF_ANY_FREQUENCY
+    } else {
+        0.0
     }
 }
 
