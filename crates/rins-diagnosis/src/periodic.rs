@@ -17,6 +17,12 @@ const MULTIPLES: [f64; 2] = [2.0, 3.0];
 /// it would be one by chance.
 const WITHIN: (f64, f64) = (3.0, 0.01);
 
+/// Rates of a table that differ by less, as a part of them, are one.
+const ALIKE: f64 = 0.01;
+
+/// A line is a multiple of the table's turn by chance if it is not known to this part of a turn's frequency.
+const BY_CHANCE: f64 = 0.05;
+
 /// A wave so many times a turn at most is looked for between two lines.
 const MOST_A_TURN: u32 = 3;
 
@@ -64,16 +70,21 @@ fn pairs(causes: &[Cause]) -> impl Iterator<Item = (&Cause, &Cause)> {
     })
 }
 
-/// Interference whose frequencies are multiples of one: every line of it is explained, that there are several is not.
+/// Interference whose frequencies are multiples of one, of a line or of the table's turn: every line of it is explained,
+/// that there are several is not.
 pub(crate) fn waveforms(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
     let mut found: Vec<Unexplained> = Vec::new();
     for (line, other) in pairs(causes) {
-        let Some(frequency) = common(line, other) else { continue };
         let Some((sensor, estimate, height)) = strongest(line) else { continue };
+        let run = estimate.run.unwrap_or_default();
+        let Some(frequency) = common(line, other).or_else(|| of_turn(after, run, [line, other]))
+        else {
+            continue;
+        };
         if found.iter().any(|one| one.channel == sensor) {
             continue;
         }
-        let place = (estimate.run.unwrap_or_default(), sensor);
+        let place = (run, sensor);
         let amplitude = (height, estimate.parameter.unit);
         let structure = Structure::Waveform(frequency);
         found.push(of_pair(after, [line, other], place, structure, amplitude));
@@ -117,6 +128,25 @@ fn common(one: &Cause, other: &Cause) -> Option<f64> {
         off < WITHIN.0 * sigma && sigma < WITHIN.1 * high.0
     };
     MULTIPLES.iter().find(is_multiple).map(|_| low.0)
+}
+
+/// How often the table turns \[Hz\], if it does at one rate and two lines are multiples of that.
+fn of_turn(after: &Fit, run: usize, lines: [&Cause; 2]) -> Option<f64> {
+    let linear = &after.linear[run];
+    let mut turns: Vec<f64> = linear.motion().iter().map(|(_, rate)| rate.abs() / TAU).collect();
+    let middle = turns.len() / 2;
+    turns.get(middle)?;
+    let (_, &mut turn, _) = turns.select_nth_unstable_by(middle, f64::total_cmp);
+    let alike = turns.iter().filter(|other| (*other - turn).abs() < ALIKE * turn).count();
+    let is_multiple = |line: &Cause| {
+        line.sought.is_some_and(|(place, sigma)| {
+            let frequency = line.settings[place];
+            let times = (frequency / turn).round();
+            let within = WITHIN.0 * sigma;
+            times > 1.0 && (frequency - times * turn).abs() < within && within < BY_CHANCE * turn
+        })
+    };
+    (2 * alike > turns.len() && lines.into_iter().all(is_multiple)).then_some(turn)
 }
 
 /// On which sensor a line is strongest, and how high it is there.
