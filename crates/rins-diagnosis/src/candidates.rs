@@ -27,7 +27,7 @@ const EXPONENTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 /// A temperature that changes by less \[K\] shows no effect of temperature.
 const LEAST_WARMING: f64 = 0.05;
 
-/// A table that has turned by less [rad] may stand.
+/// A table that has turned by less may stand \[rad\].
 const LEAST_TURN: f64 = 1e-3;
 
 /// A term in one shape, to be tried.

@@ -25,7 +25,7 @@ const MOST_CAUSES: usize = 8;
 const MOST_REFUSED: usize = 2;
 
 /// How many effects are tried as the first of two that mask each other.
-const FIRST_OF_TWO: usize = 8;
+const FIRST_OF_MASKED: usize = 8;
 
 /// How many effects are accepted before the noise is found anew and the model made linear about them.
 const AT_ONCE: usize = 3;
@@ -262,7 +262,7 @@ fn masked(
     threshold: f64,
 ) -> Option<[Trial; 2]> {
     let as_listed = |trial: &Trial| list[trial.candidate].step.is_none();
-    let firsts = tried.iter().filter(|trial| as_listed(trial)).take(FIRST_OF_TWO);
+    let firsts = tried.iter().filter(|trial| as_listed(trial)).take(FIRST_OF_MASKED);
     let is_second = |trial: &Trial| as_listed(trial) && trial.ln_p < threshold;
     let pair = best_pair(survey, list, &[], firsts, is_second)?;
     let [one, other] = &pair;

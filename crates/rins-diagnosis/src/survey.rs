@@ -111,6 +111,13 @@ impl Survey {
         Ok(Self { known, terms, places: layout.of_terms, said, sigmas: layout.sigmas, off })
     }
 
+    /// What some evidence says, one noise's: of the model's parameters, which are `off` from what was expected of them in
+    /// sigmas, and then of others; `sigmas` are the 1σ that is expected of each, in SI units.
+    pub(crate) fn of_evidence(evidence: &Evidence, sigmas: Vec<f64>, off: DVector<f64>) -> Self {
+        let said = vec![Said::of(evidence, &sigmas)];
+        Self { known: off.len(), terms: 0, places: Vec::new(), said, sigmas, off }
+    }
+
     /// How many strengths of the noise there are.
     pub(crate) const fn noises(&self) -> usize {
         self.said.len()

@@ -1,6 +1,6 @@
 //! Biases that switch between two levels, which pass for flicker as long as nobody asks.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::DVector;
 use rayon::prelude::*;
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
 
@@ -10,6 +10,7 @@ use crate::disturbance::CHANNELS;
 use crate::levels::{Parts, Path};
 use crate::noise::triad;
 use crate::structure::Structure;
+use crate::survey::{Left, Survey};
 use crate::unexplained::{Unexplained, worst};
 
 /// The biases that may switch.
@@ -71,7 +72,8 @@ impl Case<'_> {
             }
             *flicker *= part;
             let said = said(&Evidence::of(&apart, &noise)?, &known, own);
-            let Some((parts, log_likelihood)) = said else { continue };
+            let Some(Left { information, score, log_likelihood, .. }) = said else { continue };
+            let parts = Parts { information, score };
             without = without.max(log_likelihood);
             if let Some(path) = parts.path() {
                 let with = log_likelihood + path.odds();
@@ -96,31 +98,13 @@ impl Case<'_> {
     }
 }
 
-/// What is said of a bias in each part, in units of its prior's sigma, the `known` parameters being estimated; and how
-/// likely the run is, as a logarithm, if it is the same in all. None if nothing definite is.
-fn said(evidence: &Evidence, known: &[&Estimate], own: usize) -> Option<(Parts, f64)> {
-    let (n, all) = (known.len(), evidence.score.len());
-    let scales = DVector::from_fn(all, |place, _| {
-        known[if place < n { place } else { own }].parameter.sigma
-    });
-    let information = DMatrix::from_fn(all, all, |row, column| {
-        evidence.information[(row, column)] * scales[row] * scales[column]
-    });
-    let off = DVector::from_fn(n, |place, _| {
-        (known[place].value - known[place].expected) / scales[place]
-    });
-    let score = evidence.score.component_mul(&scales);
-    let corner = information.view((0, 0), (n, n)) + DMatrix::identity(n, n);
-    let factor = Cholesky::new(corner)?;
-    let pulled = score.rows(0, n) - &off;
-    let across = information.view((0, n), (n, all - n)).into_owned();
-    let step = factor.solve(&pulled);
-    let log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
-    let squares = evidence.square + off.norm_squared() - pulled.dot(&step);
-    let rest = information.view((n, n), (all - n, all - n));
-    let parts = Parts {
-        information: rest - across.tr_mul(&factor.solve(&across)),
-        score: score.rows(n, all - n) - across.tr_mul(&step),
-    };
-    Some((parts, -0.5 * squares - evidence.log_determinant - log_det))
+/// What is said of a bias in each part, in units of its prior's sigma, the `known` parameters being estimated. None if
+/// nothing definite is.
+fn said(evidence: &Evidence, known: &[&Estimate], own: usize) -> Option<Left> {
+    let n = known.len();
+    let scale = |place: usize| known[if place < n { place } else { own }].parameter.sigma;
+    let scales: Vec<f64> = (0..evidence.score.len()).map(scale).collect();
+    let off = |(estimate, scale): (&&Estimate, &f64)| (estimate.value - estimate.expected) / scale;
+    let off = DVector::from_iterator(n, known.iter().zip(&scales).map(off));
+    Survey::of_evidence(evidence, scales, off).left(0, &[], &[])
 }
