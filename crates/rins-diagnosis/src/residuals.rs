@@ -26,7 +26,7 @@ pub(crate) fn beyond(run: &Run, track: &Track, model: &Model) -> [Vec<f64>; CHAN
         _ => None,
     };
     let mut before: Option<f64> = None;
-    let terms = Acting::present(model);
+    let terms = Acting::present(model, track);
     let opening = track.opening().map(|moment| values(&Acting::together(&terms, &moment).tilt));
     let mut tilt_before = opening.unwrap_or_default();
     let samples = &run.recording.increments;

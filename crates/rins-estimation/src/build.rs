@@ -1,7 +1,7 @@
 //! Epochs in the making: residuals sample by sample, derivatives piece by piece.
 
 use nalgebra::{Matrix3, Vector3};
-use rins_terms::{Acting, Dual64, Model, Moment, Moments, Signals, values};
+use rins_terms::{Acting, Dual64, Model, Moment, Moments, Signals, Track, values};
 
 use crate::gains::Growing;
 use crate::linear::{Epoch, Span};
@@ -22,22 +22,21 @@ pub(crate) struct Compared<'a> {
 }
 
 impl<'a> Compared<'a> {
+    /// What a run is compared with along a track, derivatives being taken over pieces of it.
     pub(crate) fn new(
         run: &'a Run,
         model: &'a Model,
         free: &[(usize, usize)],
         readings: Option<&'a [f64]>,
+        (track, pieces): (&Track, &Track),
     ) -> Self {
         let triads = model.split().0;
         let inverse_gains = [triads.gyro.matrix, triads.accel.matrix]
             .map(|matrix| (Matrix3::identity() + matrix).try_inverse().unwrap_or_default());
         Self {
             run,
-            present: Acting::present(model),
-            columns: free
-                .iter()
-                .map(|&(term, parameter)| Acting::by(model, term, parameter))
-                .collect(),
+            present: Acting::present(model, track),
+            columns: Acting::by(model, pieces, free),
             readings,
             sway: Sway::of(run),
             inverse_gains,

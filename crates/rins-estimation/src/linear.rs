@@ -139,7 +139,7 @@ pub(crate) fn linearised(
     let ends: Vec<usize> = spans.iter().flat_map(|span| cut(&span.samples, piece)).collect();
     let coarse = (piece > 1).then(|| track.thinned(&ends));
     let pieces = coarse.as_ref().unwrap_or(&track);
-    let compared = Compared::new(run, &model, free, readings.as_deref());
+    let compared = Compared::new(run, &model, free, readings.as_deref(), (&track, pieces));
     let stretches: Vec<&[Span]> = spans.chunks(EPOCHS_AT_A_TIME).collect();
     let firsts: Vec<usize> = stretches.iter().map(|spans| spans[0].samples.start).collect();
     // A stretch begins with the piece before it, which shows what readings differed by.

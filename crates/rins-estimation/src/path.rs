@@ -28,7 +28,7 @@ pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block:
 
 /// By how much the model says that the angle is read wrong, at the end of each sample \[rad\].
 fn errors(track: &Track, model: &Model) -> Vec<f64> {
-    let present = Acting::present(model);
+    let present = Acting::present(model, track);
     let starts = (0..track.len()).step_by(SAMPLES_AT_A_TIME);
     let of = |mut moments: Moments<'_>| -> Vec<f64> {
         let mut error = || Some(Acting::together(&present, moments.advance()?).angle.re);

@@ -1,25 +1,40 @@
 //! Terms at work on sample after sample.
 
+use std::sync::Arc;
+
+use nalgebra::Complex;
 use num_dual::Dual64;
 
 use crate::catalogue::{AXIS_ATTITUDE, GYRO_MISALIGNMENT};
+use crate::following::following;
 use crate::model::{Chosen, Model};
 use crate::moment::Moment;
 use crate::signals::{Signals, derivatives};
 use crate::term::Action;
+use crate::track::Track;
 
-/// A term of a model at work: with its parameters, and perhaps a derivative by one of the model's.
+/// A term of a model at work on a track: with its parameters, and perhaps a derivative by one of the model's.
 #[derive(Clone, Debug)]
 pub struct Acting<'a> {
     chosen: &'a Chosen,
     parameters: Vec<Dual64>,
     /// What turns the gyros' axes from the body's, where the term acts on the rate about them.
     axes: Vec<Self>,
+    /// How it follows the table in each of the track's samples, where it does so slowly.
+    follows: Option<Follows>,
 }
+
+/// How `exp(iζ)` is followed in each sample of a track, in units of it.
+type Follows = Arc<[Complex<f64>]>;
 
 impl<'a> Acting<'a> {
     /// The term at `place` in a model, with a derivative by parameter `by` of this or another term.
-    fn of(model: &'a Model, place: usize, by: Option<(usize, usize)>) -> Self {
+    fn of(
+        model: &'a Model,
+        place: usize,
+        by: Option<(usize, usize)>,
+        follows: Option<Follows>,
+    ) -> Self {
         let chosen = &model.terms[place];
         let mut parameters: Vec<Dual64> =
             chosen.values.iter().map(|&value| Dual64::from_re(value)).collect();
@@ -29,41 +44,57 @@ impl<'a> Acting<'a> {
         let mut axes = Vec::new();
         if let Action::Sensed(_) = chosen.term.action {
             let turning = (0..model.terms.len()).filter(|&other| turns_axes(&model.terms[other]));
-            axes = turning.map(|other| Self::of(model, other, by)).collect();
+            axes = turning.map(|other| Self::of(model, other, by, None)).collect();
         }
-        Self { chosen, parameters, axes }
+        Self { chosen, parameters, axes, follows }
     }
 
-    /// What has a derivative by a parameter of a model's term: the term itself, and what acts on a rate that it turns.
-    pub fn by(model: &'a Model, term: usize, parameter: usize) -> Vec<Self> {
-        let by = Some((term, parameter));
-        let mut list = vec![Self::of(model, term, by)];
-        if turns_axes(&model.terms[term]) {
-            let sensed = |chosen: &Chosen| matches!(chosen.term.action, Action::Sensed(_));
-            let on_it =
-                |&place: &usize| sensed(&model.terms[place]) && does_anything(&model.terms[place]);
-            let others = (0..model.terms.len()).filter(on_it);
-            list.extend(others.map(|place| Self::of(model, place, by)));
-        }
-        list
+    /// Of each of some parameters, given as term and place within it, what has a derivative by it on `track`: the term
+    /// itself, and what acts on a rate that it turns.
+    pub fn by(model: &'a Model, track: &Track, parameters: &[(usize, usize)]) -> Vec<Vec<Self>> {
+        let follows: Vec<Option<Follows>> =
+            model.terms.iter().map(|chosen| follows(chosen, track)).collect();
+        let list = |&(term, parameter): &(usize, usize)| {
+            let of =
+                |place| Self::of(model, place, Some((term, parameter)), follows[place].clone());
+            let mut list = vec![of(term)];
+            if turns_axes(&model.terms[term]) {
+                let sensed = |chosen: &Chosen| matches!(chosen.term.action, Action::Sensed(_));
+                let on_it = |&place: &usize| {
+                    sensed(&model.terms[place]) && does_anything(&model.terms[place])
+                };
+                list.extend((0..model.terms.len()).filter(on_it).map(of));
+            }
+            list
+        };
+        parameters.iter().map(list).collect()
     }
 
-    /// The terms of a model that do anything.
-    pub fn present(model: &'a Model) -> Vec<Self> {
+    /// The terms of a model that do anything, on `track`.
+    pub fn present(model: &'a Model, track: &Track) -> Vec<Self> {
+        Self::at_work(model, |chosen| follows(chosen, track))
+    }
+
+    /// The same wherever a table is, what follows it having settled.
+    pub(crate) fn settled(model: &'a Model) -> Vec<Self> {
+        Self::at_work(model, |_| None)
+    }
+
+    fn at_work(model: &'a Model, follows: impl Fn(&Chosen) -> Option<Follows>) -> Vec<Self> {
         let places = 0..model.terms.len();
         places
             .filter(|&place| does_anything(&model.terms[place]))
-            .map(|place| Self::of(model, place, None))
+            .map(|place| Self::of(model, place, None, follows(&model.terms[place])))
             .collect()
     }
 
-    /// What it adds.
+    /// What it adds at a moment of its track.
     #[inline]
     pub fn signals(&self, moment: &Moment) -> Signals {
         Self::together(std::slice::from_ref(self), moment)
     }
 
-    /// What some terms add.
+    /// What some terms add at a moment of their track.
     #[inline]
     pub fn together(terms: &[Self], moment: &Moment) -> Signals {
         let mut signals = Signals::default();
@@ -75,8 +106,11 @@ impl<'a> Acting<'a> {
 
     #[inline]
     fn act(&self, moment: &Moment, signals: &mut Signals) {
-        if self.axes.is_empty() {
-            self.chosen.term.act(&self.parameters, &self.chosen.settings, moment, signals);
+        let Self { chosen, parameters, .. } = self;
+        if let (Some(follows), Action::Following(act)) = (&self.follows, chosen.term.action) {
+            act(parameters, moment.exp_angle() * follows[moment.sample], signals);
+        } else if self.axes.is_empty() {
+            chosen.term.act(parameters, &chosen.settings, moment, signals);
         } else {
             self.act_about_axes(moment, signals);
         }
@@ -104,6 +138,12 @@ impl<'a> Acting<'a> {
 /// Whether a term says in which directions the gyros' own axes are, in the body or with it.
 fn turns_axes(chosen: &Chosen) -> bool {
     [GYRO_MISALIGNMENT.id, AXIS_ATTITUDE.id].contains(&chosen.term.id)
+}
+
+/// How a term follows the table on a track, if it does so slowly.
+fn follows(chosen: &Chosen, track: &Track) -> Option<Follows> {
+    let Action::Following(_) = chosen.term.action else { return None };
+    Some(following(track, chosen.settings[0]).into())
 }
 
 fn does_anything(chosen: &Chosen) -> bool {

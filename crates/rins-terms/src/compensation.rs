@@ -77,10 +77,10 @@ pub fn compensated(
     let largest_angle = size(&|k| k.angle.norm());
     let largest_velocity = size(&|k| k.velocity.norm());
     let start = recording.times[0] - first.interval;
-    let terms = Acting::present(model);
     let mut change = f64::INFINITY;
     for _ in 0..MOST_ROUNDS {
         let track = turning(&found, surroundings, start);
+        let terms = Acting::present(model, &track);
         change = 0.0;
         let mut moments = track.moments();
         for sample in 0..track.len() {

@@ -30,7 +30,7 @@ pub struct Making<'a> {
 impl<'a> Making<'a> {
     /// A model at work from the start of `track` on.
     pub fn new(model: &'a Model, track: &Track) -> Self {
-        let terms = Acting::present(model);
+        let terms = Acting::present(model, track);
         let tilt = track.opening().map(|moment| values(&Acting::together(&terms, &moment).tilt));
         Self { terms, tilt: tilt.unwrap_or_default() }
     }

@@ -242,9 +242,9 @@ impl Model {
         self
     }
 
-    /// What all its terms add at `moment`.
+    /// What all its terms add at `moment`, those that follow the table having settled.
     pub fn signals(&self, moment: &Moment) -> Signals {
-        Acting::together(&Acting::present(self), moment)
+        Acting::together(&Acting::settled(self), moment)
     }
 
     /// The noise that its terms make of `noises`.

@@ -1,6 +1,6 @@
 //! What is going on over one sample: the table, the true motion, the surroundings.
 
-use nalgebra::Vector3;
+use nalgebra::{Complex, Vector3};
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::Station;
 
@@ -76,6 +76,8 @@ pub struct Instant {
 /// encoder and the direction of the axis, is read at its `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
+    /// Which of its track's samples this is.
+    pub sample: usize,
     /// The length of the sample's interval \[s\].
     pub interval: f64,
     /// How long the run is \[s\].
@@ -107,6 +109,11 @@ impl Moment {
     /// A vector of the axis frame in body axes, in the middle of the interval.
     pub fn in_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         turned_back(vector, self.mean.angle.sin_cos())
+    }
+
+    /// `exp(iζ)` in the middle of the interval.
+    pub(crate) fn exp_angle(&self) -> Complex<f64> {
+        Complex::cis(self.mean.angle)
     }
 
     /// The share of the interval that lies after `time` \[s\], between 0 and 1.

@@ -1,9 +1,11 @@
 //! A term: one physical effect, with all that anyone needs to know of it.
 
+use nalgebra::Complex;
 use num_dual::Dual64;
 use rins_imu::{ImuNoise, ImuSpec, Seed};
 use rins_motion::Recording;
 
+use crate::following::settled;
 use crate::grade::Grade;
 use crate::moment::Moment;
 use crate::signals::{DualVector, Signals};
@@ -157,6 +159,9 @@ pub enum Action {
     /// It does so by the rate about the gyros' own axes, which misalignments turn from the body's: parameters, settings,
     /// the moment, that rate \[rad/s\], and what is added to.
     Sensed(fn(&[Dual64], &[f64], &Moment, &DualVector, &mut Signals)),
+    /// It follows the table's angle behind a low-pass, whose time constant is the first setting: parameters, what comes of
+    /// `exp(iζ)`, and what is added to.
+    Following(fn(&[Dual64], Complex<f64>, &mut Signals)),
     /// It changes the random errors: parameters, settings, and the noise.
     Noise(fn(&[f64], &[f64], &mut Noises)),
     /// It changes the log: parameters, settings, random numbers, and the recording.
@@ -168,6 +173,7 @@ impl std::fmt::Debug for Action {
         f.write_str(match self {
             Self::Signal(_) => "Signal",
             Self::Sensed(_) => "Sensed",
+            Self::Following(_) => "Following",
             Self::Noise(_) => "Noise",
             Self::Log(_) => "Log",
         })
@@ -186,7 +192,7 @@ pub struct Noises {
 impl Term {
     /// Whether it adds to signals, and so can be estimated.
     pub const fn is_signal(&self) -> bool {
-        matches!(self.action, Action::Signal(_) | Action::Sensed(_))
+        matches!(self.action, Action::Signal(_) | Action::Sensed(_) | Action::Following(_))
     }
 
     /// The full ids of its parameters, such as `accel_lever_arm.r_x`.
@@ -201,7 +207,7 @@ impl Term {
 
     /// What it adds at `moment` with these parameters, in SI units.
     ///
-    /// A term that is no signal adds nothing.
+    /// A term that is no signal adds nothing; one that follows the table is taken to have settled.
     pub fn signals(&self, parameters: &[f64], settings: &[f64], moment: &Moment) -> Signals {
         let duals: Vec<Dual64> = parameters.iter().map(|&value| Dual64::from_re(value)).collect();
         let mut signals = Signals::default();
@@ -209,7 +215,8 @@ impl Term {
         signals
     }
 
-    /// Adds what it does at `moment`, with the derivative that the parameters carry, to gyros whose axes are the body's.
+    /// Adds what it does at `moment`, with the derivative that the parameters carry, to gyros whose axes are the body's; if it
+    /// follows the table, then as settled.
     #[inline]
     pub fn act(
         &self,
@@ -238,6 +245,10 @@ impl Term {
         match self.action {
             Action::Signal(act) => act(parameters, settings, moment, signals),
             Action::Sensed(act) => act(parameters, settings, moment, sensed, signals),
+            Action::Following(act) => {
+                let follows = settled(moment.mean.rate, settings[0]);
+                act(parameters, moment.exp_angle() * follows, signals);
+            }
             Action::Noise(_) | Action::Log(_) => {}
         }
     }

@@ -127,6 +127,7 @@ impl Track {
             sample: 0,
             start: self.start(),
             moment: Moment {
+                sample: 0,
                 interval: 0.0,
                 duration: self.duration(),
                 mean: Instant::default(),
@@ -237,6 +238,7 @@ impl Moments<'_> {
         let moment = &mut self.moment;
         moment.rate = mean_in_body(&track.surroundings.earth_rate) + Vector3::z() * rate;
         moment.force = mean_in_body(&track.surroundings.specific_force);
+        moment.sample = sample;
         moment.interval = interval;
         moment.end = Instant {
             time: time - self.start,

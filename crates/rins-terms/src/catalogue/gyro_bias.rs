@@ -146,8 +146,8 @@ pub static THERMAL_ONE_PER_TURN: Term = Term {
     also: &[],
     name: "heat from one side",
     cause: "a source of heat beside the table warms the gyros once a turn; they follow it slowly",
-    equation: "gyro += (c cos + s sin)(ζ) behind a low-pass 1/(1 + i ω τ), settled",
-    source: "the steady response of one thermal time constant",
+    equation: "gyro += (c cos ζ + s sin ζ) behind a low-pass 1/(1 + τ d/dt), settled at the start",
+    source: "one thermal time constant",
     parameters: &named(
         ["x_cos", "x_sin", "y_cos", "y_sin", "z_cos", "z_sin"],
         Unit::DEG_PER_HOUR,
@@ -155,15 +155,11 @@ pub static THERMAL_ONE_PER_TURN: Term = Term {
     ),
     settings: &[Setting { default: 10.0, ..TIME_CONSTANT }],
     needs: &[Need::SeveralRates],
-    partners: &["gyro_g_sensitivity", "gyro_magnetic"],
+    partners: &["gyro_g_sensitivity", "gyro_magnetic", "gyro_warmup"],
     told_apart_by: "turn at two rates: gravity and the field do not fade with the rate",
     owner: Owner::Run,
-    action: Action::Signal(|p, settings, moment, out| {
-        let lag = moment.mean.rate * settings[0];
-        let gain = 1.0 / (1.0 + lag * lag);
-        let (sin, cos) = moment.mean.angle.sin_cos();
-        let (slow_cos, slow_sin) = (gain * (cos + lag * sin), gain * (sin - lag * cos));
-        add_constant(&mut out.gyro, &[p[0], p[2], p[4]], slow_cos);
-        add_constant(&mut out.gyro, &[p[1], p[3], p[5]], slow_sin);
+    action: Action::Following(|p, followed, out| {
+        add_constant(&mut out.gyro, &[p[0], p[2], p[4]], followed.re);
+        add_constant(&mut out.gyro, &[p[1], p[3], p[5]], followed.im);
     }),
 };

@@ -142,7 +142,7 @@ fn every_noise_and_every_fault_of_a_log_does_something_at_its_usual_magnitude() 
         let high: Vec<f64> = term.parameters.iter().map(|p| p.range(&sheet()).0).collect();
         let model = Model::default().with(chosen(term).with_values(&high));
         match term.action {
-            Action::Signal(_) | Action::Sensed(_) => {}
+            Action::Signal(_) | Action::Sensed(_) | Action::Following(_) => {}
             Action::Noise(_) => assert_ne!(model.stirred(noises.clone()), noises, "{}", term.id),
             Action::Log(_) => {
                 let mut recording = run.recording.clone();

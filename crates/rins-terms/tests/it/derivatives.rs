@@ -42,6 +42,7 @@ fn any_moment() -> impl Strategy<Value = Moment> {
                 ..mean
             };
             let mut moment = Moment {
+                sample: 0,
                 interval,
                 duration: 4000.0,
                 mean,
@@ -158,7 +159,10 @@ fn a_misalignment_turns_a_dead_zone_too() {
     let read = |model: &Model| numbers(&model.signals(&moment));
     for (term, chosen) in model.terms.iter().enumerate() {
         for (place, value) in chosen.values.iter().enumerate() {
-            let exact = numbers(&Acting::together(&Acting::by(&model, term, place), &moment));
+            let exact = numbers(&Acting::together(
+                &Acting::by(&model, &track, &[(term, place)]).concat(),
+                &moment,
+            ));
             let moved = |by: f64| {
                 let mut model = model.clone();
                 model.terms[term].values[place] += by;
@@ -174,7 +178,8 @@ fn a_misalignment_turns_a_dead_zone_too() {
     }
     // Gyro x is in its zone, and shows nothing of what its axis is turned by; gyro y is outside.
     let shown = |place: usize, gyro: usize| {
-        Acting::together(&Acting::by(&model, 1, place), &moment).gyro[gyro].eps
+        Acting::together(&Acting::by(&model, &track, &[(1, place)]).concat(), &moment).gyro[gyro]
+            .eps
     };
     assert_close!(shown(1, 0), 0.0, 1e-12);
     assert!(shown(3, 1) > 0.1);
@@ -192,7 +197,7 @@ fn an_attitude_moves_a_dead_zone() {
     let model = Model { terms: vec![attitude, zone.clone()] };
     let mut shown = 0.0_f64;
     for place in 0..3 {
-        let by = Acting::together(&Acting::by(&model, 0, place), &moment);
+        let by = Acting::together(&Acting::by(&model, &track, &[(0, place)]).concat(), &moment);
         let turned = |angle: f64| {
             let mut tilt = Vector3::zeros();
             tilt[place] = angle;

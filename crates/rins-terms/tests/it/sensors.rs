@@ -5,11 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EulerAngles, Site};
-use rins_motion::{Segment, Station};
-use rins_terms::{Chosen, Model, Moment, Surroundings, catalogue, values};
+use rins_motion::Station;
+use rins_terms::{Acting, Chosen, Model, Moment, Surroundings, catalogue, values};
 use rins_testing::assert_close;
 
-use crate::support::{INTERVAL, run, turning};
+use crate::support::{INTERVAL, run};
 
 /// A moment of a run, at 10 deg/s, with a force of (0.5, -0.2, 0.8) g and a warming of 3 K.
 fn moment() -> Moment {
@@ -178,31 +178,49 @@ fn hysteresis_and_backlash_remember_the_last_change() {
     }
 }
 
-/// A low-pass of first order, integrated, after it has settled.
+/// A low-pass of first order, integrated over a rest, turns both ways and the ways between them.
 #[test]
 fn heat_from_one_side_lags_and_fades() {
     const LAG: f64 = 4.0;
-    let run = turning(&[Segment { rate: 20.0 * DEG_PER_SECOND, duration: 60.0 }]);
-    let heat = Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
-        .with_setting("time_constant", LAG)
-        .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]);
-    let mut settled = Vector3::zeros();
-    for moment in run.track.moments() {
-        // From the middle of the sample before to the middle of this one.
-        let parts = 100;
-        for part in 0..parts {
-            let back = INTERVAL * (1.0 - f64::from(part) / f64::from(parts));
-            let (sin, cos) = (moment.mean.angle - 20.0 * DEG_PER_SECOND * back).sin_cos();
+    const PARTS: u32 = 100;
+    let run = run();
+    let heat = Model::default().with(
+        Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
+            .with_setting("time_constant", LAG)
+            .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]),
+    );
+    let ends: Vec<usize> = (5..run.track.len()).step_by(5).collect();
+    let pieces = run.track.thinned(&ends);
+    let [fine, coarse] = [&run.track, &pieces].map(|track| Acting::present(&heat, track));
+    let mut coarse_moments = pieces.moments();
+    let mut warmth = Vector3::new(1.0, 0.0, 0.3);
+    let [mut unsettled, mut least] = [0.0, f64::INFINITY];
+    for (sample, moment) in run.track.moments().enumerate() {
+        let mut middle = warmth;
+        for part in 0..PARTS {
+            if part == PARTS / 2 {
+                middle = warmth;
+            }
+            let from_middle = (f64::from(part) + 0.5) / f64::from(PARTS) - 0.5;
+            let angle = moment.mean.angle + moment.mean.rate * INTERVAL * from_middle;
+            let (sin, cos) = angle.sin_cos();
             let sources = Vector3::new(cos, sin, 0.3 * cos - 0.4 * sin);
-            settled += (sources - settled) * (INTERVAL / f64::from(parts) / LAG);
+            warmth += (sources - warmth) * (INTERVAL / f64::from(PARTS) / LAG);
         }
-        if moment.end.time > 12.0 * LAG {
-            let got = values(&heat.signals(&moment, None).gyro);
-            // Euler's method, over 0.2 ms, and e⁻¹² of the start.
-            assert!((got - settled).norm() < 1e-3, "{got} {settled}");
-            assert!(got.norm() > 0.3, "it fades to 1/√(1 + 1.4²)");
+        let got = values(&Acting::together(&fine, &moment).gyro);
+        // Euler's method, over 0.2 ms.
+        assert!((got - middle).norm() < 2e-4, "at {} s: {got} {middle}", moment.end.time);
+        let settled = values(&heat.signals(&moment).gyro);
+        unsettled = f64::max(unsettled, (settled - middle).norm());
+        least = least.min(got.norm());
+        if sample % 5 == 2 {
+            let Some(piece) = coarse_moments.advance() else { continue };
+            let got = values(&Acting::together(&coarse, piece).gyro);
+            assert!((got - middle).norm() < 2e-3, "at {} s: {got} {middle}", moment.end.time);
         }
     }
+    assert!(unsettled > 0.5, "after a rest and a reversal it has far to go: {unsettled}");
+    assert!(least < 0.8, "it fades: {least}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix3xX, Vector3};
 use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::{Navigator, Recording, Station, VerticalChannel};
-use rins_terms::{Chosen, Moment, Track, derivatives};
+use rins_terms::{Acting, Chosen, Model, Moment, Track, derivatives};
 
 /// How long is navigated \[s\]: the time of the paper's tables.
 const LASTING: f64 = 360.0;
@@ -101,10 +101,12 @@ struct End {
 }
 
 fn worth(truth: &Truth<'_>, moments: &[Moment], asked: &Asked<'_>, without: &End) -> Worth {
+    let alone = Model { terms: vec![asked.chosen.clone()] };
+    let acting = Acting::by(&alone, truth.track, &[(0, asked.parameter)]).concat();
     let effect: Vec<[Vector3<f64>; 3]> = moments
         .iter()
         .map(|moment| {
-            let by = asked.chosen.signals(moment, Some(asked.parameter));
+            let by = Acting::together(&acting, moment);
             [derivatives(&by.gyro), derivatives(&by.accel), derivatives(&by.tilt)]
         })
         .collect();
