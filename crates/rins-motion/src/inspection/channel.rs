@@ -13,6 +13,13 @@ const SPIKE_RATIO: f64 = 50.0;
 /// ... and so many times the largest difference nearby: an impact has others beside it.
 const SPIKE_ALONE: f64 = 10.0;
 
+/// ... unless no more than so many stand out so, and the largest of the others lead to expect more than this many of them:
+/// noise with heavy tails has one that is the largest.
+const OF_TAIL: (usize, f64) = (2, 1e-3);
+
+/// How many of the largest tell how a tail goes on.
+const TAIL: usize = 32;
+
 /// What stands so many times its scatter out of its neighbours is part of what another sensor shows as a spike.
 const BESIDE: f64 = 6.0;
 
@@ -156,29 +163,45 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
             steps[other].abs() * SPIKE_ALONE < size || is_spike(&steps, other, least)
         })
     };
+    let sizes: Vec<f64> = steps.windows(2).map(|pair| there_and_back([pair[0], pair[1]])).collect();
     let mut count = 0;
     let mut largest = (0.0, 0);
-    for index in 1..steps.len() {
-        let size = steps[index - 1].abs().min(steps[index].abs());
-        let returns = (steps[index - 1] + steps[index]).abs() < 0.2 * size;
-        if size > least && returns && alone(index, size) {
+    for (before, &size) in sizes.iter().enumerate() {
+        let index = before + 1;
+        if size > least && alone(index, size) {
             count += 1;
             if size > largest.0 {
                 largest = (size, index);
             }
         }
     }
-    (count > 0).then_some(Spikes { count, largest: largest.1 })
+    let is_tail = || count <= OF_TAIL.0 && expected_beyond(largest.0, sizes, least) > OF_TAIL.1;
+    (count > 0 && !is_tail()).then_some(Spikes { count, largest: largest.1 })
+}
+
+/// How many are expected beyond `size` by the largest of those below `least`, if the tail goes on as a power: B. M. Hill, Annals
+/// of Statistics 3(5), 1975.
+fn expected_beyond(size: f64, mut sizes: Vec<f64>, least: f64) -> f64 {
+    sizes.retain(|other| *other < least);
+    sizes.sort_unstable_by(|a, b| b.total_cmp(a));
+    sizes.truncate(TAIL + 1);
+    let Some(smallest) = sizes.pop().filter(|smallest| *smallest > 0.0) else { return 0.0 };
+    let count = sizes.len() as f64;
+    let mean = sizes.iter().map(|other| (other / smallest).ln()).sum::<f64>() / count;
+    count * (-(size / smallest).ln() / mean).exp()
+}
+
+/// How far two steps go to come back; nothing if they do not.
+fn there_and_back([there, back]: [f64; 2]) -> f64 {
+    let size = there.abs().min(back.abs());
+    if (there + back).abs() < 0.2 * size { size } else { 0.0 }
 }
 
 /// Whether the step is one of the two that a spike makes.
 fn is_spike(steps: &[f64], index: usize, least: f64) -> bool {
-    let returns = |a: f64, b: f64| {
-        let size = a.abs().min(b.abs());
-        size > least && (a + b).abs() < 0.2 * size
-    };
-    let before = index.checked_sub(1).is_some_and(|before| returns(steps[before], steps[index]));
-    before || steps.get(index + 1).is_some_and(|after| returns(steps[index], *after))
+    let is = |a: f64, b: f64| there_and_back([a, b]) > least;
+    let before = index.checked_sub(1).is_some_and(|before| is(steps[before], steps[index]));
+    before || steps.get(index + 1).is_some_and(|after| is(steps[index], *after))
 }
 
 fn saturated(

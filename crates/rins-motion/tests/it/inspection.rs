@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
+use rand_distr::{Distribution, StandardNormal, StudentT};
 use rand_pcg::Pcg64;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND};
 use rins_frames::{InFrame, Increments};
@@ -124,6 +124,36 @@ fn spikes_are_found_in_each_channel() {
         assert_close!(*time, 180.02, 1e-9);
         assert!((reading - size).abs() < 10.0, "{reading}");
     }
+}
+
+/// Noise of Student's t with few degrees of freedom is large now and then: its largest reading is as far beyond the others as
+/// these beyond the rest. A spike stands by itself in it too.
+#[test]
+fn largest_of_heavy_tails_is_no_spike() {
+    /// What is so many times as large as this noise's usual readings would be a spike in normal noise.
+    const LARGE: f64 = 80.0;
+    let tails = StudentT::new(2.5).unwrap();
+    let size = 2e-6;
+    let (mut large, mut suspected) = (0, 0);
+    let is_spike = |one: &Suspicion| matches!(one, Suspicion::Spike { channel: "gyro.z", .. });
+    for seed in 0..20 {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut recording = record(usual(), NAVIGATION, seed);
+        let mut most = 0.0_f64;
+        for sample in &mut recording.increments {
+            let drawn: f64 = tails.sample(&mut random);
+            most = most.max(drawn.abs());
+            sample.angle += InFrame::new(0.0, 0.0, size * drawn);
+        }
+        large += u32::from(most > LARGE);
+        let found = inspect(&recording, &expected(NAVIGATION)).suspicions;
+        suspected += u32::from(found.iter().any(is_spike));
+        recording.increments[1000].angle += InFrame::new(0.0, 0.0, 100.0 * most * size);
+        let found = inspect(&recording, &expected(NAVIGATION)).suspicions;
+        assert!(found.iter().any(is_spike), "{found:?}");
+    }
+    // Now and then the largest is far beyond all others.
+    assert!(large >= 4 && 4 * suspected <= large, "{suspected} of {large}");
 }
 
 /// A base that tips over within a sample turns both gyros across the axis, once, and hardly ever both as far.
