@@ -7,7 +7,7 @@ use rins_motion::Repeats;
 use rins_terms::{Free, Term, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::{Cause, FALSE_ALARMS};
+use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS};
 use crate::probability::ln_tail;
 use crate::survey::{RunNoise, Survey};
 
@@ -89,7 +89,7 @@ impl Case<'_> {
         &self,
         after: &Fit,
         is_all_explained: bool,
-    ) -> Result<Vec<Cause>, Indefinite> {
+    ) -> Result<Vec<Cause>, DiagnosisError> {
         let NoiseKnowledge::Likely(sought) = self.knowledge else { return Ok(Vec::new()) };
         let mut causes = Vec::new();
         for strength in &STRENGTHS {
@@ -121,7 +121,8 @@ impl Case<'_> {
                 strength,
                 [found, as_said, found * STEP.exp(), found * (-STEP).exp()],
             )?;
-            let statistic = 2.0 * (here - there);
+            let gain = if asked { self.gain_over(after, strength)? } else { here - there };
+            let statistic = 2.0 * gain;
             let ln_p = ln_tail(statistic.max(0.0), 1) + (STRENGTHS.len() as f64).ln();
             if ln_p > FALSE_ALARMS.ln() {
                 continue;
@@ -141,11 +142,24 @@ impl Case<'_> {
                 parameters: vec![estimate(strength.term, 0, None, value, sigma)],
                 ln_p,
                 dof: 1,
-                gain: 0.5 * statistic,
+                gain,
                 rivals: Vec::new(),
             });
         }
         Ok(causes)
+    }
+
+    /// How much more likely a fit is than one without this strength, all others being found anew, as a logarithm: what a walk
+    /// does, flicker does nearly as well.
+    fn gain_over(&self, after: &Fit, strength: &Strength) -> Result<f64, DiagnosisError> {
+        let mut sought = self.knowledge.sheet();
+        let mut near = after.clone();
+        for strengths in near.noise.iter_mut().map(|noise| &mut noise.imu).chain([&mut sought]) {
+            *strength.slot(strengths) = 0.0;
+        }
+        let beyond = &after.model().terms[self.given.terms.len()..];
+        let without = Case { knowledge: NoiseKnowledge::Likely(sought), ..*self };
+        Ok(after.log_likelihood - without.fit_near(&near, beyond)?.log_likelihood)
     }
 
     /// The logarithm of the data's probability with each of four strengths.

@@ -17,7 +17,7 @@ const SLOW: [&str; 6] =
 const SLOW_CYCLES: f64 = 20.0;
 
 /// How many e-folds of odds it costs to have chosen one slow effect among all, and when it happens.
-const CHOSEN: f64 = 5.0;
+pub(crate) const CHOSEN: f64 = 5.0;
 
 /// The search starts from a walk that over the run is so many times as far as white noise lets it be seen.
 const SEEN: f64 = 3.0;
@@ -48,6 +48,23 @@ struct Instead {
     open: f64,
 }
 
+impl Instead {
+    /// Whether a walk of this triad is named among what is `walked`; if so, with those of the slow effects `found` that explain
+    /// as much.
+    fn told_as_walk(&self, found: &Diagnosis, walked: &mut Diagnosis) -> bool {
+        let own = walked.causes.iter_mut().find(|cause| cause.term.id == WALKS[self.triad].id);
+        let Some(own) = own else { return false };
+        // A walk has one parameter that is open, a few effects have many: that alone does not rule them out.
+        let least = (self.odds - self.open).max(0.0);
+        if least < RIVALS {
+            own.rivals.extend(self.slow.iter().map(|&place| &found.causes[place]).map(|slow| {
+                Rival { term: slow.term, settings: slow.settings.clone(), odds: -least }
+            }));
+        }
+        true
+    }
+}
+
 impl Case<'_> {
     /// What `found` is if biases may walk at random though the sheet says nothing of it: where that explains as much as the
     /// slow effects that were found, or more.
@@ -62,39 +79,32 @@ impl Case<'_> {
             .filter_map(|which| self.instead(&found, which, sheet))
             .collect();
         let mut walking = *self;
+        for Instead { triad: which, .. } in of_triads.iter().filter(|one| one.odds > 0.0) {
+            self.walk(triad(&mut sheet, *which));
+            walking.knowledge = NoiseKnowledge::Likely(sheet);
+        }
+        if walking.knowledge != self.knowledge {
+            let mut walked = search(&walking)?;
+            let mut is_named = false;
+            for one in of_triads.iter().filter(|one| one.odds > 0.0) {
+                is_named |= one.told_as_walk(&found, &mut walked);
+            }
+            // A walk that is nothing over flicker does not explain away what is something over it.
+            if is_named {
+                // What it gains is over the model without a walk.
+                walked.before = found.before;
+                return Ok(walked);
+            }
+        }
         for Instead { triad: which, slow, odds, .. } in
             of_triads.iter().filter(|one| one.odds > -RIVALS)
         {
-            if *odds > 0.0 {
-                self.walk(triad(&mut sheet, *which));
-                walking.knowledge = NoiseKnowledge::Likely(sheet);
-                continue;
-            }
             for &place in slow {
                 let (term, settings) = (WALKS[*which], Vec::new());
                 found.causes[place].rivals.push(Rival { term, settings, odds: *odds });
             }
         }
-        if walking.knowledge == self.knowledge {
-            return Ok(found);
-        }
-        let mut walked = search(&walking)?;
-        for Instead { triad: which, slow, odds, open } in of_triads {
-            let own = walked.causes.iter_mut().find(|cause| cause.term.id == WALKS[which].id);
-            // A walk has one parameter that is open, a few effects have many: that alone does not rule them out.
-            let least = (odds - open).max(0.0);
-            if let Some(own) = own.filter(|_| odds > 0.0 && least < RIVALS) {
-                let of = |&place: &usize| &found.causes[place];
-                own.rivals.extend(slow.iter().map(of).map(|slow| Rival {
-                    term: slow.term,
-                    settings: slow.settings.clone(),
-                    odds: -least,
-                }));
-            }
-        }
-        // What it gains is over the model without a walk.
-        walked.before = found.before;
-        Ok(walked)
+        Ok(found)
     }
 
     /// Gives a triad a walk where the search for it may start.
@@ -110,7 +120,10 @@ impl Case<'_> {
         let is_slow = |id: &str, settings: &[f64]| {
             let of_triad = id.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
             let few_cycles = || settings[0] * self.duration() < SLOW_CYCLES;
+            // What follows heat slowly goes on for long after a rest or a reversal.
+            let follows = which == 0 && id == catalogue::THERMAL_ONE_PER_TURN.id;
             of_triad.is_some_and(|rest| SLOW.contains(&rest))
+                || follows
                 || (id == "interference_line" && few_cycles())
         };
         let causes = found.causes.iter().enumerate();
