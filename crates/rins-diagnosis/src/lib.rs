@@ -18,6 +18,7 @@ mod trial;
 
 mod case;
 mod diagnosis;
+mod every_turn;
 mod settling;
 mod sought;
 

@@ -7,6 +7,7 @@ use rins_terms::{Unit, catalogue};
 
 use crate::diagnosis::Cause;
 use crate::disturbance::CHANNELS;
+use crate::every_turn::turns;
 use crate::structure::Structure;
 use crate::unexplained::{Unexplained, worst};
 
@@ -16,9 +17,6 @@ const MULTIPLES: [f64; 2] = [2.0, 3.0];
 /// One frequency is a multiple of another within so many of their sigmas, which are no more than this part of it: else
 /// it would be one by chance.
 const WITHIN: (f64, f64) = (3.0, 0.01);
-
-/// Rates of a table that differ by less, as a part of them, are one.
-const ALIKE: f64 = 0.01;
 
 /// A line is a multiple of the table's turn by chance if it is not known to this part of a turn's frequency.
 const BY_CHANCE: f64 = 0.05;
@@ -132,12 +130,7 @@ fn common(one: &Cause, other: &Cause) -> Option<f64> {
 
 /// How often the table turns \[Hz\], if it does at one rate and two lines are multiples of that.
 fn of_turn(after: &Fit, run: usize, lines: [&Cause; 2]) -> Option<f64> {
-    let linear = &after.linear[run];
-    let mut turns: Vec<f64> = linear.motion().iter().map(|(_, rate)| rate.abs() / TAU).collect();
-    let middle = turns.len() / 2;
-    turns.get(middle)?;
-    let (_, &mut turn, _) = turns.select_nth_unstable_by(middle, f64::total_cmp);
-    let alike = turns.iter().filter(|other| (*other - turn).abs() < ALIKE * turn).count();
+    let turn = turns(after, run)?;
     let is_multiple = |line: &Cause| {
         line.sought.is_some_and(|(place, sigma)| {
             let frequency = line.settings[place];
@@ -146,7 +139,7 @@ fn of_turn(after: &Fit, run: usize, lines: [&Cause; 2]) -> Option<f64> {
             times > 1.0 && (frequency - times * turn).abs() < within && within < BY_CHANCE * turn
         })
     };
-    (2 * alike > turns.len() && lines.into_iter().all(is_multiple)).then_some(turn)
+    lines.into_iter().all(is_multiple).then_some(turn)
 }
 
 /// On which sensor a line is strongest, and how high it is there.

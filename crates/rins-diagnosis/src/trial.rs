@@ -11,7 +11,7 @@ use crate::score::{Score, choices, scored};
 use crate::survey::{Left, Survey};
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
-const UNKNOWN: f64 = 10.0;
+pub(crate) const UNKNOWN: f64 = 10.0;
 
 /// The same of an effect of any frequency: lines explain a little of all that is no line.
 const OF_ANY_FREQUENCY: f64 = 3.0;

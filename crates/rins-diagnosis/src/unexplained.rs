@@ -103,6 +103,7 @@ impl Case<'_> {
         found.extend(switching);
         found.extend(waveforms(after, causes));
         found.extend(modulated(after, causes));
+        found.extend(self.of_every_turn(after, causes));
         found.retain(|left| !self.rounding.explains(left));
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         Ok(found)
