@@ -179,8 +179,8 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
     (count > 0 && !is_tail()).then_some(Spikes { count, largest: largest.1 })
 }
 
-/// How many are expected beyond `size` by the largest of those below `least`, if the tail goes on as a power: B. M. Hill, Annals
-/// of Statistics 3(5), 1975.
+/// How many are expected beyond `size` by the largest of those below `least`, if the tail goes on as a power
+/// (‹hill1975›).
 fn expected_beyond(size: f64, mut sizes: Vec<f64>, least: f64) -> f64 {
     sizes.retain(|other| *other < least);
     sizes.sort_unstable_by(|a, b| b.total_cmp(a));
