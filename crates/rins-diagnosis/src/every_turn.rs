@@ -8,6 +8,7 @@ use rins_terms::{Chosen, Term, catalogue};
 use crate::case::Case;
 use crate::diagnosis::Cause;
 use crate::disturbance::{CHANNELS, IN_ANGLE};
+use crate::residuals::ABOUT_AXIS;
 use crate::structure::Structure;
 use crate::trial::UNKNOWN;
 use crate::unexplained::{Unexplained, worst};
@@ -16,8 +17,11 @@ use crate::wander::CHOSEN;
 /// Rates of a table that differ by less, as a part of them, are one.
 const ALIKE: f64 = 0.01;
 
-/// The gyro about the axis, which is seen against the encoder.
-const ABOUT_AXIS: usize = 2;
+/// So many harmonics of an encoder, each of an order of its own, may be parts of something else.
+const SEVERAL: usize = 2;
+
+/// The parameters of a disturbance that are of the gyro about the axis.
+const OF_GYRO: [&str; 2] = ["gyro_z_cos", "gyro_z_sin"];
 
 /// Effects that the gyro about the axis or the encoder show every turn, and in which orders of the table angle; harmonics
 /// of the encoder have each their own.
@@ -30,13 +34,14 @@ const PARTS: [(&Term, &[f64]); 5] = [
 ];
 
 impl Case<'_> {
-    /// Several effects in several orders of the turn, where one waveform on the gyro about the axis does as well: at one
-    /// rate an encoder's error and a gyro's are one.
+    /// Harmonics of the encoder, and other effects that come back every turn, where one waveform on the gyro about the axis does
+    /// as well: at one rate an encoder's error and a gyro's are one.
     pub(crate) fn of_every_turn(&self, after: &Fit, causes: &[Cause]) -> Option<Unexplained> {
         let parts: Vec<&Cause> =
             causes.iter().filter(|cause| !orders(cause.term, &cause.settings).is_empty()).collect();
+        let harmonics = parts.iter().filter(|part| is_harmonic(part.term)).count();
         let saved = CHOSEN * parts.len() as f64 - UNKNOWN;
-        if saved <= 0.0 {
+        if harmonics < SEVERAL || saved <= 0.0 {
             return None;
         }
         let run = parts[0].parameters.first().and_then(|estimate| estimate.run).unwrap_or_default();
@@ -44,15 +49,12 @@ impl Case<'_> {
         let beyond = &after.model().terms[self.given.terms.len()..];
         let (own, mut model): (Vec<Chosen>, Vec<Chosen>) =
             beyond.iter().cloned().partition(|one| !orders(one.term, &one.settings).is_empty());
-        let mut orders: Vec<f64> =
+        let mut all: Vec<f64> =
             own.iter().flat_map(|one| orders(one.term, &one.settings)).collect();
-        orders.sort_by(f64::total_cmp);
-        orders.dedup();
-        let wave = |order: &f64| {
-            let order = Chosen::new(&IN_ANGLE).with_setting("order", *order);
-            order.estimating(&IN_ANGLE_ABOUT_AXIS)
-        };
-        model.extend(orders.iter().map(wave));
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        let wave = |order: f64| Chosen::new(&IN_ANGLE).with_setting("order", order);
+        model.extend(all.into_iter().map(|order| wave(order).estimating(&OF_GYRO)));
         let as_one = self.fit_near(after, &model).ok()?;
         if as_one.log_likelihood - after.log_likelihood + saved < 0.0 {
             return None;
@@ -76,16 +78,17 @@ impl Case<'_> {
     }
 }
 
-/// The parameters of a disturbance that are the gyro's about the axis.
-const IN_ANGLE_ABOUT_AXIS: [&str; 2] = ["gyro_z_cos", "gyro_z_sin"];
-
 /// The orders of the table angle in which an effect shows about the axis every turn, if it does.
 fn orders(term: &Term, settings: &[f64]) -> Vec<f64> {
-    if term.id == catalogue::ENCODER_HARMONIC.id {
+    if is_harmonic(term) {
         return vec![settings[0].abs()];
     }
     let part = PARTS.iter().find(|(part, _)| part.id == term.id);
     part.map_or_else(Vec::new, |(_, orders)| orders.to_vec())
+}
+
+fn is_harmonic(term: &Term) -> bool {
+    term.id == catalogue::ENCODER_HARMONIC.id
 }
 
 /// How often the table turns \[Hz\], if it does at one rate most of the time.
