@@ -69,6 +69,11 @@ impl Case<'_> {
         fit_near(near, self.runs, &model, self.imu, self.knowledge)
     }
 
+    /// The terms of a fit beyond the given ones.
+    pub(crate) fn causes_in<'fit>(&self, fit: &'fit Fit) -> &'fit [Chosen] {
+        &fit.model().terms[self.given.terms.len()..]
+    }
+
     /// How long the longest run is \[s\].
     pub(crate) fn duration(&self) -> f64 {
         duration(self.runs)

@@ -1,21 +1,17 @@
 //! What comes back every turn, and is no sine: effects that are its parts, and that nothing tells apart from it.
 
-use std::f64::consts::TAU;
-
 use rins_estimation::{Estimate, Fit};
 use rins_terms::{Chosen, Term, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::Cause;
 use crate::disturbance::{CHANNELS, IN_ANGLE};
+use crate::periodic::turns;
 use crate::residuals::ABOUT_AXIS;
 use crate::structure::Structure;
 use crate::trial::UNKNOWN;
 use crate::unexplained::{Unexplained, worst};
 use crate::wander::CHOSEN;
-
-/// Rates of a table that differ by less, as a part of them, are one.
-const ALIKE: f64 = 0.01;
 
 /// So many harmonics of an encoder, each of an order of its own, may be parts of something else.
 const SEVERAL: usize = 2;
@@ -46,9 +42,11 @@ impl Case<'_> {
         }
         let run = parts[0].parameters.first().and_then(|estimate| estimate.run).unwrap_or_default();
         let frequency = turns(after, run)?;
-        let beyond = &after.model().terms[self.given.terms.len()..];
-        let (own, mut model): (Vec<Chosen>, Vec<Chosen>) =
-            beyond.iter().cloned().partition(|one| !orders(one.term, &one.settings).is_empty());
+        let (own, mut model): (Vec<Chosen>, Vec<Chosen>) = self
+            .causes_in(after)
+            .iter()
+            .cloned()
+            .partition(|one| !orders(one.term, &one.settings).is_empty());
         let mut all: Vec<f64> =
             own.iter().flat_map(|one| orders(one.term, &one.settings)).collect();
         all.sort_by(f64::total_cmp);
@@ -89,15 +87,4 @@ fn orders(term: &Term, settings: &[f64]) -> Vec<f64> {
 
 fn is_harmonic(term: &Term) -> bool {
     term.id == catalogue::ENCODER_HARMONIC.id
-}
-
-/// How often the table turns \[Hz\], if it does at one rate most of the time.
-pub(crate) fn turns(after: &Fit, run: usize) -> Option<f64> {
-    let motion = after.linear[run].motion();
-    let mut turns: Vec<f64> = motion.iter().map(|(_, rate)| rate.abs() / TAU).collect();
-    let middle = turns.len() / 2;
-    turns.get(middle)?;
-    let (_, &mut turn, _) = turns.select_nth_unstable_by(middle, f64::total_cmp);
-    let alike = turns.iter().filter(|other| (*other - turn).abs() < ALIKE * turn).count();
-    (2 * alike > turns.len()).then_some(turn)
 }

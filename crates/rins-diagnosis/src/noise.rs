@@ -116,12 +116,13 @@ impl Case<'_> {
             if !strange || !ratio.is_finite() || !(is_all_explained || asked) {
                 continue;
             }
-            let [here, there, above, below] = self.likelihoods(
-                after,
-                strength,
-                [found, as_said, found * STEP.exp(), found * (-STEP).exp()],
-            )?;
-            let gain = if asked { self.gain_over(after, strength)? } else { here - there };
+            let around = [found, found * STEP.exp(), found * (-STEP).exp()];
+            let [here, above, below] = self.likelihoods(after, strength, around)?;
+            let anew = asked.then(|| self.gain_over(after, strength)).flatten();
+            let gain = match anew {
+                Some(gain) => gain,
+                None => here - self.likelihoods(after, strength, [as_said])?[0],
+            };
             let statistic = 2.0 * gain;
             let ln_p = ln_tail(statistic.max(0.0), 1) + (STRENGTHS.len() as f64).ln();
             if ln_p > FALSE_ALARMS.ln() {
@@ -150,30 +151,30 @@ impl Case<'_> {
     }
 
     /// How much more likely a fit is than one without this strength, all others being found anew, as a logarithm: what a walk
-    /// does, flicker does nearly as well.
-    fn gain_over(&self, after: &Fit, strength: &Strength) -> Result<f64, DiagnosisError> {
+    /// does, flicker does nearly as well. None if nothing fits without it.
+    fn gain_over(&self, after: &Fit, strength: &Strength) -> Option<f64> {
         let mut sought = self.knowledge.sheet();
         let mut near = after.clone();
         for strengths in near.noise.iter_mut().map(|noise| &mut noise.imu).chain([&mut sought]) {
             *strength.slot(strengths) = 0.0;
         }
-        let beyond = &after.model().terms[self.given.terms.len()..];
         let without = Case { knowledge: NoiseKnowledge::Likely(sought), ..*self };
-        Ok(after.log_likelihood - without.fit_near(&near, beyond)?.log_likelihood)
+        let fitted = without.fit_near(&near, self.causes_in(after)).ok()?;
+        Some(after.log_likelihood - fitted.log_likelihood)
     }
 
-    /// The logarithm of the data's probability with each of four strengths.
-    fn likelihoods(
+    /// The logarithm of the data's probability with each of some strengths.
+    fn likelihoods<const N: usize>(
         &self,
         after: &Fit,
         strength: &Strength,
-        values: [f64; 4],
-    ) -> Result<[f64; 4], Indefinite> {
+        values: [f64; N],
+    ) -> Result<[f64; N], Indefinite> {
         let noises = values.map(|value| strength.with(&after.noise, value));
         let survey = Survey::of(self.runs, after, self.imu, &[], &noises)?;
         let of =
             |noise| survey.left(noise, &[], &[]).map_or(f64::NEG_INFINITY, |l| l.log_likelihood);
-        Ok([0, 1, 2, 3].map(of))
+        Ok(std::array::from_fn(of))
     }
 }
 

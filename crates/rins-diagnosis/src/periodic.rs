@@ -7,9 +7,11 @@ use rins_terms::{Unit, catalogue};
 
 use crate::diagnosis::Cause;
 use crate::disturbance::CHANNELS;
-use crate::every_turn::turns;
 use crate::structure::Structure;
 use crate::unexplained::{Unexplained, worst};
+
+/// Rates of a table that differ by less, as a part of them, are one.
+const ALIKE: f64 = 0.01;
 
 /// How many times one frequency is the other, in one waveform.
 const MULTIPLES: [f64; 2] = [2.0, 3.0];
@@ -126,6 +128,17 @@ fn common(one: &Cause, other: &Cause) -> Option<f64> {
         off < WITHIN.0 * sigma && sigma < WITHIN.1 * high.0
     };
     MULTIPLES.iter().find(is_multiple).map(|_| low.0)
+}
+
+/// How often the table turns \[Hz\], if it does at one rate most of the time.
+pub(crate) fn turns(after: &Fit, run: usize) -> Option<f64> {
+    let motion = after.linear[run].motion();
+    let mut turns: Vec<f64> = motion.iter().map(|(_, rate)| rate.abs() / TAU).collect();
+    let middle = turns.len() / 2;
+    turns.get(middle)?;
+    let (_, &mut turn, _) = turns.select_nth_unstable_by(middle, f64::total_cmp);
+    let alike = turns.iter().filter(|other| (*other - turn).abs() < ALIKE * turn).count();
+    (2 * alike > turns.len()).then_some(turn)
 }
 
 /// How often the table turns \[Hz\], if it does at one rate and two lines are multiples of that.

@@ -83,7 +83,7 @@ impl Case<'_> {
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
-                        return dead_zone::is_shape_of(own, &present.model().terms[given + index]);
+                        return dead_zone::is_shape_of(own, &self.causes_in(&present)[index]);
                     }
                     let is_sought = |name: &str| ["time", "exponent"].contains(&name);
                     own.term.settings.iter().any(|setting| is_sought(setting.name))
@@ -147,7 +147,7 @@ impl Case<'_> {
         for (index, cause) in found.iter().enumerate() {
             if dead_zone::is_true(cause) {
                 list.retain(|other| other.chosen.term.id != cause.term.id);
-                let zone = &present.model().terms[self.given.terms.len() + index];
+                let zone = &self.causes_in(present)[index];
                 list.extend(dead_zone::with_another(zone));
             }
             let at: Vec<Candidate> =

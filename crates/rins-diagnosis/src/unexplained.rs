@@ -1,6 +1,6 @@
 //! What no effect of the catalogue explains: found, described, and given no name.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::DVector;
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
 use rins_terms::{Chosen, Unit};
 
@@ -202,7 +202,7 @@ impl Case<'_> {
             .map(|estimate| estimate.parameter.sigma)
             .chain((0..last).flat_map(|_| own.iter().map(own_scale)))
             .collect();
-        Ok(beyond(&evidence, of_run.len(), &scales))
+        Ok(beyond(&evidence, of_run.len(), scales))
     }
 
     /// The estimates that hold for a run, in the order of its model.
@@ -258,19 +258,11 @@ fn is_steady(structure: Structure) -> bool {
 }
 
 /// The logarithm of the chance that what comes after the `known` parameters, which are estimated, is nothing.
-fn beyond(evidence: &Evidence, known: usize, scales: &[f64]) -> Option<f64> {
-    let all = scales.len();
-    let scaled = DMatrix::from_fn(all, all, |row, column| {
-        evidence.information[(row, column)] * scales[row] * scales[column]
-    });
-    let corner = scaled.view((0, 0), (known, known)) + DMatrix::identity(known, known);
-    let across = scaled.view((0, known), (known, all - known)).into_owned();
-    let solved = Cholesky::new(corner)?.solve(&across);
-    let rest = scaled.view((known, known), (all - known, all - known)) - across.tr_mul(&solved);
-    // At the estimate nothing pulls at the known ones.
-    let scale = DVector::from_column_slice(&scales[known..]);
-    let score = evidence.score.rows(known, all - known).component_mul(&scale);
-    let scored = scored(&rest, &score);
+fn beyond(evidence: &Evidence, known: usize, scales: Vec<f64>) -> Option<f64> {
+    // At the estimate nothing pulls at the known ones: what holds them does so as hard as this run pulls.
+    let held = DVector::from_fn(known, |place, _| evidence.score[place] * scales[place]);
+    let left = Survey::of_evidence(evidence, scales, held).left(0, &[], &[])?;
+    let scored = scored(&left.information, &left.score);
     (scored.dof > 0).then(|| ln_tail(scored.statistic, scored.dof))
 }
 

@@ -142,9 +142,9 @@ impl Case<'_> {
         if slow.is_empty() && !left {
             return None;
         }
-        let beyond = &found.after.model().terms[self.given.terms.len()..];
+        let causes = self.causes_in(&found.after).iter();
         let kept: Vec<Chosen> =
-            beyond.iter().filter(|one| !is_slow(one.term.id, &one.settings)).cloned().collect();
+            causes.filter(|one| !is_slow(one.term.id, &one.settings)).cloned().collect();
         let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let walked = other.fit_near(&found.after, &kept).ok()?;
         let mut strengths = walked.noise[0].imu;

@@ -89,12 +89,18 @@ impl<'a> Acting<'a> {
     }
 
     /// What it adds at a moment of its track.
+    ///
+    /// # Panics
+    /// May panic for a moment of a longer track.
     #[inline]
     pub fn signals(&self, moment: &Moment) -> Signals {
         Self::together(std::slice::from_ref(self), moment)
     }
 
     /// What some terms add at a moment of their track.
+    ///
+    /// # Panics
+    /// May panic for a moment of a longer track.
     #[inline]
     pub fn together(terms: &[Self], moment: &Moment) -> Signals {
         let mut signals = Signals::default();

@@ -44,6 +44,9 @@ impl<'a> Making<'a> {
     /// `truth`.
     ///
     /// Terms act on the rate and force that are felt, which `truth` holds more exactly than `moment`.
+    ///
+    /// # Panics
+    /// May panic for a moment of a longer track.
     pub fn read(&mut self, moment: &Moment, truth: &Increments) -> Reading {
         let mut signals = Acting::together(&self.terms, &moment.feeling(truth));
         let (before, after) = (self.tilt, values(&signals.tilt));

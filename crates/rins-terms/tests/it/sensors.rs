@@ -223,6 +223,22 @@ fn heat_from_one_side_lags_and_fades() {
     assert!(least < 0.8, "it fades: {least}");
 }
 
+/// At a constant rate, what a low-pass of first order leaves is late by `atan ωτ` and its cosine high.
+#[test]
+fn heat_from_one_side_settles() {
+    const LAG: f64 = 4.0;
+    let moment = moment();
+    let heat = Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
+        .with_setting("time_constant", LAG)
+        .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]);
+    let got = values(&heat.signals(&moment, None).gyro);
+    let late = (moment.mean.rate * LAG).atan();
+    let (sin, cos) = (moment.mean.angle - late).sin_cos();
+    let want = Vector3::new(cos, sin, 0.3 * cos - 0.4 * sin) * late.cos();
+    assert!(late > 30.0 * DEG, "it lags: {late}");
+    assert!((got - want).norm() < 1e-12, "{got} {want}");
+}
+
 #[test]
 fn wrong_latitude_is_the_earths_rate_there_less_that_here() {
     let site = |latitude| Site { latitude, longitude: 0.0, height: 0.0 };
