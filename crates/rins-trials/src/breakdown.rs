@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use rins_terms::catalogue::BASE_TILT_STEP;
+
 use crate::card::{in_set, is_plain, meant, ones};
 use crate::draw::Kind;
 use crate::hide::Hidden;
@@ -13,6 +15,9 @@ use crate::statistics::{Share, power, threshold};
 
 /// The share of clean runs on which anything may be named.
 const FALSE_ALARMS: f64 = 0.01;
+
+/// The highest frequency that is looked for \[Hz\].
+const HIGHEST: f64 = 1.0;
 
 /// Named falsely, detected, in the set, of records of a kind.
 fn brief(records: &[&Record]) -> String {
@@ -68,7 +73,7 @@ pub(crate) fn detection(page: &mut String, records: &[&Record]) {
     strengths.dedup();
     for strength in strengths {
         let of: Vec<&(&Record, &Hidden)> = ones.iter().filter(meant(strength, strength)).collect();
-        let theory: f64 = of.iter().map(|(_, hidden)| expected(hidden)).sum();
+        let theory: f64 = of.iter().map(|(record, hidden)| expected(record, hidden)).sum();
         let right =
             |(r, h): &&(&Record, &Hidden)| r.first().is_some_and(|named| named.effect == h.id);
         let _ = writeln!(
@@ -83,19 +88,20 @@ pub(crate) fn detection(page: &mut String, records: &[&Record]) {
     }
 }
 
-fn expected(hidden: &Hidden) -> f64 {
+/// The power of a test for what was hidden that looks wherever it may be.
+fn expected(record: &Record, hidden: &Hidden) -> f64 {
     let terms = crate::hide::hideable();
-    let term = terms.iter().find(|term| term.id == hidden.id);
-    let has = |name: &str| term.is_some_and(|t| t.settings.iter().any(|s| s.name == name));
-    let looks = if has("time") {
-        16.0
-    } else if has("order") {
-        9.0
-    } else if has("time_constant") {
-        3.0
-    } else {
-        1.0
+    let settings = terms.iter().find(|term| term.id == hidden.id).map_or(&[][..], |t| t.settings);
+    let looks = |name: &str| match name {
+        // All of a base's tilt, as gyros see it, is in one sample.
+        "time" if hidden.id == BASE_TILT_STEP.id => record.duration / record.interval,
+        "time" => 16.0,
+        "order" => 9.0,
+        "time_constant" | "axis" => 3.0,
+        "frequency" => HIGHEST * record.duration,
+        _ => 1.0,
     };
+    let looks: f64 = settings.iter().map(|setting| looks(setting.name)).product();
     let limit = threshold(FALSE_ALARMS / terms.len() as f64 / looks, hidden.dof);
     power(hidden.strength, hidden.dof, limit)
 }

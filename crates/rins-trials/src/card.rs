@@ -117,9 +117,9 @@ fn targets(records: &[&Record], timed: &[&Record]) -> Vec<Row> {
             "≤ 1 %",
             Share::count(clean.iter().map(|r| !r.answer.unexplained.is_empty())).text(),
         ),
-        ("detected at 6 σ", "≥ 95 % at 6.5 σ", seen(6.0, 6.0)),
+        ("detected at 6.5 σ", "≥ 95 %", seen(6.5, 6.5)),
         ("detected at 8 σ", "", seen(8.0, 8.0)),
-        ("detected at 12 σ and above", "100 % at 9 σ", seen(12.0, 200.0)),
+        ("detected at 9 σ and above", "100 %", seen(9.0, 200.0)),
         ("truth in the set at 8 σ", "≥ 98 %", sets(8.0, 8.0)),
         ("truth in the set at 12 σ and above", "≥ 99.5 %", sets(12.0, 200.0)),
         (

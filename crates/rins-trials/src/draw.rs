@@ -10,8 +10,10 @@ use crate::laboratory::{Laboratory, Length, Level, Schedule};
 use crate::outside::Outside;
 use crate::stand::StandError;
 
-/// How many times its bound an effect is strong.
-const STRENGTHS: [f64; 10] = [2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0, 40.0, 100.0];
+/// How many times its bound an effect is strong; more often as much as a target speaks of.
+const STRENGTHS: [f64; 18] = [
+    2.0, 3.0, 4.0, 5.0, 6.0, 6.5, 6.5, 6.5, 8.0, 8.0, 8.0, 9.0, 9.0, 12.0, 12.0, 20.0, 40.0, 100.0,
+];
 
 /// How strong each of two effects is.
 const BOTH: f64 = 10.0;

@@ -15,6 +15,10 @@ use crate::stand::{Stand, StandError, Told};
 /// The one effect that is not linear in its parameters.
 const DEAD_ZONE: &str = "gyro_dead_zone";
 
+/// How many widths of a dead zone are tried, and how near one has to come to what was meant.
+const MOST_WIDTHS: usize = 16;
+const AS_MEANT: f64 = 0.01;
+
 /// An effect is at most so many times as large as it usually is.
 const LARGEST: f64 = 3.0;
 
@@ -76,24 +80,15 @@ impl Ground {
         let mut chosen = self.shaped(term, random);
         let told = self.stand.told(&self.plain, std::slice::from_ref(&chosen))?;
         let Some((values, dof)) = sized(&told, meant, random) else { return Ok(None) };
-        chosen.values = values;
-        let mut run = self.with(&chosen)?;
-        let mut strength = self.strength(&run)?;
         let mut bounds = bounds(&told);
+        chosen.values = values;
         if term.id == DEAD_ZONE {
-            // It grows with the square of its width at least.
-            let times = (meant / strength).sqrt();
-            chosen.values.iter_mut().for_each(|width| *width = width.abs() * times);
-            let usual = |(width, p): (&f64, &rins_terms::Parameter)| {
-                *width < LARGEST * p.range(&self.stand.imu).1
-            };
-            if !chosen.values.iter().zip(term.parameters).all(usual) {
-                return Ok(None);
-            }
-            run = self.with(&chosen)?;
-            strength = self.strength(&run)?;
+            let Some(wide) = self.widened(&chosen, meant)? else { return Ok(None) };
+            chosen = wide;
             bounds = self::bounds(&self.stand.told(&self.plain, std::slice::from_ref(&chosen))?);
         }
+        let run = self.with(&chosen)?;
+        let strength = self.strength(&run)?;
         let confusable = self.confusable(&chosen, &run, strength)?;
         let record = Hidden {
             id: term.id.into(),
@@ -107,6 +102,32 @@ impl Ground {
             confusable,
         };
         Ok(Some((chosen, record)))
+    }
+
+    /// A dead zone, all its widths so many times as wide that it is `meant` sigmas strong: how its strength grows with
+    /// them depends on the rates that fall into it. None if it is out of all proportion then, or strong at once.
+    fn widened(&self, zone: &Chosen, meant: f64) -> Result<Option<Chosen>, StandError> {
+        let usual = |(width, p): (&f64, &rins_terms::Parameter)| {
+            *width < LARGEST * p.range(&self.stand.imu).1
+        };
+        let [mut times, mut narrow, mut wide] = [1.0, 0.0, f64::INFINITY];
+        for _ in 0..MOST_WIDTHS {
+            let mut tried = zone.clone();
+            tried.values.iter_mut().for_each(|width| *width = width.abs() * times);
+            if !tried.values.iter().zip(zone.term.parameters).all(usual) {
+                return Ok(None);
+            }
+            let strength = self.strength(&self.with(&tried)?)?;
+            if (strength / meant - 1.0).abs() < AS_MEANT {
+                return Ok(Some(tried));
+            }
+            *(if strength < meant { &mut narrow } else { &mut wide }) = times;
+            // About with the square, if that is between what is too narrow and what is too wide.
+            let next = times * (meant / strength).sqrt();
+            let inside = narrow < next && next < wide;
+            times = if inside { next } else { f64::midpoint(narrow, wide.min(2.0 * times)) };
+        }
+        Ok(None)
     }
 
     /// The run without noise, with an effect.

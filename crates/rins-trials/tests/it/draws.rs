@@ -1,6 +1,6 @@
 //! Trials as they are drawn.
 
-use rins_trials::{Kind, Length, Trial};
+use rins_trials::{Kind, Length, Level, Schedule, Trial};
 
 /// The squares that a hidden effect adds to a run, made by the generator, are those that the estimator's derivatives foretold.
 #[test]
@@ -16,6 +16,21 @@ fn effect_is_as_strong_as_it_was_meant() {
         }
     }
     assert_eq!(effects, 4);
+}
+
+/// How strong a dead zone is does not go with its width, nor with the square of it.
+#[test]
+fn a_dead_zone_is_as_strong_as_it_was_meant() {
+    let mut zones = 0;
+    for (seed, schedule) in (0..6).zip(Schedule::ALL.iter().cycle()) {
+        let meant = [("gyro_dead_zone", 6.5)];
+        let trial = Trial::hiding(&meant, *schedule, Level::White, seed).unwrap();
+        for hidden in &trial.hidden {
+            assert!((hidden.strength / 6.5 - 1.0).abs() < 0.02, "{seed}: {}", hidden.strength);
+            zones += 1;
+        }
+    }
+    assert!(zones >= 3, "{zones} dead zones");
 }
 
 #[test]
