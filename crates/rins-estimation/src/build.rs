@@ -86,25 +86,27 @@ impl<'a> Build<'a> {
         let mut first = span.samples.start;
         let recording = &self.compared.run.recording;
         for end in ends {
-            let mut from_body = Matrix3::zeros();
+            let mut from_body = [Matrix3::zeros(); 2];
             for sample in first..end {
                 let Some(moment) = self.fine.advance() else { break };
                 let interval = recording.increments[sample].interval;
                 from_body = self.compared.residual(&mut self.growing, sample, moment);
-                turning.twice += (turning.turned + from_body * (0.5 * interval)) * interval;
-                turning.turned += from_body * interval;
+                let of_gyros = from_body[0];
+                turning.twice += (turning.turned + of_gyros * (0.5 * interval)) * interval;
+                turning.turned += of_gyros * interval;
                 turning.mean += turning.turned;
                 duration += interval;
             }
             let Some(piece) = self.pieces.advance() else { break };
             if end - first > 1 && self.compared.sway.is_none() {
-                from_body = turned_by(piece.mean.angle);
+                from_body = turned_over(piece);
             }
             self.compared.set_columns(&mut self.growing, piece);
             if span.fresh && first == span.samples.start {
                 self.growing.begin();
             }
-            let turned = self.compared.inverse_gains.map(|inverse| from_body * inverse);
+            let inverse_gains = &self.compared.inverse_gains;
+            let turned = [0, 1].map(|triad| from_body[triad] * inverse_gains[triad]);
             self.growing.add(&turned, &piece.surroundings, (piece.interval, end - first));
             first = end;
         }
@@ -118,6 +120,7 @@ impl<'a> Build<'a> {
             gains: self.growing.finish(readings),
             turning,
             held: None,
+            rounding: 0.0,
         }
     }
 }
@@ -139,10 +142,10 @@ impl Compared<'_> {
         }
     }
 
-    /// What a sample was read beyond the model; the attitude of the body in the axis frame in its middle.
-    fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> Matrix3<f64> {
+    /// What a sample was read beyond the model; the attitude of the body in the axis frame, as [`turned_over`] has it.
+    fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> [Matrix3<f64>; 2] {
         let measured = &self.run.recording.increments[sample];
-        let mut table_from_body = turned_by(moment.mean.angle);
+        let mut from_body = turned_over(moment);
         let mut predicted = Acting::together(&self.present, moment);
         self.leave_what_is_read(&mut predicted);
         let around = &moment.surroundings;
@@ -156,16 +159,21 @@ impl Compared<'_> {
             gyro = sway.mean_rate - middle.inverse() * around.earth_rate;
             accel = rates.specific_force.components() - middle.inverse() * around.specific_force;
             of_axis += end.scaled_axis();
-            table_from_body = *middle.matrix();
+            from_body = [*middle.matrix(); 2];
         }
         gyro -= values(&predicted.gyro);
         accel -= values(&predicted.accel);
         let [of_gyros, of_accels] = &self.inverse_gains;
-        let rates =
-            [table_from_body * (of_gyros * gyro), table_from_body * (of_accels * accel), of_axis];
+        let rates = [from_body[0] * (of_gyros * gyro), from_body[1] * (of_accels * accel), of_axis];
         growing.add_residual(rates, around, measured.interval);
-        table_from_body
+        from_body
     }
+}
+
+/// The mean attitude over a moment of a body on a table in the axis frame, for what gyros read and what accelerometers do:
+/// most of what gyros read goes with the table's rate, and counts by how far it turns, not by how long.
+fn turned_over(moment: &Moment) -> [Matrix3<f64>; 2] {
+    [turned_by(moment.middle_angle()), turned_by(moment.mean.angle)]
 }
 
 /// The attitude of a body on a table in the axis frame.

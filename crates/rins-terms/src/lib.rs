@@ -20,6 +20,7 @@
 mod acting;
 pub mod catalogue;
 mod compensation;
+mod edges;
 mod following;
 mod grade;
 mod making;

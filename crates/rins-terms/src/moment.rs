@@ -58,7 +58,7 @@ pub struct Instant {
     pub angle: f64,
     /// Its rate \[rad/s\].
     pub rate: f64,
-    /// Its acceleration \[rad/s²\].
+    /// Its acceleration, over the sample \[rad/s²\].
     pub acceleration: f64,
     /// The way the table turned last: 1, -1, or 0 before it ever turned; the mean of both while it turns round.
     pub sense: f64,
@@ -82,10 +82,12 @@ pub struct Moment {
     pub interval: f64,
     /// How long the run is \[s\].
     pub duration: f64,
-    /// The table in the middle of the interval; its rate is the mean over it.
+    /// The table in the middle of the interval; its angle and its rate are the means over it.
     pub mean: Instant,
     /// The table at the end of the interval.
     pub end: Instant,
+    /// The table's mean acceleration over the sample before, over this one and over the next \[rad/s²\].
+    pub accelerations: [f64; 3],
     /// The mean of the true angular rate `ω_ib^b` \[rad/s\].
     pub rate: Vector3<f64>,
     /// The mean of the true specific force `f^b` \[m/s²\].
@@ -104,6 +106,11 @@ impl Moment {
             force: *rates.specific_force.components(),
             ..*self
         }
+    }
+
+    /// The table angle in the middle of the way \[rad\]: about it the table turns as much before as after.
+    pub fn middle_angle(&self) -> f64 {
+        self.end.angle - 0.5 * self.mean.rate * self.interval
     }
 
     /// A vector of the axis frame in body axes, in the middle of the interval.

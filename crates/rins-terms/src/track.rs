@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::edges::edges;
 use crate::moment::{Instant, Moment, Surroundings, turned_back};
 use crate::senses::senses;
 use crate::slope::slopes;
@@ -20,6 +21,8 @@ pub struct Track {
     intervals: Vec<f64>,
     /// The table angle before the first sample, and at the end of each \[rad\].
     angles: Vec<f64>,
+    /// The rate before the first sample, and at the end of each \[rad/s\].
+    edges: Vec<f64>,
     /// The way the table turned last, at the end of each sample.
     senses: Vec<i8>,
     /// The temperature at the end of each sample \[°C\].
@@ -45,16 +48,18 @@ impl Track {
         let matches = temperature.as_ref().is_none_or(|list| list.len() == times.len());
         assert!(matches, "a temperature a sample");
         let warming_rates = temperature.as_ref().map(|list| slopes(&times, list));
-        let none = Vec::new();
         let mut track = Self {
             surroundings,
             times,
             intervals,
             angles,
-            senses: none,
+            edges: Vec::new(),
+            senses: Vec::new(),
             temperature,
             warming_rates,
         };
+        let rates: Vec<f64> = (0..track.len()).map(|sample| track.rate(sample)).collect();
+        track.edges = edges(&rates);
         track.senses = senses(&track.angles, |sample| track.rate(sample));
         track
     }
@@ -73,10 +78,8 @@ impl Track {
             surroundings: self.surroundings,
             times: last(&self.times),
             intervals: starts.clone().zip(ends).map(together).collect(),
-            angles: std::iter::once(0)
-                .chain(ends.iter().copied())
-                .map(|end| self.angles[end])
-                .collect(),
+            angles: starts.clone().map(|edge| self.angles[edge]).collect(),
+            edges: starts.clone().map(|edge| self.edges[edge]).collect(),
             senses: ends.iter().map(|&end| self.senses[end - 1]).collect(),
             temperature: self.temperature.as_deref().map(last),
             warming_rates: self
@@ -132,11 +135,12 @@ impl Track {
                 duration: self.duration(),
                 mean: Instant::default(),
                 end: Instant::default(),
+                accelerations: [0.0; 3],
                 rate: Vector3::zeros(),
                 force: Vector3::zeros(),
                 surroundings: self.surroundings,
             },
-            rates: [first; 2],
+            rate: first,
             rate_change: 0.0,
             settled_rate: 0.0,
         }
@@ -177,6 +181,13 @@ impl Track {
         (self.angles[sample + 1] - self.angles[sample]) / elapsed
     }
 
+    /// The mean acceleration over a sample, or over the nearest one \[rad/s²\].
+    fn acceleration(&self, sample: usize) -> f64 {
+        let sample = sample.min(self.len() - 1);
+        let elapsed = self.times[sample] - self.time_before(sample);
+        (self.edges[sample + 1] - self.edges[sample]) / elapsed
+    }
+
     fn sense(&self, sample: usize) -> f64 {
         f64::from(self.senses[sample])
     }
@@ -195,8 +206,8 @@ pub struct Moments<'a> {
     start: f64,
     /// The moment of the sample before.
     moment: Moment,
-    /// The mean rates over the sample before and over this one \[rad/s\].
-    rates: [f64; 2],
+    /// The mean rate over this sample \[rad/s\].
+    rate: f64,
     rate_change: f64,
     settled_rate: f64,
 }
@@ -206,18 +217,21 @@ impl Moments<'_> {
     pub fn advance(&mut self) -> Option<&Moment> {
         let (track, sample) = (self.track, self.sample);
         let time = *track.times.get(sample)?;
-        let before = self.rates[0];
+        let rate = self.rate;
         self.pass();
-        let [rate, after] = self.rates;
         let interval = track.intervals[sample];
-        let elapsed = time - track.time_before(sample);
         let warming_before = track.warming(sample.saturating_sub(1));
         let warming = track.warming(sample);
+        let neighbours = [sample.saturating_sub(1), sample, sample + 1];
+        let accelerations = neighbours.map(|sample| track.acceleration(sample));
+        let acceleration = accelerations[1];
+        // A table that speeds up is behind the middle of its way for most of the time.
+        let behind = 0.5 * rate * interval + acceleration * interval * interval / 12.0;
         let mean = Instant {
             time: time - 0.5 * interval - self.start,
-            angle: track.angles[sample + 1] - 0.5 * rate * interval,
+            angle: track.angles[sample + 1] - behind,
             rate,
-            acceleration: 0.5 * (after - before) / elapsed,
+            acceleration,
             sense: 0.5 * (track.sense(sample.saturating_sub(1)) + track.sense(sample)),
             rate_change: self.rate_change,
             warming: 0.5 * (warming + warming_before),
@@ -240,11 +254,11 @@ impl Moments<'_> {
         moment.force = mean_in_body(&track.surroundings.specific_force);
         moment.sample = sample;
         moment.interval = interval;
+        moment.accelerations = accelerations;
         moment.end = Instant {
             time: time - self.start,
             angle: track.angles[sample + 1],
-            rate: 0.5 * (rate + after),
-            acceleration: (after - rate) / elapsed,
+            rate: track.edges[sample + 1],
             sense: track.sense(sample),
             warming,
             ..mean
@@ -255,13 +269,13 @@ impl Moments<'_> {
 
     /// Goes on to the next sample.
     fn pass(&mut self) {
-        let rate = self.rates[1];
+        let rate = self.rate;
         if (rate - self.settled_rate).abs() > LEAST_RATE_CHANGE {
             self.rate_change = (rate - self.settled_rate).signum();
             self.settled_rate = rate;
         }
         self.sample += 1;
-        self.rates = [rate, self.track.rate(self.sample)];
+        self.rate = self.track.rate(self.sample);
     }
 }
 

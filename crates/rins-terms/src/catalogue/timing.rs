@@ -1,13 +1,13 @@
 //! Readings that are late: of gyros, accelerometers and the encoder.
 //!
-//! A late reading is that of an earlier instant, the table's last acceleration going on: exact at any
+//! A late reading is that of an earlier instant, the acceleration over the sample going on: exact at any
 //! constant rate and along any ramp.
 
 use nalgebra::Vector3;
 use num_dual::{Dual64, DualNum};
 
 use crate::catalogue::parameters::{TIME, parameter, usual};
-use crate::moment::Instant;
+use crate::moment::Moment;
 use crate::signals::DualVector;
 use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
 use crate::unit::Unit;
@@ -16,9 +16,22 @@ const fn delay(prior: Prior) -> Parameter {
     parameter("delay", Unit::MILLISECOND, prior)
 }
 
-/// How far the table turned over the last `delay` \[rad\].
-fn turned_within(delay: Dual64, instant: &Instant) -> Dual64 {
-    delay * instant.rate - delay * delay * (0.5 * instant.acceleration)
+/// How far the table turned over the last `delay` before an instant at this rate \[rad\], or turns over the next one if it
+/// is negative; its accelerations are those before the instant and after it.
+fn turned_within(delay: Dual64, rate: f64, [before, after]: [f64; 2]) -> Dual64 {
+    let acceleration = if delay.re < 0.0 { after } else { before };
+    delay * rate - delay * delay * (0.5 * acceleration)
+}
+
+/// The same from the end of a sample.
+fn turned_to_end(delay: Dual64, moment: &Moment) -> Dual64 {
+    let [_, before, after] = moment.accelerations;
+    turned_within(delay, moment.end.rate, [before, after])
+}
+
+/// The same from its middle.
+fn turned_to_middle(delay: Dual64, moment: &Moment) -> Dual64 {
+    turned_within(delay, moment.mean.rate, [moment.mean.acceleration; 2])
 }
 
 /// Adds by how much `vector`, of fixed direction in the axis frame, differed when the table stood
@@ -46,8 +59,12 @@ pub static GYRO_LAG: Term = Term {
                     what the Earth's rate shows of the third",
     owner: Owner::Sensor,
     action: Action::Signal(|p, _, moment, out| {
-        add_earlier(&mut out.gyro, &moment.rate, turned_within(p[0], &moment.mean));
-        out.gyro[2] -= p[0] * moment.mean.acceleration;
+        add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
+        // The rate over as long a time before: both its ends are late.
+        let [before, own, _] = moment.accelerations;
+        let start = moment.end.rate - own * moment.interval;
+        let late = turned_to_end(p[0], moment) - turned_within(p[0], start, [before, own]);
+        out.gyro[2] -= late / moment.interval;
     }),
 };
 
@@ -66,7 +83,7 @@ pub static ACCEL_LATENCY: Term = Term {
     told_apart_by: "turn the table both ways",
     owner: Owner::Sensor,
     action: Action::Signal(|p, _, moment, out| {
-        add_earlier(&mut out.accel, &moment.force, turned_within(p[0], &moment.mean));
+        add_earlier(&mut out.accel, &moment.force, turned_to_middle(p[0], moment));
     }),
 };
 
@@ -92,7 +109,7 @@ pub static ENCODER_LATENCY: Term = Term {
     ],
     told_apart_by: "turn both ways at two rates, with several reversals",
     owner: Owner::Run,
-    action: Action::Signal(|p, _, moment, out| out.angle -= turned_within(p[0], &moment.end)),
+    action: Action::Signal(|p, _, moment, out| out.angle -= turned_to_end(p[0], moment)),
 };
 
 /// An encoder whose clock is not the IMU's.
@@ -110,7 +127,7 @@ pub static CLOCK_DRIFT: Term = Term {
     told_apart_by: "several reversals, spread over the run",
     owner: Owner::Run,
     action: Action::Signal(|p, _, moment, out| {
-        out.angle -= turned_within(p[0] * moment.end.time, &moment.end);
+        out.angle -= turned_to_end(p[0] * moment.end.time, moment);
     }),
 };
 
@@ -132,7 +149,7 @@ pub static DROPPED_SAMPLES: Term = Term {
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
         if moment.end.time >= settings[0] {
-            out.angle -= turned_within(-p[0], &moment.end);
+            out.angle -= turned_to_end(-p[0], moment);
         }
     }),
 };

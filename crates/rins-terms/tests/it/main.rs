@@ -11,6 +11,7 @@ mod log;
 mod model;
 mod noise;
 mod page;
+mod ramps;
 mod sensors;
 mod support;
 mod tilt;
