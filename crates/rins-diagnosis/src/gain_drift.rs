@@ -36,7 +36,7 @@ impl Undone {
     fn of(run: &Run, fit: &Fit, place: usize) -> Result<Self, NotUndone> {
         let around = fit.linear[place].track().surroundings;
         let recording = Arc::new(compensated(&fit.models[place], around, &run.recording)?);
-        let clean = Run { rig: run.rig, recording, left_out: Vec::new(), turn_on: run.turn_on };
+        let clean = Run { recording, left_out: Vec::new(), ..run.clone() };
         let angles = linearise(&clean, &Model::default(), &[]).track().angles().to_vec();
         Ok(Self { recording: clean.recording, angles, nav_from_table: around.nav_from_table })
     }

@@ -20,6 +20,9 @@ const COARSE: f64 = 0.25;
 /// The effects of either triad.
 const TERMS: [&Term; 2] = [&catalogue::GYRO_QUANTISATION, &catalogue::ACCEL_QUANTISATION];
 
+/// The quantity in which that of an encoder shows.
+const SHOWN_ABOUT_AXIS: &str = "attitude.z";
+
 /// What the quantities begin with in which the rounding of either triad shows.
 const SHOWN: [[&str; 2]; 2] = [["attitude", "gyro"], ["velocity", "accel"]];
 
@@ -28,6 +31,8 @@ const SHOWN: [[&str; 2]; 2] = [["attitude", "gyro"], ["velocity", "accel"]];
 pub(crate) struct Rounding {
     /// Of each run those of either triad: of its coarsest sensor.
     runs: Vec<[Option<Steps>; 2]>,
+    /// Of each run whether its encoder is coarse beside its noise.
+    encoders: Vec<bool>,
 }
 
 /// A sensor that reads in steps.
@@ -63,12 +68,18 @@ impl Rounding {
                 steps.max_by(|a, b| a.white.total_cmp(&b.white))
             })
         };
-        Self { runs: runs.iter().map(of_run).collect() }
+        Self {
+            runs: runs.iter().map(of_run).collect(),
+            encoders: runs.iter().map(|run| run.angle_steps.is_some()).collect(),
+        }
     }
 
-    /// Whether a sensor's triad reads in coarse steps in a run: the rounding of a reading that hardly changes is no noise,
-    /// and makes lines and outliers that are not there.
+    /// Whether a sensor's triad reads in coarse steps in a run, or the encoder that it is seen against: the rounding of a
+    /// reading that hardly changes is no noise, and makes lines and outliers that are not there.
     pub(crate) fn is_coarse(&self, run: usize, channel: usize) -> bool {
+        if channel == ABOUT_AXIS && self.encoders.get(run).is_some_and(|&coarse| coarse) {
+            return true;
+        }
         let steps = self.runs.get(run).and_then(|run| run[channel / 3]);
         steps.is_some_and(|steps| steps.coarse)
     }
@@ -84,7 +95,10 @@ impl Rounding {
     pub(crate) fn explains(&self, left: &Unexplained) -> bool {
         let scatters = matches!(left.structure, Structure::Spread(_) | Structure::Tails);
         let shows = |which: usize| SHOWN[which].iter().any(|of| left.channel.starts_with(of));
-        scatters && (0..2).any(|which| shows(which) && self.is_coarse(left.run, 3 * which))
+        let about_axis = left.channel == SHOWN_ABOUT_AXIS && self.is_coarse(left.run, ABOUT_AXIS);
+        scatters
+            && (about_axis
+                || (0..2).any(|which| shows(which) && self.is_coarse(left.run, 3 * which)))
     }
 }
 

@@ -17,6 +17,7 @@
 //!
 //! Numbers are in SI units and radians.
 mod layout;
+mod rounding;
 mod run;
 mod strengths;
 
@@ -57,6 +58,7 @@ pub use identifiability::{
 pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use posterior::{Evidence, Posterior, correlation};
+pub use rounding::AngleSteps;
 pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};
 pub use strengths::{Noise, NoiseKnowledge, Strengths, TriadStrengths};
 

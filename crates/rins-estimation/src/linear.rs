@@ -53,6 +53,8 @@ pub(crate) struct Epoch {
     pub(crate) turning: Turning,
     /// What is not known of it where samples are missing.
     pub(crate) held: Option<Held>,
+    /// The variance of its mean angle for which the encoder's steps are taken \[rad²\].
+    pub(crate) rounding: f64,
 }
 
 /// A run, linear in the parameters that a model estimates.
@@ -136,7 +138,9 @@ pub(crate) fn linearised(
             whole(TURN_OF_PIECE / most).min(block.div_ceil(FEWEST_PIECES))
         }
     };
-    let ends: Vec<usize> = spans.iter().flat_map(|span| cut(&span.samples, piece)).collect();
+    let events = if piece > 1 { events(&model, &track) } else { Vec::new() };
+    let cut = |span: &Span| cut(&span.samples, piece, &events);
+    let ends: Vec<usize> = spans.iter().flat_map(cut).collect();
     let coarse = (piece > 1).then(|| track.thinned(&ends));
     let pieces = coarse.as_ref().unwrap_or(&track);
     let compared = Compared::new(run, &model, free, readings.as_deref(), (&track, pieces));
@@ -153,11 +157,14 @@ pub(crate) fn linearised(
             if index > 0 {
                 build.pass_piece();
             }
-            spans.iter().map(|span| build.epoch(span, cut(&span.samples, piece))).collect()
+            spans.iter().map(|span| build.epoch(span, cut(span).into_iter())).collect()
         },
     );
     let mut epochs = made.collect::<Vec<Vec<Epoch>>>().into_iter().flatten().collect::<Vec<_>>();
     hold(&mut epochs, recording);
+    if let Some(steps) = &run.angle_steps {
+        steps.tell(&mut epochs, &track);
+    }
     leave_out(&mut epochs, &run.left_out);
     Linear {
         epochs,
@@ -208,10 +215,31 @@ fn spans(run: &Run, block: usize) -> Vec<Span> {
     starts.windows(2).flat_map(epochs).collect()
 }
 
-/// Where pieces of so many samples end.
-fn cut(samples: &Range<usize>, piece: usize) -> impl Iterator<Item = usize> + use<> {
+/// Where pieces of so many samples end, and such of one sample around every event.
+fn cut(samples: &Range<usize>, piece: usize, events: &[usize]) -> Vec<usize> {
     let end = samples.end;
-    samples.clone().step_by(piece).map(move |first| end.min(first + piece))
+    let mut ends: Vec<usize> =
+        samples.clone().step_by(piece).map(|first| end.min(first + piece)).collect();
+    let first = events.partition_point(|event| *event < samples.start);
+    let within = events[first..].iter().take_while(|event| **event < end);
+    ends.extend(within.flat_map(|&event| [event, event + 1]));
+    ends.retain(|one| *one > samples.start);
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+/// The samples in which a model's events happen.
+fn events(model: &Model, track: &Track) -> Vec<usize> {
+    let times = model.terms.iter().filter_map(|chosen| {
+        let place = chosen.term.settings.iter().position(|setting| setting.name == "time")?;
+        Some(chosen.settings[place])
+    });
+    let sample = |time: f64| track.times().partition_point(|end| end - track.start() < time);
+    let mut events: Vec<usize> = times.map(sample).collect();
+    events.sort_unstable();
+    events.dedup();
+    events
 }
 
 /// Marks the epochs that hold any of these samples, and those that follow them.

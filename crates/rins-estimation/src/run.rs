@@ -6,6 +6,8 @@ use std::sync::Arc;
 use rins_frames::{Dcm, Nav, Table};
 use rins_motion::{Recording, Station};
 
+use crate::rounding::AngleSteps;
+
 /// What tells where the table is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reference {
@@ -51,6 +53,8 @@ pub struct Run {
     pub left_out: Vec<Range<usize>>,
     /// Which of several switchings-on it belongs to, if not to one of its own.
     pub turn_on: Option<usize>,
+    /// The steps of the encoder, if it is the reference and they are coarse beside its noise.
+    pub angle_steps: Option<AngleSteps>,
 }
 
 /// The fewest samples that a run may have.
@@ -104,12 +108,14 @@ impl Run {
         };
         positive("the wobble of the axis", rig.wobble)?;
         positive("the velocity noise of the base", rig.velocity)?;
+        let mut angle_steps = None;
         match rig.reference {
             Reference::Encoder { noise } => {
                 positive("the noise of the encoder", noise)?;
                 if recording.table_angle.is_none() {
                     return Err(RunError::NoAngle);
                 }
+                angle_steps = AngleSteps::of(&recording, noise);
             }
             Reference::Command { noise } => {
                 if !(noise.is_finite() && noise >= 0.0) {
@@ -130,7 +136,7 @@ impl Run {
             }
             Reference::Rest => {}
         }
-        Ok(Self { rig, recording, left_out: Vec::new(), turn_on: None })
+        Ok(Self { rig, recording, left_out: Vec::new(), turn_on: None, angle_steps })
     }
 
     /// The same with these samples left out of what is estimated from: apart and in order.

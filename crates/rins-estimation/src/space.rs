@@ -225,7 +225,7 @@ impl<'a> Space<'a> {
             Reference::Encoder { .. } => {
                 // Read too late, a table that turns is further on.
                 let further = self.jitter * self.linear.turned(epoch) / epoch.duration;
-                (self.encoder.powi(2) + further.powi(2)) / m
+                (self.encoder.powi(2) + further.powi(2)) / m + epoch.rounding
             }
             Reference::Command { .. } => EXACT * EXACT,
             Reference::Gravity | Reference::Rest => wobble,

@@ -62,20 +62,66 @@ impl Recording {
             Combs { increments: comb(&increments), rates: comb(&rates) }
         })
     }
+
+    /// The comb of the table angle, if there is one that is read.
+    ///
+    /// A table that turns evenly goes on by about as many teeth every time: what is next to each other on the comb are the
+    /// numbers of teeth.
+    pub fn angle_comb(&self) -> Option<Comb> {
+        let angles = self.table_angle.as_deref()?;
+        let turned: Vec<f64> = angles.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let alike = alike(angles);
+        let [turned, apart] = [distances(&turned, alike), distances(angles, alike)];
+        let fine = gaps(&turned, alike).into_iter().find_map(|gap| fitted(&turned, gap));
+        fine.and_then(|fine| fitted(&apart, fine.step))
+            .or_else(|| gaps(&apart, alike).into_iter().find_map(|gap| fitted(&apart, gap)))
+    }
 }
 
 /// The comb on which all but a few of `readings` stand, wherever its first tooth is.
 pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
-    let largest = readings.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let differences = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    let mut apart: Vec<f64> = differences.filter(|apart| *apart > ROUNDING * largest).collect();
-    let odd = ODD.min(apart.len() / 100);
+    let mut apart = distances(readings, alike(readings));
     if apart.len() < FEWEST {
         return None;
     }
-    let (_, &mut smallest, _) = apart.select_nth_unstable_by(odd, f64::total_cmp);
+    let odd = ODD.min(apart.len() / 100);
+    apart.select_nth_unstable_by(odd, f64::total_cmp);
+    let mut smallest = apart[..=odd].to_vec();
+    smallest.sort_by(f64::total_cmp);
+    smallest.into_iter().find_map(|first| fitted(&apart, first))
+}
+
+/// The smallest gaps between these distances, from none on, but for those between distances that are alike: a tooth, if the
+/// distances are whole numbers of it that are next to each other somewhere.
+fn gaps(apart: &[f64], alike: f64) -> Vec<f64> {
+    if apart.len() < FEWEST {
+        return Vec::new();
+    }
+    let mut sorted = apart.to_vec();
+    sorted.push(0.0);
+    sorted.sort_by(f64::total_cmp);
+    let between = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut gaps: Vec<f64> = between.filter(|gap| *gap > alike).collect();
+    gaps.sort_by(f64::total_cmp);
+    gaps.truncate(ODD + 1);
+    gaps
+}
+
+/// How far readings are apart at most that are the same.
+fn alike(readings: &[f64]) -> f64 {
+    ROUNDING * readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// How far neighbouring readings are apart, of those that are not alike.
+fn distances(readings: &[f64], alike: f64) -> Vec<f64> {
+    let apart = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    apart.filter(|apart| *apart > alike).collect()
+}
+
+/// The comb whose teeth are about so far apart, if these differences are between its teeth.
+fn fitted(apart: &[f64], first: f64) -> Option<Comb> {
     let off = |apart: f64, step: f64| apart / step - (apart / step).round();
-    let mut step = smallest;
+    let mut step = first;
     let mut sigma = f64::INFINITY;
     for most in TEETH {
         let counted = apart.iter().filter(|apart| {
@@ -89,11 +135,13 @@ pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
             left += (step * off(apart, step)).powi(2);
             count += 1.0;
         }
-        if count == 0.0 {
-            return None;
+        if count > 0.0 {
+            step = across / squares;
+            sigma = (left / count / squares).sqrt();
         }
-        step = across / squares;
-        sigma = (left / count / squares).sqrt();
+    }
+    if apart.is_empty() || sigma.is_infinite() {
+        return None;
     }
     let stands = apart.iter().filter(|apart| off(**apart, step).abs() < OFF).count() as f64;
     let share = stands / apart.len() as f64;
@@ -134,6 +182,18 @@ mod tests {
             on_comb[1000 * k] += 0.123;
         }
         assert!((comb(&on_comb).unwrap().step - 0.5).abs() < 1e-6);
+    }
+
+    /// An even table goes on by 279 or 280 teeth a sample, here of a second of arc; log and angle have their last digits.
+    #[test]
+    fn angles_that_go_on_by_many_teeth_stand_on_the_finest_comb() {
+        let tooth = 4.848_137e-6;
+        let turned = |k: u32| 279.72 * f64::from(k) + 3.0 * (0.01 * f64::from(k)).sin();
+        let read = |k: u32| (1e10 * tooth * turned(k).round()).round() / 1e10;
+        let table_angle = Some((0..20_000).map(read).collect());
+        let recording = Recording { table_angle, ..Recording::default() };
+        let found = recording.angle_comb().unwrap();
+        assert!((found.step / tooth - 1.0).abs() < 1e-5, "{found:?}");
     }
 
     #[test]

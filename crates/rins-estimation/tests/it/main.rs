@@ -7,6 +7,7 @@ mod gravity;
 mod left_out;
 mod refusals;
 mod rests;
+mod rounding;
 mod several_runs;
 mod shortcuts;
 mod support;

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use nalgebra::{Matrix3, Vector3};
 use rins_calibration::{Setup, likely_wobble, table_angles};
-use rins_estimation::{Reference, Rig, Run, axis_from_gravity, turning_span};
+use rins_estimation::{AngleSteps, Reference, Rig, Run, axis_from_gravity, turning_span};
 use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
@@ -120,6 +120,11 @@ impl Prepared {
             wobble: setup.table.wobble,
             velocity: setup.velocity_noise,
         };
+        // Angles that are brought forward stand on no comb any more.
+        let steps = match axis.reference {
+            Reference::Encoder { noise } => AngleSteps::of(&loaded.recording, noise),
+            _ => None,
+        };
         // A day's samples are kept once.
         let whole = || std::mem::take(&mut loaded.recording);
         let mut recording = axis.part.unwrap_or_else(whole);
@@ -127,7 +132,7 @@ impl Prepared {
             recording.table_angle = Some(angles);
         }
         let repeats = recording.take_out_repeats();
-        let run = Run::new(rig, recording).with_context(log)?;
+        let run = Run { angle_steps: steps, ..Run::new(rig, recording).with_context(log)? };
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
             Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
         });
@@ -136,6 +141,13 @@ impl Prepared {
         remarks.extend(repeats.map(|Repeats { samples, rows, .. }| {
             format!(
                 "{samples} samples, in {rows} row(s), repeat all six readings of the one before: they are taken for lost."
+            )
+        }));
+        remarks.extend(steps.map(|AngleSteps { step, .. }| {
+            format!(
+                "The encoder reads in steps of {:.3} arcsec, coarse beside its noise: its angle is trusted as far as their \
+                 rounding allows.",
+                step / ARCSEC
             )
         }));
         Ok(Self { name: shown(path), loaded, imu, run, others, repeats, attitude, remarks })
