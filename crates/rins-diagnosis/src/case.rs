@@ -5,7 +5,7 @@ use rins_estimation::{
     Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, Strengths, fit, fit_near,
 };
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Role, catalogue};
+use rins_terms::{Chosen, Model, Role};
 
 use crate::candidates::{Candidate, duration};
 use crate::dead_zone;
@@ -145,6 +145,7 @@ impl Case<'_> {
         if dead_zone::is_of_widths(&best.0.chosen) {
             best = self.with_further_gyros(present, best)?;
         }
+        self.jolts(present).pin(&mut best.0.chosen);
         Ok(Some(best))
     }
 
@@ -166,12 +167,6 @@ impl Case<'_> {
                     best = (list[found.candidate].clone(), found);
                 }
             }
-        }
-        let chosen = &mut best.0.chosen;
-        if chosen.term.id == catalogue::BASE_TILT_STEP.id
-            && let Some(time) = self.jolts(present).about(chosen.settings[0])
-        {
-            chosen.settings[0] = time;
         }
         Ok(best)
     }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rins_estimation::Fit;
-use rins_terms::{Chosen, Track};
+use rins_terms::{Chosen, Need, Track, catalogue};
 
 use crate::case::Case;
 use crate::residuals::residuals;
@@ -11,7 +11,13 @@ use crate::residuals::residuals;
 /// Readings of so many sigmas are part of a jolt.
 const PART: f64 = 4.0;
 
-/// What the gyros across the axis show of jolts in some runs.
+/// Over a sample in which an encoder jumps it is off by so many of them against the gyro: more than any of a long run's.
+const JUMP: f64 = 5.5;
+
+/// How many jumps of an encoder are looked at.
+const JUMPS: usize = 3;
+
+/// What the gyros across the axis show of jolts in some runs, and that about it of an encoder's jumps.
 pub(crate) struct Jolts {
     runs: Vec<Shown>,
 }
@@ -20,6 +26,8 @@ pub(crate) struct Jolts {
 struct Shown {
     /// Of each the middle of its sample since the start \[s\], and its size \[rad/s\].
     parts: Vec<(f64, f64)>,
+    /// The middles of the samples over which the encoder jumps against the gyro, the largest first \[s\].
+    jumps: Vec<f64>,
     /// The length of an epoch \[s\].
     epoch: f64,
 }
@@ -29,21 +37,31 @@ impl Case<'_> {
     pub(crate) fn jolts(&self, present: &Fit) -> Jolts {
         let of_run = |(run, recorded)| {
             let linear = &present.linear[run];
-            let [x, y, ..] = residuals(recorded, present, run);
-            let across = || x.iter().zip(&y).map(|(x, y)| x.hypot(*y));
-            let mut sizes: Vec<f64> = across().collect();
-            let middle = sizes.len() / 2;
-            // Half of all are below 1.18 sigma.
-            let (_, &mut median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-            let least = PART * median / 1.18;
+            let [x, y, about, ..] = residuals(recorded, present, run);
+            let across: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x.hypot(*y)).collect();
             let begin = linear.track().start();
             let samples = recorded.recording.times.iter().zip(&recorded.recording.increments);
             let middles = samples.map(|(end, sample)| end - 0.5 * sample.interval - begin);
-            let parts = middles.zip(across()).filter(|(_, size)| *size > least).collect();
-            Shown { parts, epoch: linear.mean_epoch() }
+            let large = |sizes: &[f64], least: f64| -> Vec<(f64, f64)> {
+                let sizes = middles.clone().zip(sizes.iter().copied());
+                sizes.filter(|(_, size)| *size > least).collect()
+            };
+            // Half of all are below 1.18 sigma, of one figure alone below 0.67.
+            let parts = large(&across, PART * median(&across) / 1.18);
+            let sizes: Vec<f64> = about.iter().map(|rate| rate.abs()).collect();
+            let mut jumps = large(&sizes, JUMP * median(&sizes) / 0.67);
+            jumps.sort_by(|a, b| b.1.total_cmp(&a.1));
+            let jumps = jumps.into_iter().take(JUMPS).map(|(time, _)| time).collect();
+            Shown { parts, jumps, epoch: linear.mean_epoch() }
         };
         Jolts { runs: self.runs.iter().enumerate().map(of_run).collect() }
     }
+}
+
+fn median(sizes: &[f64]) -> f64 {
+    let mut sizes = sizes.to_vec();
+    let middle = sizes.len() / 2;
+    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 impl Jolts {
@@ -57,6 +75,32 @@ impl Jolts {
         };
         let found = self.runs.iter().filter_map(of_run);
         found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, time)| time)
+    }
+}
+
+impl Jolts {
+    /// When the encoder of a run jumps, the largest jump first \[s\].
+    pub(crate) fn jumps(&self, run: usize) -> &[f64] {
+        &self.runs[run].jumps
+    }
+
+    /// Puts an event of the base or of the encoder to where single samples show it, if they do so within an epoch of it.
+    pub(crate) fn pin(&self, event: &mut Chosen) {
+        let Some(place) = event.term.settings.iter().position(|one| one.name == "time") else {
+            return;
+        };
+        let time = event.settings[place];
+        let shown = if event.term.id == catalogue::BASE_TILT_STEP.id {
+            self.about(time)
+        } else if event.term.needs.contains(&Need::TableAngle) {
+            let near = |shown: &Shown| {
+                shown.jumps.iter().copied().find(|at| (at - time).abs() < shown.epoch)
+            };
+            self.runs.iter().find_map(near)
+        } else {
+            None
+        };
+        event.settings[place] = shown.unwrap_or(time);
     }
 }
 

@@ -45,9 +45,9 @@ pub(crate) fn beyond(run: &Run, track: &Track, model: &Model) -> [Vec<f64>; CHAN
         gyro.z = 0.0;
         if let Some(angle) = encoder.map(|readings| readings[index] - predicted.angle.re) {
             if let Some(before) = before {
-                let gain = 1.0 + model.value("gyro.scale.z").unwrap_or_default();
-                gyro.z =
-                    rates.angular_rate.components().z - gain * (angle - before) / sample.interval;
+                let turned = (angle - before) / sample.interval;
+                let carried = moment.rate.z - moment.mean.rate + values(&predicted.gyro).z;
+                gyro.z = rates.angular_rate.components().z - turned - carried;
             }
             before = Some(angle);
         }

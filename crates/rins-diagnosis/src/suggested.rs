@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 use rins_estimation::{Fit, Reference};
-use rins_terms::{Chosen, Term, catalogue};
+use rins_terms::{Chosen, Need, Term, catalogue};
 
 use crate::candidates::{Candidate, stands_for};
 use crate::case::Case;
@@ -102,6 +102,13 @@ impl Case<'_> {
                 chosen.settings[place] = jolt.unwrap_or(within);
                 let step = 2.0 * outlier.len() as f64 * epoch;
                 list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
+            }
+            if chosen.term.needs.contains(&Need::TableAngle) {
+                list.extend(jolts.jumps(run).iter().map(|&time| {
+                    let mut chosen = chosen.clone();
+                    chosen.settings[place] = time;
+                    Candidate { chosen, looks: linear.track().len() as f64, step: None }
+                }));
             }
         }
         list

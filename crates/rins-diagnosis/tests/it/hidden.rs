@@ -62,6 +62,56 @@ fn hidden_effects_are_named_with_their_size() {
     }
 }
 
+/// The same run, its encoder read in steps \[rad\].
+fn in_steps(run: &Run, step: f64) -> Run {
+    let mut recording = (*run.recording).clone();
+    for angle in recording.table_angle.iter_mut().flatten() {
+        *angle = (*angle / step).round() * step;
+    }
+    Run::new(run.rig, recording).unwrap()
+}
+
+/// At these rates a sample is a whole number of steps of 5 arcsec, and none of 3.7: either way rounding is no white noise.
+#[test]
+fn steps_of_an_encoder_are_no_effect() {
+    let plain = run(&RATES, Model::default(), 0.0, 110);
+    let lever = Chosen::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[3e-3, -2e-3]);
+    let lever = run(&RATES, Model::default().with(lever), 0.0, 111);
+    for step in [3.7 * ARCSEC, 5.0 * ARCSEC, 40.0 * ARCSEC] {
+        let coarse = in_steps(&plain, step);
+        assert!(coarse.angle_steps.is_some(), "{step} rad");
+        let diagnosis = found(&coarse, NoiseKnowledge::Likely);
+        assert!(diagnosis.causes.is_empty(), "{:?}", diagnosis.causes);
+        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
+        let diagnosis = found(&in_steps(&lever, step), NoiseKnowledge::Given);
+        let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, "accel_lever_arm");
+    }
+}
+
+/// However far an encoder slips, or whatever it loses: in which sample that was is seen.
+#[test]
+fn what_an_encoder_does_at_once_is_named_in_its_sample() {
+    const TIME: f64 = 133.333;
+    let cases: [(&'static Term, f64); 3] = [
+        (&catalogue::ENCODER_SLIP, 8.0 * ARCSEC),
+        (&catalogue::ENCODER_SLIP, 200.0 * ARCSEC),
+        (&catalogue::DROPPED_SAMPLES, 20e-3),
+    ];
+    for (seed, (term, size)) in cases.into_iter().enumerate() {
+        let event = Chosen::new(term).with_setting("time", TIME).with_values(&[size]);
+        let run = run(&RATES, Model::default().with(event), 0.0, seed as u64 + 80);
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, term.id);
+        assert!((cause.settings[0] - TIME).abs() < 0.04, "{}: {:?}", term.id, cause.settings);
+        let [estimate] = &cause.parameters[..] else { panic!("{:?}", cause.parameters) };
+        let off = (estimate.value - size) / estimate.sigma;
+        assert!(off.abs() < 4.0, "{}: {off} sigma off", term.id);
+        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
+    }
+}
+
 /// Biases that walk at random, of which the data sheet says nothing, are no ramp, step or slow line.
 #[test]
 fn a_random_walk_is_named_with_its_density() {
