@@ -49,7 +49,10 @@ impl Case<'_> {
             // Half of all are below 1.18 sigma, of one figure alone below 0.67.
             let parts = large(&across, PART * median(&across) / 1.18);
             let sizes: Vec<f64> = about.iter().map(|rate| rate.abs()).collect();
-            let mut jumps = large(&sizes, JUMP * median(&sizes) / 0.67);
+            // A step more or less is rounding.
+            let steps = recorded.angle_steps.map_or(0.0, |steps| 2.0 * steps.step);
+            let rounding = steps / recorded.recording.mean_interval();
+            let mut jumps = large(&sizes, (JUMP * median(&sizes) / 0.67).max(rounding));
             jumps.sort_by(|a, b| b.1.total_cmp(&a.1));
             let jumps = jumps.into_iter().take(JUMPS).map(|(time, _)| time).collect();
             Shown { parts, jumps, epoch: linear.mean_epoch() }

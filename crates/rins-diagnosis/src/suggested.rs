@@ -24,6 +24,9 @@ const OUTLIERS: usize = 3;
 /// Innovations that are so many sigmas together are looked at: more is asked of them where they are tried.
 const OUTLIER: f64 = 3.0;
 
+/// Where within an epoch an event of the encoder is tried besides its middle, in epochs from there.
+const WITHIN_EPOCH: [f64; 2] = [-0.3, 0.3];
+
 /// Innovations of so many epochs in a row are taken together: a step that one of them does not show stands out of some.
 const TOGETHER: [usize; 8] = [1, 2, 4, 8, 16, 32, 64, 128];
 
@@ -94,6 +97,7 @@ impl Case<'_> {
             if present.model().terms.iter().any(|own| stands_for(own, &chosen)) {
                 continue;
             }
+            let earlier = list.len();
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
                 let within = ends[outlier.start] - begin - 0.5 * epoch;
@@ -104,6 +108,16 @@ impl Case<'_> {
                 list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
             }
             if chosen.term.needs.contains(&Need::TableAngle) {
+                // An encoder tells the moment within an epoch.
+                let beside = |middle: &Candidate| {
+                    WITHIN_EPOCH.map(|part| {
+                        let mut other = middle.clone();
+                        other.chosen.settings[place] += part * epoch;
+                        other
+                    })
+                };
+                let beside: Vec<Candidate> = list[earlier..].iter().flat_map(beside).collect();
+                list.extend(beside);
                 list.extend(jolts.jumps(run).iter().map(|&time| {
                     let mut chosen = chosen.clone();
                     chosen.settings[place] = time;
