@@ -27,6 +27,9 @@ const BETWEEN: f64 = 0.1;
 /// Over so many samples the gyro's bias and scale are taken to be one.
 const BLOCK: usize = 64;
 
+/// So many samples tell how readings are blurred.
+const ENOUGH: usize = 1_000_000;
+
 /// What blurs a reading more than by so many steps leaves nothing of them.
 const MOST_BLURRED: f64 = 2.0;
 
@@ -113,7 +116,7 @@ struct Seen {
 impl Seen {
     fn of(angles: &[f64], recording: &Recording, step: f64) -> Self {
         let longest = recording.longest_interval();
-        let turned: Vec<(f64, f64)> = angles
+        let turned: Vec<(f64, f64)> = angles[..angles.len().min(ENOUGH)]
             .windows(2)
             .zip(&recording.increments[1..])
             .filter(|(_, sample)| sample.interval < longest)

@@ -10,6 +10,9 @@ const ROUNDING: f64 = 1e-9;
 /// A comb is looked for in so many samples: those after them stand on the same.
 const ENOUGH: usize = 100_000;
 
+/// The same of a table, which may rest for long before it turns.
+const ENOUGH_ANGLES: usize = 1_000_000;
+
 /// The fewest readings that differ from the one before.
 const FEWEST: usize = 6;
 
@@ -69,6 +72,7 @@ impl Recording {
     /// numbers of teeth.
     pub fn angle_comb(&self) -> Option<Comb> {
         let angles = self.table_angle.as_deref()?;
+        let angles = &angles[..angles.len().min(ENOUGH_ANGLES)];
         let turned: Vec<f64> = angles.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let alike = alike(angles);
         let [turned, apart] = [distances(&turned, alike), distances(angles, alike)];

@@ -122,7 +122,9 @@ impl Prepared {
         };
         // Angles that are brought forward stand on no comb any more.
         let steps = match axis.reference {
-            Reference::Encoder { noise } => AngleSteps::of(&loaded.recording, noise),
+            Reference::Encoder { noise } if axis.brought_forward.is_some() => {
+                AngleSteps::of(&loaded.recording, noise)
+            }
             _ => None,
         };
         // A day's samples are kept once.
@@ -132,7 +134,8 @@ impl Prepared {
             recording.table_angle = Some(angles);
         }
         let repeats = recording.take_out_repeats();
-        let run = Run { angle_steps: steps, ..Run::new(rig, recording).with_context(log)? };
+        let mut run = Run::new(rig, recording).with_context(log)?;
+        run.angle_steps = run.angle_steps.or(steps);
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
             Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
         });
@@ -143,7 +146,7 @@ impl Prepared {
                 "{samples} samples, in {rows} row(s), repeat all six readings of the one before: they are taken for lost."
             )
         }));
-        remarks.extend(steps.map(|AngleSteps { step, .. }| {
+        remarks.extend(run.angle_steps.map(|AngleSteps { step, .. }| {
             format!(
                 "The encoder reads in steps of {:.3} arcsec, coarse beside its noise: its angle is trusted as far as their \
                  rounding allows.",
