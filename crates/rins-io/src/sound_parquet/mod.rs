@@ -1,6 +1,7 @@
 //! Parquet files that are held against what the parser takes for granted of them.
 
 mod pages;
+mod runs;
 mod whole;
 
 use std::path::{Path, PathBuf};

@@ -5,6 +5,8 @@ use parquet::column::page::{Page, PageMetadata, PageReader};
 use parquet::errors::{ParquetError, Result};
 use parquet::schema::types::ColumnDescriptor;
 
+use super::runs::{Endless, walk_differences, walk_runs};
+
 /// Pages of which each is what the parser relies upon.
 pub(super) struct SoundPages {
     pages: Box<dyn PageReader>,
@@ -18,6 +20,13 @@ pub(super) struct SoundPages {
     left: u64,
 }
 
+/// The parts of a page of data.
+struct Parts<'p> {
+    /// Which values are there, if that is told in runs.
+    levels: Option<&'p [u8]>,
+    values: &'p [u8],
+}
+
 impl SoundPages {
     pub(super) fn new(pages: Box<dyn PageReader>, column: &ColumnDescriptor, most: u64) -> Self {
         let number = match column.physical_type() {
@@ -29,50 +38,48 @@ impl SoundPages {
         Self { pages, has_dictionary: false, texts, number, level, left: most }
     }
 
-    /// How many bytes of a page its values take; `None` if its levels are longer than it is.
-    fn of_values(&self, page: &Page) -> Option<usize> {
-        let length = page.buffer().len();
-        let levels = match page {
-            Page::DataPageV2 { def_levels_byte_len, rep_levels_byte_len, .. } => {
-                usize::try_from(u64::from(*def_levels_byte_len) + u64::from(*rep_levels_byte_len))
-                    .ok()?
+    /// The parts of a page of data; `None` if its levels are longer than it is.
+    fn parts<'p>(&self, page: &'p Page) -> Option<Parts<'p>> {
+        let bytes = &page.buffer()[..];
+        let (before, length, in_runs) = match page {
+            Page::DataPageV2 { def_levels_byte_len, rep_levels_byte_len, .. } => (
+                usize::try_from(*rep_levels_byte_len).ok()?,
+                usize::try_from(*def_levels_byte_len).ok()?,
+                self.level > 0,
+            ),
+            Page::DataPage { def_level_encoding: Encoding::RLE, .. } if self.level > 0 => {
+                let said = u32::from_le_bytes(*bytes.first_chunk()?);
+                (size_of_val(&said), usize::try_from(said).ok()?, true)
             }
-            Page::DataPage { buf, def_level_encoding: Encoding::RLE, .. } if self.level > 0 => {
-                let said = buf.get(..4)?.try_into().ok()?;
-                usize::try_from(u32::from_le_bytes(said)).ok()?.checked_add(4)?
-            }
-            Page::DataPage { num_values, .. } => {
-                (usize::try_from(*num_values).ok()? * self.level).div_ceil(8)
-            }
-            Page::DictionaryPage { .. } => 0,
+            _ => (0, (usize::try_from(page.num_values()).ok()? * self.level).div_ceil(8), false),
         };
-        length.checked_sub(levels)
+        let (levels, values) = bytes.get(before..)?.split_at_checked(length)?;
+        Some(Parts { levels: in_runs.then_some(levels), values })
     }
 
-    /// Whether a page holds as many texts as it says, each behind its length.
-    fn holds_its_texts(&self, page: &Page) -> bool {
-        let Some(length) = self.of_values(page) else { return false };
-        let mut rest = &page.buffer()[page.buffer().len() - length..];
-        matches!(page.encoding(), Encoding::PLAIN | Encoding::PLAIN_DICTIONARY)
-            && (0..page.num_values()).all(|_| {
-                let Some((length, after)) = rest.split_first_chunk() else { return false };
-                let text = usize::try_from(u32::from_le_bytes(*length)).ok();
-                let after = text.and_then(|length| after.get(length..));
-                rest = after.unwrap_or_default();
-                after.is_some()
-            })
+    /// Goes through all of a page of data whose length is told by itself.
+    fn walk(&self, page: &Page, parts: &Parts<'_>) -> Result<(), Endless> {
+        let count = usize::try_from(page.num_values()).unwrap_or(usize::MAX);
+        if let Some(levels) = parts.levels {
+            walk_runs(levels, self.level, count)?;
+        }
+        match (page.encoding(), parts.values) {
+            (Encoding::DELTA_BINARY_PACKED, values) => walk_differences(values, count),
+            (encoding, [bits, indices @ ..]) if is_of_dictionary(encoding) => {
+                walk_runs(indices, (*bits).into(), count)
+            }
+            _ => Ok(()),
+        }
     }
 
     fn refuse_unsound(&mut self, page: &Page) -> Result<()> {
         let damaged = |message: &str| Err(ParquetError::General(message.into()));
-        let by_dictionary =
-            matches!(page.encoding(), Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY);
-        let is_dictionary = matches!(page, Page::DictionaryPage { .. });
-        if self.texts && (is_dictionary || !by_dictionary) && !self.holds_its_texts(page) {
-            return damaged("a page of fewer texts than it says, or of an unknown encoding");
-        }
+        let few_texts = "a page of fewer texts than it says, or of an unknown encoding";
         match page {
-            Page::DictionaryPage { .. } => {
+            Page::DictionaryPage { buf, .. } => {
+                if self.texts && !holds_its_texts(page, buf) {
+                    return damaged(few_texts);
+                }
                 self.has_dictionary = true;
                 return Ok(());
             }
@@ -84,15 +91,20 @@ impl SoundPages {
                     return damaged("levels of an encoding that levels do not have");
                 }
             }
-            Page::DataPageV2 { buf, def_levels_byte_len, rep_levels_byte_len, .. } => {
-                let levels = u64::from(*def_levels_byte_len) + u64::from(*rep_levels_byte_len);
-                if levels > buf.len() as u64 {
-                    return damaged("levels that are longer than their page");
-                }
-            }
+            Page::DataPageV2 { .. } => {}
+        }
+        let Some(parts) = self.parts(page) else {
+            return damaged("levels that are longer than their page");
+        };
+        if self.walk(page, &parts).is_err() {
+            return damaged("a number without an end");
+        }
+        let by_dictionary = is_of_dictionary(page.encoding());
+        if self.texts && !by_dictionary && !holds_its_texts(page, parts.values) {
+            return damaged(few_texts);
         }
         if page.encoding() == Encoding::BYTE_STREAM_SPLIT {
-            let room = self.of_values(page).map_or(0, |length| length / self.number);
+            let room = parts.values.len() / self.number;
             if (room as u64) < u64::from(page.num_values()) {
                 return damaged("a page of fewer numbers than it says");
             }
@@ -106,6 +118,22 @@ impl SoundPages {
         }
         Ok(())
     }
+}
+
+fn is_of_dictionary(encoding: Encoding) -> bool {
+    matches!(encoding, Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY)
+}
+
+/// Whether a page holds as many texts as it says, each behind its length, in the `rest` of it.
+fn holds_its_texts(page: &Page, mut rest: &[u8]) -> bool {
+    matches!(page.encoding(), Encoding::PLAIN | Encoding::PLAIN_DICTIONARY)
+        && (0..page.num_values()).all(|_| {
+            let Some((length, after)) = rest.split_first_chunk() else { return false };
+            let text = usize::try_from(u32::from_le_bytes(*length)).ok();
+            let after = text.and_then(|length| after.get(length..));
+            rest = after.unwrap_or_default();
+            after.is_some()
+        })
 }
 
 impl PageReader for SoundPages {

@@ -24,5 +24,6 @@ mod output;
 mod rig;
 mod round_trip;
 mod scenario;
+mod spoilt_parquet;
 mod support;
 mod terms;
