@@ -72,13 +72,24 @@ impl SoundPages {
         }
     }
 
+    /// Whether the `rest` of a page is long enough for the numbers that it says it has.
+    fn holds_its_numbers(&self, page: &Page, rest: &[u8]) -> bool {
+        (rest.len() / self.number) as u64 >= u64::from(page.num_values())
+    }
+
     fn refuse_unsound(&mut self, page: &Page) -> Result<()> {
         let damaged = |message: &str| Err(ParquetError::General(message.into()));
-        let few_texts = "a page of fewer texts than it says, or of an unknown encoding";
+        let (few_texts, few_numbers) = (
+            "a page of fewer texts than it says, or of an unknown encoding",
+            "a page of fewer numbers than it says",
+        );
         match page {
             Page::DictionaryPage { buf, .. } => {
                 if self.texts && !holds_its_texts(page, buf) {
                     return damaged(few_texts);
+                }
+                if !self.texts && !self.holds_its_numbers(page, buf) {
+                    return damaged(few_numbers);
                 }
                 self.has_dictionary = true;
                 return Ok(());
@@ -103,11 +114,9 @@ impl SoundPages {
         if self.texts && !by_dictionary && !holds_its_texts(page, parts.values) {
             return damaged(few_texts);
         }
-        if page.encoding() == Encoding::BYTE_STREAM_SPLIT {
-            let room = parts.values.len() / self.number;
-            if (room as u64) < u64::from(page.num_values()) {
-                return damaged("a page of fewer numbers than it says");
-            }
+        let split = page.encoding() == Encoding::BYTE_STREAM_SPLIT;
+        if split && !self.holds_its_numbers(page, parts.values) {
+            return damaged(few_numbers);
         }
         if by_dictionary && !self.has_dictionary {
             return damaged("a page of a dictionary that is not there");

@@ -141,3 +141,15 @@ fn numbers_without_an_end_are_refused_wherever_they_begin() {
     }
     assert!(endless > 100, "{endless}");
 }
+
+/// The parser makes room for as many numbers as a dictionary says it has, before it looks for them.
+#[test]
+fn a_dictionary_has_the_numbers_that_it_says() {
+    // The head of a dictionary's page: a structure, and the count in it.
+    let (said, more) = ([0x4c, 0x15, 0xac, 0x02], [0x4c, 0x15, 0xfe, 0x7f]);
+    let mut spoilt = file(kinds()[0]);
+    let place = spoilt.windows(said.len()).position(|bytes| bytes == said).unwrap();
+    spoilt[place..place + more.len()].copy_from_slice(&more);
+    let refused = Rig::new().read(&spoilt).unwrap_err().to_string();
+    assert!(refused.contains("a page of fewer numbers than it says"), "{refused}");
+}
