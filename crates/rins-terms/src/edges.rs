@@ -7,13 +7,15 @@ const CORNER: f64 = 8.0;
 const LEAST: f64 = 1e-7;
 
 /// The rates at the start of the first sample and at the end of each, from the mean rates over the samples
-/// \[rad/s\].
+/// \[rad/s\], and at which of these a corner is near.
 ///
 /// It is the mean of those on either side, where nothing sudden happens. At the corner of a ramp that would spread the
 /// acceleration over the samples beside it: there the rate is what the smoother side leads to.
-pub(crate) fn edges(rates: &[f64]) -> Vec<f64> {
+pub(crate) fn edges(rates: &[f64]) -> (Vec<f64>, Vec<usize>) {
     let n = rates.len();
-    let (Some(&first), Some(&last)) = (rates.first(), rates.last()) else { return Vec::new() };
+    let (Some(&first), Some(&last)) = (rates.first(), rates.last()) else {
+        return (Vec::new(), Vec::new());
+    };
     let bend = |middle: usize| {
         let [before, here, after] = [middle - 1, middle, middle + 1].map(|place| rates[place]);
         (before - 2.0 * here + after).abs()
@@ -27,21 +29,21 @@ pub(crate) fn edges(rates: &[f64]) -> Vec<f64> {
     };
     let largest = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
     let corner = (CORNER * usual).max(LEAST * largest);
-    let between = |edge: usize| {
+    // A corner within one of the samples beside an edge bends the rates over either, and over the next.
+    let near = |edge: &usize| bend(edge - 1).max(bend(*edge)) > corner;
+    let corners: Vec<usize> = (3..n.saturating_sub(2)).filter(near).collect();
+    let mean = |edge: usize| 0.5 * (rates[edge - 1] + rates[edge]);
+    let mut edges: Vec<f64> =
+        std::iter::once(first).chain((1..n).map(mean)).chain([last]).collect();
+    for &edge in &corners {
         let (before, after) = (rates[edge - 1], rates[edge]);
-        let mean = 0.5 * (before + after);
-        // A corner within one of the samples beside an edge bends the rates over either, and over the next.
-        if edge < 3 || edge + 3 > n || bend(edge - 1).max(bend(edge)) <= corner {
-            return mean;
-        }
-        if bend(edge - 2) < bend(edge + 1) {
+        edges[edge] = if bend(edge - 2) < bend(edge + 1) {
             before + 0.5 * (before - rates[edge - 2])
         } else {
             after - 0.5 * (rates[edge + 1] - after)
-        }
-    };
-    let inner = (1..n).map(between);
-    std::iter::once(first).chain(inner).chain([last]).collect()
+        };
+    }
+    (edges, corners)
 }
 
 #[cfg(test)]
@@ -65,7 +67,7 @@ mod tests {
     fn a_ramp_begins_and_ends_within_a_sample_or_between_two() {
         for (from, to) in [(5.0, 12.0), (5.3, 12.0), (5.0, 11.6), (5.7, 12.2)] {
             let (means, want) = ramp(from, to);
-            for (edge, (got, want)) in edges(&means).iter().zip(&want).enumerate() {
+            for (edge, (got, want)) in edges(&means).0.iter().zip(&want).enumerate() {
                 assert!((got - want).abs() < 1e-12, "{from} to {to}, edge {edge}: {got} {want}");
             }
         }
@@ -74,7 +76,8 @@ mod tests {
     #[test]
     fn what_is_smooth_is_the_mean_of_both_sides() {
         let rates: Vec<f64> = (0..100).map(|at| (f64::from(at) * 0.1).sin()).collect();
-        let edges = edges(&rates);
+        let (edges, corners) = edges(&rates);
+        assert_eq!(corners, []);
         for edge in 1..100 {
             let mean = 0.5 * (rates[edge - 1] + rates[edge]);
             assert!((edges[edge] - mean).abs() < 1e-15, "edge {edge}");
@@ -83,8 +86,8 @@ mod tests {
 
     #[test]
     fn few_samples_have_edges_too() {
-        assert_eq!(edges(&[]), Vec::<f64>::new());
-        assert_eq!(edges(&[1.0]), [1.0, 1.0]);
-        assert_eq!(edges(&[1.0, 3.0]), [1.0, 2.0, 3.0]);
+        assert_eq!(edges(&[]), (Vec::new(), Vec::new()));
+        assert_eq!(edges(&[1.0]).0, [1.0, 1.0]);
+        assert_eq!(edges(&[1.0, 3.0]).0, [1.0, 2.0, 3.0]);
     }
 }

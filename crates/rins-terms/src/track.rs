@@ -23,6 +23,8 @@ pub struct Track {
     angles: Vec<f64>,
     /// The rate before the first sample, and at the end of each \[rad/s\].
     edges: Vec<f64>,
+    /// Before which samples a ramp begins or ends.
+    corners: Vec<usize>,
     /// The way the table turned last, at the end of each sample.
     senses: Vec<i8>,
     /// The temperature at the end of each sample \[°C\].
@@ -54,17 +56,21 @@ impl Track {
             intervals,
             angles,
             edges: Vec::new(),
+            corners: Vec::new(),
             senses: Vec::new(),
             temperature,
             warming_rates,
         };
         let rates: Vec<f64> = (0..track.len()).map(|sample| track.rate(sample)).collect();
-        track.edges = edges(&rates);
+        (track.edges, track.corners) = edges(&rates);
         track.senses = senses(&track.angles, |sample| track.rate(sample));
         track
     }
 
     /// The same with samples taken together: those up to each of `ends`, the sample after the last of them.
+    ///
+    /// The rate between two pieces is what their mean rates lead to, which have less of the noise of the angles than
+    /// those of single samples; only where a ramp begins or ends in one of them it is kept.
     ///
     /// # Panics
     /// If an end is not after the one before it, or beyond the track.
@@ -74,12 +80,14 @@ impl Track {
         let together = |(start, &end): (usize, &usize)| self.intervals[start..end].iter().sum();
         let middle = |(start, &end): (usize, &usize)| usize::midpoint(start, end - 1);
         let last = |list: &[f64]| ends.iter().map(|&end| list[end - 1]).collect();
+        let (edges, corners) = self.edges_of(&starts.clone().collect::<Vec<_>>());
         Self {
             surroundings: self.surroundings,
             times: last(&self.times),
             intervals: starts.clone().zip(ends).map(together).collect(),
             angles: starts.clone().map(|edge| self.angles[edge]).collect(),
-            edges: starts.clone().map(|edge| self.edges[edge]).collect(),
+            edges,
+            corners,
             senses: ends.iter().map(|&end| self.senses[end - 1]).collect(),
             temperature: self.temperature.as_deref().map(last),
             warming_rates: self
@@ -179,6 +187,32 @@ impl Track {
         let sample = sample.min(self.len() - 1);
         let elapsed = self.times[sample] - self.time_before(sample);
         (self.angles[sample + 1] - self.angles[sample]) / elapsed
+    }
+
+    /// The rates at the edges of pieces \[rad/s\], and which of these have a corner in a piece beside them.
+    fn edges_of(&self, pieces: &[usize]) -> (Vec<f64>, Vec<usize>) {
+        let mut rates: Vec<f64> = pieces.iter().map(|&edge| self.edges[edge]).collect();
+        let mut corners = Vec::new();
+        for (place, around) in pieces.windows(3).enumerate() {
+            let [start, edge, end] = [around[0], around[1], around[2]];
+            let from = self.corners.partition_point(|corner| *corner < start);
+            if self.corners.get(from).is_some_and(|corner| *corner <= end) {
+                corners.push(place + 1);
+            } else {
+                rates[place + 1] = self.rate_between(start, edge, end);
+            }
+        }
+        (rates, corners)
+    }
+
+    /// The rate at an edge, if it goes on evenly from one edge before it to one behind it \[rad/s\].
+    fn rate_between(&self, start: usize, edge: usize, end: usize) -> f64 {
+        let over = |from: usize, to: usize| {
+            let elapsed = self.times[to - 1] - self.time_before(from);
+            (elapsed, (self.angles[to] - self.angles[from]) / elapsed)
+        };
+        let ((long_before, before), (long_after, after)) = (over(start, edge), over(edge, end));
+        (before * long_after + after * long_before) / (long_before + long_after)
     }
 
     /// The mean acceleration over a sample, or over the nearest one \[rad/s²\].
