@@ -19,7 +19,7 @@ use crate::log::{LogProblem, MOST_COLUMNS, most_rows};
 use crate::source;
 
 /// By how much a page may grow when it is decompressed, over what any file may have.
-const MOST_GROWTH: i64 = 256;
+const MOST_GROWTH: u64 = 256;
 
 /// A Parquet file, of which no page is read that is not what it says.
 pub(crate) struct SoundParquet {
@@ -43,8 +43,8 @@ impl SoundParquet {
         if length == 0 {
             return Err(refuse(LogProblem::Empty));
         }
-        let reader =
-            SerializedFileReader::new(Whole(file)).map_err(|error| refuse(damage(&error)))?;
+        let whole = Whole { file, most: most_bytes(length) };
+        let reader = SerializedFileReader::new(whole).map_err(|error| refuse(damage(&error)))?;
         let sound = Self { path: path.into(), length, reader };
         if sound.columns().len() > MOST_COLUMNS {
             return Err(refuse(LogProblem::ManyColumns { most: MOST_COLUMNS }));
@@ -118,6 +118,11 @@ fn damage(error: &ParquetError) -> LogProblem {
     LogProblem::Damaged { format: "Parquet", message: text.lines().collect::<Vec<_>>().join(", ") }
 }
 
+/// The most bytes that a column of a file of this length may be decompressed to.
+fn most_bytes(length: u64) -> u64 {
+    length.saturating_mul(MOST_GROWTH).max(1 << 24)
+}
+
 /// Refuses a column that lies nowhere, or that says that a few bytes hold very many.
 fn refuse_unsound(part: &ColumnChunkMetaData, length: u64) -> Result<(), LogProblem> {
     let start = part.dictionary_page_offset().unwrap_or(part.data_page_offset());
@@ -126,8 +131,7 @@ fn refuse_unsound(part: &ColumnChunkMetaData, length: u64) -> Result<(), LogProb
         let message = "a column's place in the file is negative".into();
         return Err(LogProblem::Damaged { format: "Parquet", message });
     }
-    let most = i64::try_from(length).unwrap_or(i64::MAX).saturating_mul(MOST_GROWTH);
-    if part.uncompressed_size() > most.max(1 << 24) {
+    if part.uncompressed_size().max(0).unsigned_abs() > most_bytes(length) {
         return Err(LogProblem::ManyRows { most: most_rows(length) });
     }
     Ok(())

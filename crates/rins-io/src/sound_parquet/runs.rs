@@ -55,7 +55,7 @@ pub(super) fn walk_differences(mut bytes: &[u8], count: usize) -> Result<(), End
 }
 
 /// The number that `bytes` begin with, seven bits a byte; `None` if they end within it.
-fn number(bytes: &mut &[u8]) -> Result<Option<u64>, Endless> {
+pub(super) fn number(bytes: &mut &[u8]) -> Result<Option<u64>, Endless> {
     let mut read = 0;
     for (place, byte) in bytes.iter().enumerate() {
         if place == LONGEST {

@@ -1,22 +1,48 @@
-//! A file of which nothing is read behind its end.
+//! A file of which nothing is read behind its end, and no page that says it is huge.
 
 use std::io::{self, Read};
 
-use parquet::errors::Result;
+use parquet::errors::{ParquetError, Result};
+use parquet::file::FOOTER_SIZE;
 use parquet::file::reader::{ChunkReader, Length};
 
-/// A file whose readers fail at its end.
+use super::runs::number;
+
+/// Before each of the first fields of a page's head: one more, of a whole number.
+const NEXT_NUMBER: u8 = 0x15;
+
+/// A file whose readers fail at its end, and do not begin with a page that would grow beyond `most` bytes.
 ///
 /// The parser skips lists that are said to have billions of items, and goes on to the last of them
-/// where reading ends without an error.
-pub(super) struct Whole<R>(pub(super) R);
+/// where reading ends without an error. And it makes room for all that a page says it will be
+/// decompressed to.
+pub(super) struct Whole<R> {
+    pub(super) file: R,
+    pub(super) most: u64,
+}
+
+impl<R: ChunkReader> Whole<R> {
+    /// What the page that begins at `start` says it is decompressed to \[bytes\].
+    fn grown(&self, start: u64) -> Result<u64> {
+        let mut head = [0; 12];
+        self.file.get_read(start)?.read_exact(&mut head)?;
+        let mut rest = &head[..];
+        let mut next = || {
+            rest = rest.strip_prefix(&[NEXT_NUMBER])?;
+            number(&mut rest).ok()?
+        };
+        // Its kind is told first. The last bit is the sign.
+        let size = next().and_then(|_kind| next()).map(|size| size >> 1);
+        size.ok_or_else(|| ParquetError::General("a page without its sizes".into()))
+    }
+}
 
 /// What reads such a file.
 pub(super) struct Ended<T>(T);
 
 impl<R: Length> Length for Whole<R> {
     fn len(&self) -> u64 {
-        self.0.len()
+        self.file.len()
     }
 }
 
@@ -24,11 +50,16 @@ impl<R: ChunkReader> ChunkReader for Whole<R> {
     type T = Ended<R::T>;
 
     fn get_read(&self, start: u64) -> Result<Self::T> {
-        self.0.get_read(start).map(Ended)
+        // All else that is read in this way is the heads of pages, each followed by its page.
+        let is_footer = start.saturating_add(FOOTER_SIZE as u64) >= self.len();
+        if !is_footer && self.grown(start)? > self.most {
+            return Err(ParquetError::General("a page that says it is larger than any".into()));
+        }
+        self.file.get_read(start).map(Ended)
     }
 
     fn get_bytes(&self, start: u64, length: usize) -> Result<bytes::Bytes> {
-        self.0.get_bytes(start, length)
+        self.file.get_bytes(start, length)
     }
 }
 
@@ -38,5 +69,27 @@ impl<T: Read> Read for Ended<T> {
             0 if !buffer.is_empty() => Err(io::ErrorKind::UnexpectedEof.into()),
             read => Ok(read),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bytes::Bytes;
+
+    use super::*;
+
+    #[test]
+    fn a_page_grows_to_what_a_file_may_have_at_most() {
+        // A page of the first kind, of 3000 bytes, and of 2^31 - 1.
+        let page = |size: &[u8]| [&[0x15, 0x00, 0x15], size, &[0; 20]].concat();
+        let read = |head: Vec<u8>| {
+            let whole = Whole { file: Bytes::from(head), most: 3000 };
+            whole.get_read(0).map(|_| ()).map_err(|error| error.to_string())
+        };
+        assert_eq!(read(page(&[0xf0, 0x2e])), Ok(()));
+        let large = "Parquet error: a page that says it is larger than any";
+        assert_eq!(read(page(&[0xf2, 0x2e])), Err(large.into()));
+        assert_eq!(read(page(&[0xfe, 0xff, 0xff, 0xff, 0x0f])), Err(large.into()));
+        assert_eq!(read([0x19; 20].into()), Err("Parquet error: a page without its sizes".into()));
     }
 }
