@@ -39,6 +39,10 @@ const LEAST_CURVATURE: f64 = 0.1;
 /// Where a search starts beside another one, a flicker is at least so strong, as a logarithm over where it shows.
 const LEAST_SHOWING: f64 = -2.0;
 
+/// A strength that a data sheet states is lost below this, as a logarithm over that: something else stands for it, and as
+/// it does not show it has no slope that would lead back.
+const LOST: f64 = -1.5;
+
 /// The most steps of the search.
 const MOST_STEPS: usize = 40;
 
@@ -59,6 +63,13 @@ struct Unknown {
     centre: f64,
     /// How far it may be off, as 1σ of its logarithm.
     sigma: f64,
+}
+
+impl Unknown {
+    /// Whether every data sheet and rig file states it, so that it cannot be far off.
+    fn is_stated(&self) -> bool {
+        matches!(self.which, Which::GyroWhite | Which::AccelWhite | Which::Encoder(_))
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -156,7 +167,14 @@ pub(crate) fn likely_noise(
         Some(_) => near(&unknown, first),
         None => start(&unknown, cost),
     };
-    let (best, least, inverse_curvature) = minimum(start, inverse.cloned(), cost);
+    let mut found = minimum(start, inverse.cloned(), cost);
+    if let Some(start) = without_loss(&unknown, &found.0) {
+        let again = minimum(start, None, cost);
+        if again.1 < found.1 {
+            found = again;
+        }
+    }
+    let (best, least, inverse_curvature) = found;
     let flickers: Vec<usize> = (0..unknown.len())
         .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker))
         .collect();
@@ -275,6 +293,20 @@ fn near(unknown: &[Unknown], first: &[Noise]) -> DVector<f64> {
         if from_start.is_finite() { from_start.max(LEAST_SHOWING) } else { 0.0 }
     };
     DVector::from_iterator(unknown.len(), unknown.iter().map(of))
+}
+
+/// Where to search again if a strength was lost that is stated: as stated, and flicker as expected, for that may stand
+/// for white noise; all else as it was found. `None` if none was.
+fn without_loss(unknown: &[Unknown], found: &DVector<f64>) -> Option<DVector<f64>> {
+    let is_lost = |(unknown, x): (&Unknown, &f64)| unknown.is_stated() && x - unknown.centre < LOST;
+    unknown.iter().zip(found.iter()).any(is_lost).then(|| {
+        let of = |(unknown, &x): (&Unknown, &f64)| match unknown.which {
+            Which::GyroFlicker | Which::AccelFlicker => unknown.centre.max(LEAST_SHOWING),
+            _ if unknown.is_stated() => x.max(unknown.centre),
+            _ => x,
+        };
+        DVector::from_iterator(unknown.len(), unknown.iter().zip(found.iter()).map(of))
+    })
 }
 
 /// Where `cost` is least, how little, and the inverse of about the curvature there: quasi-Newton steps (BFGS), derivatives by

@@ -112,6 +112,30 @@ fn what_an_encoder_does_at_once_is_named_in_its_sample() {
     }
 }
 
+/// Half a sample of latency leaves so much that white noise is first taken for flicker: it is not where the search for the
+/// noise ends, neither without the latency nor with it.
+#[test]
+fn half_a_sample_does_not_make_flicker_of_white_noise() {
+    let sheet = Strengths::of(&fibre());
+    for seed in 140..142 {
+        let late = hiding(&[(&catalogue::ENCODER_LATENCY, &[20e-3])]);
+        let run = run(&[10.0, -10.0, 10.0, -10.0], late, 0.005 * DEG_PER_HOUR, seed);
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, "encoder_latency");
+        assert!(cause.rivals.is_empty(), "{:?}", cause.rivals);
+        let off = (cause.parameters[0].value - 20e-3) / cause.parameters[0].sigma;
+        assert!(off.abs() < 4.0, "{off} sigma off");
+        for fit in [&diagnosis.before, &diagnosis.after] {
+            let found = fit.noise[0].imu;
+            for (found, said) in [(found.gyro, sheet.gyro), (found.accel, sheet.accel)] {
+                let off = (found.white / said.white).ln();
+                assert!(off.abs() < 0.1, "off by a factor of e^{off}");
+            }
+        }
+    }
+}
+
 /// Biases that walk at random, of which the data sheet says nothing, are no ramp, step or slow line.
 #[test]
 fn a_random_walk_is_named_with_its_density() {
