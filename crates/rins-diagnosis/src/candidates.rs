@@ -96,7 +96,6 @@ fn offers(run: &Run, need: Need) -> bool {
 /// A term in each of its shapes.
 fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let chosen = Chosen::new(term).estimated();
-    let place = |name: &str| term.settings.iter().position(|setting| setting.name == name);
     // A shape is looked for the more, the more is expected of it.
     let of = |place: usize,
               values: &[f64],
@@ -116,17 +115,17 @@ fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let alike = |_: f64| 1.0;
     if dead_zone::is_true(&chosen) {
         dead_zone::shapes()
-    } else if place("frequency").is_some() {
+    } else if term.setting("frequency").is_some() {
         Vec::new()
-    } else if let Some(place) = place("time") {
+    } else if let Some(place) = term.setting("time") {
         let step = duration / f64::from(EVENTS);
         let times: Vec<f64> = (0..EVENTS).map(|event| step * (f64::from(event) + 0.5)).collect();
         of(place, &times, &alike, &|_| Some(step))
-    } else if let Some(place) = place("time_constant") {
+    } else if let Some(place) = term.setting("time_constant") {
         of(place, &TIME_CONSTANTS.map(|part| part * duration), &alike, &Some)
-    } else if let Some(place) = place("exponent") {
+    } else if let Some(place) = term.setting("exponent") {
         of(place, &EXPONENTS, &alike, &|_| None)
-    } else if let Some(place) = place("order") {
+    } else if let Some(place) = term.setting("order") {
         // Of a bearing or a disc the higher orders are the weaker ones.
         of(place, &ORDERS, &|order| 1.0 / order.abs(), &|_| None)
     } else {
@@ -155,10 +154,9 @@ impl Candidate {
     /// The same effect when another one happens, or as slowly, if both are events or settle.
     pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
         ["time", "time_constant"].into_iter().find_map(|name| {
-            let place = |term: &Term| term.settings.iter().position(|setting| setting.name == name);
-            let own = place(self.chosen.term)?;
+            let own = self.chosen.term.setting(name)?;
             let mut moved = self.clone();
-            moved.chosen.settings[own] = other.settings[place(other.term)?];
+            moved.chosen.settings[own] = other.settings[other.term.setting(name)?];
             Some(moved)
         })
     }

@@ -145,7 +145,6 @@ impl Case<'_> {
         if dead_zone::is_of_widths(&best.0.chosen) {
             best = self.with_further_gyros(present, best)?;
         }
-        self.jolts(present).pin(&mut best.0.chosen);
         Ok(Some(best))
     }
 

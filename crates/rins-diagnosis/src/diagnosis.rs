@@ -159,16 +159,17 @@ impl Case<'_> {
         let mut refused: Vec<&str> = Vec::new();
         while found.len() < MOST_CAUSES {
             let mut list = candidates(runs, present.model());
-            list.extend(case.suggested(&present));
+            let jolts = case.jolts(&present);
+            list.extend(case.suggested(&present, &jolts));
             list.retain(|candidate| !refused.contains(&candidate.chosen.term.id));
             let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
             let Some(context) = Context::of(&survey, &[], &[]) else { break };
             let tried = trials(&survey, &context, &list);
             not_testable.get_or_insert_with(|| unseen(&list, &tried));
             let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
-            let best = case.best(&present, &list, &tried, threshold)?;
-            let accepted = match best {
-                Some((candidate, trial)) => {
+            let accepted = match case.best(&present, &list, &tried, threshold)? {
+                Some((mut candidate, trial)) => {
+                    jolts.pin(&mut candidate.chosen);
                     let as_listed = list[trial.candidate].chosen == candidate.chosen;
                     let mut accepted = vec![(candidate, trial)];
                     // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.

@@ -61,12 +61,6 @@ impl Case<'_> {
     }
 }
 
-fn median(sizes: &[f64]) -> f64 {
-    let mut sizes = sizes.to_vec();
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
 impl Jolts {
     /// The middle of the one about this time since the start, within an epoch of it, if there is one \[s\].
     pub(crate) fn about(&self, time: f64) -> Option<f64> {
@@ -79,9 +73,7 @@ impl Jolts {
         let found = self.runs.iter().filter_map(of_run);
         found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, time)| time)
     }
-}
 
-impl Jolts {
     /// When the encoder of a run jumps, the largest jump first \[s\].
     pub(crate) fn jumps(&self, run: usize) -> &[f64] {
         &self.runs[run].jumps
@@ -89,9 +81,7 @@ impl Jolts {
 
     /// Puts an event of the base or of the encoder to where single samples show it, if they do so within an epoch of it.
     pub(crate) fn pin(&self, event: &mut Chosen) {
-        let Some(place) = event.term.settings.iter().position(|one| one.name == "time") else {
-            return;
-        };
+        let Some(place) = event.term.setting("time") else { return };
         let time = event.settings[place];
         let shown = if event.term.id == catalogue::BASE_TILT_STEP.id {
             self.about(time)
@@ -105,6 +95,12 @@ impl Jolts {
         };
         event.settings[place] = shown.unwrap_or(time);
     }
+}
+
+fn median(sizes: &[f64]) -> f64 {
+    let mut sizes = sizes.to_vec();
+    let middle = sizes.len() / 2;
+    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// The samples in which a base steps: not at once, and what it does in between no step describes.

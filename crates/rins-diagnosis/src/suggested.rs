@@ -32,9 +32,8 @@ const TOGETHER: [usize; 8] = [1, 2, 4, 8, 16, 32, 64, 128];
 
 impl Case<'_> {
     /// The terms that have a frequency, an order of no known cause, and events, where the innovations are strongest.
-    pub(crate) fn suggested(&self, present: &Fit) -> Vec<Candidate> {
+    pub(crate) fn suggested(&self, present: &Fit, jolts: &Jolts) -> Vec<Candidate> {
         let mut list = Vec::new();
-        let jolts = self.jolts(present);
         for run in 0..self.runs.len() {
             let innovations = present.innovations(run);
             let (angles, rates): (Vec<f64>, Vec<f64>) =
@@ -50,7 +49,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
-            list.extend(Self::events([&innovations, &in_body], present, run, &jolts));
+            list.extend(Self::events([&innovations, &in_body], present, run, jolts));
             // What comes back less often is a drift.
             let slowest = FEWEST_CYCLES / (count * epoch);
             let frequencies =
@@ -70,7 +69,7 @@ impl Case<'_> {
     /// Whether a line can be told from the table's motion: about an axis that only a command tells of it cannot.
     fn shows(&self, run: usize, line: &Chosen) -> bool {
         let commanded = matches!(self.runs[run].rig.reference, Reference::Command { .. });
-        let axis = line.term.settings.iter().position(|setting| setting.name == "axis");
+        let axis = line.term.setting("axis");
         !commanded || axis.is_none_or(|place| line.settings[place] < 3.0)
     }
 
@@ -91,8 +90,7 @@ impl Case<'_> {
         let mut list = Vec::new();
         let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
         for chosen in terms.map(|term| Chosen::new(term).estimated()) {
-            let time = chosen.term.settings.iter().position(|setting| setting.name == "time");
-            let Some(place) = time else { continue };
+            let Some(place) = chosen.term.setting("time") else { continue };
             // A base that steps time and again is no step.
             if present.model().terms.iter().any(|own| stands_for(own, &chosen)) {
                 continue;

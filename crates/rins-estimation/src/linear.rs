@@ -231,10 +231,8 @@ fn cut(samples: &Range<usize>, piece: usize, events: &[usize]) -> Vec<usize> {
 
 /// The samples in which a model's events happen.
 fn events(model: &Model, track: &Track) -> Vec<usize> {
-    let times = model.terms.iter().filter_map(|chosen| {
-        let place = chosen.term.settings.iter().position(|setting| setting.name == "time")?;
-        Some(chosen.settings[place])
-    });
+    let times =
+        model.terms.iter().filter_map(|chosen| Some(chosen.settings[chosen.term.setting("time")?]));
     let sample = |time: f64| track.times().partition_point(|end| end - track.start() < time);
     let mut events: Vec<usize> = times.map(sample).collect();
     events.sort_unstable();

@@ -82,12 +82,12 @@ pub struct Moment {
     pub interval: f64,
     /// How long the run is \[s\].
     pub duration: f64,
-    /// The table in the middle of the interval; its angle and its rate are the means over it.
+    /// The table in the middle of the interval; its angle, its rate and its acceleration are the means over it.
     pub mean: Instant,
     /// The table at the end of the interval.
     pub end: Instant,
-    /// The table's mean acceleration over the sample before, over this one and over the next \[rad/s²\].
-    pub accelerations: [f64; 3],
+    /// The table's mean acceleration over the sample before and over the next \[rad/s²\].
+    pub beside: [f64; 2],
     /// The mean of the true angular rate `ω_ib^b` \[rad/s\].
     pub rate: Vector3<f64>,
     /// The mean of the true specific force `f^b` \[m/s²\].
@@ -113,12 +113,12 @@ impl Moment {
         self.end.angle - 0.5 * self.mean.rate * self.interval
     }
 
-    /// A vector of the axis frame in body axes, in the middle of the interval.
+    /// A vector of the axis frame in body axes, at the mean angle of the interval.
     pub fn in_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         turned_back(vector, self.mean.angle.sin_cos())
     }
 
-    /// `exp(iζ)` in the middle of the interval.
+    /// `exp(iζ)` of the mean angle of the interval.
     pub(crate) fn exp_angle(&self) -> Complex<f64> {
         Complex::cis(self.mean.angle)
     }

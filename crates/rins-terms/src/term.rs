@@ -200,6 +200,11 @@ impl Term {
         self.parameters.iter().map(|parameter| format!("{}.{}", self.id, parameter.name))
     }
 
+    /// The place of a setting among all, if it has one of this name.
+    pub fn setting(&self, name: &str) -> Option<usize> {
+        self.settings.iter().position(|setting| setting.name == name)
+    }
+
     /// The settings where nothing is said of them.
     pub fn default_settings(&self) -> Vec<f64> {
         self.settings.iter().map(|setting| setting.default).collect()

@@ -132,7 +132,11 @@ impl Track {
 
     /// What is going on over each sample, in order.
     pub fn moments(&self) -> Moments<'_> {
-        let first = if self.is_empty() { 0.0 } else { self.rate(0) };
+        let (rate, accelerations) = if self.is_empty() {
+            Default::default()
+        } else {
+            (self.rate(0), [0, 0, 1].map(|sample| self.acceleration(sample)))
+        };
         Moments {
             track: self,
             sample: 0,
@@ -143,12 +147,13 @@ impl Track {
                 duration: self.duration(),
                 mean: Instant::default(),
                 end: Instant::default(),
-                accelerations: [0.0; 3],
+                beside: [0.0; 2],
                 rate: Vector3::zeros(),
                 force: Vector3::zeros(),
                 surroundings: self.surroundings,
             },
-            rate: first,
+            rate,
+            accelerations,
             rate_change: 0.0,
             settled_rate: 0.0,
         }
@@ -242,6 +247,8 @@ pub struct Moments<'a> {
     moment: Moment,
     /// The mean rate over this sample \[rad/s\].
     rate: f64,
+    /// The mean accelerations over the sample before, this one and the next \[rad/s²\].
+    accelerations: [f64; 3],
     rate_change: f64,
     settled_rate: f64,
 }
@@ -252,13 +259,11 @@ impl Moments<'_> {
         let (track, sample) = (self.track, self.sample);
         let time = *track.times.get(sample)?;
         let rate = self.rate;
+        let [before, acceleration, after] = self.accelerations;
         self.pass();
         let interval = track.intervals[sample];
         let warming_before = track.warming(sample.saturating_sub(1));
         let warming = track.warming(sample);
-        let neighbours = [sample.saturating_sub(1), sample, sample + 1];
-        let accelerations = neighbours.map(|sample| track.acceleration(sample));
-        let acceleration = accelerations[1];
         // A table that speeds up is behind the middle of its way for most of the time.
         let behind = 0.5 * rate * interval + acceleration * interval * interval / 12.0;
         let mean = Instant {
@@ -288,7 +293,7 @@ impl Moments<'_> {
         moment.force = mean_in_body(&track.surroundings.specific_force);
         moment.sample = sample;
         moment.interval = interval;
-        moment.accelerations = accelerations;
+        moment.beside = [before, after];
         moment.end = Instant {
             time: time - self.start,
             angle: track.angles[sample + 1],
@@ -310,6 +315,8 @@ impl Moments<'_> {
         }
         self.sample += 1;
         self.rate = self.track.rate(self.sample);
+        let [_, own, next] = self.accelerations;
+        self.accelerations = [own, next, self.track.acceleration(self.sample + 1)];
     }
 }
 

@@ -25,8 +25,7 @@ fn turned_within(delay: Dual64, rate: f64, [before, after]: [f64; 2]) -> Dual64 
 
 /// The same from the end of a sample.
 fn turned_to_end(delay: Dual64, moment: &Moment) -> Dual64 {
-    let [_, before, after] = moment.accelerations;
-    turned_within(delay, moment.end.rate, [before, after])
+    turned_within(delay, moment.end.rate, [moment.mean.acceleration, moment.beside[1]])
 }
 
 /// The same from its middle.
@@ -61,9 +60,10 @@ pub static GYRO_LAG: Term = Term {
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
         // The rate over as long a time before: both its ends are late.
-        let [before, own, _] = moment.accelerations;
+        let own = moment.mean.acceleration;
         let start = moment.end.rate - own * moment.interval;
-        let late = turned_to_end(p[0], moment) - turned_within(p[0], start, [before, own]);
+        let to_start = turned_within(p[0], start, [moment.beside[0], own]);
+        let late = turned_to_end(p[0], moment) - to_start;
         out.gyro[2] -= late / moment.interval;
     }),
 };

@@ -42,7 +42,7 @@ fn any_moment() -> impl Strategy<Value = Moment> {
                 ..mean
             };
             let mut moment = Moment {
-                accelerations: [acceleration; 3],
+                beside: [acceleration; 2],
                 sample: 0,
                 interval,
                 duration: 4000.0,
