@@ -126,10 +126,20 @@ impl Case<'_> {
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
         let before = self.fit()?;
-        // Lines that are faster than an epoch would come back as slow ones.
-        let mut fast = self.fast_lines(&before);
+        // Lines that are faster than an epoch would come back as slow ones; but those that the table's own motion has come
+        // after what may be wrong about it, for they would stand for that.
+        let (mut of_motion, mut fast): (Vec<_>, Vec<_>) = self
+            .fast_lines(&before)
+            .into_iter()
+            .partition(|(line, _)| self.is_of_motion(&before, line));
         loop {
             let diagnosis = self.beyond(&before, &fast, progress)?;
+            let left = self.still_there(&diagnosis.after, &of_motion);
+            of_motion.clear();
+            if !left.is_empty() {
+                fast.extend(left);
+                continue;
+            }
             // What was a line may be the table's own motion, read late.
             let still = self.still_there(&diagnosis.after, &fast);
             if still.len() == fast.len() {

@@ -21,6 +21,9 @@ const BESIDE: f64 = 4.0;
 /// The most fast lines that are looked for in a run.
 const MOST: usize = 4;
 
+/// A table moves at a line's frequency if a sine of its rate raises the likelihood by so many e-folds.
+const MOVES: f64 = 12.0;
+
 /// Where a line is looked for: on each sensor, and on the base.
 const PLACES: f64 = CHANNELS as f64 + 1.0;
 
@@ -62,6 +65,20 @@ impl Case<'_> {
         }
         found.sort_by(|a, b| a.1.ln_p.total_cmp(&b.1.ln_p));
         found
+    }
+
+    /// Whether the table moves at a line's frequency: what is wrong about its motion, a delay or a lever arm, is a line
+    /// there too.
+    pub(crate) fn is_of_motion(&self, fit: &Fit, line: &Chosen) -> bool {
+        self.runs.iter().zip(&fit.linear).any(|(run, linear)| {
+            let rates: Vec<f64> = linear.track().moments().map(|at| at.mean.rate).collect();
+            let slowest = 0.5 / linear.mean_epoch();
+            let Some(spectrum) = Spectrum::of(&rates, interval(run), slowest) else { return false };
+            let frequency = line.settings[0];
+            let series = Series { values: &rates, noise: spectrum.noise_at(frequency) };
+            let sine = sinusoid(&[series], &middles(run), interval(run), frequency);
+            sine.is_some_and(|sine| sine.gain > MOVES)
+        })
     }
 
     /// Those of some fast lines that would be found beside what else a model holds by now.
@@ -117,15 +134,8 @@ struct Readings<'a> {
 }
 
 impl Readings<'_> {
-    /// The mean time between samples \[s\].
-    fn interval(&self) -> f64 {
-        let times = &self.run.recording.times;
-        let last = times.len() - 1;
-        (times[last] - times[0]) / last as f64
-    }
-
     fn spectrum(&self, series: &[f64]) -> Option<Spectrum> {
-        Spectrum::of(series, self.interval(), self.slowest)
+        Spectrum::of(series, interval(self.run), self.slowest)
     }
 
     /// The most significant line of a sensor, or of the base.
@@ -181,7 +191,7 @@ impl Readings<'_> {
             .collect();
         let series: Vec<Series<'_>> =
             known.iter().map(|&(which, noise)| Series { values: pair[which], noise }).collect();
-        let fitted = sinusoid(&series, &self.times(), self.interval(), frequency)?;
+        let fitted = sinusoid(&series, &middles(self.run), interval(self.run), frequency)?;
         let mut chosen = effect(line.place, fitted.frequency);
         let mut parameters = Vec::new();
         for (&(which, _), amplitudes) in known.iter().zip(amplitudes(line.place, &fitted)) {
@@ -206,18 +216,25 @@ impl Readings<'_> {
         };
         Some((chosen, cause))
     }
+}
 
-    /// The middle of each sample since the run's start \[s\]; none where one is held for others.
-    fn times(&self) -> Vec<Option<f64>> {
-        let recording = &self.run.recording;
-        let start = recording.times[0] - recording.increments[0].interval;
-        let longest = recording.longest_interval();
-        let samples = recording.times.iter().zip(&recording.increments);
-        let middle = samples.map(|(time, sample)| {
-            (sample.interval <= longest).then_some(time - 0.5 * sample.interval - start)
-        });
-        middle.collect()
-    }
+/// The mean time between a run's samples \[s\].
+fn interval(run: &Run) -> f64 {
+    let times = &run.recording.times;
+    let last = times.len() - 1;
+    (times[last] - times[0]) / last as f64
+}
+
+/// The middle of each sample since the run's start \[s\]; none where one is held for others.
+fn middles(run: &Run) -> Vec<Option<f64>> {
+    let recording = &run.recording;
+    let start = recording.times[0] - recording.increments[0].interval;
+    let longest = recording.longest_interval();
+    let samples = recording.times.iter().zip(&recording.increments);
+    let middle = samples.map(|(time, sample)| {
+        (sample.interval <= longest).then_some(time - 0.5 * sample.interval - start)
+    });
+    middle.collect()
 }
 
 /// The effect that a line is.

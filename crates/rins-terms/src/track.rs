@@ -10,6 +10,9 @@ use crate::slope::slopes;
 /// A change of rate that is none \[rad/s\].
 const LEAST_RATE_CHANGE: f64 = 5e-3;
 
+/// Over so many samples on either side of an edge a table's rate goes on evenly, if no ramp begins or ends there.
+const BESIDE: usize = 4;
+
 /// The table's motion over a run, from which every sample's [`Moment`] follows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
@@ -69,8 +72,8 @@ impl Track {
 
     /// The same with samples taken together: those up to each of `ends`, the sample after the last of them.
     ///
-    /// The rate between two pieces is what their mean rates lead to, which have less of the noise of the angles than
-    /// those of single samples; only where a ramp begins or ends in one of them it is kept.
+    /// The rate between two pieces is taken over some samples on either side, which have less of the noise of the angles
+    /// than single ones; only where a ramp begins or ends near it is it kept.
     ///
     /// # Panics
     /// If an end is not after the one before it, or beyond the track.
@@ -194,12 +197,14 @@ impl Track {
         (self.angles[sample + 1] - self.angles[sample]) / elapsed
     }
 
-    /// The rates at the edges of pieces \[rad/s\], and which of these have a corner in a piece beside them.
+    /// The rates at the edges of pieces \[rad/s\], and which of these have a corner near them.
     fn edges_of(&self, pieces: &[usize]) -> (Vec<f64>, Vec<usize>) {
         let mut rates: Vec<f64> = pieces.iter().map(|&edge| self.edges[edge]).collect();
         let mut corners = Vec::new();
         for (place, around) in pieces.windows(3).enumerate() {
-            let [start, edge, end] = [around[0], around[1], around[2]];
+            let edge = around[1];
+            let start = around[0].max(edge.saturating_sub(BESIDE));
+            let end = around[2].min(edge + BESIDE);
             let from = self.corners.partition_point(|corner| *corner < start);
             if self.corners.get(from).is_some_and(|corner| *corner <= end) {
                 corners.push(place + 1);
