@@ -1,7 +1,7 @@
 //! A few of the blind trials, frozen: short runs of a generator that shares nothing with the analyser.
 
 use rins_tests::rins;
-use rins_trials::{Analyser, Answer, Level, Schedule, Trial, try_out};
+use rins_trials::{Analyser, Answer, Length, Level, Schedule, Trial, try_out};
 
 fn asked(trial: &Trial) -> Answer {
     let answer = try_out(trial, &Analyser::new(rins().get_program(), 2)).expect("rins starts");
@@ -39,6 +39,16 @@ fn hidden_effect_is_in_the_set() {
         let first = answer.causes.first().unwrap_or_else(|| panic!("{id} is not seen: {answer:?}"));
         assert!(first.may_be(id), "{id}: {answer:?}");
     }
+}
+
+/// At one rate nothing but the table's cogging shows how late an encoder is: what it leaves is a line, of no sensor.
+#[test]
+fn cogging_that_comes_late_is_no_line() {
+    let trial = Trial::draw(16, 0, Length::Drawn).unwrap();
+    assert_eq!(trial.hidden[0].id, "encoder_latency");
+    let answer = asked(&trial);
+    let [cause] = &answer.causes[..] else { panic!("{answer:?}") };
+    assert!(cause.may_be("encoder_latency"), "{answer:?}");
 }
 
 #[test]
