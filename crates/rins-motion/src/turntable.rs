@@ -196,7 +196,10 @@ mod tests {
             let n = 40_000;
             let step = end / f64::from(n);
             let sum: f64 = (0..n).map(|k| profile.rate((f64::from(k) + 0.5) * step)).sum();
-            prop_assert!((sum * step - profile.angle(end)).abs() < 1e-6);
+            // A midpoint is exact but in the steps where a ramp begins or ends.
+            let corners = 2.0 * segments.len() as f64;
+            let bound = corners * 0.1 * step * step / 8.0 + 1e-9;
+            prop_assert!((sum * step - profile.angle(end)).abs() < bound);
         }
 
         #[test]

@@ -96,8 +96,26 @@ impl LinearModel {
         let mut start = SVector::<f64, AUGMENTED>::zeros();
         start.fixed_rows_mut::<STATES>(0).copy_from(&to_state(initial));
         start.fixed_rows_mut::<HARMONICS>(STATES).copy_from(&harmonics(0.0));
-        let end = (rates * time).exp() * start;
+        let units = self.units();
+        let rates = SMatrix::<f64, AUGMENTED, AUGMENTED>::from_fn(|row, column| {
+            rates[(row, column)] * units[column] / units[row]
+        });
+        let end = (rates * time).exp() * start.component_div(&units);
+        let end = end.component_mul(&units);
         from_state(&end.fixed_rows::<STATES>(0).into_owned())
+    }
+
+    /// Units of the states in which all rates are about as large: the Earth's radius, and the velocity that g gives
+    /// over the time in which a Schuler pendulum turns by a radian.
+    ///
+    /// In metres an exponential loses eight digits of an attitude beside a height.
+    fn units(&self) -> SVector<f64, AUGMENTED> {
+        let site = self.turn.station.site;
+        let radius = site.meridian_radius();
+        let mut units = SVector::<f64, AUGMENTED>::repeat(1.0);
+        units.fixed_rows_mut::<3>(VELOCITY).fill((site.normal_gravity() * radius).sqrt());
+        units[HEIGHT] = radius;
+        units
     }
 
     /// How the errors change by themselves.
