@@ -26,7 +26,7 @@ pub struct Track {
     angles: Vec<f64>,
     /// The rate before the first sample, and at the end of each \[rad/s\].
     edges: Vec<f64>,
-    /// Before which samples a ramp begins or ends.
+    /// Before which samples a ramp begins or ends; not told of samples that were taken together.
     corners: Vec<usize>,
     /// The way the table turned last, at the end of each sample.
     senses: Vec<i8>,
@@ -83,14 +83,14 @@ impl Track {
         let together = |(start, &end): (usize, &usize)| self.intervals[start..end].iter().sum();
         let middle = |(start, &end): (usize, &usize)| usize::midpoint(start, end - 1);
         let last = |list: &[f64]| ends.iter().map(|&end| list[end - 1]).collect();
-        let (edges, corners) = self.edges_of(&starts.clone().collect::<Vec<_>>());
+        let edges = self.edges_of(&starts.clone().collect::<Vec<_>>());
         Self {
             surroundings: self.surroundings,
             times: last(&self.times),
             intervals: starts.clone().zip(ends).map(together).collect(),
             angles: starts.clone().map(|edge| self.angles[edge]).collect(),
             edges,
-            corners,
+            corners: Vec::new(),
             senses: ends.iter().map(|&end| self.senses[end - 1]).collect(),
             temperature: self.temperature.as_deref().map(last),
             warming_rates: self
@@ -193,35 +193,34 @@ impl Track {
     /// The mean rate over the time up to the end of a sample \[rad/s\], or that of the nearest one.
     fn rate(&self, sample: usize) -> f64 {
         let sample = sample.min(self.len() - 1);
-        let elapsed = self.times[sample] - self.time_before(sample);
-        (self.angles[sample + 1] - self.angles[sample]) / elapsed
+        self.rate_over(sample, sample + 1).0
     }
 
-    /// The rates at the edges of pieces \[rad/s\], and which of these have a corner near them.
-    fn edges_of(&self, pieces: &[usize]) -> (Vec<f64>, Vec<usize>) {
+    /// The mean rate from one edge to another \[rad/s\], and the time between them \[s\].
+    fn rate_over(&self, from: usize, to: usize) -> (f64, f64) {
+        let elapsed = self.times[to - 1] - self.time_before(from);
+        ((self.angles[to] - self.angles[from]) / elapsed, elapsed)
+    }
+
+    /// The rates at the edges of pieces \[rad/s\].
+    fn edges_of(&self, pieces: &[usize]) -> Vec<f64> {
         let mut rates: Vec<f64> = pieces.iter().map(|&edge| self.edges[edge]).collect();
-        let mut corners = Vec::new();
-        for (place, around) in pieces.windows(3).enumerate() {
+        for (around, rate) in pieces.windows(3).zip(&mut rates[1..]) {
             let edge = around[1];
             let start = around[0].max(edge.saturating_sub(BESIDE));
             let end = around[2].min(edge + BESIDE);
             let from = self.corners.partition_point(|corner| *corner < start);
-            if self.corners.get(from).is_some_and(|corner| *corner <= end) {
-                corners.push(place + 1);
-            } else {
-                rates[place + 1] = self.rate_between(start, edge, end);
+            if self.corners.get(from).is_none_or(|corner| *corner > end) {
+                *rate = self.rate_between(start, edge, end);
             }
         }
-        (rates, corners)
+        rates
     }
 
     /// The rate at an edge, if it goes on evenly from one edge before it to one behind it \[rad/s\].
     fn rate_between(&self, start: usize, edge: usize, end: usize) -> f64 {
-        let over = |from: usize, to: usize| {
-            let elapsed = self.times[to - 1] - self.time_before(from);
-            (elapsed, (self.angles[to] - self.angles[from]) / elapsed)
-        };
-        let ((long_before, before), (long_after, after)) = (over(start, edge), over(edge, end));
+        let ((before, long_before), (after, long_after)) =
+            (self.rate_over(start, edge), self.rate_over(edge, end));
         (before * long_after + after * long_before) / (long_before + long_after)
     }
 

@@ -1,6 +1,6 @@
 //! A file of which nothing is read behind its end, and no page that says it is huge.
 
-use std::io::{self, Read};
+use std::io::{self, Chain, Cursor, Read};
 
 use parquet::errors::{ParquetError, Result};
 use parquet::file::FOOTER_SIZE;
@@ -21,24 +21,22 @@ pub(super) struct Whole<R> {
     pub(super) most: u64,
 }
 
-impl<R: ChunkReader> Whole<R> {
-    /// What the page that begins at `start` says it is decompressed to \[bytes\].
-    fn grown(&self, start: u64) -> Result<u64> {
-        let mut head = [0; 12];
-        self.file.get_read(start)?.read_exact(&mut head)?;
-        let mut rest = &head[..];
-        let mut next = || {
-            rest = rest.strip_prefix(&[NEXT_NUMBER])?;
-            number(&mut rest).ok()?
-        };
-        // Its kind is told first. The last bit is the sign.
-        let size = next().and_then(|_kind| next()).map(|size| size >> 1);
-        size.ok_or_else(|| ParquetError::General("a page without its sizes".into()))
-    }
+/// How many bytes of a page's head tell its size.
+const HEAD: usize = 12;
+
+/// What the page that begins so says it is decompressed to \[bytes\].
+fn grown(mut head: &[u8]) -> Result<u64> {
+    let mut next = || {
+        head = head.strip_prefix(&[NEXT_NUMBER])?;
+        number(&mut head).ok()?
+    };
+    // Its kind is told first. The last bit is the sign.
+    let size = next().and_then(|_kind| next()).map(|size| size >> 1);
+    size.ok_or_else(|| ParquetError::General("a page without its sizes".into()))
 }
 
-/// What reads such a file.
-pub(super) struct Ended<T>(T);
+/// What reads such a file: what was looked at, and then the rest.
+pub(super) struct Ended<T>(Chain<Cursor<Vec<u8>>, T>);
 
 impl<R: Length> Length for Whole<R> {
     fn len(&self) -> u64 {
@@ -52,10 +50,13 @@ impl<R: ChunkReader> ChunkReader for Whole<R> {
     fn get_read(&self, start: u64) -> Result<Self::T> {
         // All else that is read in this way is the heads of pages, each followed by its page.
         let is_footer = start.saturating_add(FOOTER_SIZE as u64) >= self.len();
-        if !is_footer && self.grown(start)? > self.most {
+        let mut rest = self.file.get_read(start)?;
+        let mut head = vec![0; if is_footer { 0 } else { HEAD }];
+        rest.read_exact(&mut head)?;
+        if !is_footer && grown(&head)? > self.most {
             return Err(ParquetError::General("a page that says it is larger than any".into()));
         }
-        self.file.get_read(start).map(Ended)
+        Ok(Ended(Cursor::new(head).chain(rest)))
     }
 
     fn get_bytes(&self, start: u64, length: usize) -> Result<bytes::Bytes> {

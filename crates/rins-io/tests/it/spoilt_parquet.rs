@@ -10,7 +10,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type as Schema;
 use rins_io::{IoError, Loaded, read};
 
-use crate::support::SITE;
+use crate::support::{SITE, folder};
 
 const ROWS: u32 = 150;
 
@@ -41,11 +41,12 @@ fn kinds() -> Vec<Kept> {
     kinds
 }
 
-/// The values of a column: times that go on unevenly, or a few numbers that come again.
+/// What a column of a sensor holds: a few numbers that come again.
 fn values(column: usize) -> Vec<f64> {
     (0..ROWS as usize).map(|row| (column * 100 + row % (5 + column)) as f64 * 1e-3).collect()
 }
 
+/// Times that go on unevenly \[ns\].
 fn times() -> Vec<i64> {
     (1..=i64::from(ROWS)).map(|row| row * 10_000_000 + (row * row) % 1_000).collect()
 }
@@ -93,14 +94,12 @@ fn file(kept: Kept) -> Vec<u8> {
     bytes
 }
 
-/// A folder with a rig in it, whose log is of these bytes.
+/// A folder with a rig in it, whose log is written anew for each of some ten thousand readings.
 struct Rig(tempfile::TempDir);
 
 impl Rig {
     fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("rig.toml"), format!("{SITE}{COLUMNS}")).unwrap();
-        Self(folder)
+        Self(folder(&[("rig.toml", format!("{SITE}{COLUMNS}").as_bytes())]))
     }
 
     fn read(&self, log: &[u8]) -> Result<Loaded, IoError> {
