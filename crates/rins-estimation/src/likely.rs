@@ -68,7 +68,7 @@ struct Unknown {
 impl Unknown {
     /// Whether every data sheet and rig file states it, so that it cannot be far off.
     fn is_stated(&self) -> bool {
-        matches!(self.which, Which::GyroWhite | Which::AccelWhite | Which::Encoder(_))
+        self.sigma <= WHITE
     }
 }
 
@@ -168,11 +168,10 @@ pub(crate) fn likely_noise(
         None => start(&unknown, cost),
     };
     let mut found = minimum(start, inverse.cloned(), cost);
-    if let Some(start) = without_loss(&unknown, &found.0) {
-        let again = minimum(start, None, cost);
-        if again.1 < found.1 {
-            found = again;
-        }
+    // Where much is missing from the model, noise that is lost has not been found by then: it would be lost again.
+    let better = |start: &DVector<f64>| cost(start) < found.1;
+    if let Some(start) = without_loss(&unknown, &found.0).filter(better) {
+        found = minimum(start, None, cost);
     }
     let (best, least, inverse_curvature) = found;
     let flickers: Vec<usize> = (0..unknown.len())
