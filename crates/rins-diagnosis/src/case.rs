@@ -16,7 +16,7 @@ use crate::survey::{RunNoise, Survey};
 use crate::trial::{Context, Trial, trials};
 
 /// How many events, and such of at least this part of the best one's evidence, are searched for their time.
-const REFINED: (usize, f64) = (3, 0.6);
+const REFINED: (usize, f64) = (3, 0.4);
 
 /// How finely the time of an event is searched, in parts of the step between candidates.
 const FINER: [f64; 3] = [0.125, 0.03, 0.0075];

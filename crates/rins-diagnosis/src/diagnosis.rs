@@ -8,12 +8,15 @@ use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::disturbance;
+use crate::lines::FastLine;
 use crate::probability::ln_tail;
 use crate::rounding::Rounding;
 use crate::settling::Found;
+use crate::structure::Structure;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, best_pair, trials};
 use crate::unexplained::{Unexplained, described};
+use crate::wander::CHOSEN;
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
 pub const FALSE_ALARMS: f64 = 0.01;
@@ -128,12 +131,9 @@ impl Case<'_> {
         let before = self.fit()?;
         // Lines that are faster than an epoch would come back as slow ones; but those that the table's own motion has come
         // after what may be wrong about it, for they would stand for that.
-        let (mut of_motion, mut fast): (Vec<_>, Vec<_>) = self
-            .fast_lines(&before)
-            .into_iter()
-            .partition(|(line, _)| self.is_of_motion(&before, line));
+        let [mut of_motion, mut fast] = self.by_motion(&before, self.fast_lines(&before));
         loop {
-            let diagnosis = self.beyond(&before, &fast, progress)?;
+            let diagnosis = self.likelier(&before, &fast, progress)?;
             let left = self.still_there(&diagnosis.after, &of_motion);
             of_motion.clear();
             if !left.is_empty() {
@@ -149,11 +149,41 @@ impl Case<'_> {
         }
     }
 
-    /// What there is beyond a model and these fast lines.
+    /// What there is beyond a model and these fast lines, by the likelier of two ways.
+    ///
+    /// An effect that can follow much may be found for several others at once, and with it in the model none of them is
+    /// missed. But it is not the same throughout the run then: what would have been found without it is tried too.
+    fn likelier(
+        &self,
+        before: &Fit,
+        fast: &[FastLine],
+        progress: &mut impl FnMut(&'static str),
+    ) -> Result<Diagnosis, DiagnosisError> {
+        let found = self.beyond(before, fast, &[], progress)?;
+        let inconstant = |one: &Unexplained| {
+            one.of.filter(|_| matches!(one.structure, Structure::Inconstant(_)))
+        };
+        let doubtful: Vec<&str> = found.unexplained.iter().filter_map(inconstant).collect();
+        let given = before.model().terms.len() + fast.len();
+        let causes = |one: &Diagnosis| one.after.model().terms.len() - given;
+        // One that stands alone has been held against every other by now.
+        if doubtful.is_empty() || causes(&found) == 1 {
+            return Ok(found);
+        }
+        let Ok(other) = self.beyond(before, fast, &doubtful, progress) else { return Ok(found) };
+        let gained = other.after.log_likelihood - found.after.log_likelihood;
+        let odds = gained + CHOSEN * (causes(&found) as f64 - causes(&other) as f64);
+        // Noise may stand for them too, but it is no other effect.
+        let is_likelier = causes(&other) > 0 && odds > 0.0;
+        Ok(if is_likelier { other } else { found })
+    }
+
+    /// What there is beyond a model and these fast lines, without a search for what is `refused`.
     fn beyond(
         &self,
         before: &Fit,
-        fast: &[(Chosen, Cause)],
+        fast: &[FastLine],
+        refused: &[&str],
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
         let mut present = before.clone();
@@ -166,7 +196,7 @@ impl Case<'_> {
         }
         let mut found: Vec<Chosen> = Vec::new();
         let mut not_testable = None;
-        let mut refused: Vec<&str> = Vec::new();
+        let (mut refused, most_refused) = (refused.to_vec(), refused.len() + MOST_REFUSED);
         while found.len() < MOST_CAUSES {
             let mut list = candidates(runs, present.model());
             let jolts = case.jolts(&present);
@@ -206,7 +236,7 @@ impl Case<'_> {
             let Some(fitted) = fitted.ok().filter(significant) else {
                 found.truncate(earlier);
                 // One that is not linear, or that noise explains as well, hides what else there is.
-                if refused.len() < MOST_REFUSED {
+                if refused.len() < most_refused {
                     refused.extend(accepted.iter().map(|(one, _)| one.chosen.term.id));
                     continue;
                 }

@@ -27,11 +27,14 @@ const MOVES: f64 = 12.0;
 /// Where a line is looked for: on each sensor, and on the base.
 const PLACES: f64 = CHANNELS as f64 + 1.0;
 
+/// A line that is faster than an epoch, with its amplitudes.
+pub(crate) type FastLine = (Chosen, Cause);
+
 impl Case<'_> {
     /// Lines that are faster than an epoch shows, with their amplitudes.
-    pub(crate) fn fast_lines(&self, fit: &Fit) -> Vec<(Chosen, Cause)> {
+    pub(crate) fn fast_lines(&self, fit: &Fit) -> Vec<FastLine> {
         let tests = (PLACES * self.runs.len() as f64).ln();
-        let mut found: Vec<(Chosen, Cause)> = Vec::new();
+        let mut found: Vec<FastLine> = Vec::new();
         for (run, recorded) in self.runs.iter().enumerate() {
             let earlier = found.len();
             let mut model = fit.models[run].clone();
@@ -67,29 +70,33 @@ impl Case<'_> {
         found
     }
 
-    /// Whether the table moves at a line's frequency: what is wrong about its motion, a delay or a lever arm, is a line
-    /// there too.
-    pub(crate) fn is_of_motion(&self, fit: &Fit, line: &Chosen) -> bool {
-        self.runs.iter().zip(&fit.linear).any(|(run, linear)| {
-            let rates: Vec<f64> = linear.track().moments().map(|at| at.mean.rate).collect();
-            let slowest = 0.5 / linear.mean_epoch();
-            let Some(spectrum) = Spectrum::of(&rates, interval(run), slowest) else { return false };
-            let frequency = line.settings[0];
-            let series = Series { values: &rates, noise: spectrum.noise_at(frequency) };
-            let sine = sinusoid(&[series], &middles(run), interval(run), frequency);
-            sine.is_some_and(|sine| sine.gain > MOVES)
-        })
+    /// These lines, those first at whose frequency the table moves: what is wrong about its motion, a delay or a lever arm,
+    /// is a line there too.
+    pub(crate) fn by_motion(&self, fit: &Fit, lines: Vec<FastLine>) -> [Vec<FastLine>; 2] {
+        if lines.is_empty() {
+            return Default::default();
+        }
+        let runs = self.runs.iter().zip(&fit.linear);
+        let motions: Vec<Motion<'_>> = runs
+            .map(|(run, linear)| {
+                let rates = linear.track().moments().map(|at| at.mean.rate).collect();
+                Motion::of(run, rates, linear.mean_epoch())
+            })
+            .collect();
+        let is_of_motion =
+            |(line, _): &FastLine| motions.iter().any(|motion| motion.is_at(line.settings[0]));
+        lines.into_iter().partition(is_of_motion).into()
     }
 
     /// Those of some fast lines that would be found beside what else a model holds by now.
-    pub(crate) fn still_there(&self, fit: &Fit, lines: &[(Chosen, Cause)]) -> Vec<(Chosen, Cause)> {
+    pub(crate) fn still_there(&self, fit: &Fit, lines: &[FastLine]) -> Vec<FastLine> {
         let mut without = fit.clone();
         for model in &mut without.models {
             // Another may do no more than take back a line that is none.
             model.terms.retain(|term| !lines.iter().any(|(line, _)| self.is_beside(line, term)));
         }
         let again = if lines.is_empty() { Vec::new() } else { self.fast_lines(&without) };
-        let is_there = |(line, _): &&(Chosen, Cause)| {
+        let is_there = |(line, _): &&FastLine| {
             again.iter().any(|(other, _)| {
                 let apart = other.settings[0] - line.settings[0];
                 let alike =
@@ -105,6 +112,30 @@ impl Case<'_> {
         other.term.id == line.term.id
             && other.settings[1..] == line.settings[1..]
             && (other.settings[0] - line.settings[0]).abs() * self.duration() < BESIDE
+    }
+}
+
+/// How a table moved in a run.
+struct Motion<'a> {
+    run: &'a Run,
+    rates: Vec<f64>,
+    spectrum: Option<Spectrum>,
+    middles: Vec<Option<f64>>,
+}
+
+impl<'a> Motion<'a> {
+    fn of(run: &'a Run, rates: Vec<f64>, epoch: f64) -> Self {
+        let spectrum = Spectrum::of(&rates, run.recording.mean_interval(), 0.5 / epoch);
+        Self { run, rates, spectrum, middles: middles(run) }
+    }
+
+    /// Whether it moved at a frequency \[Hz\].
+    fn is_at(&self, frequency: f64) -> bool {
+        let Some(spectrum) = &self.spectrum else { return false };
+        let series = Series { values: &self.rates, noise: spectrum.noise_at(frequency) };
+        let interval = self.run.recording.mean_interval();
+        let sine = sinusoid(&[series], &self.middles, interval, frequency);
+        sine.is_some_and(|sine| sine.gain > MOVES)
     }
 }
 
@@ -135,7 +166,7 @@ struct Readings<'a> {
 
 impl Readings<'_> {
     fn spectrum(&self, series: &[f64]) -> Option<Spectrum> {
-        Spectrum::of(series, interval(self.run), self.slowest)
+        Spectrum::of(series, self.run.recording.mean_interval(), self.slowest)
     }
 
     /// The most significant line of a sensor, or of the base.
@@ -174,7 +205,7 @@ impl Readings<'_> {
         of_base: &[Vec<f64>; 2],
         run: usize,
         ln_p: f64,
-    ) -> Option<(Chosen, Cause)> {
+    ) -> Option<FastLine> {
         let frequency = line.peak.frequency;
         let pair = match line.place {
             Place::Base => of_base.each_ref(),
@@ -191,7 +222,8 @@ impl Readings<'_> {
             .collect();
         let series: Vec<Series<'_>> =
             known.iter().map(|&(which, noise)| Series { values: pair[which], noise }).collect();
-        let fitted = sinusoid(&series, &middles(self.run), interval(self.run), frequency)?;
+        let fitted =
+            sinusoid(&series, &middles(self.run), self.run.recording.mean_interval(), frequency)?;
         let mut chosen = effect(line.place, fitted.frequency);
         let mut parameters = Vec::new();
         for (&(which, _), amplitudes) in known.iter().zip(amplitudes(line.place, &fitted)) {
@@ -216,13 +248,6 @@ impl Readings<'_> {
         };
         Some((chosen, cause))
     }
-}
-
-/// The mean time between a run's samples \[s\].
-fn interval(run: &Run) -> f64 {
-    let times = &run.recording.times;
-    let last = times.len() - 1;
-    (times[last] - times[0]) / last as f64
 }
 
 /// The middle of each sample since the run's start \[s\]; none where one is held for others.

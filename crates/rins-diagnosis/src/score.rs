@@ -29,6 +29,8 @@ pub(crate) struct Score {
     pub(crate) dof: usize,
     /// The logarithm of the odds for it over nothing, whatever its amplitude within what is usual.
     pub(crate) evidence: f64,
+    /// What of these it lost by being smaller than what is looked for.
+    pub(crate) slight: f64,
     /// The largest of the amplitudes, in units of what is usual of it.
     pub(crate) amplitude: f64,
 }
@@ -42,7 +44,8 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
     let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(information.clone());
     let mut shown = Vec::new();
     let estimate = DVector::zeros(score.len());
-    let mut sum = Score { estimate, statistic: 0.0, dof: 0, evidence: 0.0, amplitude: 0.0 };
+    let mut sum =
+        Score { estimate, statistic: 0.0, dof: 0, evidence: 0.0, slight: 0.0, amplitude: 0.0 };
     for (value, direction) in eigenvalues.iter().zip(eigenvectors.column_iter()) {
         if value * USUAL * USUAL > LEAST_SHOWN {
             let along = direction.dot(score);
@@ -54,9 +57,12 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
     }
     sum.amplitude = sum.estimate.amax();
     let scale = sum.amplitude.max(SLIGHT);
-    let precision: f64 = shown.iter().map(|value| 0.5 * (1.0 + value * scale * scale).ln()).sum();
+    let precision = |scale: f64| -> f64 {
+        shown.iter().map(|value| 0.5 * (1.0 + value * scale * scale).ln()).sum()
+    };
     let unusual = UNUSUAL * (scale / USUAL).ln().max(0.0);
-    sum.evidence = 0.5 * sum.statistic - precision - unusual.min(MOST_UNUSUAL);
+    sum.evidence = 0.5 * sum.statistic - precision(scale) - unusual.min(MOST_UNUSUAL);
+    sum.slight = precision(scale) - precision(sum.amplitude);
     sum
 }
 
@@ -155,6 +161,20 @@ mod tests {
         assert_close!(at(0.03), at(1.0), 1e-6);
         assert_close!(at(3.0) - at(30.0), UNUSUAL * 10.0_f64.ln(), 1e-6);
         assert_close!(at(3.0) - at(1e3), MOST_UNUSUAL, 1e-6);
+    }
+
+    /// What a latency of microseconds loses against one of milliseconds that shows as well is known.
+    #[test]
+    fn what_is_too_small_to_be_looked_for_says_what_it_lost_by_that() {
+        let at = |amplitude: f64| {
+            let information = DMatrix::from_element(1, 1, (3e3 / amplitude).powi(2));
+            let score = &information * DVector::from_element(1, amplitude);
+            scored(&information, &score)
+        };
+        let (slight, usual) = (at(1e-4 * SLIGHT), at(0.03));
+        assert_eq!(usual.slight, 0.0);
+        assert_close!(slight.slight, 1e4_f64.ln(), 1e-6);
+        assert_close!(slight.evidence + slight.slight, usual.evidence, 1e-6);
     }
 
     #[test]

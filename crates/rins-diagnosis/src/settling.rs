@@ -284,16 +284,18 @@ impl Question<'_> {
 
     fn rivals_among(&self, tried: &[Trial]) -> Vec<Rival> {
         // In how many parts an effect may come says nothing of whether it came, but what comes in one only should not
-        // lose by it: both ways of counting are asked.
-        let odds = |trial: &Trial| [trial.evidence, trial.evidence + trial.choices];
-        let mut top = [f64::NEG_INFINITY; 2];
+        // lose by it; nor should what is small of its kind, where the run is good enough to show so little of it. All
+        // ways of counting are asked.
+        let odds =
+            |trial: &Trial| [0.0, trial.choices, trial.slight].map(|more| trial.evidence + more);
+        let mut top = [f64::NEG_INFINITY; 3];
         for trial in tried {
             let of_trial = odds(trial);
-            top = [0, 1].map(|way| top[way].max(of_trial[way]));
+            top = [0, 1, 2].map(|way| top[way].max(of_trial[way]));
         }
         let behind = |trial: &Trial| {
-            let of_trial = odds(trial);
-            (of_trial[0] - top[0]).max(of_trial[1] - top[1])
+            let ways = odds(trial).into_iter().zip(top);
+            ways.map(|(of_trial, top)| of_trial - top).fold(f64::NEG_INFINITY, f64::max)
         };
         // What explains less than half of it is no rival, however little that is.
         let least = -RIVALS.min(0.5 * top[0]);

@@ -35,6 +35,8 @@ pub(crate) struct Trial {
     pub(crate) choices: f64,
     /// The logarithm of the odds for it, its shape and choice unknown.
     pub(crate) evidence: f64,
+    /// What of these it lost by being smaller than what is looked for.
+    pub(crate) slight: f64,
     /// The logarithm of the probability of so large a statistic by chance, over all shapes and choices of the effect.
     pub(crate) ln_p: f64,
 }
@@ -87,7 +89,7 @@ impl<'a> Context<'a> {
                 least_ln_p = least_ln_p.min(ln_tail(statistic, score.dof) + looks);
             }
             if best.as_ref().is_none_or(|best| evidence > best.evidence) {
-                let Score { dof, amplitude, .. } = score;
+                let Score { dof, amplitude, slight, .. } = score;
                 best = Some(Trial {
                     candidate,
                     parameters,
@@ -97,6 +99,7 @@ impl<'a> Context<'a> {
                     looks,
                     choices: of_choices,
                     evidence,
+                    slight,
                     ln_p: 0.0,
                 });
             }

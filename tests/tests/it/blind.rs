@@ -51,6 +51,39 @@ fn cogging_that_comes_late_is_no_line() {
     assert!(cause.may_be("encoder_latency"), "{answer:?}");
 }
 
+/// Heat that lags far behind, with a warm-up, can be every effect of a table that turns but twice in the run.
+#[test]
+fn slow_heat_does_not_stand_for_an_imperfect_table() {
+    let trial = Trial::draw(17, 179, Length::Drawn).unwrap();
+    assert_eq!(trial.hidden[0].id, "cable_torque_tilt");
+    let answer = asked(&trial);
+    for id in ["cable_torque_tilt", "table_wobble", "encoder_eccentricity"] {
+        assert!(answer.causes.iter().any(|cause| cause.may_be(id)), "{id}: {answer:?}");
+    }
+    assert_eq!(answer.causes.len(), 3, "{answer:?}");
+    assert!(answer.unexplained.is_empty(), "{answer:?}");
+}
+
+/// A latency of four microseconds is little of what latencies are, but as much as backlash that would do the same.
+#[test]
+fn what_is_small_of_its_kind_stays_in_the_set() {
+    let trial = Trial::draw(17, 373, Length::Drawn).unwrap();
+    assert_eq!(trial.hidden[0].id, "encoder_latency");
+    let answer = asked(&trial);
+    let [cause] = &answer.causes[..] else { panic!("{answer:?}") };
+    assert!(cause.may_be("encoder_latency"), "{answer:?}");
+}
+
+/// Of an event between two of the times that are tried, a warm-up shows more at first.
+#[test]
+fn step_is_looked_for_at_its_time_before_a_warm_up_is_believed() {
+    let trial = Trial::draw(17, 345, Length::Drawn).unwrap();
+    assert_eq!(trial.hidden[0].id, "accel_bias_step");
+    let answer = asked(&trial);
+    let [cause] = &answer.causes[..] else { panic!("{answer:?}") };
+    assert!(cause.may_be("accel_bias_step"), "{answer:?}");
+}
+
 #[test]
 fn two_hidden_effects_are_both_in_sets() {
     let effects = [("gyro_bias_step", 20.0), ("encoder_harmonic", 20.0)];
