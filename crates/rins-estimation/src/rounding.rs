@@ -7,7 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Complex;
-use rins_motion::{Comb, Recording};
+use rins_motion::Recording;
 use rins_terms::Track;
 
 use crate::linear::Epoch;
@@ -20,6 +20,9 @@ const FINE: f64 = 0.05;
 /// even rates stand on a comb too, and no encoder made it.
 const LEAST_ROUNDED: f64 = 0.25;
 const FEWEST_BETWEEN: f64 = 16.0;
+
+/// By what part of it a step that is stated is off at most.
+const ALIKE: f64 = 0.01;
 
 /// No whole number of steps: the variance of one that is rounded to such is at least this.
 const BETWEEN: f64 = 0.1;
@@ -50,14 +53,20 @@ pub struct AngleSteps {
 
 impl AngleSteps {
     /// The steps of an encoder, if they are coarse beside the noise that is stated of a reading \[rad\].
-    pub fn of(recording: &Recording, noise: f64) -> Option<Self> {
+    ///
+    /// A table that turns by whole numbers of steps from sample to sample does not show that its encoder rounds: then it
+    /// is believed where steps are `stated` as well \[rad\]. They are as the readings have them, if these tell.
+    pub fn of(recording: &Recording, noise: f64, stated: Option<f64>) -> Option<Self> {
         let angles = recording.table_angle.as_deref()?;
-        let Comb { step, .. } = recording.angle_comb()?;
+        let read = recording.angle_comb().map(|comb| comb.step);
+        let is_as_stated =
+            |step: &f64| stated.is_none_or(|stated| (step / stated - 1.0).abs() < ALIKE);
+        let step = read.filter(is_as_stated).or(stated)?;
         if step * step / 12.0 < FINE * noise * noise {
             return None;
         }
         let seen = Seen::of(angles, recording, step);
-        if !seen.rounded {
+        if !seen.rounded && stated.is_none() {
             return None;
         }
         // Where a reading lies on the edge of two steps the least blur looks like much.

@@ -115,7 +115,7 @@ impl Run {
                 if recording.table_angle.is_none() {
                     return Err(RunError::NoAngle);
                 }
-                angle_steps = AngleSteps::of(&recording, noise);
+                angle_steps = AngleSteps::of(&recording, noise, None);
             }
             Reference::Command { noise } => {
                 if !(noise.is_finite() && noise >= 0.0) {

@@ -23,6 +23,9 @@ const ODD: usize = 5;
 const OFF: f64 = 0.05;
 const MOST_OFF: f64 = 0.02;
 
+/// The least part of the readings that go on by another number of teeth than the one before, of those that go on at all.
+const UNEVEN: f64 = 0.2;
+
 /// The distance of the teeth is found from differences of no more than so many, one after the other: a wrong distance
 /// miscounts the many.
 const TEETH: [f64; 4] = [2.0, 10.0, 100.0, 1e4];
@@ -92,7 +95,17 @@ pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
     apart.select_nth_unstable_by(odd, f64::total_cmp);
     let mut smallest = apart[..=odd].to_vec();
     smallest.sort_by(f64::total_cmp);
-    smallest.into_iter().find_map(|first| fitted(&apart, first))
+    let on_it = |comb: &Comb| goes_unevenly(readings, comb.step);
+    smallest.into_iter().find_map(|first| fitted(&apart, first)).filter(on_it)
+}
+
+/// Whether readings go from tooth to tooth as what is rounded does: now by one more, now by one less. What goes on by as
+/// many every time is as fine as it may be, but changes evenly: a gyro while a table speeds up.
+fn goes_unevenly(readings: &[f64], step: f64) -> bool {
+    let teeth = |pair: &[f64]| ((pair[1] - pair[0]) / step).round();
+    let moved = readings.windows(2).filter(|pair| teeth(pair) != 0.0).count();
+    let uneven = readings.windows(3).filter(|some| teeth(&some[..2]) != teeth(&some[1..])).count();
+    uneven as f64 > UNEVEN * moved as f64
 }
 
 /// The smallest gaps between these distances, from none on, but for those between distances that are alike: a tooth, if the
@@ -204,6 +217,10 @@ mod tests {
     fn what_is_fine_or_never_changes_stands_on_no_comb() {
         assert_eq!(comb(&readings()), None);
         assert_eq!(comb(&[1.0; 1000]), None);
+        // A table that speeds up and slows down all the time, seen by a gyro with little noise.
+        let ramps = (0..5000).map(|k| 0.5 * f64::from((k % 800 - 400_i32).abs()));
+        let noisy = |(ramp, noise): (f64, f64)| ramp + 0.004 * noise;
+        assert_eq!(comb(&ramps.zip(readings()).map(noisy).collect::<Vec<_>>()), None);
         assert_eq!(comb(&[]), None);
     }
 }

@@ -120,10 +120,11 @@ impl Prepared {
             wobble: setup.table.wobble,
             velocity: setup.velocity_noise,
         };
-        // Angles that are brought forward stand on no comb any more.
+        // Angles that are brought forward stand on no comb any more, and a run knows nothing of what is stated.
+        let stated = loaded.rig.log.table_angle().and_then(|angle| angle.resolution);
         let steps = match axis.reference {
-            Reference::Encoder { noise } if axis.brought_forward.is_some() => {
-                AngleSteps::of(&loaded.recording, noise)
+            Reference::Encoder { noise } if axis.brought_forward.is_some() || stated.is_some() => {
+                AngleSteps::of(&loaded.recording, noise, stated)
             }
             _ => None,
         };
@@ -135,7 +136,7 @@ impl Prepared {
         }
         let repeats = recording.take_out_repeats();
         let mut run = Run::new(rig, recording).with_context(log)?;
-        run.angle_steps = run.angle_steps.or(steps);
+        run.angle_steps = steps.or(run.angle_steps);
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
             Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
         });
