@@ -33,6 +33,7 @@ mod slope;
 mod term;
 mod track;
 mod triads;
+mod turns;
 mod unit;
 
 pub use acting::Acting;

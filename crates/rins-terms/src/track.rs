@@ -6,9 +6,7 @@ use crate::edges::edges;
 use crate::moment::{Instant, Moment, Surroundings, turned_back};
 use crate::senses::senses;
 use crate::slope::slopes;
-
-/// A change of rate that is none \[rad/s\].
-const LEAST_RATE_CHANGE: f64 = 5e-3;
+use crate::turns::turns;
 
 /// Over so many samples on either side of an edge a table's rate goes on evenly, if no ramp begins or ends there.
 const BESIDE: usize = 4;
@@ -30,6 +28,8 @@ pub struct Track {
     corners: Vec<usize>,
     /// The way the table turned last, at the end of each sample.
     senses: Vec<i8>,
+    /// The way the rate changed last, over each sample.
+    rate_changes: Vec<f32>,
     /// The temperature at the end of each sample \[°C\].
     temperature: Option<Vec<f64>>,
     /// How fast it changes \[K/s\].
@@ -61,12 +61,14 @@ impl Track {
             edges: Vec::new(),
             corners: Vec::new(),
             senses: Vec::new(),
+            rate_changes: Vec::new(),
             temperature,
             warming_rates,
         };
         let rates: Vec<f64> = (0..track.len()).map(|sample| track.rate(sample)).collect();
         (track.edges, track.corners) = edges(&rates);
         track.senses = senses(&track.angles, |sample| track.rate(sample));
+        track.rate_changes = turns(track.len(), |from, to| track.rate_over(from, to).0);
         track
     }
 
@@ -82,6 +84,9 @@ impl Track {
         let starts = std::iter::once(0).chain(ends.iter().copied());
         let together = |(start, &end): (usize, &usize)| self.intervals[start..end].iter().sum();
         let middle = |(start, &end): (usize, &usize)| usize::midpoint(start, end - 1);
+        let mean_change = |(start, &end): (usize, &usize)| {
+            self.rate_changes[start..end].iter().sum::<f32>() / (end - start) as f32
+        };
         let last = |list: &[f64]| ends.iter().map(|&end| list[end - 1]).collect();
         let edges = self.edges_of(&starts.clone().collect::<Vec<_>>());
         Self {
@@ -92,6 +97,7 @@ impl Track {
             edges,
             corners: Vec::new(),
             senses: ends.iter().map(|&end| self.senses[end - 1]).collect(),
+            rate_changes: starts.clone().zip(ends).map(mean_change).collect(),
             temperature: self.temperature.as_deref().map(last),
             warming_rates: self
                 .warming_rates
@@ -157,8 +163,6 @@ impl Track {
             },
             rate,
             accelerations,
-            rate_change: 0.0,
-            settled_rate: 0.0,
         }
     }
 
@@ -253,8 +257,6 @@ pub struct Moments<'a> {
     rate: f64,
     /// The mean accelerations over the sample before, this one and the next \[rad/s²\].
     accelerations: [f64; 3],
-    rate_change: f64,
-    settled_rate: f64,
 }
 
 impl Moments<'_> {
@@ -276,7 +278,7 @@ impl Moments<'_> {
             rate,
             acceleration,
             sense: 0.5 * (track.sense(sample.saturating_sub(1)) + track.sense(sample)),
-            rate_change: self.rate_change,
+            rate_change: f64::from(track.rate_changes[sample]),
             warming: 0.5 * (warming + warming_before),
             warming_rate: track.warming_rates.as_ref().map_or(0.0, |list| list[sample]),
         };
@@ -312,11 +314,6 @@ impl Moments<'_> {
 
     /// Goes on to the next sample.
     fn pass(&mut self) {
-        let rate = self.rate;
-        if (rate - self.settled_rate).abs() > LEAST_RATE_CHANGE {
-            self.rate_change = (rate - self.settled_rate).signum();
-            self.settled_rate = rate;
-        }
         self.sample += 1;
         self.rate = self.track.rate(self.sample);
         let [_, own, next] = self.accelerations;
