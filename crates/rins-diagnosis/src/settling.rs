@@ -114,6 +114,7 @@ impl Case<'_> {
                 }
             }
             changes += 1;
+            let is_exchange = matches!(change, Some((_, Look::Exchange(_))));
             let mut changed = found.clone();
             match change {
                 Some((index, Look::Exchange(better))) => _ = changed.splice(index..=index, better),
@@ -131,8 +132,12 @@ impl Case<'_> {
                     return Ok((present, causes));
                 }
             }
-            match self.fit_near(&present, &changed) {
+            // What an effect has carried far off may find no way back from there.
+            let fitted = self.fit_near(&present, &changed);
+            match fitted.or_else(|_| self.fit_near(before, &changed)) {
                 Ok(fitted) => (present, found) = (fitted, changed),
+                // What is better as far as it is linear may be no model of the run.
+                Err(_) if is_exchange => changes = MOST_CHANGES,
                 // Without it the model is too far from the run: what was found stays.
                 Err(_) => how = Found::Supposed,
             }

@@ -54,21 +54,19 @@ pub struct AngleSteps {
 impl AngleSteps {
     /// The steps of an encoder, if they are coarse beside the noise that is stated of a reading \[rad\].
     ///
-    /// A table that turns by whole numbers of steps from sample to sample does not show that its encoder rounds: then it
-    /// is believed where steps are `stated` as well \[rad\]. They are as the readings have them, if these tell.
+    /// A table that turns by whole numbers of steps from sample to sample does not show that its encoder rounds: then
+    /// steps that are `stated` \[rad\] are believed.
     pub fn of(recording: &Recording, noise: f64, stated: Option<f64>) -> Option<Self> {
         let angles = recording.table_angle.as_deref()?;
+        let is_coarse = |step: &f64| step * step / 12.0 >= FINE * noise * noise;
+        let seen = |step| (step, Seen::of(angles, recording, step));
         let read = recording.angle_comb().map(|comb| comb.step);
-        let is_as_stated =
-            |step: &f64| stated.is_none_or(|stated| (step / stated - 1.0).abs() < ALIKE);
-        let step = read.filter(is_as_stated).or(stated)?;
-        if step * step / 12.0 < FINE * noise * noise {
-            return None;
-        }
-        let seen = Seen::of(angles, recording, step);
-        if !seen.rounded && stated.is_none() {
-            return None;
-        }
+        let shown = read.filter(is_coarse).map(seen).filter(|(_, seen)| seen.rounded);
+        let (step, seen) = shown.or_else(|| {
+            let stated = stated.filter(is_coarse)?;
+            let is_as_stated = |read: &f64| (read / stated - 1.0).abs() < ALIKE;
+            Some(seen(read.filter(is_as_stated).unwrap_or(stated)))
+        })?;
         // Where a reading lies on the edge of two steps the least blur looks like much.
         let blur = seen.blur().min(noise / step);
         (blur < MOST_BLURRED).then_some(Self { step, blur })

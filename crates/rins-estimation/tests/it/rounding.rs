@@ -1,6 +1,6 @@
 //! An encoder that reads in steps.
 
-use rins_estimation::{Noise, Run, Strengths, innovations, linearise};
+use rins_estimation::{AngleSteps, Noise, Run, Strengths, innovations, linearise};
 use rins_frames::units::ARCSEC;
 use rins_imu::ImuError;
 use rins_terms::Model;
@@ -13,8 +13,13 @@ const RATES: [(f64, f64); 6] =
 
 /// A run without noise, whose encoder reads in steps of so many seconds of arc.
 fn rounded(step: f64) -> Run {
+    rounded_at(&RATES, step)
+}
+
+/// The same at other rates.
+fn rounded_at(rates: &[(f64, f64)], step: f64) -> Run {
     let perfect = (ImuError::default(), Model::default());
-    let run = run(&scenario(tilted(25.0, 30.0), profile(&RATES), perfect, None, 1));
+    let run = run(&scenario(tilted(25.0, 30.0), profile(rates), perfect, None, 1));
     let mut recording = (*run.recording).clone();
     for angle in recording.table_angle.iter_mut().flatten() {
         *angle = (*angle / (step * ARCSEC)).round() * step * ARCSEC;
@@ -50,4 +55,17 @@ fn a_table_without_noise_reads_in_no_steps() {
     assert_eq!(rounded(1e-6).angle_steps, None);
     // Nor does one whose steps are small beside the noise of 0.5 arcsec.
     assert_eq!(rounded(0.3).angle_steps, None);
+}
+
+/// Nothing shows that readings are rounded, but outliers would be made of it.
+#[test]
+fn steps_that_a_table_turns_by_in_whole_numbers_are_believed_if_they_are_stated() {
+    let step = 3.6 * ARCSEC;
+    let run = rounded_at(&[(10.0, 60.0), (-5.0, 60.0)], 3.6);
+    assert_eq!(run.angle_steps, None);
+    let stated = |step| AngleSteps::of(&run.recording, 0.5 * ARCSEC, Some(step));
+    let steps = stated(step).unwrap();
+    assert!((steps.step / step - 1.0).abs() < 1e-6, "{steps:?}");
+    // Steps that are fine beside the noise are not, whoever states them.
+    assert_eq!(stated(0.1 * step), None);
 }
