@@ -172,7 +172,7 @@ mod tests {
             scored(&information, &score)
         };
         let (slight, usual) = (at(1e-4 * SLIGHT), at(0.03));
-        assert_eq!(usual.slight, 0.0);
+        assert_close!(usual.slight, 0.0, 1e-12);
         assert_close!(slight.slight, 1e4_f64.ln(), 1e-6);
         assert_close!(slight.evidence + slight.slight, usual.evidence, 1e-6);
     }

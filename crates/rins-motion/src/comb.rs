@@ -102,9 +102,10 @@ pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
 /// Whether readings go from tooth to tooth as what is rounded does: now by one more, now by one less. What goes on by as
 /// many every time is as fine as it may be, but changes evenly: a gyro while a table speeds up.
 fn goes_unevenly(readings: &[f64], step: f64) -> bool {
-    let teeth = |pair: &[f64]| ((pair[1] - pair[0]) / step).round();
-    let moved = readings.windows(2).filter(|pair| teeth(pair) != 0.0).count();
-    let uneven = readings.windows(3).filter(|some| teeth(&some[..2]) != teeth(&some[1..])).count();
+    let teeth: Vec<f64> =
+        readings.windows(2).map(|pair| ((pair[1] - pair[0]) / step).round()).collect();
+    let moved = teeth.iter().filter(|teeth| teeth.abs() > 0.5).count();
+    let uneven = teeth.windows(2).filter(|pair| (pair[1] - pair[0]).abs() > 0.5).count();
     uneven as f64 > UNEVEN * moved as f64
 }
 
