@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rins_estimation::{
-    Fit, FitError, Foretold, Indefinite, NoiseKnowledge, Run, fit, fit_near, foretold, linearise,
+    Fit, FitError, Foretold, Indefinite, Known, Layout, Linear, NoiseKnowledge, Run, fit, fit_near,
 };
 use rins_imu::ImuSpec;
 use rins_terms::{Model, NotUndone, Owner, Role};
@@ -162,16 +163,20 @@ impl Gain {
             .collect();
         let rest: Vec<Run> =
             runs.iter().zip(&spans).map(|(r, s)| r.clone().leaving_out(s.clone())).collect();
-        let fitted = |near: Option<&Fit>, model: &Model| match near {
-            Some(near) => fit_near(near, &rest, model, imu, knowledge),
-            None => fit(&rest, model, imu, knowledge, |_| ()),
+        let fitted = |near: Option<&Fit>, model: &Model| {
+            let mut fit = match near {
+                Some(near) => fit_near(near, &rest, model, imu, knowledge),
+                None => fit(&rest, model, imu, knowledge, |_| ()),
+            }?;
+            fit.linear = fit.linear.into_iter().map(Linear::with_all).collect();
+            Ok::<_, FitError>(fit)
         };
         let first = fitted(near_before, &before)?;
         // A model may have nothing more than another sort of noise.
         let noise = |near: Option<&'_ Fit>| near.map(|near| near.noise.clone());
         let alike = before == after && noise(near_before) == noise(near_after);
         let second = if alike { first.clone() } else { fitted(near_after, &after)? };
-        let scores = [scored(runs, held, &first)?, scored(runs, held, &second)?];
+        let scores = [scored(runs, held, &first, imu)?, scored(runs, held, &second, imu)?];
         let rises: Vec<f64> =
             scores[0].blocks.iter().zip(&scores[1].blocks).map(|(a, b)| b - a).collect();
         let interval = interval(&rises);
@@ -235,29 +240,40 @@ struct Scores {
     blocks: Vec<f64>,
 }
 
-/// How well a fit to the rest foretells what was held out: every epoch from all before it.
-fn scored(runs: &[Run], held: &[Vec<Held>], fit: &Fit) -> Result<Scores, Indefinite> {
+/// How well a fit to the rest foretells what was held out: every epoch from all before it, and from parameters known as
+/// well as the rest tells them, and then this epoch.
+fn scored(
+    runs: &[Run],
+    held: &[Vec<Held>],
+    fit: &Fit,
+    imu: &ImuSpec,
+) -> Result<Scores, Indefinite> {
+    let places = Layout::of(&fit.model().free(imu), runs).places;
+    let offset = DVector::zeros(fit.parameters.len());
+    let mut known = Known::new(offset, fit.covariance.clone());
     let mut blocks = Vec::new();
-    let (mut log_score, mut square, mut epochs, mut nis_dof) = (0.0, 0.0, 0_usize, 0);
-    for (place, run) in runs.iter().enumerate() {
-        let linear = linearise(run, &fit.models[place], &[]);
-        let told: Vec<Foretold> = foretold(&linear, &fit.noise[place])?;
-        let samples: Vec<Range<usize>> = linear.samples().collect();
-        nis_dof = nis_dof.max(linear.shown());
-        for block in held[place].iter().flat_map(|held| &held.blocks) {
-            let inside = samples.iter().zip(&told);
-            let inside = inside.filter(|(of, _)| block.start <= of.start && of.end <= block.end);
-            let mut sum = 0.0;
-            for (_, one) in inside {
-                sum += one.log_density;
-                square += one.innovation.norm_squared();
-                epochs += 1;
+    let (mut log_score, mut square, mut epochs) = (0.0, 0.0, 0_usize);
+    for (((linear, noise), places), held) in
+        fit.linear.iter().zip(&fit.noise).zip(&places).zip(held)
+    {
+        let within: Vec<&Range<usize>> = held.iter().flat_map(|held| &held.blocks).collect();
+        let block_of = |samples: &Range<usize>| {
+            within.iter().position(|block| block.start <= samples.start && samples.end <= block.end)
+        };
+        let told = known.foretell(linear, noise, places, |samples| block_of(samples).is_some())?;
+        let mut sums = vec![0.0; within.len()];
+        for Foretold { samples, innovation, log_density } in &told {
+            if let Some(block) = block_of(samples) {
+                sums[block] += log_density;
             }
-            log_score += sum;
-            blocks.push(sum);
+            square += innovation.norm_squared();
         }
+        epochs += told.len();
+        log_score += sums.iter().sum::<f64>();
+        blocks.extend(sums);
     }
     let nis_mean = square / epochs.max(1) as f64;
+    let nis_dof = fit.linear.iter().map(Linear::shown).max().unwrap_or(0);
     Ok(Scores { foresight: Foresight { log_score, nis_mean, nis_dof }, blocks })
 }
 

@@ -42,32 +42,6 @@ impl Evidence {
     }
 }
 
-/// What an epoch shows, against what all before it foretold.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foretold {
-    /// The whitened innovation, N(0, I) if the model is right.
-    pub innovation: SVector<f64, SHOWN>,
-    /// The logarithm of the probability density of what was shown \[nats\].
-    pub log_density: f64,
-}
-
-/// How well each epoch of a run was foretold where it is linear.
-///
-/// # Errors
-/// [`Indefinite`] if the noise makes no covariance.
-pub fn foretold(linear: &Linear, noise: &Noise) -> Result<Vec<Foretold>, Indefinite> {
-    let mut none = vec![0.0; linear.parameters + 1];
-    none[0] = 1.0;
-    let constant = 0.5 * linear.shown() as f64 * std::f64::consts::TAU.ln();
-    let mut all = Vec::with_capacity(linear.epochs.len());
-    pass(linear, noise, Some(&none), |whitened, log_determinant| {
-        let innovation = innovation(whitened);
-        let log_density = -0.5 * innovation.norm_squared() - log_determinant - constant;
-        all.push(Foretold { innovation, log_density });
-    })?;
-    Ok(all)
-}
-
 /// The whitened innovations of a linear run where the parameters are `delta` from where it is linear.
 ///
 /// Each is N(0, I) if the model is right. Epochs that play no part have none.
@@ -96,7 +70,7 @@ fn innovation(whitened: &[f64]) -> SVector<f64, SHOWN> {
 /// half the logarithm of the determinant.
 ///
 /// With a `combination` the columns are summed up, each times its number, into one.
-fn pass(
+pub(crate) fn pass(
     linear: &Linear,
     noise: &Noise,
     combination: Option<&[f64]>,

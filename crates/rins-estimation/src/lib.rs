@@ -35,6 +35,7 @@ mod space;
 mod step;
 
 mod evidence;
+mod foretold;
 mod gram;
 mod pass;
 mod posterior;
@@ -47,9 +48,10 @@ mod likely;
 mod identifiability;
 
 pub use estimate::{Estimate, Fit, Iteration};
-pub use evidence::{Foretold, Indefinite, foretold, innovations};
+pub use evidence::{Indefinite, innovations};
 pub use filter::Filter;
 pub use fit::{FitError, fit, fit_near};
+pub use foretold::{Foretold, Known};
 pub use gravity::{axis_from_gravity, turning_span};
 pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,

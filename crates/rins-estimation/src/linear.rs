@@ -240,14 +240,11 @@ fn events(model: &Model, track: &Track) -> Vec<usize> {
     events
 }
 
-/// Marks the epochs that hold any of these samples, and those that follow them.
+/// Marks the epochs that hold any of these samples.
 fn leave_out(epochs: &mut [Epoch], spans: &[Range<usize>]) {
-    let mut before = false;
     for epoch in epochs {
         let (first, end) = epoch.samples;
         epoch.left_out = spans.iter().any(|span| span.start < end && first < span.end);
-        epoch.fresh |= before;
-        before = epoch.left_out;
     }
 }
 
@@ -259,6 +256,13 @@ impl Epoch {
 }
 
 impl Linear {
+    /// The same with the epochs that were left out playing their part.
+    #[must_use]
+    pub fn with_all(mut self) -> Self {
+        leave_out(&mut self.epochs, &[]);
+        self
+    }
+
     /// How many epochs the run has.
     pub fn epochs(&self) -> usize {
         self.epochs.len()

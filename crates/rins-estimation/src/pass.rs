@@ -26,6 +26,8 @@ pub(crate) struct Pass {
     /// `C L⁻ᵀ`, where `C` is the covariance of the next states with what is shown, in rows.
     gain: Vec<f64>,
     whitened: Vec<f64>,
+    /// Whether the epoch before was passed over.
+    interrupted: bool,
 }
 
 impl Pass {
@@ -40,6 +42,7 @@ impl Pass {
             of_states: vec![0.0; FOLLOWING * length],
             gain: vec![0.0; SHOWN * length],
             whitened: vec![0.0; SHOWN * columns],
+            interrupted: false,
         }
     }
 
@@ -56,10 +59,11 @@ impl Pass {
 
     fn begin(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains) {
         space.set(epoch, &mut self.step);
-        if epoch.fresh {
+        if epoch.fresh || self.interrupted {
             space.forget_navigation(&mut self.covariance);
             self.start(gains);
         }
+        self.interrupted = false;
     }
 
     /// Lets time go by for what has a memory; navigation starts anew afterwards.
@@ -73,6 +77,7 @@ impl Pass {
             }
             self.covariance[(state, state)] += colour_noise[state];
         }
+        self.interrupted = true;
     }
 
     /// Attitude and velocity where the epoch's own readings put them, so that the start holds nothing that the readings
