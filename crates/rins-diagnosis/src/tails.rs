@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use rins_estimation::Fit;
+use rins_estimation::{Fit, Noise};
 use rins_terms::catalogue;
 
 use crate::case::Case;
@@ -30,7 +30,8 @@ impl Case<'_> {
     /// The sensor of a run whose noise has the heaviest tails, if they are significant.
     pub(crate) fn tails(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
         let recording = &self.runs[run].recording;
-        let all = residuals(&self.runs[run], fit, run);
+        let mut all = residuals(&self.runs[run], fit, run);
+        self.even_out(&mut all[ABOUT_AXIS], fit, run);
         // An encoder that often reads the same again shows its least bit, and no noise.
         let angles = recording.table_angle.as_deref().unwrap_or_default();
         #[expect(clippy::float_cmp, reason = "a repeated reading is the same to the last bit")]
@@ -69,6 +70,23 @@ impl Case<'_> {
             worst: Vec::new(),
         };
         (excess.is_finite() && one.ln_p < FALSE_ALARMS.ln()).then_some(one)
+    }
+
+    /// Takes from what is left about the spin axis that jittering time stamps make it scatter the more the faster the table
+    /// turns, within a block too.
+    fn even_out(&self, about_axis: &mut [f64], fit: &Fit, run: usize) {
+        let Noise { imu, encoder, .. } = &fit.noise[run];
+        if imu.jitter <= 0.0 {
+            return;
+        }
+        let turns = fit.linear[run].track().angles().windows(2).map(|pair| pair[1] - pair[0]);
+        let samples = &self.runs[run].recording.increments;
+        for ((residual, turn), sample) in about_axis.iter_mut().zip(turns).zip(samples) {
+            // As angles: a gyro's own noise, that of two readings, and how far the table turns meanwhile.
+            let steady = imu.gyro.white.powi(2) * sample.interval + 2.0 * encoder.powi(2);
+            let jitter = 2.0 * (imu.jitter * turn / sample.interval).powi(2);
+            *residual *= (steady / (steady + jitter)).sqrt();
+        }
     }
 }
 

@@ -5,24 +5,28 @@ use rins_terms::catalogue;
 
 use crate::case::Case;
 use crate::diagnosis::{Diagnosis, DiagnosisError};
+use crate::disturbance::CHANNELS;
+use crate::residuals::ABOUT_AXIS;
 use crate::structure::Structure;
 
 /// The shown quantity on which it shows.
-const ABOUT_AXIS: &str = "attitude.z";
+const ANGLE: &str = "attitude.z";
 
 impl Case<'_> {
     /// The case, and what `found` is, if the encoder may be read unevenly though the rig says nothing of it: where the spread
-    /// of the angle is not the same all along, and that explains it.
+    /// of the angle is not the same all along, or, on a table that always changes its rate, within short stretches, and that
+    /// explains it.
     pub(crate) fn read_unevenly(
         &self,
         found: Diagnosis,
         search: impl FnOnce(&Self) -> Result<Diagnosis, DiagnosisError>,
     ) -> Result<(Self, Diagnosis), DiagnosisError> {
         let NoiseKnowledge::Likely(mut sheet) = self.knowledge else { return Ok((*self, found)) };
-        let spreads = found
-            .unexplained
-            .iter()
-            .any(|one| one.channel == ABOUT_AXIS && matches!(one.structure, Structure::Spread(_)));
+        let spreads = found.unexplained.iter().any(|one| match one.structure {
+            Structure::Spread(_) => one.channel == ANGLE,
+            Structure::Tails => one.channel == CHANNELS[ABOUT_AXIS],
+            _ => false,
+        });
         let rates = found.after.linear.iter().flat_map(Linear::motion);
         let fastest = rates.fold(0.0_f64, |most, (_, rate)| most.max(rate.abs()));
         let encoder = found.after.noise.iter().map(|noise| noise.encoder).fold(0.0, f64::max);

@@ -178,6 +178,17 @@ fn what_a_logger_does_to_readings_is_named_with_its_size() {
     }
 }
 
+/// Jitter scatters more the faster the table turns, which where it ramps is not the same over any block: no heavy tails.
+#[test]
+fn jitter_on_a_table_that_ramps_leaves_nothing() {
+    let late = hiding(&[(&catalogue::TIMESTAMP_JITTER, &[200e-6])]);
+    let diagnosis =
+        found(&run(&[80.0, -80.0, 80.0, -80.0, 80.0], late, 0.0, 94), NoiseKnowledge::Likely);
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_eq!(cause.term.id, "timestamp_jitter");
+    assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
+}
+
 /// Of what one effect does, another takes away as much as it can: the run shows little of either alone.
 #[test]
 fn effects_that_mask_each_other_are_both_found() {
