@@ -66,8 +66,9 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
     sum
 }
 
-/// Which parameters of an effect may be there alone: every choice of up to three; of a matrix, elements, pairs
-/// within a row, rows, columns, the first two of a column and of the diagonal, the first two rows, and all. Of a cosine and a sine there are both: the phase is anyone's guess.
+/// Which parameters of an effect may be there alone: every choice of up to three; of more, each, pairs, and all, and of a
+/// matrix rows, columns, the diagonal and the first two rows. Of a cosine and a sine there are both: the phase is anyone's
+/// guess.
 pub(crate) fn choices(term: &Term) -> Vec<Vec<usize>> {
     let units = units(term);
     let flat =
@@ -96,25 +97,18 @@ fn choices_of(n: usize) -> Vec<Vec<usize>> {
             .collect();
     }
     let mut all: Vec<Vec<usize>> = (0..n).map(|place| vec![place]).collect();
-    let row = if n.is_multiple_of(3) { n / 3 } else { n };
-    for first in (0..n).step_by(row) {
-        for one in first..first + row {
-            for other in one + 1..first + row {
-                all.push(vec![one, other]);
-            }
-        }
-        if row > 2 && row < n {
-            all.push((first..first + row).collect());
-        }
+    for one in 0..n {
+        all.extend((one + 1..n).map(|other| vec![one, other]));
     }
+    let row = if n.is_multiple_of(3) { n / 3 } else { n };
     if row < n {
-        // One thing, a component of gravity or of a field, may act on all three sensors, or on those that turn.
-        for column in 0..row {
-            all.push(vec![column, row + column]);
-            all.push((column..n).step_by(row).collect());
+        if row > 2 {
+            all.extend((0..n).step_by(row).map(|first| (first..first + row).collect()));
         }
-        // And the same of each, which nothing tells from a base that turns.
-        all.push(vec![0, row + 1]);
+        // One thing, a component of gravity or of a field, may act on all three sensors, ...
+        all.extend((0..row).map(|column| (column..n).step_by(row).collect()));
+        // ... each sensor to what is along it, or those that turn to all.
+        all.extend((row == 3).then(|| (0..n).step_by(row + 1).collect()));
         all.push((0..2 * row).collect());
     }
     all.push((0..n).collect());

@@ -21,6 +21,10 @@ const SHOWN: [&str; 6] =
 /// The figures that the paper is about.
 const OF_INTEREST: [&str; 3] = ["gyro.misalignment.xz", "gyro.misalignment.yz", "gyro.scale.z"];
 
+/// In so many ways something is looked for: structure in what is shown, heavy tails, causes that change, and biases that
+/// switch. They share the false alarms.
+const WAYS: f64 = 4.0;
+
 /// A part of a run of fewer epochs is none.
 const LEAST_PART: usize = 20;
 
@@ -104,7 +108,8 @@ impl Case<'_> {
         found.extend(waveforms(after, causes));
         found.extend(modulated(after, causes));
         found.extend(self.of_every_turn(after, causes));
-        found.retain(|left| !self.rounding.explains(left));
+        found
+            .retain(|left| left.ln_p < (FALSE_ALARMS / WAYS).ln() && !self.rounding.explains(left));
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         Ok(found)
     }
