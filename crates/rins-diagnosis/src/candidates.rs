@@ -11,6 +11,9 @@ const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
 /// How many times of an event are tried over a run.
 const EVENTS: u32 = 16;
 
+/// No more events of one kind are taken for such: what happens again and again is something else.
+const MOST_ALIKE: usize = 2;
+
 /// The time constants that are tried, as parts of the run.
 const TIME_CONSTANTS: [f64; 4] = [0.02, 0.06, 0.18, 0.5];
 
@@ -52,7 +55,7 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
         .filter(|term| term.is_signal() && !GAUGES.contains(&term.id))
         .filter(|term| term.needs.iter().all(|need| runs.iter().any(|run| offers(run, *need))))
         .flat_map(|term| shapes(duration(runs), term))
-        .filter(|candidate| !model.terms.iter().any(|own| stands_for(own, &candidate.chosen)))
+        .filter(|candidate| has_room(model, &candidate.chosen, duration(runs)))
         .filter(|candidate| !is_latency(runs, &candidate.chosen))
         .collect()
 }
@@ -69,10 +72,22 @@ fn is_latency(runs: &[Run], chosen: &Chosen) -> bool {
         && time.is_some_and(|time| runs.iter().all(|run| turns_by(run, *time) == Some(false)))
 }
 
-/// Whether a term of a model leaves no room for another shape of it: two orders are two effects.
-pub(crate) fn stands_for(own: &Chosen, other: &Chosen) -> bool {
-    let has_order = own.term.settings.iter().any(|setting| setting.name == "order");
-    own.term.id == other.term.id && (!has_order || own.settings == other.settings)
+/// Whether a model leaves room for an effect beside those of its kind: two orders are two effects, and what happens twice
+/// two events, if they are not one whose time is a little off. A base that steps time and again is no step.
+pub(crate) fn has_room(model: &Model, other: &Chosen, duration: f64) -> bool {
+    let alike: Vec<&Chosen> =
+        model.terms.iter().filter(|own| own.term.id == other.term.id).collect();
+    if other.term.setting("order").is_some() {
+        return alike.iter().all(|own| own.settings != other.settings);
+    }
+    match other.term.setting("time") {
+        Some(place) if other.term.id != catalogue::BASE_TILT_STEP.id => {
+            let apart = |own: &&Chosen| (own.settings[place] - other.settings[place]).abs();
+            let least = duration / f64::from(EVENTS);
+            alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > least)
+        }
+        _ => alike.is_empty(),
+    }
 }
 
 /// How long the longest run is \[s\].

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 use rins_estimation::{Fit, Reference};
 use rins_terms::{Chosen, Need, Term, catalogue};
 
-use crate::candidates::{Candidate, stands_for};
+use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
 use crate::disturbance::IN_ANGLE;
 use crate::jolt::Jolts;
@@ -49,7 +49,9 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
-            list.extend(Self::events([&innovations, &in_body], present, run, jolts));
+            let events = Self::events([&innovations, &in_body], present, run, jolts).into_iter();
+            let duration = self.duration();
+            list.extend(events.filter(|one| has_room(present.model(), &one.chosen, duration)));
             // What comes back less often is a drift.
             let slowest = FEWEST_CYCLES / (count * epoch);
             let frequencies =
@@ -91,10 +93,6 @@ impl Case<'_> {
         let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
         for chosen in terms.map(|term| Chosen::new(term).estimated()) {
             let Some(place) = chosen.term.setting("time") else { continue };
-            // A base that steps time and again is no step.
-            if present.model().terms.iter().any(|own| stands_for(own, &chosen)) {
-                continue;
-            }
             let earlier = list.len();
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
