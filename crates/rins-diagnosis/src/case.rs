@@ -209,7 +209,14 @@ impl Case<'_> {
         let left: f64 =
             block.cholesky().map_or(known, |f| f.l_dirty().diagonal().map(f64::ln).sum());
         let gained = 2.0 * (after.log_likelihood - before.log_likelihood + known - left);
-        (ln_tail(gained.max(0.0), trial.dof) + trial.looks).min(trial.ln_p)
+        // Where all of an effect was estimated, nothing of it was chosen.
+        let is_whole = after.model().terms[last].values.len() <= WHOLE;
+        let (dof, looks) = if is_whole && own.len() > trial.dof {
+            (own.len(), trial.looks - trial.choices)
+        } else {
+            (trial.dof, trial.looks)
+        };
+        (ln_tail(gained.max(0.0), dof) + looks).min(trial.ln_p)
     }
 }
 

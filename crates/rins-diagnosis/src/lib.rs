@@ -24,6 +24,7 @@ mod sought;
 
 mod bursts;
 mod disturbance;
+mod harmonics;
 mod jolt;
 mod levels;
 mod limits;

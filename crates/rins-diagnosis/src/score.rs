@@ -76,6 +76,17 @@ pub(crate) fn choices(term: &Term) -> Vec<Vec<usize>> {
     choices_of(units.len()).into_iter().map(flat).collect()
 }
 
+/// Whether a choice is of two elements of a matrix that are neither of one sensor nor of the two that turn, to the same or each
+/// to its own: it happens, but one thing that acts on all of these is more likely.
+pub(crate) fn is_scattered(term: &Term, choice: &[usize]) -> bool {
+    let n = term.parameters.len();
+    let [one, other] = choice else { return false };
+    let row = n / 3;
+    let turning = *one < row && (row..2 * row).contains(other);
+    let alike = other - one == row || (*one, *other) == (0, row + 1);
+    n > 3 && n.is_multiple_of(3) && one / row != other / row && !(turning && alike)
+}
+
 /// The parameters of an effect, a cosine and its sine together.
 fn units(term: &Term) -> Vec<Vec<usize>> {
     let mut units: Vec<Vec<usize>> = Vec::new();

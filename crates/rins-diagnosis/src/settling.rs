@@ -1,13 +1,14 @@
 //! A last look at every cause beside the others.
 
 use rins_estimation::Fit;
-use rins_terms::{Chosen, Role};
+use rins_terms::{Chosen, Role, catalogue};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::dead_zone;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
+use crate::harmonics::HIGHEST;
 use crate::suggested::at_frequency;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, best_pair, trials};
@@ -56,6 +57,8 @@ struct Question<'a> {
     tried: Vec<Trial>,
     /// The odds for it with the time, or the exponent, that was found.
     as_found: Option<f64>,
+    /// Among how many frequencies a line was found.
+    frequencies: f64,
 }
 
 impl Case<'_> {
@@ -70,6 +73,7 @@ impl Case<'_> {
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
         let mut changes = 0;
+        let frequencies = 2.0 * before.linear.iter().map(|run| run.epochs() as f64).sum::<f64>();
         while !found.is_empty() {
             let list = self.with_events(&present, &found);
             let noises = self.between(before, &present);
@@ -95,7 +99,8 @@ impl Case<'_> {
                     Some(trial.evidence)
                 });
                 let (survey, list, found) = (&survey, &list, &found);
-                let question = Question { survey, list, found, index, places, tried, as_found };
+                let question =
+                    Question { survey, list, found, index, places, tried, as_found, frequencies };
                 let mut look = match how {
                     Found::Searched => self.look(&question),
                     Found::Supposed => Look::Keep(question.cause()),
@@ -165,6 +170,16 @@ impl Case<'_> {
             if cause.term.id == disturbance::ID {
                 let chosen = cause.clone().with_values(&vec![0.0; cause.values.len()]).estimated();
                 list.push(Candidate { chosen, looks: 1.0, step: None });
+            }
+            let at_order = cause.term.setting("order").map(|place| cause.settings[place]);
+            let is_listed = |other: &Candidate| {
+                other.chosen.term.id == cause.term.id && other.chosen.settings == cause.settings
+            };
+            if let Some(order) =
+                at_order.filter(|_| cause.term.id == catalogue::ENCODER_HARMONIC.id)
+                && !list.iter().any(is_listed)
+            {
+                list.push(Candidate::high_harmonic(order, HIGHEST));
             }
             let of_frequency = cause.term.settings.first().filter(|s| s.name == "frequency");
             if of_frequency.is_some() {
@@ -239,7 +254,10 @@ impl Question<'_> {
     fn cause(&self) -> Cause {
         let found = &self.found[self.index];
         let own = self.own();
-        let families = (self.tried.len() as f64).ln();
+        let is_line = found.term.setting("frequency").is_some();
+        // What it is has been asked at the frequency that was found, one of many.
+        let families =
+            (self.tried.len() as f64 * if is_line { self.frequencies } else { 1.0 }).ln();
         Cause {
             term: found.term,
             settings: found.settings.clone(),

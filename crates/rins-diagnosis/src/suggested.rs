@@ -49,6 +49,7 @@ impl Case<'_> {
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
+            list.extend(self.high_harmonics(present, run));
             let events = Self::events([&innovations, &in_body], present, run, jolts).into_iter();
             let duration = self.duration();
             list.extend(events.filter(|one| has_room(present.model(), &one.chosen, duration)));

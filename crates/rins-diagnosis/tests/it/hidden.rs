@@ -189,6 +189,22 @@ fn jitter_on_a_table_that_ramps_leaves_nothing() {
     assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
 }
 
+/// The marks of a disc, faster than an epoch at all but the lowest rate, are no lines: each rate would have its own.
+#[test]
+fn a_high_harmonic_of_the_encoder_is_named_with_its_order() {
+    let values = [0.2 * ARCSEC, -0.3 * ARCSEC];
+    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 37.0);
+    let hidden = Model { terms: vec![harmonic.with_values(&values)] };
+    let diagnosis = found(&run(&RATES, hidden, 0.0, 96), NoiseKnowledge::Given);
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert_eq!((cause.term.id, &cause.settings[..]), ("encoder_harmonic", &[37.0][..]));
+    assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
+    for (estimate, truth) in cause.parameters.iter().zip(values) {
+        let off = (estimate.value - truth) / estimate.sigma;
+        assert!(off.abs() < 4.0, "{off} sigma off");
+    }
+}
+
 /// What happens twice is two events, and neither a drift nor anything else that has two parameters more.
 #[test]
 fn what_happens_twice_is_named_twice() {
