@@ -288,9 +288,14 @@ pub fn suppose(
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     let before = case.fit()?;
-    let found = supposed.to_vec();
+    let (lines, found) = case.supposed_lines(&before, supposed);
+    let mut given = model.clone();
+    given.terms.extend(lines.iter().map(|(line, _)| line.clone()));
+    let case = Case { given: &given, ..case };
     let present = case.fit_near(&before, &found)?;
-    let (after, causes) = case.settled(&before, present, found, Found::Supposed)?;
+    let (after, mut causes) = case.settled(&before, present, found, Found::Supposed)?;
+    causes.extend(lines.into_iter().map(|(_, cause)| cause));
+    causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
     let unexplained = case.unexplained((&before, &after), &causes)?;
     Ok(Diagnosis { causes, unexplained, before, after, not_testable: Vec::new() })
 }

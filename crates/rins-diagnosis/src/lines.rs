@@ -6,6 +6,7 @@ use rins_terms::{Chosen, catalogue};
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS, Rival};
 use crate::noise::estimate;
+use crate::probability::ln_tail;
 use crate::residuals::{beyond, in_axis_frame};
 use crate::settling::RIVALS;
 use crate::sinusoid::{Series, Sinusoid, sinusoid};
@@ -68,6 +69,38 @@ impl Case<'_> {
         }
         found.sort_by(|a, b| a.1.ln_p.total_cmp(&b.1.ln_p));
         found
+    }
+
+    /// Those of some effects that are lines faster than an epoch shows, with their amplitudes in each run, and the others.
+    pub(crate) fn supposed_lines(
+        &self,
+        fit: &Fit,
+        supposed: &[Chosen],
+    ) -> (Vec<FastLine>, Vec<Chosen>) {
+        let slowest = |run: usize| 0.5 / fit.linear[run].mean_epoch();
+        let is_fast = |one: &&Chosen| {
+            let frequency = one.term.setting("frequency").map(|place| one.settings[place]);
+            (0..self.runs.len()).all(|run| frequency.is_some_and(|f| f > slowest(run)))
+        };
+        let (fast, slow): (Vec<&Chosen>, Vec<&Chosen>) = supposed.iter().partition(is_fast);
+        let mut found = Vec::new();
+        for (run, recorded) in self.runs.iter().enumerate().filter(|_| !fast.is_empty()) {
+            let track = fit.linear[run].track();
+            let of_sensors = beyond(recorded, track, &fit.models[run]);
+            let of_base = in_axis_frame(track, &of_sensors);
+            let readings = Readings { of_sensors, run: recorded, slowest: slowest(run) };
+            for supposed in &fast {
+                let Some(place) = place_of(supposed) else { continue };
+                let peak = Peak { frequency: supposed.settings[0], ratio: 0.0, ln_p: 0.0 };
+                let line = Line { place, peak, rival: None };
+                let Some((chosen, mut cause)) = readings.named(&line, &of_base, run, 0.0) else {
+                    continue;
+                };
+                cause.ln_p = ln_tail(2.0 * cause.gain, cause.dof);
+                found.push((chosen, cause));
+            }
+        }
+        (found, slow.into_iter().cloned().collect())
     }
 
     /// These lines, those first at whose frequency the table moves: what is wrong about its motion, a delay or a lever arm,
@@ -260,6 +293,15 @@ fn middles(run: &Run) -> Vec<Option<f64>> {
         (sample.interval <= longest).then_some(time - 0.5 * sample.interval - start)
     });
     middle.collect()
+}
+
+/// Where an effect is a line.
+fn place_of(line: &Chosen) -> Option<Place> {
+    if line.term.id == catalogue::BASE_SWAY.id {
+        return Some(Place::Base);
+    }
+    let axis = line.settings[line.term.setting("axis")?];
+    (0..3).find(|&place| effect(Place::Axis(place), 1.0).settings[1] == axis).map(Place::Axis)
 }
 
 /// The effect that a line is.

@@ -1,13 +1,13 @@
 //! Lines, slower and faster than an epoch: of a sensor, of the base, and such as come and go.
 
-use rins_diagnosis::{Along, Cause, Diagnosis, Structure};
-use rins_estimation::NoiseKnowledge;
+use rins_diagnosis::{Along, Cause, Diagnosis, Structure, suppose};
+use rins_estimation::{NoiseKnowledge, Strengths};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::outside::with;
-use crate::support::run;
+use crate::support::{fibre, run};
 
 fn line(frequency: f64, axis: f64, values: &[f64]) -> Chosen {
     Chosen::new(&catalogue::INTERFERENCE_LINE)
@@ -36,6 +36,32 @@ fn assert_is(cause: &Cause, truth: &Chosen) {
         let off = (estimate.value - truth.values[estimate.parameter.parameter]) / estimate.sigma;
         assert!(off.abs() < 4.0, "{}: {off} sigma", estimate.parameter.id);
     }
+}
+
+/// A line that one has in mind, faster than an epoch and at about its frequency, is measured as one that was searched for is.
+#[test]
+fn a_supposed_line_is_measured() {
+    let hidden = [
+        line(7.31, 2.0, &[0.01 * DEG_PER_HOUR, 0.06 * DEG_PER_HOUR, 0.0, 60.0 * MICRO_G]),
+        sway(2.3, &[0.01 * ARCSEC, 0.06 * ARCSEC, 0.02 * ARCSEC, 0.0]),
+    ];
+    let run = run(&RATES, Model { terms: hidden.to_vec() }, 0.0, 209);
+    let supposed = [
+        line(7.3098, 2.0, &[0.0; 4]).estimated(),
+        sway(2.3, &[0.0; 4]).estimated(),
+        Chosen::new(&catalogue::ACCEL_LEVER_ARM).estimated(),
+    ];
+    let imu = fibre();
+    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let runs = std::slice::from_ref(&run);
+    let diagnosis = suppose(runs, &Model::full(), &supposed, &imu, known).unwrap();
+    assert_eq!(diagnosis.causes.len(), 3);
+    for truth in &hidden {
+        let is_it = |cause: &&Cause| cause.term.id == truth.term.id;
+        assert_is(diagnosis.causes.iter().find(is_it).unwrap(), truth);
+    }
+    assert_eq!(diagnosis.causes[2].term.id, "accel_lever_arm");
+    assert!(diagnosis.causes[1].ln_p < -50.0 && diagnosis.causes[2].ln_p > -7.0);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What a diagnosis found, in plain words.
 
 use rins_diagnosis::Unexplained;
+use rins_terms::catalogue;
 
 use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
@@ -10,6 +11,9 @@ use crate::view::settings_in_words;
 
 /// How many of the estimates that moved are told in words.
 const SHIFTS_TOLD: usize = 3;
+
+/// A delay of so many negative sigmas is less than none.
+const AHEAD: f64 = 3.0;
 
 /// The result: what was wrong, by how much, how sure, and what it did.
 pub(super) fn summary(found: &Found) -> Vec<String> {
@@ -27,6 +31,12 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
             named.cause.term.name
         )
     }));
+    if found.causes.iter().any(is_ahead_of_its_time) {
+        sentences.push(
+            "No encoder is read ahead of its time: the gyros and the accelerometers, both late by as much, look the same."
+                .to_owned(),
+        );
+    }
     if let Some(ByChance { draws, share }) = found.by_chance {
         sentences.push(format!(
             "Of {draws} runs drawn that hold nothing beyond the extended model, something would have been named in {} %; \
@@ -43,6 +53,13 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     }
     sentences.extend(found.certificate.remarks.iter().cloned());
     sentences
+}
+
+/// Whether a latency of the table angle is negative, and not by chance.
+fn is_ahead_of_its_time(named: &Named) -> bool {
+    let delay = named.cause.parameters.first();
+    named.cause.term.id == catalogue::ENCODER_LATENCY.id
+        && delay.is_some_and(|delay| delay.value < -AHEAD * delay.sigma)
 }
 
 fn headline(found: &Found) -> String {
