@@ -33,6 +33,7 @@ mod noise;
 mod periodic;
 mod residuals;
 mod rounding;
+mod shocks;
 mod sinusoid;
 mod spectrum;
 mod structure;

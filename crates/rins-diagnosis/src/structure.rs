@@ -42,6 +42,8 @@ pub enum Structure {
     Spread(Along),
     /// More large innovations than normal ones have.
     Tails,
+    /// So many shocks, the strongest of them at this time \[s\] of the run.
+    Shocks(usize, f64),
     /// An effect that was named, and is not the same all along.
     Inconstant(Along),
 }

@@ -110,6 +110,13 @@ impl Case<'_> {
         found.extend(self.of_every_turn(after, causes));
         found
             .retain(|left| left.ln_p < (FALSE_ALARMS / WAYS).ln() && !self.rounding.explains(left));
+        // A few shocks look like outliers, and what else is left may look like shocks.
+        if found.iter().all(|left| left.structure == Structure::Tails) {
+            for shock in (0..self.runs.len()).filter_map(|run| self.shocks(after, run)) {
+                found.retain(|left| left.run != shock.run);
+                found.push(shock);
+            }
+        }
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         Ok(found)
     }

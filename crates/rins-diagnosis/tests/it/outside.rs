@@ -71,6 +71,26 @@ fn bias_that_switches_is_not_flicker() {
     }
 }
 
+/// A door slams twice: too short for an epoch, too rare for heavy tails.
+#[test]
+fn doors_that_slam_are_shocks() {
+    let slams = [130.0, 232.0];
+    let run = with(0.0, 110, |time| {
+        let shaken = |slam: f64| {
+            let since = time - slam;
+            if since < 0.0 { 0.0 } else { (-since / 0.3).exp() * (TAU * 4.3 * since).sin() }
+        };
+        let force = 3e3 * MICRO_G * slams.map(shaken).iter().sum::<f64>();
+        ([0.0; 3], [0.2 * force, 0.0, force])
+    });
+    let diagnosis = found(&run, NoiseKnowledge::Given);
+    assert!(diagnosis.causes.is_empty(), "{:?}", diagnosis.causes);
+    let [one] = &diagnosis.unexplained[..] else { panic!("{:?}", diagnosis.unexplained) };
+    let Structure::Shocks(count, at) = one.structure else { panic!("{one:?}") };
+    assert_eq!((one.channel, count), ("accel.z", 2));
+    assert!(slams.iter().any(|slam| (at - slam).abs() < 1.0), "{at}");
+}
+
 #[test]
 fn flicker_is_no_bias_that_switches() {
     for seed in 110..113 {

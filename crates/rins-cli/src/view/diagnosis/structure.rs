@@ -23,6 +23,10 @@ pub(crate) fn structure_in_words(one: &Unexplained) -> String {
         Structure::Switching(times) => format!("switches between two levels, {times} times"),
         Structure::Spread(along) => format!("spread that changes with {}", along_in_words(along)),
         Structure::Tails => "more outliers than normal noise has".into(),
+        Structure::Shocks(1, at) => format!("shock at {at:.1} s"),
+        Structure::Shocks(count, at) => {
+            format!("{count} shocks, the strongest at {at:.1} s")
+        }
         Structure::Inconstant(along) => {
             let of = one.of.unwrap_or("a cause");
             format!("{of} is not the same: it changes with {}", along_in_words(along))

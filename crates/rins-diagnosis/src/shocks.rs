@@ -1,0 +1,185 @@
+//! Shocks: a door that slams, a hammer next door. They are over within a fraction of a second, too soon for an epoch to show
+//! them, and too few of many samples for the noise to have heavy tails.
+
+use std::ops::Range;
+
+use rins_estimation::Fit;
+
+use crate::case::Case;
+use crate::disturbance::CHANNELS;
+use crate::probability::ln_tail;
+use crate::residuals::{ABOUT_AXIS, residuals};
+use crate::structure::Structure;
+use crate::unexplained::Unexplained;
+
+/// Over so many samples a shock is looked for.
+const WIDTHS: [usize; 3] = [16, 32, 64];
+
+/// The spread about a stretch is that of so many on each side.
+const AROUND: usize = 64;
+
+/// Shocks stand far out: the spread that they are held against is known to a few per cent only.
+const LEAST: f64 = -20.0;
+
+/// Over a shock a table changes its rate by no more than this part of its fastest.
+const STEADY: f64 = 0.02;
+
+/// A stretch of a series that stands out of its spread, with the logarithm of the chance of that.
+struct Standing {
+    samples: Range<usize>,
+    ln_p: f64,
+}
+
+impl Case<'_> {
+    /// The sensor of a run that shows the strongest shock, if any does.
+    pub(crate) fn shocks(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
+        let all = residuals(&self.runs[run], fit, run);
+        let jolts = self.jolted(fit, run);
+        let angles = fit.linear[run].track().angles();
+        let turned = angles.windows(2).map(|ends| (ends[1] - ends[0]).abs());
+        let fastest = turned.fold(0.0, f64::max);
+        // A base that tips over, or a table that changes its rate, shakes the sensors too.
+        let is_known = |one: &Standing| {
+            let Range { start, end } = one.samples;
+            let width = end - start;
+            let (before, after) =
+                (start.saturating_sub(width), (end + width).min(angles.len() - 1));
+            let middle = usize::midpoint(before, after);
+            let rate = |first: usize, last: usize| {
+                (angles[last] - angles[first]) / (last - first).max(1) as f64
+            };
+            let changed = (rate(before, middle) - rate(middle, after)).abs();
+            changed > STEADY * fastest
+                || jolts.iter().any(|jolt| jolt.start < end && start < jolt.end)
+        };
+        // About its axis the encoder's noise is seen, which is no white one.
+        let seen =
+            |channel: &usize| *channel != ABOUT_AXIS && !self.rounding.is_coarse(run, *channel);
+        let strongest = |channel: usize| {
+            let mut standing = standing(&all[channel]);
+            standing.retain(|one| !is_known(one));
+            let least = standing.iter().min_by(|a, b| a.ln_p.total_cmp(&b.ln_p))?;
+            Some((channel, least.samples.start, standing.len(), least.ln_p))
+        };
+        let channels = (0..all.len()).filter(seen).filter_map(strongest);
+        let (channel, first, count, ln_p) = channels.min_by(|a, b| a.3.total_cmp(&b.3))?;
+        let recorded = &self.runs[run].recording;
+        let tests = (all.len() * self.runs.len()) as f64;
+        Some(Unexplained {
+            run,
+            channel: CHANNELS[channel],
+            structure: Structure::Shocks(count, recorded.times[first] - recorded.times[0]),
+            of: None,
+            ln_p: ln_p + tests.ln(),
+            amplitude: None,
+            worst: Vec::new(),
+        })
+    }
+}
+
+/// The stretches of a series whose squares stand out of those about them, strongest first, each once; a single large value is
+/// no shock.
+fn standing(series: &[f64]) -> Vec<Standing> {
+    let mut found: Vec<Standing> = Vec::new();
+    for width in WIDTHS {
+        let step = width / 2;
+        let squares: Vec<f64> = series.windows(width).step_by(step).map(squares).collect();
+        let tests = ((squares.len() * WIDTHS.len()) as f64).ln();
+        let dof = width - 3;
+        // The median of a chi-square, by Wilson and Hilferty.
+        let middle = dof as f64 * (1.0 - 2.0 / (9.0 * dof as f64)).powi(3);
+        for (place, square) in squares.iter().enumerate() {
+            let around = place.saturating_sub(AROUND)..squares.len().min(place + AROUND + 1);
+            let mut others = squares[around].to_vec();
+            let half = others.len() / 2;
+            let usual = *others.select_nth_unstable_by(half, f64::total_cmp).1 / middle;
+            if usual.is_nan() || usual <= 0.0 || *square < 2.0 * middle * usual {
+                continue;
+            }
+            let ln_p = ln_tail(square / usual, dof) + tests;
+            if ln_p < LEAST {
+                let first = place * step;
+                found.push(Standing { samples: first..first + width, ln_p });
+            }
+        }
+    }
+    found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
+    let mut apart: Vec<Standing> = Vec::new();
+    for one in found {
+        let reach = 2 * (one.samples.end - one.samples.start);
+        let is_beside = |other: &Standing| {
+            other.samples.start < one.samples.end + reach
+                && one.samples.start < other.samples.end + reach
+        };
+        if !apart.iter().any(is_beside) {
+            apart.push(one);
+        }
+    }
+    apart
+}
+
+/// The squares of some values about a line through them, for what turns with the table is left in them, but for the one that
+/// is farthest from the others'.
+fn squares(values: &[f64]) -> f64 {
+    let n = values.len() as f64;
+    let middle = 0.5 * (n - 1.0);
+    let mean = values.iter().sum::<f64>() / n;
+    let places = || (0..values.len()).map(|place| place as f64 - middle);
+    let along: f64 = places().zip(values).map(|(place, value)| place * value).sum();
+    let spread = n * (n * n - 1.0) / 12.0;
+    let (mut sum, mut most) = (0.0, 0.0_f64);
+    for (place, value) in places().zip(values) {
+        let square = (value - mean - along / spread * place).powi(2);
+        sum += square;
+        // What the sum loses without it, the line being through the others.
+        most = most.max(square / (1.0 - 1.0 / n - place * place / spread));
+    }
+    sum - most
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal, StudentT};
+    use rand_pcg::Pcg64;
+
+    fn noise(distribution: impl Distribution<f64>, seed: u64) -> Vec<f64> {
+        distribution.sample_iter(Pcg64::seed_from_u64(seed)).take(40_000).collect()
+    }
+
+    #[test]
+    fn noise_holds_no_shock() {
+        for seed in 0..20 {
+            let mut drifting = noise(StandardNormal, seed);
+            for (place, value) in drifting.iter_mut().enumerate() {
+                // Louder by and by, on what goes up and down, from the middle on faster.
+                let part = place as f64 / 40_000.0;
+                let cycles = if place < 20_000 { 30.0 } else { 110.0 };
+                *value = *value * (1.0 + 3.0 * part)
+                    + 5.0 * (std::f64::consts::TAU * cycles * part).sin();
+            }
+            assert!(standing(&drifting).is_empty(), "{seed}");
+        }
+        let mut knocked = noise(StandardNormal, 20);
+        knocked[7_000] += 40.0;
+        assert!(standing(&knocked).is_empty());
+        assert!(standing(&noise(StudentT::new(6.0).unwrap(), 21)).is_empty());
+        assert!(standing(&[0.0; 1000]).is_empty());
+    }
+
+    #[test]
+    fn shocks_are_found_where_they_are() {
+        let mut slammed = noise(StandardNormal, 1);
+        for (at, size) in [(9_000, 7.0), (30_000, 9.0)] {
+            for place in 0..60 {
+                let time = f64::from(place);
+                slammed[at + place as usize] += size * (-time / 15.0).exp() * (0.75 * time).sin();
+            }
+        }
+        let found = standing(&slammed);
+        let at: Vec<usize> = found.iter().map(|one| one.samples.start).collect();
+        assert_eq!(at.len(), 2, "{at:?}");
+        assert!(at[0].abs_diff(30_000) < 32 && at[1].abs_diff(9_000) < 32, "{at:?}");
+    }
+}
