@@ -71,36 +71,47 @@ impl Case<'_> {
         found
     }
 
-    /// Those of some effects that are lines faster than an epoch shows, with their amplitudes in each run, and the others.
+    /// Those of some effects that are lines faster than an epoch shows, with their amplitudes in each run, and the others, which
+    /// are those too that have no amplitude by themselves.
     pub(crate) fn supposed_lines(
         &self,
         fit: &Fit,
         supposed: &[Chosen],
     ) -> (Vec<FastLine>, Vec<Chosen>) {
         let slowest = |run: usize| 0.5 / fit.linear[run].mean_epoch();
-        let is_fast = |one: &&Chosen| {
-            let frequency = one.term.setting("frequency").map(|place| one.settings[place]);
-            (0..self.runs.len()).all(|run| frequency.is_some_and(|f| f > slowest(run)))
+        let fast = |one: &Chosen| {
+            let frequency = one.settings[one.term.setting("frequency")?];
+            let is_fast = (0..self.runs.len()).all(|run| frequency > slowest(run));
+            place_of(one).filter(|_| is_fast).map(|place| (place, frequency))
         };
-        let (fast, slow): (Vec<&Chosen>, Vec<&Chosen>) = supposed.iter().partition(is_fast);
-        let mut found = Vec::new();
-        for (run, recorded) in self.runs.iter().enumerate().filter(|_| !fast.is_empty()) {
-            let track = fit.linear[run].track();
-            let of_sensors = beyond(recorded, track, &fit.models[run]);
-            let of_base = in_axis_frame(track, &of_sensors);
-            let readings = Readings { of_sensors, run: recorded, slowest: slowest(run) };
-            for supposed in &fast {
-                let Some(place) = place_of(supposed) else { continue };
-                let peak = Peak { frequency: supposed.settings[0], ratio: 0.0, ln_p: 0.0 };
-                let line = Line { place, peak, rival: None };
-                let Some((chosen, mut cause)) = readings.named(&line, &of_base, run, 0.0) else {
-                    continue;
-                };
-                cause.ln_p = ln_tail(2.0 * cause.gain, cause.dof);
-                found.push((chosen, cause));
+        let mut readings = Vec::new();
+        if supposed.iter().any(|one| fast(one).is_some()) {
+            for (run, recorded) in self.runs.iter().enumerate() {
+                let track = fit.linear[run].track();
+                let of_sensors = beyond(recorded, track, &fit.models[run]);
+                let of_base = in_axis_frame(track, &of_sensors);
+                let of_run = Readings { of_sensors, run: recorded, slowest: slowest(run) };
+                readings.push((of_run, of_base));
             }
         }
-        (found, slow.into_iter().cloned().collect())
+        let (mut found, mut others) = (Vec::new(), Vec::new());
+        for one in supposed {
+            let measured = fast(one).and_then(|(place, frequency)| {
+                let of_run = |(run, (readings, of_base)): (usize, &(Readings<'_>, _))| {
+                    let peak = Peak { frequency, ratio: 0.0, ln_p: 0.0 };
+                    let line = Line { place, peak, rival: None };
+                    let (chosen, cause) = readings.named(&line, of_base, run, 0.0)?;
+                    let ln_p = ln_tail(2.0 * cause.gain, cause.dof);
+                    Some((chosen, Cause { ln_p, ..cause }))
+                };
+                readings.iter().enumerate().map(of_run).collect::<Option<Vec<FastLine>>>()
+            });
+            match measured {
+                Some(lines) => found.extend(lines),
+                None => others.push(one.clone()),
+            }
+        }
+        (found, others)
     }
 
     /// These lines, those first at whose frequency the table moves: what is wrong about its motion, a delay or a lever arm,
@@ -301,7 +312,7 @@ fn place_of(line: &Chosen) -> Option<Place> {
         return Some(Place::Base);
     }
     let axis = line.settings[line.term.setting("axis")?];
-    (0..3).find(|&place| effect(Place::Axis(place), 1.0).settings[1] == axis).map(Place::Axis)
+    [1.0, 2.0, 3.0].iter().position(|other| (axis - other).abs() < 0.5).map(Place::Axis)
 }
 
 /// The effect that a line is.

@@ -10,6 +10,7 @@ use crate::disturbance::CHANNELS;
 use crate::probability::ln_tail;
 use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
+use crate::tails::jolted;
 use crate::unexplained::Unexplained;
 
 /// Over so many samples a shock is looked for.
@@ -34,7 +35,7 @@ impl Case<'_> {
     /// The sensor of a run that shows the strongest shock, if any does.
     pub(crate) fn shocks(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
         let all = residuals(&self.runs[run], fit, run);
-        let jolts = self.jolted(fit, run);
+        let jolts = jolted(fit, run);
         let angles = fit.linear[run].track().angles();
         let turned = angles.windows(2).map(|ends| (ends[1] - ends[0]).abs());
         let fastest = turned.fold(0.0, f64::max);
@@ -172,9 +173,9 @@ mod tests {
     fn shocks_are_found_where_they_are() {
         let mut slammed = noise(StandardNormal, 1);
         for (at, size) in [(9_000, 7.0), (30_000, 9.0)] {
-            for place in 0..60 {
-                let time = f64::from(place);
-                slammed[at + place as usize] += size * (-time / 15.0).exp() * (0.75 * time).sin();
+            for (place, value) in slammed[at..at + 60].iter_mut().enumerate() {
+                let time = place as f64;
+                *value += size * (-time / 15.0).exp() * (0.75 * time).sin();
             }
         }
         let found = standing(&slammed);

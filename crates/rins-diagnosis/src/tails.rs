@@ -39,7 +39,7 @@ impl Case<'_> {
             let read = angles.get(samples).unwrap_or_default();
             read.windows(2).filter(|pair| pair[0] == pair[1]).count() > BLOCK / MOST_REPEATS
         };
-        let jolts = self.jolted(fit, run);
+        let jolts = jolted(fit, run);
         let jolted = |samples: &Range<usize>| {
             let within = |jolt: &Range<usize>| jolt.start < samples.end && samples.start < jolt.end;
             jolts.iter().any(within)
@@ -67,16 +67,6 @@ impl Case<'_> {
         (excess.is_finite() && one.ln_p < FALSE_ALARMS.ln()).then_some(one)
     }
 
-    /// The samples about the moments at which the base of a run tips over.
-    pub(crate) fn jolted(&self, fit: &Fit, run: usize) -> Vec<Range<usize>> {
-        let linear = &fit.linear[run];
-        let steps = fit.models[run].terms.iter();
-        steps
-            .filter(|chosen| chosen.term.id == catalogue::BASE_TILT_STEP.id)
-            .map(|step| jolt::around(step, linear.track(), linear.mean_epoch()))
-            .collect()
-    }
-
     /// Takes from what is left about the spin axis that jittering time stamps make it scatter the more the faster the table
     /// turns, within a block too.
     fn even_out(&self, about_axis: &mut [f64], fit: &Fit, run: usize) {
@@ -93,6 +83,16 @@ impl Case<'_> {
             *residual *= (steady / (steady + jitter)).sqrt();
         }
     }
+}
+
+/// The samples about the moments at which the base of a run tips over.
+pub(crate) fn jolted(fit: &Fit, run: usize) -> Vec<Range<usize>> {
+    let linear = &fit.linear[run];
+    let steps = fit.models[run].terms.iter();
+    steps
+        .filter(|chosen| chosen.term.id == catalogue::BASE_TILT_STEP.id)
+        .map(|step| jolt::around(step, linear.track(), linear.mean_epoch()))
+        .collect()
 }
 
 /// By how much the kurtosis of white noise is more than a normal distribution's, and the logarithm of the chance of that.

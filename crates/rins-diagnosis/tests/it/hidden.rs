@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use rins_diagnosis::{Along, Cause, Diagnosis, Structure, chance, diagnose, limits, suppose};
+use rins_diagnosis::{Along, Diagnosis, Structure, chance, diagnose, limits, suppose};
 use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
@@ -187,53 +187,6 @@ fn jitter_on_a_table_that_ramps_leaves_nothing() {
     let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
     assert_eq!(cause.term.id, "timestamp_jitter");
     assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
-}
-
-/// The marks of a disc, faster than an epoch at all but the lowest rate, are no lines: each rate would have its own.
-#[test]
-fn a_high_harmonic_of_the_encoder_is_named_with_its_order() {
-    let values = [0.2 * ARCSEC, -0.3 * ARCSEC];
-    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 37.0);
-    let hidden = Model { terms: vec![harmonic.with_values(&values)] };
-    let diagnosis = found(&run(&RATES, hidden, 0.0, 96), NoiseKnowledge::Given);
-    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
-    assert_eq!((cause.term.id, &cause.settings[..]), ("encoder_harmonic", &[37.0][..]));
-    assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
-    for (estimate, truth) in cause.parameters.iter().zip(values) {
-        let off = (estimate.value - truth) / estimate.sigma;
-        assert!(off.abs() < 4.0, "{off} sigma off");
-    }
-}
-
-/// What happens twice is two events, and neither a drift nor anything else that has two parameters more.
-#[test]
-fn what_happens_twice_is_named_twice() {
-    let cases: [(&'static Term, [f64; 2], [&[f64]; 2]); 2] = [
-        (&catalogue::ENCODER_SLIP, [70.0, 190.0], [&[4.0 * ARCSEC], &[-6.0 * ARCSEC]]),
-        (
-            &catalogue::GYRO_BIAS_STEP,
-            [60.0, 180.0],
-            [&[0.0, 0.3 * DEG_PER_HOUR, 0.0], &[0.0, -0.3 * DEG_PER_HOUR, 0.0]],
-        ),
-    ];
-    for (term, times, values) in cases {
-        let at = |event: usize| {
-            Chosen::new(term).with_setting("time", times[event]).with_values(values[event])
-        };
-        let run = run(&RATES, Model { terms: vec![at(0), at(1)] }, 0.0, 95);
-        let diagnosis = found(&run, NoiseKnowledge::Given);
-        assert_eq!(diagnosis.causes.len(), 2, "{:?}", diagnosis.causes);
-        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
-        for (time, values) in times.into_iter().zip(values) {
-            let is_it = |cause: &&Cause| (cause.settings[0] - time).abs() < 1.0;
-            let cause = diagnosis.causes.iter().find(is_it).expect("an event at its time");
-            assert_eq!(cause.term.id, term.id);
-            for estimate in &cause.parameters {
-                let off = (estimate.value - values[estimate.parameter.parameter]) / estimate.sigma;
-                assert!(off.abs() < 4.0, "{} at {time} s: {off} sigma off", term.id);
-            }
-        }
-    }
 }
 
 /// Of what one effect does, another takes away as much as it can: the run shows little of either alone.

@@ -6,4 +6,5 @@ mod gain;
 mod hidden;
 mod lines;
 mod outside;
+mod repeated;
 mod support;
