@@ -32,8 +32,8 @@ struct Standing {
 }
 
 impl Case<'_> {
-    /// The sensor of a run that shows the strongest shock, if any does.
-    pub(crate) fn shocks(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
+    /// The sensor of a run that shows the strongest shock, if any does, and the samples of all its shocks.
+    pub(crate) fn shocks(&self, fit: &Fit, run: usize) -> Option<(Unexplained, Vec<Range<usize>>)> {
         let all = residuals(&self.runs[run], fit, run);
         let jolts = jolted(fit, run);
         let angles = fit.linear[run].track().angles();
@@ -59,22 +59,23 @@ impl Case<'_> {
         let strongest = |channel: usize| {
             let mut standing = standing(&all[channel]);
             standing.retain(|one| !is_known(one));
-            let least = standing.iter().min_by(|a, b| a.ln_p.total_cmp(&b.ln_p))?;
-            Some((channel, least.samples.start, standing.len(), least.ln_p))
+            Some((channel, standing.first()?.ln_p, standing))
         };
         let channels = (0..all.len()).filter(seen).filter_map(strongest);
-        let (channel, first, count, ln_p) = channels.min_by(|a, b| a.3.total_cmp(&b.3))?;
+        let (channel, ln_p, standing) = channels.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let recorded = &self.runs[run].recording;
+        let at = recorded.times[standing[0].samples.start] - recorded.times[0];
         let tests = (all.len() * self.runs.len()) as f64;
-        Some(Unexplained {
+        let one = Unexplained {
             run,
             channel: CHANNELS[channel],
-            structure: Structure::Shocks(count, recorded.times[first] - recorded.times[0]),
+            structure: Structure::Shocks(standing.len(), at),
             of: None,
             ln_p: ln_p + tests.ln(),
             amplitude: None,
             worst: Vec::new(),
-        })
+        };
+        Some((one, standing.into_iter().map(|one| one.samples).collect()))
     }
 }
 

@@ -27,8 +27,13 @@ const MOST_REPEATS: usize = 20;
 const SENSORS: f64 = 6.0;
 
 impl Case<'_> {
-    /// The sensor of a run whose noise has the heaviest tails, if they are significant.
-    pub(crate) fn tails(&self, fit: &Fit, run: usize) -> Option<Unexplained> {
+    /// The sensor of a run whose noise has the heaviest tails, if they are significant; `without` these samples.
+    pub(crate) fn tails(
+        &self,
+        fit: &Fit,
+        run: usize,
+        without: &[Range<usize>],
+    ) -> Option<Unexplained> {
         let recording = &self.runs[run].recording;
         let mut all = residuals(&self.runs[run], fit, run);
         self.even_out(&mut all[ABOUT_AXIS], fit, run);
@@ -42,7 +47,7 @@ impl Case<'_> {
         let jolts = jolted(fit, run);
         let jolted = |samples: &Range<usize>| {
             let within = |jolt: &Range<usize>| jolt.start < samples.end && samples.start < jolt.end;
-            jolts.iter().any(within)
+            jolts.iter().chain(without).any(within)
         };
         let excesses = all.iter().enumerate().map(|(channel, residuals)| {
             let counts = |samples: Range<usize>| {

@@ -88,7 +88,8 @@ impl Case<'_> {
             let known = |one: &Unexplained| one.run == run && one.structure == Structure::Tails;
             if !found.iter().any(known) {
                 // What a cause puts into single samples, such as the steps of a thermometer, is no noise.
-                found.extend(self.tails(before, run).and_then(|_| self.tails(after, run)));
+                found
+                    .extend(self.tails(before, run, &[]).and_then(|_| self.tails(after, run, &[])));
             }
         }
         found.extend(self.inconstant(after, causes)?);
@@ -112,9 +113,13 @@ impl Case<'_> {
             .retain(|left| left.ln_p < (FALSE_ALARMS / WAYS).ln() && !self.rounding.explains(left));
         // A few shocks look like outliers, and what else is left may look like shocks.
         if found.iter().all(|left| left.structure == Structure::Tails) {
-            for shock in (0..self.runs.len()).filter_map(|run| self.shocks(after, run)) {
-                found.retain(|left| left.run != shock.run);
-                found.push(shock);
+            for run in 0..self.runs.len() {
+                let Some((shock, samples)) = self.shocks(after, run) else { continue };
+                // Noise that has heavy tails has them without the largest of its outliers too.
+                if self.tails(after, run, &samples).is_none() {
+                    found.retain(|left| left.run != run);
+                    found.push(shock);
+                }
             }
         }
         found.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
