@@ -5,7 +5,7 @@ use std::fmt;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::time::Instant;
+use std::time::{Instant, SystemTime};
 
 use clap::Args;
 
@@ -52,8 +52,8 @@ const STEPS: &[Row] = &[
 /// A step with a command of cargo's that has to be installed.
 const INSTALLED: &str = "deny";
 
-/// What the demo writes: a new folder, since it replaces none.
-const DEMO: &str = "target/ci/demo";
+/// What the steps write goes into this folder, made anew: the demo replaces nothing.
+const SCRATCH: &str = "target/ci";
 
 /// Packages outside `crates/`, which are never published.
 const UNPUBLISHED: [&str; 2] = ["rins-tests", "xtask"];
@@ -121,10 +121,11 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
         }
         return Ok(());
     }
-    if root.join(DEMO).exists() {
-        fs::remove_dir_all(root.join(DEMO))?;
+    let scratch = root.join(SCRATCH);
+    if scratch.exists() {
+        fs::remove_dir_all(&scratch)?;
     }
-    fs::create_dir_all(root.join(DEMO).with_file_name(""))?;
+    fs::create_dir_all(&scratch)?;
     let start = Instant::now();
     for step in &steps {
         step.run(root)?;
@@ -153,12 +154,18 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
             unpublished.push(name);
         }
     }
-    let mut command = "cargo package --quiet --workspace --allow-dirty".to_owned();
+    // Cargo takes a package of this name and version for one it has unpacked or built before, from another commit too: it keeps
+    // them by the folder that they were packed in.
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH)?.as_millis();
+    let mut command = format!(
+        "cargo package --quiet --workspace --allow-dirty --target-dir {SCRATCH}/package-{now}"
+    );
     for name in unpublished {
         command.push_str(" --exclude ");
         command.push_str(&name);
     }
-    steps.push(Step { name: "package".into(), environment: None, command });
+    let environment = Some(("CARGO_PROFILE_DEV_DEBUG", "0"));
+    steps.push(Step { name: "package".into(), environment, command });
     Ok(steps)
 }
 
