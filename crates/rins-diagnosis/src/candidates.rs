@@ -166,13 +166,6 @@ impl Candidate {
         (-4..=4).map(moved).filter(|other| allows(setting, other.chosen.settings[place])).collect()
     }
 
-    /// A harmonic of the encoder beyond those that are listed: looked for the more, the lower it is.
-    pub(crate) fn high_harmonic(order: f64, highest: u32) -> Self {
-        let chosen = Chosen::new(&catalogue::ENCODER_HARMONIC).estimated();
-        let all: f64 = (1..=highest).map(|order| 1.0 / f64::from(order)).sum();
-        Self { chosen: chosen.with_setting("order", order), looks: all * order, step: None }
-    }
-
     /// The same effect when another one happens, or as slowly, if both are events or settle.
     pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
         ["time", "time_constant"].into_iter().find_map(|name| {

@@ -6,7 +6,7 @@ use rins_terms::{Chosen, Term, catalogue};
 use crate::case::Case;
 use crate::diagnosis::Cause;
 use crate::disturbance::{CHANNELS, IN_ANGLE};
-use crate::periodic::turns;
+use crate::periodic::turn_frequency;
 use crate::residuals::ABOUT_AXIS;
 use crate::structure::Structure;
 use crate::trial::UNKNOWN;
@@ -41,7 +41,7 @@ impl Case<'_> {
             return None;
         }
         let run = parts[0].parameters.first().and_then(|estimate| estimate.run).unwrap_or_default();
-        let frequency = turns(after, run)?;
+        let frequency = turn_frequency(after, run)?;
         let (own, mut model): (Vec<Chosen>, Vec<Chosen>) = self
             .causes_in(after)
             .iter()

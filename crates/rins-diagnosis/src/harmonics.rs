@@ -1,14 +1,16 @@
 //! Harmonics of the encoder that are higher than those that are always tried: marks of a disc, teeth of a gear.
 
-use rins_estimation::Fit;
+use rins_estimation::{Fit, Reference};
+use rins_terms::{Chosen, catalogue};
 use rustfft::num_complex::Complex;
 
 use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
+use crate::median::median_about;
 use crate::residuals::{ABOUT_AXIS, residuals};
 
 /// The highest that is looked for.
-pub(crate) const HIGHEST: u32 = 96;
+const HIGHEST: u32 = 96;
 
 /// The lowest that is not always tried.
 const LOWEST: u32 = 13;
@@ -30,6 +32,9 @@ impl Case<'_> {
     /// long to show them where the table turns fast.
     pub(crate) fn high_harmonics(&self, fit: &Fit, run: usize) -> Vec<Candidate> {
         const COUNT: usize = (HIGHEST - LOWEST + 1) as usize;
+        if !matches!(self.runs[run].rig.reference, Reference::Encoder { .. }) {
+            return Vec::new();
+        }
         let of_gyro = residuals(&self.runs[run], fit, run);
         let samples = &self.runs[run].recording.increments;
         let ends: Vec<Complex<f64>> =
@@ -58,18 +63,23 @@ impl Case<'_> {
         let mut standing: Vec<(f64, f64)> = (LOWEST..)
             .zip(powers.iter().enumerate())
             .map(|(order, (place, power))| {
-                let around = place.saturating_sub(AROUND)..powers.len().min(place + AROUND + 1);
-                let mut others = powers[around].to_vec();
-                let middle = others.len() / 2;
-                let median = *others.select_nth_unstable_by(middle, f64::total_cmp).1;
-                (power / median, f64::from(order))
+                (power / median_about(&powers, place, AROUND), f64::from(order))
             })
             .filter(|(ratio, _)| ratio.is_finite() && *ratio > LEAST)
             .collect();
         standing.sort_by(|a, b| b.0.total_cmp(&a.0));
         let duration = self.duration();
-        let of = |(_, order): &(f64, f64)| Candidate::high_harmonic(*order, HIGHEST);
+        let of = |(_, order): &(f64, f64)| Candidate::high_harmonic(*order);
         let has_room = |one: &Candidate| has_room(fit.model(), &one.chosen, duration);
         standing.iter().map(of).filter(has_room).take(MOST).collect()
+    }
+}
+
+impl Candidate {
+    /// A harmonic of the encoder beyond those that are always tried: looked for the more, the lower it is.
+    pub(crate) fn high_harmonic(order: f64) -> Self {
+        let chosen = Chosen::new(&catalogue::ENCODER_HARMONIC).estimated();
+        let all: f64 = (1..=HIGHEST).map(|order| 1.0 / f64::from(order)).sum();
+        Self { chosen: chosen.with_setting("order", order), looks: all * order, step: None }
     }
 }

@@ -6,6 +6,7 @@ use rins_estimation::Fit;
 use rins_terms::{Chosen, Need, Track, catalogue};
 
 use crate::case::Case;
+use crate::median::median;
 use crate::residuals::residuals;
 
 /// Readings of so many sigmas are part of a jolt.
@@ -95,12 +96,6 @@ impl Jolts {
         };
         event.settings[place] = shown.unwrap_or(time);
     }
-}
-
-fn median(sizes: &[f64]) -> f64 {
-    let mut sizes = sizes.to_vec();
-    let middle = sizes.len() / 2;
-    *sizes.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 /// The samples in which a base steps: not at once, and what it does in between no step describes.

@@ -29,6 +29,7 @@ mod jolt;
 mod levels;
 mod limits;
 mod lines;
+mod median;
 mod noise;
 mod periodic;
 mod residuals;

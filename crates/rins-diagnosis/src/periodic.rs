@@ -7,6 +7,7 @@ use rins_terms::{Unit, catalogue};
 
 use crate::diagnosis::Cause;
 use crate::disturbance::CHANNELS;
+use crate::median::median;
 use crate::structure::Structure;
 use crate::unexplained::{Unexplained, worst};
 
@@ -131,19 +132,17 @@ fn common(one: &Cause, other: &Cause) -> Option<f64> {
 }
 
 /// How often the table turns \[Hz\], if it does at one rate most of the time.
-pub(crate) fn turns(after: &Fit, run: usize) -> Option<f64> {
+pub(crate) fn turn_frequency(after: &Fit, run: usize) -> Option<f64> {
     let motion = after.linear[run].motion();
-    let mut turns: Vec<f64> = motion.iter().map(|(_, rate)| rate.abs() / TAU).collect();
-    let middle = turns.len() / 2;
-    turns.get(middle)?;
-    let (_, &mut turn, _) = turns.select_nth_unstable_by(middle, f64::total_cmp);
+    let turns: Vec<f64> = motion.iter().map(|(_, rate)| rate.abs() / TAU).collect();
+    let turn = median(&turns);
     let alike = turns.iter().filter(|other| (*other - turn).abs() < ALIKE * turn).count();
     (2 * alike > turns.len()).then_some(turn)
 }
 
 /// How often the table turns \[Hz\], if it does at one rate and two lines are multiples of that.
 fn of_turn(after: &Fit, run: usize, lines: [&Cause; 2]) -> Option<f64> {
-    let turn = turns(after, run)?;
+    let turn = turn_frequency(after, run)?;
     let is_multiple = |line: &Cause| {
         line.sought.is_some_and(|(place, sigma)| {
             let frequency = line.settings[place];

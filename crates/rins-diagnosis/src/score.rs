@@ -18,6 +18,10 @@ const UNUSUAL: f64 = 1.0;
 /// ... and how many at most: less than what the unknown costs, which has no usual amplitude.
 const MOST_UNUSUAL: f64 = 5.0;
 
+/// What two elements of a matrix pay beforehand that are neither of one sensor nor of the two that turn, to the same or each to
+/// its own: it happens, but one thing that acts on all of these is more likely.
+const SCATTERED: f64 = 3.0;
+
 /// What data say of some parameters of an effect.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Score {
@@ -69,22 +73,37 @@ pub(crate) fn scored(information: &DMatrix<f64>, score: &DVector<f64>) -> Score 
 /// Which parameters of an effect may be there alone: every choice of up to three; of more, each, pairs, and all, and of a
 /// matrix rows, columns, the diagonal and the first two rows. Of a cosine and a sine there are both: the phase is anyone's
 /// guess.
-pub(crate) fn choices(term: &Term) -> Vec<Vec<usize>> {
+pub(crate) fn choices(term: &Term) -> Vec<Choice> {
     let units = units(term);
-    let flat =
-        |choice: Vec<usize>| choice.into_iter().flat_map(|unit| units[unit].clone()).collect();
-    choices_of(units.len()).into_iter().map(flat).collect()
+    let of_parameters = |Choice { parameters, unlikely }| {
+        let flat = parameters.into_iter().flat_map(|unit: usize| units[unit].clone());
+        Choice { parameters: flat.collect(), unlikely }
+    };
+    choices_of(units.len()).into_iter().map(of_parameters).collect()
 }
 
-/// Whether a choice is of two elements of a matrix that are neither of one sensor nor of the two that turn, to the same or each
-/// to its own: it happens, but one thing that acts on all of these is more likely.
-pub(crate) fn is_scattered(term: &Term, choice: &[usize]) -> bool {
-    let n = term.parameters.len();
-    let [one, other] = choice else { return false };
-    let row = n / 3;
-    let turning = *one < row && (row..2 * row).contains(other);
-    let alike = other - one == row || (*one, *other) == (0, row + 1);
-    n > 3 && n.is_multiple_of(3) && one / row != other / row && !(turning && alike)
+/// Parameters of an effect that may be there without the others.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Choice {
+    pub(crate) parameters: Vec<usize>,
+    /// How many e-folds of odds it pays beforehand.
+    pub(crate) unlikely: f64,
+}
+
+impl Choice {
+    /// Any but two elements that have little in common.
+    const fn likely(parameters: Vec<usize>) -> Self {
+        Self { parameters, unlikely: 0.0 }
+    }
+
+    /// Two among `n`, in rows of so many.
+    fn pair(one: usize, other: usize, row: usize) -> Self {
+        let turning = one < row && (row..2 * row).contains(&other);
+        let alike = other - one == row || (one, other) == (0, row + 1);
+        let has_in_common = one / row == other / row || (turning && alike);
+        let unlikely = if has_in_common { 0.0 } else { SCATTERED };
+        Self { parameters: vec![one, other], unlikely }
+    }
 }
 
 /// The parameters of an effect, a cosine and its sine together.
@@ -101,28 +120,29 @@ fn units(term: &Term) -> Vec<Vec<usize>> {
 }
 
 /// The choices among `n`.
-fn choices_of(n: usize) -> Vec<Vec<usize>> {
+fn choices_of(n: usize) -> Vec<Choice> {
     if n <= 3 {
-        return (1..1_usize << n)
-            .map(|bits| (0..n).filter(|place| bits >> place & 1 == 1).collect())
-            .collect();
-    }
-    let mut all: Vec<Vec<usize>> = (0..n).map(|place| vec![place]).collect();
-    for one in 0..n {
-        all.extend((one + 1..n).map(|other| vec![one, other]));
+        let some = |bits: usize| (0..n).filter(|place| bits >> place & 1 == 1).collect();
+        return (1..1_usize << n).map(|bits| Choice::likely(some(bits))).collect();
     }
     let row = if n.is_multiple_of(3) { n / 3 } else { n };
+    let mut all: Vec<Choice> = (0..n).map(|place| Choice::likely(vec![place])).collect();
+    for one in 0..n {
+        all.extend((one + 1..n).map(|other| Choice::pair(one, other, row)));
+    }
+    let mut together: Vec<Vec<usize>> = Vec::new();
     if row < n {
         if row > 2 {
-            all.extend((0..n).step_by(row).map(|first| (first..first + row).collect()));
+            together.extend((0..n).step_by(row).map(|first| (first..first + row).collect()));
         }
         // One thing, a component of gravity or of a field, may act on all three sensors, ...
-        all.extend((0..row).map(|column| (column..n).step_by(row).collect()));
+        together.extend((0..row).map(|column| (column..n).step_by(row).collect()));
         // ... each sensor to what is along it, or those that turn to all.
-        all.extend((row == 3).then(|| (0..n).step_by(row + 1).collect()));
-        all.push((0..2 * row).collect());
+        together.extend((row == 3).then(|| (0..n).step_by(row + 1).collect()));
+        together.push((0..2 * row).collect());
     }
-    all.push((0..n).collect());
+    together.push((0..n).collect());
+    all.extend(together.into_iter().map(Choice::likely));
     all
 }
 
@@ -184,8 +204,9 @@ mod tests {
 
     #[test]
     fn a_cosine_is_not_there_without_its_sine() {
-        assert_eq!(choices(&catalogue::ENCODER_ECCENTRICITY), [[0, 1]]);
-        assert_eq!(choices(&catalogue::BASE_SWAY), [vec![0, 1], vec![2, 3], vec![0, 1, 2, 3]]);
+        let of = |term| choices(term).into_iter().map(|choice| choice.parameters);
+        assert!(of(&catalogue::ENCODER_ECCENTRICITY).eq([[0, 1]]));
+        assert!(of(&catalogue::BASE_SWAY).eq([vec![0, 1], vec![2, 3], vec![0, 1, 2, 3]]));
         assert_eq!(choices(&catalogue::ACCEL_LEVER_ARM).len(), 3);
     }
 
@@ -193,12 +214,13 @@ mod tests {
     fn choices_are_distinct_and_within_the_term() {
         for n in [1, 2, 3, 4, 6, 9, 18] {
             let all = choices_of(n);
-            for (place, choice) in all.iter().enumerate() {
-                assert!(choice.iter().all(|&parameter| parameter < n));
-                assert!(choice.is_sorted());
-                assert!(!all[..place].contains(choice), "{n}: {choice:?}");
+            for (place, Choice { parameters, .. }) in all.iter().enumerate() {
+                assert!(parameters.iter().all(|&parameter| parameter < n));
+                assert!(parameters.is_sorted());
+                let is_same = |other: &Choice| other.parameters == *parameters;
+                assert!(!all[..place].iter().any(is_same), "{n}: {parameters:?}");
             }
-            assert_eq!(all.last().map(Vec::len), Some(n));
+            assert_eq!(all.last().map(|choice| choice.parameters.len()), Some(n));
         }
     }
 }

@@ -8,7 +8,6 @@ use crate::case::Case;
 use crate::dead_zone;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
-use crate::harmonics::HIGHEST;
 use crate::suggested::at_frequency;
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, best_pair, trials};
@@ -171,15 +170,11 @@ impl Case<'_> {
                 let chosen = cause.clone().with_values(&vec![0.0; cause.values.len()]).estimated();
                 list.push(Candidate { chosen, looks: 1.0, step: None });
             }
-            let at_order = cause.term.setting("order").map(|place| cause.settings[place]);
             let is_listed = |other: &Candidate| {
                 other.chosen.term.id == cause.term.id && other.chosen.settings == cause.settings
             };
-            if let Some(order) =
-                at_order.filter(|_| cause.term.id == catalogue::ENCODER_HARMONIC.id)
-                && !list.iter().any(is_listed)
-            {
-                list.push(Candidate::high_harmonic(order, HIGHEST));
+            if cause.term.id == catalogue::ENCODER_HARMONIC.id && !list.iter().any(is_listed) {
+                list.push(Candidate::high_harmonic(cause.settings[0]));
             }
             let of_frequency = cause.term.settings.first().filter(|s| s.name == "frequency");
             if of_frequency.is_some() {

@@ -3,6 +3,8 @@
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
+use crate::median::median;
+
 /// The noise under a line is the median of so many frequencies on each side.
 const AROUND: usize = 600;
 
@@ -70,11 +72,8 @@ impl Spectrum {
 
 /// The mean of exponential figures, from their median: a line is no noise.
 fn mean_of_noise(power: &[f64]) -> f64 {
-    let mut power = power.to_vec();
-    let middle = power.len() / 2;
-    let (_, median, _) = power.select_nth_unstable_by(middle, f64::total_cmp);
     // The median of an exponential distribution is ln 2 of its mean.
-    *median / std::f64::consts::LN_2
+    median(power) / std::f64::consts::LN_2
 }
 
 /// Where some series of one length stand highest over their noise together, each of one sensor.

@@ -7,7 +7,7 @@ use crate::candidates::Candidate;
 use crate::dead_zone;
 use crate::disturbance;
 use crate::probability::ln_tail;
-use crate::score::{Score, choices, is_scattered, scored};
+use crate::score::{Choice, Score, choices, scored};
 use crate::survey::{Left, Survey};
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
@@ -15,9 +15,6 @@ pub(crate) const UNKNOWN: f64 = 10.0;
 
 /// The same of an effect of any frequency: lines explain a little of all that is no line.
 const OF_ANY_FREQUENCY: f64 = 3.0;
-
-/// The same of two elements of a matrix that have little in common.
-const SCATTERED: f64 = 3.0;
 
 /// A shape of an effect with those of its parameters that are there.
 #[derive(Clone, Debug)]
@@ -81,15 +78,13 @@ impl<'a> Context<'a> {
         let unlikely = unlikely(shape.chosen.term);
         let mut best: Option<Trial> = None;
         let mut least_ln_p = 0.0_f64;
-        for parameters in choices {
+        for Choice { parameters, unlikely: of_choice } in choices {
             let places: Vec<usize> = parameters.iter().flat_map(|&p| own[p].clone()).collect();
             let Some((score, statistic)) = self.scored(&places) else { continue };
             let sigmas = self.survey.sigmas(&places);
             let possible = is_possible(shape, &parameters, &score.estimate.component_mul(&sigmas));
-            let scattered =
-                if is_scattered(shape.chosen.term, &parameters) { SCATTERED } else { 0.0 };
             let evidence = if possible {
-                score.evidence - looks - unlikely - scattered
+                score.evidence - looks - unlikely - of_choice
             } else {
                 f64::NEG_INFINITY
             };

@@ -8,7 +8,7 @@ use nalgebra::SVector;
 
 use crate::gains::Gains;
 use crate::gram::Gram;
-use crate::linear::Linear;
+use crate::linear::{Epoch, Linear};
 use crate::pass::Pass;
 use crate::posterior::Evidence;
 use crate::space::Space;
@@ -33,9 +33,10 @@ impl Evidence {
     pub fn of(linear: &Linear, noise: &Noise) -> Result<Self, Indefinite> {
         let mut gram = Gram::new(linear.parameters + 1);
         let mut log_determinant = 0.0;
-        pass(linear, noise, None, |whitened, log_det| {
+        pass(linear, noise, None, |_, whitened, log_det| {
             gram.add(whitened, SHOWN);
             log_determinant += log_det;
+            Some(())
         })?;
         let epochs = linear.epochs.iter().filter(|epoch| !epoch.left_out).count();
         Ok(Self::from_products(&gram.finish(), epochs * linear.shown(), log_determinant))
@@ -56,7 +57,10 @@ pub fn innovations(
     let mut all = Vec::with_capacity(linear.epochs.len());
     let mut combination = vec![1.0];
     combination.extend_from_slice(delta);
-    pass(linear, noise, Some(&combination), |whitened, _| all.push(innovation(whitened)))?;
+    pass(linear, noise, Some(&combination), |_, whitened, _| {
+        all.push(innovation(whitened));
+        Some(())
+    })?;
     Ok(all)
 }
 
@@ -66,15 +70,15 @@ fn innovation(whitened: &[f64]) -> SVector<f64, SHOWN> {
     SVector::from_fn(|part, _| -whitened[part * width])
 }
 
-/// Runs the filter; `each` is given what every epoch shows of the columns, whitened, a row a figure, and
-/// half the logarithm of the determinant.
+/// Runs the filter; `each` is given every epoch with what it shows of the columns, whitened, a row a figure, and
+/// half the logarithm of the determinant. Where it gives nothing back, something has no covariance.
 ///
 /// With a `combination` the columns are summed up, each times its number, into one.
 pub(crate) fn pass(
     linear: &Linear,
     noise: &Noise,
     combination: Option<&[f64]>,
-    mut each: impl FnMut(&[f64], f64),
+    mut each: impl FnMut(&Epoch, &[f64], f64) -> Option<()>,
 ) -> Result<(), Indefinite> {
     let space = Space::new(linear, noise);
     let columns = if combination.is_none() { linear.parameters + 1 } else { 1 };
@@ -92,8 +96,10 @@ pub(crate) fn pass(
                 &combined
             }
         };
-        let log_determinant = pass.step(&space, epoch, gains).ok_or(Indefinite { epoch: index })?;
-        each(pass.whitened(), log_determinant);
+        let anew = linear.starts_anew(index);
+        pass.step(&space, epoch, gains, anew)
+            .and_then(|log_determinant| each(epoch, pass.whitened(), log_determinant))
+            .ok_or(Indefinite { epoch: index })?;
     }
     Ok(())
 }

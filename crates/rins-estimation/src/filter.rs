@@ -73,15 +73,13 @@ impl<'a> Filter<'a> {
     /// # Errors
     /// [`Indefinite`] if the innovation has no covariance; the filter must not be used further.
     pub fn step(&mut self) -> Result<Option<SVector<f64, SHOWN>>, Indefinite> {
-        let mut interrupted = false;
         while let Some(epoch) = self.linear.epochs.get(self.epoch).filter(|epoch| epoch.left_out) {
             self.pass_over(&self.space.step(epoch));
             self.epoch += 1;
-            interrupted = true;
         }
         let Some(epoch) = self.linear.epochs.get(self.epoch) else { return Ok(None) };
         let inputs = inputs(epoch, self.linear.parameters);
-        if epoch.fresh || interrupted {
+        if self.linear.starts_anew(self.epoch) {
             self.start(&inputs);
         }
         let step = self.space.step(epoch);

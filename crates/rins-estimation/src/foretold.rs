@@ -62,23 +62,18 @@ impl Known {
     ) -> Result<Vec<Foretold>, Indefinite> {
         assert_eq!(places.len(), linear.parameters, "a place for each parameter of the run");
         let constant = 0.5 * linear.shown() as f64 * std::f64::consts::TAU.ln();
-        let mut shown = linear.epochs.iter().enumerate().filter(|(_, epoch)| !epoch.left_out);
-        let (mut all, mut broken) = (Vec::new(), None);
-        pass(linear, noise, None, |whitened, log_determinant| {
-            let Some((index, epoch)) = shown.next() else { return };
+        let mut all = Vec::new();
+        pass(linear, noise, None, |epoch, whitened, log_determinant| {
             let samples = epoch.samples.0..epoch.samples.1;
-            if !asked(&samples) || broken.is_some() {
-                return;
+            if asked(&samples) {
+                let (innovation, further) = self.learn(whitened, places)?;
+                let log_density =
+                    -0.5 * innovation.norm_squared() - log_determinant - further - constant;
+                all.push(Foretold { samples, innovation, log_density });
             }
-            let Some((innovation, further)) = self.learn(whitened, places) else {
-                broken = Some(Indefinite { epoch: index });
-                return;
-            };
-            let log_density =
-                -0.5 * innovation.norm_squared() - log_determinant - further - constant;
-            all.push(Foretold { samples, innovation, log_density });
+            Some(())
         })?;
-        broken.map_or(Ok(all), Err)
+        Ok(all)
     }
 
     /// Takes what an epoch shows of the columns, whitened, a row a figure; the innovation, whitened with what is not

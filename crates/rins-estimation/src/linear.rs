@@ -284,6 +284,11 @@ impl Linear {
         self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
     }
 
+    /// Whether navigation starts anew at an epoch: at the start of a run, after a gap, or after what was left out.
+    pub(crate) fn starts_anew(&self, epoch: usize) -> bool {
+        self.epochs[epoch].fresh || (epoch > 0 && self.epochs[epoch - 1].left_out)
+    }
+
     /// Whether the readings show the angle about the axis.
     pub(crate) fn shows_angle(&self) -> bool {
         self.reference != Reference::Gravity

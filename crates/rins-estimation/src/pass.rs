@@ -26,8 +26,6 @@ pub(crate) struct Pass {
     /// `C L⁻ᵀ`, where `C` is the covariance of the next states with what is shown, in rows.
     gain: Vec<f64>,
     whitened: Vec<f64>,
-    /// Whether the epoch before was passed over.
-    interrupted: bool,
 }
 
 impl Pass {
@@ -42,7 +40,6 @@ impl Pass {
             of_states: vec![0.0; FOLLOWING * length],
             gain: vec![0.0; SHOWN * length],
             whitened: vec![0.0; SHOWN * columns],
-            interrupted: false,
         }
     }
 
@@ -51,19 +48,24 @@ impl Pass {
         &self.whitened
     }
 
-    /// Goes on by one epoch; half the logarithm of the innovation covariance's determinant.
-    pub(crate) fn step(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains) -> Option<f64> {
-        self.begin(space, epoch, gains);
+    /// Goes on by one epoch, `anew` or from the one before; half the logarithm of the innovation covariance's determinant.
+    pub(crate) fn step(
+        &mut self,
+        space: &Space<'_>,
+        epoch: &Epoch,
+        gains: &Gains,
+        anew: bool,
+    ) -> Option<f64> {
+        self.begin(space, epoch, gains, anew);
         Arch::new().dispatch(Onward { pass: self, gains })
     }
 
-    fn begin(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains) {
+    fn begin(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains, anew: bool) {
         space.set(epoch, &mut self.step);
-        if epoch.fresh || self.interrupted {
+        if anew {
             space.forget_navigation(&mut self.covariance);
             self.start(gains);
         }
-        self.interrupted = false;
     }
 
     /// Lets time go by for what has a memory; navigation starts anew afterwards.
@@ -77,7 +79,6 @@ impl Pass {
             }
             self.covariance[(state, state)] += colour_noise[state];
         }
-        self.interrupted = true;
     }
 
     /// Attitude and velocity where the epoch's own readings put them, so that the start holds nothing that the readings
@@ -330,10 +331,10 @@ mod tests {
         let noise = Noise::on(&run.rig, &imu);
         let space = Space::new(&linear, &noise);
         let [mut wide, mut narrow] = [(); 2].map(|()| Pass::new(&space, free.len() + 1));
-        for epoch in &linear.epochs {
+        for (index, epoch) in linear.epochs.iter().enumerate() {
             let gains = &epoch.gains;
             for pass in [&mut wide, &mut narrow] {
-                pass.begin(&space, epoch, gains);
+                pass.begin(&space, epoch, gains, linear.starts_anew(index));
             }
             let determinant = Arch::new().dispatch(Onward { pass: &mut wide, gains });
             let narrow = Onward { pass: &mut narrow, gains }.with_simd(Scalar::new());
