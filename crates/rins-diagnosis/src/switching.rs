@@ -1,8 +1,7 @@
 //! Biases that switch between two levels, which pass for flicker as long as nobody asks.
 
-use nalgebra::DVector;
 use rayon::prelude::*;
-use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
+use rins_estimation::{Evidence, Fit, Indefinite};
 
 use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
@@ -10,8 +9,8 @@ use crate::disturbance::CHANNELS;
 use crate::levels::{Parts, Path};
 use crate::noise::triad;
 use crate::structure::Structure;
-use crate::survey::{Left, Survey};
-use crate::unexplained::{Unexplained, worst};
+use crate::survey::Left;
+use crate::unexplained::{Unexplained, beyond, worst};
 
 /// The biases that may switch.
 const BIASES: [&str; 6] =
@@ -71,7 +70,9 @@ impl Case<'_> {
                 break;
             }
             *flicker *= part;
-            let said = said(&Evidence::of(&apart, &noise)?, &known, own);
+            // Each part in units of the prior's sigma of the bias itself.
+            let scales = std::iter::repeat_n(known[own].parameter.sigma, parts);
+            let said = beyond(&Evidence::of(&apart, &noise)?, &known, scales);
             let Some(Left { information, score, log_likelihood, .. }) = said else { continue };
             let parts = Parts { information, score };
             without = without.max(log_likelihood);
@@ -96,15 +97,4 @@ impl Case<'_> {
             }
         }))
     }
-}
-
-/// What is said of a bias in each part, in units of its prior's sigma, the `known` parameters being estimated. None if
-/// nothing definite is.
-fn said(evidence: &Evidence, known: &[&Estimate], own: usize) -> Option<Left> {
-    let n = known.len();
-    let scale = |place: usize| known[if place < n { place } else { own }].parameter.sigma;
-    let scales: Vec<f64> = (0..evidence.score.len()).map(scale).collect();
-    let off = |(estimate, scale): (&&Estimate, &f64)| (estimate.value - estimate.expected) / scale;
-    let off = DVector::from_iterator(n, known.iter().zip(&scales).map(off));
-    Survey::of_evidence(evidence, scales, off).left(0, &[], &[])
 }

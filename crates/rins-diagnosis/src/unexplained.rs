@@ -11,8 +11,8 @@ use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
 use crate::periodic::{modulated, waveforms};
 use crate::probability::ln_tail;
 use crate::score::scored;
-use crate::structure::{Along, Left, Structure, groups};
-use crate::survey::Survey;
+use crate::structure::{self, Along, Structure, groups};
+use crate::survey::{Left, Survey};
 
 /// What the shown quantities of an epoch are called, in the axis frame.
 const SHOWN: [&str; 6] =
@@ -61,7 +61,12 @@ impl Case<'_> {
             let (angles, rates): (Vec<f64>, Vec<f64>) =
                 after.linear[run].motion().into_iter().unzip();
             let epoch = after.linear[run].mean_epoch();
-            let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let left = structure::Left {
+                innovations: &innovations,
+                angles: &angles,
+                rates: &rates,
+                epoch,
+            };
             let finds = left.finds();
             let is_signal =
                 |structure| is_steady(structure) || matches!(structure, Structure::Chirp(..));
@@ -214,12 +219,11 @@ impl Case<'_> {
         let apart = linear.in_groups(&own, &groups, last);
         let evidence = Evidence::of(&apart, &after.noise[run])?;
         let own_scale = |&place: &usize| of_run[place].value.abs() + 3.0 * of_run[place].sigma;
-        let scales: Vec<f64> = of_run
-            .iter()
-            .map(|estimate| estimate.parameter.sigma)
-            .chain((0..last).flat_map(|_| own.iter().map(own_scale)))
-            .collect();
-        Ok(beyond(&evidence, of_run.len(), scales))
+        let scales = (0..last).flat_map(|_| own.iter().map(own_scale));
+        let scored = beyond(&evidence, &of_run, scales)
+            .map(|left| scored(&left.information, &left.score))
+            .filter(|scored| scored.dof > 0);
+        Ok(scored.map(|scored| ln_tail(scored.statistic, scored.dof)))
     }
 
     /// The estimates that hold for a run, in the order of its model.
@@ -274,13 +278,17 @@ fn is_steady(structure: Structure) -> bool {
     matches!(structure, Structure::Line(_) | Structure::Order(_) | Structure::Drift)
 }
 
-/// The logarithm of the chance that what comes after the `known` parameters, which are estimated, is nothing.
-fn beyond(evidence: &Evidence, known: usize, scales: Vec<f64>) -> Option<f64> {
-    // At the estimate nothing pulls at the known ones: what holds them does so as hard as this run pulls.
-    let held = DVector::from_fn(known, |place, _| evidence.score[place] * scales[place]);
-    let left = Survey::of_evidence(evidence, scales, held).left(0, &[], &[])?;
-    let scored = scored(&left.information, &left.score);
-    (scored.dof > 0).then(|| ln_tail(scored.statistic, scored.dof))
+/// What one run says of what comes after the `known` parameters, in units of these `scales`, the known ones being estimated
+/// from this run alone. None if nothing definite is.
+pub(crate) fn beyond(
+    evidence: &Evidence,
+    known: &[&Estimate],
+    scales: impl Iterator<Item = f64>,
+) -> Option<Left> {
+    let sigmas = || known.iter().map(|estimate| estimate.parameter.sigma);
+    let off = |(estimate, sigma): (&&Estimate, f64)| (estimate.value - estimate.expected) / sigma;
+    let off = DVector::from_iterator(known.len(), known.iter().zip(sigmas()).map(off));
+    Survey::of_evidence(evidence, sigmas().chain(scales).collect(), off).left(0, &[], &[])
 }
 
 /// Leaves out groups of few epochs, and numbers the others from zero; the last number.

@@ -7,4 +7,5 @@ mod hidden;
 mod lines;
 mod outside;
 mod repeated;
+mod several;
 mod support;
