@@ -3,10 +3,12 @@
 
 use std::ops::Range;
 
+use nalgebra::{Matrix3, Vector3};
 use rins_estimation::Fit;
 
 use crate::case::Case;
 use crate::disturbance::CHANNELS;
+use crate::median::median_about;
 use crate::probability::ln_tail;
 use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
@@ -34,9 +36,12 @@ struct Standing {
 impl Case<'_> {
     /// The sensor of a run that shows the strongest shock, if any does, and the samples of all its shocks.
     pub(crate) fn shocks(&self, fit: &Fit, run: usize) -> Option<(Unexplained, Vec<Range<usize>>)> {
-        let all = residuals(&self.runs[run], fit, run);
+        let mut all = residuals(&self.runs[run], fit, run);
         let jolts = jolted(fit, run);
         let angles = fit.linear[run].track().angles();
+        for series in &mut all {
+            take_turn_out(series, angles);
+        }
         let turned = angles.windows(2).map(|ends| (ends[1] - ends[0]).abs());
         let fastest = turned.fold(0.0, f64::max);
         // A base that tips over, or a table that changes its rate, shakes the sensors too.
@@ -79,6 +84,29 @@ impl Case<'_> {
     }
 }
 
+/// Takes its mean and what comes once a turn out of a series: where the axis does not stand as it was surveyed it is no line,
+/// if samples are so few that the table turns far in a stretch of them.
+fn take_turn_out(series: &mut [f64], angles: &[f64]) {
+    let turn = || {
+        angles.windows(2).map(|ends| {
+            let (sin, cos) = (0.5 * (ends[0] + ends[1])).sin_cos();
+            Vector3::new(1.0, cos, sin)
+        })
+    };
+    let (mut information, mut score) = (Matrix3::zeros(), Vector3::zeros());
+    for (shape, value) in turn().zip(&*series) {
+        information += shape * shape.transpose();
+        score += shape * *value;
+    }
+    // A table that stands shows no turn.
+    let Ok(found) = information.svd(true, true).solve(&score, 1e-9 * series.len() as f64) else {
+        return;
+    };
+    for (shape, value) in turn().zip(series) {
+        *value -= shape.dot(&found);
+    }
+}
+
 /// The stretches of a series whose squares stand out of those about them, strongest first, each once; a single large value is
 /// no shock.
 fn standing(series: &[f64]) -> Vec<Standing> {
@@ -91,10 +119,7 @@ fn standing(series: &[f64]) -> Vec<Standing> {
         // The median of a chi-square, by Wilson and Hilferty.
         let middle = dof as f64 * (1.0 - 2.0 / (9.0 * dof as f64)).powi(3);
         for (place, square) in squares.iter().enumerate() {
-            let around = place.saturating_sub(AROUND)..squares.len().min(place + AROUND + 1);
-            let mut others = squares[around].to_vec();
-            let half = others.len() / 2;
-            let usual = *others.select_nth_unstable_by(half, f64::total_cmp).1 / middle;
+            let usual = median_about(&squares, place, AROUND) / middle;
             if usual.is_nan() || usual <= 0.0 || *square < 2.0 * middle * usual {
                 continue;
             }
@@ -168,6 +193,26 @@ mod tests {
         assert!(standing(&knocked).is_empty());
         assert!(standing(&noise(StudentT::new(6.0).unwrap(), 21)).is_empty());
         assert!(standing(&[0.0; 1000]).is_empty());
+    }
+
+    /// Readings so slow that a stretch of them is half a turn, of an axis that leans; then the table hurries.
+    #[test]
+    fn what_comes_once_a_turn_is_no_shock() {
+        let angle =
+            |place: i32| 0.01 * f64::from(place) + 0.04 * f64::from((place - 20_000).max(0));
+        let angles: Vec<f64> = (0..=40_000).map(angle).collect();
+        let mut leaning = noise(StandardNormal, 3);
+        for (value, angle) in leaning.iter_mut().zip(&angles) {
+            *value += 9.0 * (angle + 0.4).sin();
+        }
+        assert!(!standing(&leaning).is_empty());
+        take_turn_out(&mut leaning, &angles);
+        assert!(standing(&leaning).is_empty());
+        let mut at_rest = noise(StandardNormal, 4);
+        take_turn_out(&mut at_rest, &[1.3; 40_001]);
+        let mean = at_rest.iter().sum::<f64>() / 40_000.0;
+        let square = at_rest.iter().map(|value| value * value).sum::<f64>() / 40_000.0;
+        assert!(mean.abs() < 1e-9 && (square - 1.0).abs() < 0.05, "{mean} {square}");
     }
 
     #[test]
