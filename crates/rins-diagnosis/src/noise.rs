@@ -117,11 +117,20 @@ impl Case<'_> {
                 continue;
             }
             let around = [found, found * STEP.exp(), found * (-STEP).exp()];
-            let [here, above, below] = self.likelihoods(after, strength, around)?;
+            let around = around.map(|value| strength.with(&after.noise, value));
+            let [here, above, below] = self.likelihoods(after, &around)?;
             let anew = asked.then(|| self.gain_over(after, strength)).flatten();
             let gain = match anew {
                 Some(gain) => gain,
-                None => here - self.likelihoods(after, strength, [as_said])?[0],
+                None => {
+                    let mut others =
+                        [&after.noise, &after.noise].map(|noise| strength.with(noise, as_said));
+                    if strength.kind == Kind::White(0) {
+                        sway(&mut others[1], found * found - as_said * as_said);
+                    }
+                    let [as_said, swaying] = self.likelihoods(after, &others)?;
+                    here - as_said.max(swaying)
+                }
             };
             let statistic = 2.0 * gain;
             let ln_p = ln_tail(statistic.max(0.0), 1) + (STRENGTHS.len() as f64).ln();
@@ -163,18 +172,23 @@ impl Case<'_> {
         Some(after.log_likelihood - fitted.log_likelihood)
     }
 
-    /// The logarithm of the data's probability with each of some strengths.
+    /// The logarithm of the data's probability with each of some noises.
     fn likelihoods<const N: usize>(
         &self,
         after: &Fit,
-        strength: &Strength,
-        values: [f64; N],
+        noises: &[RunNoise; N],
     ) -> Result<[f64; N], Indefinite> {
-        let noises = values.map(|value| strength.with(&after.noise, value));
-        let survey = Survey::of(self.runs, after, self.imu, &[], &noises)?;
+        let survey = Survey::of(self.runs, after, self.imu, &[], noises)?;
         let of =
             |noise| survey.left(noise, &[], &[]).map_or(f64::NEG_INFINITY, |l| l.log_likelihood);
         Ok(std::array::from_fn(of))
+    }
+}
+
+/// Has a base that nothing reads stray by so much more, or less: about its axes that looks like the gyros' own noise.
+fn sway(noise: &mut [Noise], square: f64) {
+    for sway in noise.iter_mut().flat_map(|noise| &mut noise.sway).filter(|sway| **sway > 0.0) {
+        *sway = (*sway * *sway + square).max(0.0).sqrt();
     }
 }
 

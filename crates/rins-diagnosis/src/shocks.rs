@@ -209,7 +209,7 @@ mod tests {
         take_turn_out(&mut leaning, &angles);
         assert!(standing(&leaning).is_empty());
         let mut at_rest = noise(StandardNormal, 4);
-        take_turn_out(&mut at_rest, &[1.3; 40_001]);
+        take_turn_out(&mut at_rest, &vec![1.3; 40_001]);
         let mean = at_rest.iter().sum::<f64>() / 40_000.0;
         let square = at_rest.iter().map(|value| value * value).sum::<f64>() / 40_000.0;
         assert!(mean.abs() < 1e-9 && (square - 1.0).abs() < 0.05, "{mean} {square}");

@@ -8,6 +8,7 @@ use rins_terms::{Free, Model};
 
 use crate::estimate::{Estimate, Fit, Iteration};
 use crate::evidence::Indefinite;
+use crate::fit_error::FitError;
 use crate::layout::Layout;
 use crate::likely::likely_noise;
 use crate::linear::{Linear, Pieces, linearised};
@@ -24,39 +25,14 @@ const CONVERGED: f64 = 1e-3;
 /// A step below this many sigmas leads near enough to judge the noise, and to take derivatives in earnest.
 const NEAR: f64 = 1.0;
 
+/// How often noise is judged at most.
+const MOST_JUDGED: usize = 3;
+
+/// Noise is judged again if the squares of what is left differ by this part from what it says of them.
+const MISJUDGED: f64 = 0.1;
+
 /// The cosine of the angle between a step and the way back beyond which it only turns back.
 const TURNING_BACK: f64 = 0.5;
-
-/// Why no estimate was found.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FitError {
-    /// There is no run.
-    #[error("there is no run to estimate anything from")]
-    NoRun,
-    /// The model estimates nothing.
-    #[error("the model leaves no parameter to be estimated")]
-    NothingFree,
-    /// The filter broke off.
-    #[error(transparent)]
-    Indefinite(#[from] Indefinite),
-    /// The information is not finite.
-    #[error("the data do not make a finite information matrix at iteration {iteration}")]
-    NoInformation {
-        /// Which iteration.
-        iteration: usize,
-    },
-    /// The steps did not become small.
-    #[error(
-        "after {iterations} iterations the last step is still {step} sigma: the model is too far from these data"
-    )]
-    Diverged {
-        /// How many iterations were made.
-        iterations: usize,
-        /// The largest of the last steps, in sigmas.
-        step: f64,
-    },
-}
 
 /// Estimates what `model` leaves free from `runs` of one IMU.
 ///
@@ -117,15 +93,25 @@ fn fitted(
         if let (Some(near), Some(_)) = (near, inverse) {
             noise.clone_from(&near.noise);
         }
+        inverse_curvature = inverse.cloned();
         problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
-        let likely = likely_noise(&problem.linear, &sheet, &noise, inverse, |linear, noise| {
-            let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
-            Some(posterior.log_likelihood)
-        });
-        (noise, around) = (likely.noise, likely.around);
-        inverse_curvature = Some(likely.inverse_curvature);
+        // Judged far from where the estimate ends, it may stand for what the parameters explain there.
+        for _ in 0..MOST_JUDGED {
+            let inverse = inverse_curvature.as_ref();
+            let likely = likely_noise(&problem.linear, &sheet, &noise, inverse, |linear, noise| {
+                let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
+                Some(posterior.log_likelihood)
+            });
+            (noise, around) = (likely.noise, likely.around);
+            inverse_curvature = Some(likely.inverse_curvature);
+            problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
+            if problem.fits(&noise)? {
+                break;
+            }
+        }
+    } else {
+        problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
     }
-    problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
     let fit = problem.finish(noise, &around, iterations)?;
     Ok(Fit { inverse_curvature, ..fit })
 }
@@ -232,6 +218,14 @@ impl<'a> Problem<'a> {
         let runs = self.runs.iter().zip(&self.models);
         self.linear = runs.map(|(run, model)| linearised(run, model, &free, pieces)).collect();
         self.pieces = pieces;
+    }
+
+    /// Whether the noise is as strong as what is left, where the parameters are estimated.
+    fn fits(&self, noise: &[Noise]) -> Result<bool, FitError> {
+        let evidence = self.evidence(&self.linear, noise)?;
+        let figures = evidence.figures as f64;
+        let dof = figures - self.all.len() as f64;
+        Ok((evidence.square - dof).abs() < MISJUDGED * figures)
     }
 
     fn evidence(&self, linear: &[Linear], noise: &[Noise]) -> Result<Evidence, Indefinite> {

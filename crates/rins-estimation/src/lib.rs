@@ -43,6 +43,7 @@ mod posterior;
 mod estimate;
 mod filter;
 mod fit;
+mod fit_error;
 mod likely;
 
 mod identifiability;
@@ -50,7 +51,8 @@ mod identifiability;
 pub use estimate::{Estimate, Fit, Iteration};
 pub use evidence::{Indefinite, innovations};
 pub use filter::Filter;
-pub use fit::{FitError, fit, fit_near};
+pub use fit::{fit, fit_near};
+pub use fit_error::FitError;
 pub use foretold::{Foretold, Known};
 pub use gravity::{axis_from_gravity, turning_span};
 pub use identifiability::{

@@ -22,4 +22,5 @@ mod round_trip;
 mod support;
 mod synthetic;
 mod turned_over;
+mod unread;
 mod verdicts;

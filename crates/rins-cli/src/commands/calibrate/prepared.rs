@@ -210,8 +210,10 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
     let turning = turning_span(recording).map(|span| (recording.slice(span.start, span.end), span));
     if let Some((turning, span)) = turning
         && spin(&turning) > LEAST_SPIN
-        && let Some(nav_from_table) = axis_from_gravity(&turning, yaw)
+        && let Some(by_gravity) = axis_from_gravity(&turning, yaw)
     {
+        let stated = loaded.rig.attitude.map(|given| given.angles.dcm());
+        let nav_from_table = headed(by_gravity, stated);
         let angles = nav_from_table.euler_angles();
         let remarks = vec![format!(
             "Nothing reads the table: gravity, {:.2} m/s² of it across the axis (roll {:.1}, pitch {:.1} deg), is the angle \
@@ -247,6 +249,26 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
     };
     let part = Some(recording.slice(rest.span.start, rest.span.end));
     Ok(Axis { part, remarks, ..Axis::of(Reference::Rest, nav_from_table, attitude) })
+}
+
+/// An axis that gravity shows, with the heading of the stated one: the yaw of a table depends on how far it has turned, and
+/// that nobody knows where nothing reads it. As it is, where the two do not lean alike.
+fn headed(by_gravity: Dcm<Nav, Table>, stated: Option<Dcm<Nav, Table>>) -> Dcm<Nav, Table> {
+    let leaning = |axis: &Dcm<Nav, Table>| {
+        let up = axis.matrix().column(2);
+        let across = up[0].hypot(up[1]);
+        (across, across.atan2(up[2]), up[1].atan2(up[0]))
+    };
+    let (_, tilt, heading) = leaning(&by_gravity);
+    let Some((across, stated_tilt, stated_heading)) = stated.as_ref().map(leaning) else {
+        return by_gravity;
+    };
+    let far = 3.0 * AXIS_BY_GRAVITY;
+    if across < far || (tilt - stated_tilt).abs() > far {
+        return by_gravity;
+    }
+    let about_up = Vector3::new(0.0, 0.0, stated_heading - heading);
+    Dcm::<Nav, Nav>::from_rotation_vector(&about_up) * by_gravity
 }
 
 /// A run of many rests, each with an attitude of its own.
