@@ -102,6 +102,8 @@ impl Case<'_> {
         if switching.is_empty() && !causes.is_empty() {
             let explained = after.log_likelihood - before.log_likelihood;
             switching = self.switching(before, explained.max(0.0))?;
+            // One that switches once has stepped, and a step was tried for every cause.
+            switching.retain(|one| one.structure != Structure::Switching(1));
         }
         // A bias that switches once is one that stepped.
         let stepped =
