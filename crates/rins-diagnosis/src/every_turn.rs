@@ -7,14 +7,18 @@ use crate::case::Case;
 use crate::diagnosis::Cause;
 use crate::disturbance::{CHANNELS, IN_ANGLE};
 use crate::periodic::turn_frequency;
+use crate::probability::ln_tail;
 use crate::residuals::ABOUT_AXIS;
-use crate::structure::Structure;
+use crate::structure::{self, Find, Left, Structure};
 use crate::trial::UNKNOWN;
 use crate::unexplained::{Unexplained, worst};
 use crate::wander::CHOSEN;
 
 /// So many harmonics of an encoder, each of an order of its own, may be parts of something else.
 const SEVERAL: usize = 2;
+
+/// So many orders of the table angle are looked at together.
+const TOGETHER: u32 = 12;
 
 /// The parameters of a disturbance that are of the gyro about the axis.
 const OF_GYRO: [&str; 2] = ["gyro_z_cos", "gyro_z_sin"];
@@ -76,6 +80,30 @@ impl Case<'_> {
     }
 }
 
+impl Left<'_> {
+    /// What comes back with every turn and is no sine, on one sensor or on all: no order of it need stand out alone. In body axes.
+    pub(crate) fn every_turn(&self) -> Option<Find> {
+        self.orders()?;
+        let shown = self.highest_order();
+        let orders = (2..=TOGETHER).take_while(|order| f64::from(*order) <= shown);
+        let count = orders.clone().count();
+        let highest = orders.clone().last().filter(|_| count >= SEVERAL)?;
+        let mut sums = [0.0; structure::CHANNELS];
+        for order in orders {
+            for (sum, power) in sums.iter_mut().zip(self.turning(self.innovations, order.into())) {
+                *sum += 2.0 * power;
+            }
+        }
+        let alone = (0..sums.len())
+            .map(|channel| (channel, ln_tail(sums[channel], 2 * count) + (sums.len() as f64).ln()));
+        let (channel, alone) = alone.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let together = ln_tail(sums.iter().sum(), 2 * count * sums.len());
+        // Two ways of looking.
+        let ln_p = alone.min(together) + 2.0_f64.ln();
+        Some(Find { structure: Structure::EveryTurn(highest), channel, ln_p })
+    }
+}
+
 /// The orders of the table angle in which an effect shows about the axis every turn, if it does.
 fn orders(term: &Term, settings: &[f64]) -> Vec<f64> {
     if is_harmonic(term) {
@@ -87,4 +115,49 @@ fn orders(term: &Term, settings: &[f64]) -> Vec<f64> {
 
 fn is_harmonic(term: &Term) -> bool {
     term.id == catalogue::ENCODER_HARMONIC.id
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::SVector;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, StandardNormal};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+
+    /// Half a second an epoch, at three rates; on one channel a bump of this height wherever the table comes by.
+    fn found(bump: f64, seed: u64) -> Find {
+        let rates: Vec<f64> =
+            [0.1, -0.3, 0.5].iter().flat_map(|rate| std::iter::repeat_n(*rate, 500)).collect();
+        let turned = |angle: &mut f64, rate: &f64| {
+            *angle += 0.5 * rate;
+            Some(*angle)
+        };
+        let angles: Vec<f64> = rates.iter().scan(0.0, turned).collect();
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut noise = || StandardNormal.sample(&mut random);
+        let innovation = |angle: &f64| {
+            let mut one = SVector::<f64, { structure::CHANNELS }>::from_fn(|_, _| noise());
+            one[4] += bump * (8.0 * (angle.cos() - 1.0)).exp();
+            one
+        };
+        let innovations: Vec<_> = angles.iter().map(innovation).collect();
+        let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch: 0.5 };
+        left.every_turn().expect("a table that turns")
+    }
+
+    #[test]
+    fn noise_comes_back_by_chance_as_rarely_as_it_says() {
+        let share = (0..300).filter(|&seed| found(0.0, seed).ln_p < 0.1_f64.ln()).count();
+        // Two ways of looking at much the same, each of which pays for both.
+        assert!((10..40).contains(&share), "{share} of 300");
+    }
+
+    #[test]
+    fn a_bump_is_found_on_its_sensor() {
+        let Find { structure, channel, ln_p } = found(1.2, 1);
+        assert_eq!((structure, channel), (Structure::EveryTurn(12), 4));
+        assert!(ln_p < -15.0, "{ln_p}");
+    }
 }

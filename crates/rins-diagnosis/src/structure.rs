@@ -36,6 +36,8 @@ pub enum Structure {
     Drift,
     /// Lines whose frequencies are multiples of this one \[Hz\]: it comes back, and is no sine.
     Waveform(f64),
+    /// Orders of the table angle together, from the second up to this one, in body axes: it comes back every turn, and is no sine.
+    EveryTurn(u32),
     /// A bias that switches between two levels, so many times.
     Switching(usize),
     /// A spread that is not the same all along.
@@ -70,6 +72,13 @@ pub(crate) struct Find {
     pub(crate) ln_p: f64,
 }
 
+impl Find {
+    /// Whether it was found in body axes, so that its channel is a sensor.
+    pub(crate) const fn is_in_body(&self) -> bool {
+        matches!(self.structure, Structure::EveryTurn(_))
+    }
+}
+
 /// The innovations of a run, and where the table was.
 pub(crate) struct Left<'a> {
     /// Whitened, an epoch each.
@@ -93,6 +102,7 @@ impl Left<'_> {
         finds.extend(self.chirp());
         finds.extend(body.chirp());
         finds.extend(self.order(&in_body));
+        finds.extend(body.every_turn());
         finds.extend([Along::Time, Along::Sense, Along::Rate].map(|along| self.spread(along)));
         let kinds = finds.len() as f64;
         for find in &mut finds {
@@ -236,14 +246,18 @@ impl Left<'_> {
             return None;
         }
         let step = 0.5 / turns.max(2.0);
-        let fastest = self.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        let highest = HIGHEST_ORDER.min(std::f64::consts::PI / (fastest * self.epoch));
-        let count = (highest / step).floor();
+        let count = (self.highest_order() / step).floor();
         Some((step, count))
     }
 
+    /// The highest order that epochs show where the table turns fastest.
+    pub(crate) fn highest_order(&self) -> f64 {
+        let fastest = self.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        HIGHEST_ORDER.min(std::f64::consts::PI / (fastest * self.epoch))
+    }
+
     /// The power of an order of the table angle in each quantity.
-    fn turning(&self, series: &[SVector<f64, CHANNELS>], order: f64) -> [f64; CHANNELS] {
+    pub(crate) fn turning(&self, series: &[SVector<f64, CHANNELS>], order: f64) -> [f64; CHANNELS] {
         let mut sums = [Complex::new(0.0, 0.0); CHANNELS];
         for (nu, angle) in series.iter().zip(self.angles) {
             let turned = Complex::from_polar(1.0, -order * angle);

@@ -68,15 +68,18 @@ impl Case<'_> {
                 epoch,
             };
             let finds = left.finds();
-            let is_signal =
-                |structure| is_steady(structure) || matches!(structure, Structure::Chirp(..));
+            let is_signal = |structure| {
+                is_steady(structure)
+                    || matches!(structure, Structure::Chirp(..) | Structure::EveryTurn(_))
+            };
             // The strongest signal, and the strongest of what is none: each is seen in many ways.
             for signal in [true, false] {
                 let strongest = finds.iter().find(|find| is_signal(find.structure) == signal);
                 let Some(find) = strongest.filter(|find| find.ln_p < threshold) else { continue };
+                let names = if find.is_in_body() { &CHANNELS[..] } else { &SHOWN };
                 let mut one = Unexplained {
                     run,
-                    channel: SHOWN[find.channel],
+                    channel: names[find.channel],
                     structure: find.structure,
                     of: None,
                     ln_p: find.ln_p,

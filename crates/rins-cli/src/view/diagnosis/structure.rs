@@ -20,6 +20,9 @@ pub(crate) fn structure_in_words(one: &Unexplained) -> String {
         Structure::Waveform(frequency) => {
             format!("repeats every {} s, and is no sine", figure(1.0 / frequency, 3))
         }
+        Structure::EveryTurn(highest) => {
+            format!("comes back every turn, and is no sine: orders 2 to {highest}")
+        }
         Structure::Switching(times) => format!("switches between two levels, {times} times"),
         Structure::Spread(along) => format!("spread that changes with {}", along_in_words(along)),
         Structure::Tails => "more outliers than normal noise has".into(),
