@@ -257,7 +257,7 @@ impl Left<'_> {
     }
 
     /// The power of an order of the table angle in each quantity.
-    pub(crate) fn turning(&self, series: &[SVector<f64, CHANNELS>], order: f64) -> [f64; CHANNELS] {
+    fn turning(&self, series: &[SVector<f64, CHANNELS>], order: f64) -> [f64; CHANNELS] {
         let mut sums = [Complex::new(0.0, 0.0); CHANNELS];
         for (nu, angle) in series.iter().zip(self.angles) {
             let turned = Complex::from_polar(1.0, -order * angle);
