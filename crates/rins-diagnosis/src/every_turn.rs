@@ -10,7 +10,7 @@ use crate::disturbance::{CHANNELS, IN_ANGLE};
 use crate::periodic::turn_frequency;
 use crate::probability::ln_tail;
 use crate::residuals::ABOUT_AXIS;
-use crate::structure::{self, Find, Left, Structure};
+use crate::structure::{self, Find, Remainder, Structure};
 use crate::trial::UNKNOWN;
 use crate::unexplained::{Unexplained, worst};
 use crate::wander::CHOSEN;
@@ -84,7 +84,7 @@ impl Case<'_> {
     }
 }
 
-impl Left<'_> {
+impl Remainder<'_> {
     /// What comes back with every turn and is no sine, on one sensor or on all: no order of it need stand out alone. In body axes.
     pub(crate) fn every_turn(&self) -> Option<Find> {
         self.orders()?;
@@ -166,7 +166,7 @@ mod tests {
             one
         };
         let innovations: Vec<_> = angles.iter().map(innovation).collect();
-        let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch: 0.5 };
+        let left = Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch: 0.5 };
         left.every_turn().expect("a table that turns")
     }
 

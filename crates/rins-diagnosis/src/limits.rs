@@ -108,7 +108,7 @@ pub fn chance(
     let list = candidates(runs, fit.model());
     let survey = Survey::of(runs, fit, imu, &list, std::slice::from_ref(&fit.noise))?;
     let Some(left) = survey.left(0, &[], &[]) else { return Ok(0.0) };
-    let root = square_root(&left.information);
+    let root = square_root(&left.all().0);
     let named = (0..draws)
         .into_par_iter()
         .filter(|&draw| {

@@ -1,6 +1,7 @@
 //! What whitened innovations still hold: lines, orders of the table angle, unequal spread, heavy tails.
 
 use nalgebra::SVector;
+use rayon::prelude::*;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
@@ -80,7 +81,7 @@ impl Find {
 }
 
 /// The innovations of a run, and where the table was.
-pub(crate) struct Left<'a> {
+pub(crate) struct Remainder<'a> {
     /// Whitened, an epoch each.
     pub(crate) innovations: &'a [SVector<f64, CHANNELS>],
     /// The table angle in the middle of each epoch \[rad\].
@@ -91,19 +92,24 @@ pub(crate) struct Left<'a> {
     pub(crate) epoch: f64,
 }
 
-impl Left<'_> {
+impl Remainder<'_> {
     /// Everything that is looked for, most significant first.
     pub(crate) fn finds(&self) -> Vec<Find> {
-        let mut finds = vec![self.tails()];
         let in_body = self.in_body();
-        let body = Left { innovations: &in_body, ..*self };
-        finds.extend(self.line());
-        finds.extend(body.line());
-        finds.extend(self.chirp());
-        finds.extend(body.chirp());
-        finds.extend(self.order(&in_body));
-        finds.extend(body.every_turn());
-        finds.extend([Along::Time, Along::Sense, Along::Rate].map(|along| self.spread(along)));
+        let body = Remainder { innovations: &in_body, ..*self };
+        let ways: [&(dyn Fn() -> Option<Find> + Sync); _] = [
+            &|| Some(self.tails()),
+            &|| self.line(),
+            &|| body.line(),
+            &|| self.chirp(),
+            &|| body.chirp(),
+            &|| self.order(&in_body),
+            &|| body.every_turn(),
+            &|| Some(self.spread(Along::Time)),
+            &|| Some(self.spread(Along::Sense)),
+            &|| Some(self.spread(Along::Rate)),
+        ];
+        let mut finds: Vec<Find> = ways.par_iter().filter_map(|way| way()).collect();
         let kinds = finds.len() as f64;
         for find in &mut finds {
             find.ln_p = (find.ln_p + kinds.ln()).min(0.0);

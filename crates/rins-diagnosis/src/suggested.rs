@@ -10,7 +10,7 @@ use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
 use crate::disturbance::IN_ANGLE;
 use crate::jolt::Jolts;
-use crate::structure::{CHANNELS, Left, Structure};
+use crate::structure::{CHANNELS, Remainder, Structure};
 
 /// How many slow lines are tried at once.
 const SLOW: usize = 2;
@@ -39,11 +39,11 @@ impl Case<'_> {
             let (angles, rates): (Vec<f64>, Vec<f64>) =
                 present.linear[run].motion().into_iter().unzip();
             let epoch = present.linear[run].mean_epoch();
-            let left = Left { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let left = Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch };
             let count = innovations.len() as f64;
             // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
             let in_body = left.in_body();
-            let body = Left { innovations: &in_body, ..left };
+            let body = Remainder { innovations: &in_body, ..left };
             list.extend(left.strongest_order(&in_body).map(|(order, step, looks)| {
                 let mut chosen = Chosen::new(&IN_ANGLE).estimated();
                 chosen.settings[0] = order;
@@ -163,7 +163,7 @@ pub(crate) fn at_frequency(frequency: f64) -> Vec<Chosen> {
     axes.into_iter().chain([with(&catalogue::BASE_SWAY)]).collect()
 }
 
-impl Left<'_> {
+impl Remainder<'_> {
     /// The order at which most is left on a sensor, the step to the next that was looked at, and how many there were.
     fn strongest_order(&self, in_body: &[SVector<f64, CHANNELS>]) -> Option<(f64, f64, f64)> {
         let (step, count) = self.orders()?;

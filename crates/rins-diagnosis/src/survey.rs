@@ -1,5 +1,7 @@
 //! One pass over the runs tells of all candidates at once how much better each would explain them.
 
+use std::borrow::Cow;
+
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 use rins_estimation::{Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise_coarsely};
@@ -51,13 +53,18 @@ pub(crate) struct Slope {
 }
 
 /// What is left to say of parameters when others have been estimated, or set to nothing.
-pub(crate) struct Left {
-    /// The information on all that is left, in units of the priors' sigmas.
-    pub(crate) information: DMatrix<f64>,
+///
+/// Few of the products of thousands of candidates' parameters are ever asked for: each block is made when it is.
+pub(crate) struct Left<'a> {
+    /// The information on all parameters, in units of the priors' sigmas.
+    information: &'a DMatrix<f64>,
+    /// What the estimated ones explain of it: `L⁻¹ A`, where `A` are their products with what is left, and `L Lᵀ` those with
+    /// each other.
+    explained: Cow<'a, DMatrix<f64>>,
     /// The derivative of the log-likelihood.
-    pub(crate) score: DVector<f64>,
+    score: DVector<f64>,
     /// The places that are left.
-    pub(crate) places: Vec<usize>,
+    places: Cow<'a, [usize]>,
     /// The logarithm of the probability of the data, but for a constant, if none of what is left is there.
     pub(crate) log_likelihood: f64,
 }
@@ -142,7 +149,12 @@ impl Survey {
     /// expected of them, when all others of the model have been estimated, and the candidates' parameters `taken` too.
     ///
     /// None if the information on these is not finite.
-    pub(crate) fn left(&self, noise: usize, dropped: &[usize], taken: &[usize]) -> Option<Left> {
+    pub(crate) fn left(
+        &self,
+        noise: usize,
+        dropped: &[usize],
+        taken: &[usize],
+    ) -> Option<Left<'_>> {
         let Said { information, score, square, log_determinant } = &self.said[noise];
         let kept: Vec<usize> = (0..self.known)
             .filter(|place| !dropped.contains(place))
@@ -167,17 +179,17 @@ impl Survey {
         let off = |&place: &usize| if candidate(place) { 0.0 } else { self.off[place] };
         let off = DVector::from_iterator(kept.len(), kept.iter().map(off));
         let pulled = DVector::from_iterator(kept.len(), kept.iter().map(|&p| score[p])) - &off;
-        let factor = Cholesky::new(corner)?;
-        let across = chosen(information, &kept, &places);
-        let solved = factor.solve(&across);
-        let step = factor.solve(&pulled);
+        let factor = Cholesky::new(corner)?.unpack();
+        let whitened = factor.solve_lower_triangular(&pulled)?;
+        let explained = factor.solve_lower_triangular(&chosen(information, &kept, &places))?;
         let rest = DVector::from_iterator(places.len(), places.iter().map(|&place| score[place]));
-        let log_det: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
-        let squares = square + off.norm_squared() - pulled.dot(&step);
+        let log_det: f64 = factor.diagonal().iter().map(|x| x.ln()).sum();
+        let squares = square + off.norm_squared() - whitened.norm_squared();
         Some(Left {
-            information: chosen(information, &places, &places) - across.tr_mul(&solved),
-            score: rest - across.tr_mul(&step),
-            places,
+            information,
+            score: rest - explained.tr_mul(&whitened),
+            explained: Cow::Owned(explained),
+            places: Cow::Owned(places),
             log_likelihood: -0.5 * squares - log_determinant - log_det,
         })
     }
@@ -222,26 +234,37 @@ impl Said {
     }
 }
 
-impl Left {
+impl Left<'_> {
     /// The same of other data.
-    pub(crate) fn with_score(&self, score: DVector<f64>) -> Self {
-        Self {
-            information: self.information.clone(),
+    pub(crate) fn with_score(&self, score: DVector<f64>) -> Left<'_> {
+        Left {
+            information: self.information,
+            explained: Cow::Borrowed(&self.explained),
             score,
-            places: self.places.clone(),
+            places: Cow::Borrowed(&self.places),
             log_likelihood: 0.0,
         }
     }
 
+    /// Information and score of all that is left.
+    pub(crate) fn all(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let all = chosen(self.information, &self.places, &self.places);
+        (all - self.explained.tr_mul(&*self.explained), self.score.clone())
+    }
+
     /// Information and score of some of the places that are left.
     pub(crate) fn block(&self, places: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
-        let own: Vec<usize> = places.iter().filter_map(|&place| self.position(place)).collect();
+        let (own, places): (Vec<usize>, Vec<usize>) =
+            places.iter().filter_map(|&place| Some((self.position(place)?, place))).unzip();
         let score = DVector::from_iterator(own.len(), own.iter().map(|&place| self.score[place]));
-        (chosen(&self.information, &own, &own), score)
+        let information = DMatrix::from_fn(own.len(), own.len(), |row, column| {
+            let explained =
+                self.explained.column(own[row]).dot(&self.explained.column(own[column]));
+            self.information[(places[row], places[column])] - explained
+        });
+        (information, score)
     }
-}
 
-impl Left {
     /// The estimate of some of the places that are left, in units of the priors' sigmas, and by how much the
     /// squares fall with it. None if they are not shown.
     pub(crate) fn estimate(&self, places: &[usize]) -> Option<(DVector<f64>, f64)> {

@@ -9,8 +9,7 @@ use crate::disturbance::CHANNELS;
 use crate::levels::{Parts, Path};
 use crate::noise::triad;
 use crate::structure::Structure;
-use crate::survey::Left;
-use crate::unexplained::{Unexplained, beyond, worst};
+use crate::unexplained::{Beyond, Unexplained, beyond, worst};
 
 /// The biases that may switch.
 const BIASES: [&str; 6] =
@@ -73,7 +72,7 @@ impl Case<'_> {
             // Each part in units of the prior's sigma of the bias itself.
             let scales = std::iter::repeat_n(known[own].parameter.sigma, parts);
             let said = beyond(&Evidence::of(&apart, &noise)?, &known, scales);
-            let Some(Left { information, score, log_likelihood, .. }) = said else { continue };
+            let Some(Beyond { information, score, log_likelihood }) = said else { continue };
             let parts = Parts { information, score };
             without = without.max(log_likelihood);
             if let Some(path) = parts.path() {

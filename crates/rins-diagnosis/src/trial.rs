@@ -1,6 +1,7 @@
 //! Candidates against each other: the best shape and choice of parameters of every effect.
 
 use nalgebra::DVector;
+use rayon::prelude::*;
 use rins_terms::Term;
 
 use crate::candidates::Candidate;
@@ -44,14 +45,15 @@ pub(crate) struct Trial {
 /// What is left to say, for each strength of the noise, and the most likely of these.
 pub(crate) struct Context<'a> {
     survey: &'a Survey,
-    left: Vec<Left>,
+    left: Vec<Left<'a>>,
     most: f64,
 }
 
 impl<'a> Context<'a> {
     /// With these of the model's parameters dropped, and these of the candidates' taken into it.
     pub(crate) fn of(survey: &'a Survey, dropped: &[usize], taken: &[usize]) -> Option<Self> {
-        let left: Vec<Left> = (0..survey.noises())
+        let left: Vec<Left<'_>> = (0..survey.noises())
+            .into_par_iter()
             .map(|noise| survey.left(noise, dropped, taken))
             .collect::<Option<_>>()?;
         let most = left.iter().map(|left| left.log_likelihood).fold(f64::NEG_INFINITY, f64::max);
@@ -59,7 +61,7 @@ impl<'a> Context<'a> {
     }
 
     /// Of one strength of the noise.
-    pub(crate) fn drawn(survey: &'a Survey, left: Left) -> Self {
+    pub(crate) fn drawn(survey: &'a Survey, left: Left<'a>) -> Self {
         Self { survey, most: left.log_likelihood, left: vec![left] }
     }
 
@@ -150,16 +152,22 @@ pub(crate) fn best_pair<'a>(
     list: &[Candidate],
     dropped: &[usize],
     firsts: impl Iterator<Item = &'a Trial>,
-    is_second: impl Fn(&Trial) -> bool,
+    is_second: impl Fn(&Trial) -> bool + Sync,
 ) -> Option<[Trial; 2]> {
     let id = |trial: &Trial| list[trial.candidate].chosen.term.id;
+    let firsts: Vec<&Trial> = firsts.collect();
+    let seconds: Vec<Option<Trial>> = firsts
+        .par_iter()
+        .map(|first| {
+            let taken = survey.of_candidate(first.candidate).concat();
+            let context = Context::of(survey, dropped, &taken)?;
+            let other = |trial: &Trial| id(trial) != id(first) && is_second(trial);
+            Some(trials(survey, &context, list).into_iter().find(other))
+        })
+        .collect::<Option<_>>()?;
     let mut best: Option<(f64, [Trial; 2])> = None;
-    for first in firsts {
-        let taken = survey.of_candidate(first.candidate).concat();
-        let context = Context::of(survey, dropped, &taken)?;
-        let tried = trials(survey, &context, list);
-        let other = |trial: &Trial| id(trial) != id(first) && is_second(trial);
-        let Some(second) = tried.into_iter().find(other) else { continue };
+    for (first, second) in firsts.into_iter().zip(seconds) {
+        let Some(second) = second else { continue };
         let evidence = first.evidence + second.evidence;
         if best.as_ref().is_none_or(|(most, _)| evidence > *most) {
             best = Some((evidence, [first.clone(), second]));

@@ -1,6 +1,6 @@
 //! What no effect of the catalogue explains: found, described, and given no name.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
 use rins_terms::{Chosen, Unit};
 
@@ -12,7 +12,7 @@ use crate::periodic::{modulated, waveforms};
 use crate::probability::ln_tail;
 use crate::score::scored;
 use crate::structure::{self, Along, Structure, groups};
-use crate::survey::{Left, Survey};
+use crate::survey::Survey;
 
 /// What the shown quantities of an epoch are called, in the axis frame.
 const SHOWN: [&str; 6] =
@@ -61,7 +61,7 @@ impl Case<'_> {
             let (angles, rates): (Vec<f64>, Vec<f64>) =
                 after.linear[run].motion().into_iter().unzip();
             let epoch = after.linear[run].mean_epoch();
-            let left = structure::Left {
+            let left = structure::Remainder {
                 innovations: &innovations,
                 angles: &angles,
                 rates: &rates,
@@ -226,7 +226,7 @@ impl Case<'_> {
         let own_scale = |&place: &usize| of_run[place].value.abs() + 3.0 * of_run[place].sigma;
         let scales = (0..last).flat_map(|_| own.iter().map(own_scale));
         let scored = beyond(&evidence, &of_run, scales)
-            .map(|left| scored(&left.information, &left.score))
+            .map(|beyond| scored(&beyond.information, &beyond.score))
             .filter(|scored| scored.dof > 0);
         Ok(scored.map(|scored| ln_tail(scored.statistic, scored.dof)))
     }
@@ -283,17 +283,30 @@ fn is_steady(structure: Structure) -> bool {
     matches!(structure, Structure::Line(_) | Structure::Order(_) | Structure::Drift)
 }
 
+/// What one run says of parameters beyond those of the model.
+pub(crate) struct Beyond {
+    /// The information on them.
+    pub(crate) information: DMatrix<f64>,
+    /// The derivative of the log-likelihood.
+    pub(crate) score: DVector<f64>,
+    /// The logarithm of the probability of the data, but for a constant, if they are nothing.
+    pub(crate) log_likelihood: f64,
+}
+
 /// What one run says of what comes after the `known` parameters, in units of these `scales`, the known ones being estimated
 /// from this run alone. None if nothing definite is.
 pub(crate) fn beyond(
     evidence: &Evidence,
     known: &[&Estimate],
     scales: impl Iterator<Item = f64>,
-) -> Option<Left> {
+) -> Option<Beyond> {
     let sigmas = || known.iter().map(|estimate| estimate.parameter.sigma);
     let off = |(estimate, sigma): (&&Estimate, f64)| (estimate.value - estimate.expected) / sigma;
     let off = DVector::from_iterator(known.len(), known.iter().zip(sigmas()).map(off));
-    Survey::of_evidence(evidence, sigmas().chain(scales).collect(), off).left(0, &[], &[])
+    let survey = Survey::of_evidence(evidence, sigmas().chain(scales).collect(), off);
+    let left = survey.left(0, &[], &[])?;
+    let (information, score) = left.all();
+    Some(Beyond { information, score, log_likelihood: left.log_likelihood })
 }
 
 /// Leaves out groups of few epochs, and numbers the others from zero; the last number.
