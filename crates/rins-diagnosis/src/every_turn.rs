@@ -166,7 +166,8 @@ mod tests {
             one
         };
         let innovations: Vec<_> = angles.iter().map(innovation).collect();
-        let left = Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch: 0.5 };
+        let left =
+            Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch: 0.5 };
         left.every_turn().expect("a table that turns")
     }
 

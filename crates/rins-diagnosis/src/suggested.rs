@@ -39,7 +39,8 @@ impl Case<'_> {
             let (angles, rates): (Vec<f64>, Vec<f64>) =
                 present.linear[run].motion().into_iter().unzip();
             let epoch = present.linear[run].mean_epoch();
-            let left = Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let left =
+                Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch };
             let count = innovations.len() as f64;
             // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
             let in_body = left.in_body();
