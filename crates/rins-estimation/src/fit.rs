@@ -1,6 +1,5 @@
 //! The batch solution: iterated least squares over one run or several.
 
-use nalgebra::DVector;
 use rayon::prelude::*;
 use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
@@ -15,12 +14,10 @@ use crate::linear::{Linear, Pieces, linearised};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
 use crate::strengths::{Noise, NoiseKnowledge};
+use crate::stride::{Damping, Stride};
 
 /// The most times that a run is made linear.
 const MOST_ITERATIONS: usize = 20;
-
-/// A step below this part of every sigma ends the iteration.
-const CONVERGED: f64 = 1e-3;
 
 /// A step below this many sigmas leads near enough to judge the noise, and to take derivatives in earnest.
 const NEAR: f64 = 1.0;
@@ -30,9 +27,6 @@ const MOST_JUDGED: usize = 3;
 
 /// Noise is judged again if the squares of what is left differ by this part from what it says of them.
 const MISJUDGED: f64 = 0.1;
-
-/// The cosine of the angle between a step and the way back beyond which it only turns back.
-const TURNING_BACK: f64 = 0.5;
 
 /// Estimates what `model` leaves free from `runs` of one IMU.
 ///
@@ -84,19 +78,21 @@ fn fitted(
     let strengths = knowledge.sheet();
     let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
     let mut problem = Problem::new((runs, near), model, free);
-    let mut noise: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
+    let sheet: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
+    let mut noise = sheet.clone();
     let mut iterations = Vec::new();
     let (mut around, mut inverse_curvature) = (Vec::new(), None);
     if find_noise {
-        let sheet = noise.clone();
         let inverse = near.and_then(|near| near.inverse_curvature.as_ref());
         if let (Some(near), Some(_)) = (near, inverse) {
             noise.clone_from(&near.noise);
         }
         inverse_curvature = inverse.cloned();
         problem.settle(Until::NearEnough, &mut noise, &mut iterations, &mut progress)?;
-        // Judged far from where the estimate ends, it may stand for what the parameters explain there.
-        for _ in 0..MOST_JUDGED {
+    }
+    let mut judged = 0;
+    let said = loop {
+        if find_noise {
             let inverse = inverse_curvature.as_ref();
             let likely = likely_noise(&problem.linear, &sheet, &noise, inverse, |linear, noise| {
                 let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
@@ -104,15 +100,16 @@ fn fitted(
             });
             (noise, around) = (likely.noise, likely.around);
             inverse_curvature = Some(likely.inverse_curvature);
-            problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
-            if problem.fits(&noise)? {
-                break;
-            }
+            judged += 1;
         }
-    } else {
         problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
-    }
-    let fit = problem.finish(noise, &around, iterations)?;
+        let said = problem.posterior(&problem.linear, &noise, iterations.len())?;
+        // Judged far from where the estimate ends, noise may stand for what the parameters explain there.
+        if !find_noise || judged == MOST_JUDGED || problem.fits(&said.0) {
+            break said;
+        }
+    };
+    let fit = problem.finish(said, noise, &around, iterations)?;
     Ok(Fit { inverse_curvature, ..fit })
 }
 
@@ -154,8 +151,7 @@ struct Problem<'a> {
     /// Each run, linear about these values, and how finely.
     linear: Vec<Linear>,
     pieces: Pieces,
-    /// The last step, in sigmas.
-    last: Option<DVector<f64>>,
+    damping: Damping,
 }
 
 impl<'a> Problem<'a> {
@@ -178,7 +174,7 @@ impl<'a> Problem<'a> {
             places,
             linear: Vec::new(),
             pieces: Pieces::Coarse,
-            last: None,
+            damping: Damping::none(),
         };
         if let Some(near) = near {
             problem.start_near(near);
@@ -221,11 +217,10 @@ impl<'a> Problem<'a> {
     }
 
     /// Whether the noise is as strong as what is left, where the parameters are estimated.
-    fn fits(&self, noise: &[Noise]) -> Result<bool, FitError> {
-        let evidence = self.evidence(&self.linear, noise)?;
+    fn fits(&self, evidence: &Evidence) -> bool {
         let figures = evidence.figures as f64;
         let dof = figures - self.all.len() as f64;
-        Ok((evidence.square - dof).abs() < MISJUDGED * figures)
+        (evidence.square - dof).abs() < MISJUDGED * figures
     }
 
     fn evidence(&self, linear: &[Linear], noise: &[Noise]) -> Result<Evidence, Indefinite> {
@@ -273,16 +268,17 @@ impl<'a> Problem<'a> {
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
             let from = self.pieces;
-            let step = self.advance(&posterior, until);
+            let stride = self.advance(&posterior, until);
+            let step = stride.to_estimate;
             let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
             progress(&iteration);
             iterations.push(iteration);
             let arrived = match until {
                 Until::NearEnough => {
                     calm(noise, &evidence, &posterior);
-                    step < CONVERGED || step < NEAR && iterations.len() > 1
+                    stride.is_over() || step < NEAR && iterations.len() > 1
                 }
-                Until::Converged => step < CONVERGED && from == Pieces::Samples,
+                Until::Converged => stride.is_over() && from == Pieces::Samples,
             };
             if arrived {
                 return Ok(());
@@ -293,21 +289,15 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Goes to the estimate; the largest step in sigmas.
+    /// Goes to the estimate.
     ///
     /// On the way derivatives need not be exact; where it ends they are.
-    fn advance(&mut self, posterior: &Posterior, until: Until) -> f64 {
+    fn advance(&mut self, posterior: &Posterior, until: Until) -> Stride {
         let before = self.values.clone();
         let sigmas = posterior.covariance.diagonal().map(f64::sqrt);
         let step = posterior.step.component_div(&sigmas);
-        // What only turns back goes half the way: an azimuth that hardly shows would swing for ever.
-        let turns_back = self
-            .last
-            .as_ref()
-            .is_some_and(|last| step.dot(last) < -TURNING_BACK * step.norm() * last.norm());
-        let taken = &posterior.step * if turns_back { 0.5 } else { 1.0 };
-        let largest = step.amax();
-        self.last = Some(step);
+        let stride = self.damping.stride(step);
+        let taken = &posterior.step * stride.part;
         for (value, step) in self.values.iter_mut().zip(&taken) {
             *value += step;
         }
@@ -326,18 +316,19 @@ impl<'a> Problem<'a> {
             }
         }
         // Once they have been exact they stay so: where the two differ, as by an event within an epoch, it would go to and fro.
-        let last = until == Until::Converged && (largest < NEAR || self.pieces == Pieces::Samples);
+        let last = until == Until::Converged
+            && (stride.to_estimate < NEAR || self.pieces == Pieces::Samples);
         self.take_values(if last { Pieces::Samples } else { Pieces::Coarse });
-        largest
+        stride
     }
 
     fn finish(
         self,
+        (evidence, posterior): (Evidence, Posterior),
         noise: Vec<Noise>,
         around: &[[Vec<Noise>; 2]],
         iterations: Vec<Iteration>,
     ) -> Result<Fit, FitError> {
-        let (evidence, posterior) = self.posterior(&self.linear, &noise, iterations.len())?;
         // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
         // where the estimate would then be.
         let mut covariance = posterior.covariance.clone();

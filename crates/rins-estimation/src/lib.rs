@@ -39,6 +39,7 @@ mod foretold;
 mod gram;
 mod pass;
 mod posterior;
+mod stride;
 
 mod estimate;
 mod filter;

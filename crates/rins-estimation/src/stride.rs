@@ -1,0 +1,106 @@
+//! How far an iteration goes, and when it has arrived.
+
+use nalgebra::DVector;
+
+/// A step below this part of every sigma ends the iteration.
+const CONVERGED: f64 = 1e-3;
+
+/// The cosine of the angle between a step and the way back beyond which it only turns back.
+const TURNING_BACK: f64 = 0.5;
+
+/// Where derivatives have an edge, as that of a dead zone has, no step vanishes: one that would be of so many sigmas, and that
+/// only turns back however little of it is taken, ends there.
+const ON_EDGE: f64 = 0.1;
+
+/// By how much more of a small step is taken if it does not turn back: less than it was lessened, or it would go on for ever.
+const BOLDER: f64 = 1.2;
+
+/// How much of a step is taken: what only turns back goes half the way, for an azimuth that hardly shows would swing for ever;
+/// and less and less where steps are small, which finds an edge.
+pub(crate) struct Damping {
+    /// The last step, in sigmas.
+    last: Option<DVector<f64>>,
+    /// How much of it was taken.
+    part: f64,
+}
+
+/// A step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stride {
+    /// The most that it is to the estimate, in sigmas.
+    pub(crate) to_estimate: f64,
+    /// How much of it is taken.
+    pub(crate) part: f64,
+}
+
+impl Damping {
+    pub(crate) const fn none() -> Self {
+        Self { last: None, part: 1.0 }
+    }
+
+    /// What is made of a step in sigmas.
+    pub(crate) fn stride(&mut self, step: DVector<f64>) -> Stride {
+        let turns_back = self
+            .last
+            .as_ref()
+            .is_some_and(|last| step.dot(last) < -TURNING_BACK * step.norm() * last.norm());
+        let to_estimate = step.amax();
+        let before = if to_estimate < ON_EDGE { self.part } else { 1.0 };
+        self.part = if turns_back { 0.5 * before } else { (BOLDER * before).min(1.0) };
+        self.last = Some(step);
+        Stride { to_estimate, part: self.part }
+    }
+}
+
+impl Stride {
+    /// Whether it leads nowhere any more.
+    pub(crate) fn is_over(self) -> bool {
+        let on_edge = self.to_estimate < ON_EDGE && self.part * self.to_estimate < CONVERGED;
+        self.to_estimate < CONVERGED || on_edge
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_testing::assert_close;
+
+    /// Goes by damped steps, and says where they end and after how many.
+    fn ends(mut place: f64, step: impl Fn(f64) -> f64) -> Option<(f64, usize)> {
+        let mut damping = Damping::none();
+        for count in 1..=30 {
+            let whole = step(place);
+            let stride = damping.stride(DVector::from_element(1, whole));
+            place += stride.part * whole;
+            if stride.is_over() {
+                return Some((place, count));
+            }
+        }
+        None
+    }
+
+    #[test]
+    fn steps_end_on_an_edge_that_they_go_to_and_fro_over() {
+        for start in [-1.0, -0.07, 0.02, 0.4] {
+            let to_other_side = |place: f64| if place > 0.013 { -0.05 } else { 0.06 };
+            let (end, _) = ends(start, to_other_side).expect("it ends");
+            assert_close!(end, 0.013, 2.0 * CONVERGED);
+        }
+    }
+
+    #[test]
+    fn steps_that_swing_too_far_end_where_they_vanish() {
+        let (end, _) = ends(3.0, |place| -1.95 * place).expect("it ends");
+        assert_close!(end, 0.0, CONVERGED);
+    }
+
+    #[test]
+    fn steps_that_lead_straight_there_are_taken_whole() {
+        assert_eq!(ends(3.0, |place| -place), Some((0.0, 2)));
+    }
+
+    #[test]
+    fn a_large_step_to_and_fro_never_counts_as_an_end() {
+        assert_eq!(ends(1.0, |place| if place > 0.0 { -1.0 } else { 1.0 }), None);
+    }
+}
