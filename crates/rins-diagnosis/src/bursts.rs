@@ -4,8 +4,11 @@ use crate::diagnosis::Cause;
 use crate::structure::{Along, Structure};
 use crate::unexplained::Unexplained;
 
-/// Lines stand beside another whose frequencies differ from its own by less than this part of it.
+/// Lines stand beside another whose frequencies differ from its own by less than this part of it, ...
 const BESIDE: f64 = 0.1;
+
+/// ... and where there are such on both sides of it, those further out than that, to this part of it, are of it too.
+const OUTER: f64 = 0.2;
 
 /// Lines that differ by less than so many cycles in a run are not told apart by it.
 const UNRESOLVED: f64 = 2.0;
@@ -22,8 +25,9 @@ pub(crate) fn gathered(mut causes: Vec<Cause>, duration: f64) -> (Vec<Cause>, Ve
         let line = &causes[place];
         let beside: Vec<f64> =
             causes[place + 1..].iter().filter_map(|other| apart(line, other)).collect();
-        let on_both_sides =
-            beside.iter().any(|apart| *apart > 0.0) && beside.iter().any(|apart| *apart < 0.0);
+        let is_near = |apart: f64| apart.abs() < BESIDE * line.settings[0];
+        let is_there = |side: f64| beside.iter().any(|&apart| side * apart > 0.0 && is_near(apart));
+        let on_both_sides = is_there(1.0) && is_there(-1.0);
         let is_one = |apart: f64| on_both_sides || apart.abs() * duration < UNRESOLVED;
         let line = line.clone();
         let mut of_sidebands: Option<f64> = None;
@@ -57,5 +61,5 @@ fn apart(line: &Cause, other: &Cause) -> Option<f64> {
     }
     let alike = line.settings[1..] == other.settings[1..] && run(line) == run(other);
     let apart = other.settings[0] - line.settings[0];
-    (alike && apart.abs() < BESIDE * line.settings[0]).then_some(apart)
+    (alike && apart.abs() < OUTER * line.settings[0]).then_some(apart)
 }

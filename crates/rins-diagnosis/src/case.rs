@@ -18,6 +18,9 @@ use crate::trial::{Context, Trial, trials};
 /// How many events, and such of at least this part of the best one's evidence, are searched for their time.
 const REFINED: (usize, f64) = (3, 0.4);
 
+/// What an event may lose whose time is one of a few, in e-folds of p.
+const COARSE: f64 = 1.5;
+
 /// How finely the time of an event is searched, in parts of the step between candidates.
 const FINER: [f64; 3] = [0.125, 0.03, 0.0075];
 
@@ -129,19 +132,27 @@ impl Case<'_> {
     ) -> Result<Option<(Candidate, Trial)>, Indefinite> {
         let likely = matches!(self.knowledge, NoiseKnowledge::Likely(_));
         let threshold = if likely { threshold + SWALLOWED } else { threshold };
-        let significant = |trial: &&Trial| trial.ln_p < threshold && trial.evidence > 0.0;
-        let Some(first) = tried.iter().find(significant) else { return Ok(None) };
-        let mut best = (list[first.candidate].clone(), first.clone());
-        let worth = REFINED.1 * first.evidence;
-        let events = tried
+        let significant = |trial: &Trial| trial.ln_p < threshold && trial.is_likely();
+        let mut best = tried
             .iter()
-            .filter(|trial| list[trial.candidate].step.is_some() && trial.evidence > worth);
+            .find(|trial| significant(trial))
+            .map(|first| (list[first.candidate].clone(), first.clone()));
+        let worth = best.as_ref().map_or(f64::NEG_INFINITY, |(_, first)| {
+            (REFINED.1 * first.evidence).min(first.evidence)
+        });
+        let events = tried.iter().filter(|trial| {
+            let is_event = list[trial.candidate].step.is_some();
+            let in_reach = trial.ln_p < threshold + COARSE && trial.is_likely();
+            is_event && in_reach && trial.evidence >= worth
+        });
         for event in events.take(REFINED.0) {
             let refined = self.refined(present, &list[event.candidate], event)?;
-            if refined.1.evidence > best.1.evidence {
-                best = refined;
+            let is_better = |(_, best): &(_, Trial)| refined.1.evidence > best.evidence;
+            if significant(&refined.1) && best.as_ref().is_none_or(is_better) {
+                best = Some(refined);
             }
         }
+        let Some(mut best) = best else { return Ok(None) };
         if dead_zone::is_of_widths(&best.0.chosen) {
             best = self.with_further_gyros(present, best)?;
         }

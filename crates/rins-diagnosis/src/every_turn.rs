@@ -95,7 +95,7 @@ impl Remainder<'_> {
         let size = 2 * orders.len();
         let mut information = DMatrix::zeros(size, size);
         let mut score = DMatrix::zeros(size, structure::CHANNELS);
-        for (innovation, angle) in self.innovations.iter().zip(self.angles) {
+        for (innovation, angle) in self.innovations.iter().zip(&self.motion.angles) {
             let waves = orders.iter().map(|order| f64::from(*order) * angle);
             let waves = waves.flat_map(|turned| <[f64; 2]>::from(turned.sin_cos()));
             let shape = DVector::from_iterator(size, waves);
@@ -148,6 +148,7 @@ mod tests {
     use rand_pcg::Pcg64;
 
     use super::*;
+    use crate::structure::TableMotion;
 
     /// Half a second an epoch, at these rates; on one channel a bump of this height wherever the table comes by.
     fn found(rates: &[f64], bump: f64, seed: u64) -> Find {
@@ -166,8 +167,10 @@ mod tests {
             one
         };
         let innovations: Vec<_> = angles.iter().map(innovation).collect();
-        let left =
-            Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch: 0.5 };
+        let left = Remainder {
+            innovations: &innovations,
+            motion: &TableMotion { angles, rates, epoch: 0.5 },
+        };
         left.every_turn().expect("a table that turns")
     }
 

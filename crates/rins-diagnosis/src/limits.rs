@@ -108,7 +108,7 @@ pub fn chance(
     let list = candidates(runs, fit.model());
     let survey = Survey::of(runs, fit, imu, &list, std::slice::from_ref(&fit.noise))?;
     let Some(left) = survey.left(0, &[], &[]) else { return Ok(0.0) };
-    let root = square_root(&left.all().0);
+    let root = square_root(&left.all());
     let named = (0..draws)
         .into_par_iter()
         .filter(|&draw| {
@@ -125,7 +125,7 @@ pub fn chance(
 fn passes(survey: &Survey, context: &Context<'_>, list: &[Candidate]) -> bool {
     let tried = trials(survey, context, list);
     let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
-    tried.iter().any(|trial| trial.ln_p < threshold && trial.evidence > 0.0)
+    tried.iter().any(|trial| trial.ln_p < threshold && trial.is_likely())
 }
 
 /// A matrix whose product with its transpose is this one; what rounding made negative is nothing.

@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::dead_zone;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
-use crate::suggested::at_frequency;
+use crate::suggested::{LOOKS, at_frequency};
 use crate::survey::Survey;
 use crate::trial::{Context, Trial, best_pair, trials};
 
@@ -72,7 +72,7 @@ impl Case<'_> {
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
         let mut changes = 0;
-        let frequencies = 2.0 * before.linear.iter().map(|run| run.epochs() as f64).sum::<f64>();
+        let frequencies = LOOKS * before.linear.iter().map(|run| run.epochs() as f64).sum::<f64>();
         while !found.is_empty() {
             let list = self.with_events(&present, &found);
             let noises = self.between(before, &present);
@@ -192,7 +192,7 @@ impl Case<'_> {
         let significant = |trial: &&Trial| trial.ln_p < question.threshold();
         let better = tried.iter().find(|trial| question.is_new(trial)).filter(significant);
         let Some(own) = question.own().filter(significant) else {
-            return match better.filter(|better| better.evidence > 0.0) {
+            return match better.filter(|better| better.is_likely()) {
                 Some(better) => Look::Exchange(vec![expecting(better)]),
                 None => Look::Drop,
             };
@@ -317,10 +317,15 @@ impl Question<'_> {
         };
         // What explains less than half of it is no rival, however little that is.
         let least = -RIVALS.min(0.5 * top[0]);
+        let explained = |trial: &Trial| trial.statistic - trial.dof as f64;
+        let half = tried.first().map_or(0.0, |first| 0.5 * explained(first));
         let own = self.found[self.index].term.id;
+        let is_rival = |trial: &&Trial| {
+            self.id(trial) != own && behind(trial) > least && explained(trial) > half
+        };
         tried
             .iter()
-            .filter(|trial| self.id(trial) != own && behind(trial) > least)
+            .filter(is_rival)
             .map(|trial| Rival {
                 term: self.list[trial.candidate].chosen.term,
                 settings: self.list[trial.candidate].chosen.settings.clone(),

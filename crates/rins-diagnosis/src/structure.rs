@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 use rayon::prelude::*;
+use rins_estimation::Linear;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
@@ -80,16 +81,29 @@ impl Find {
     }
 }
 
+/// How the table moved during a run, epoch by epoch.
+pub(crate) struct TableMotion {
+    /// The table angle in the middle of each epoch \[rad\].
+    pub(crate) angles: Vec<f64>,
+    /// The table's rate \[rad/s\].
+    pub(crate) rates: Vec<f64>,
+    /// The length of an epoch \[s\].
+    pub(crate) epoch: f64,
+}
+
+impl TableMotion {
+    pub(crate) fn of(linear: &Linear) -> Self {
+        let (angles, rates) = linear.motion().into_iter().unzip();
+        Self { angles, rates, epoch: linear.mean_epoch() }
+    }
+}
+
 /// The innovations of a run, and where the table was.
+#[derive(Clone, Copy)]
 pub(crate) struct Remainder<'a> {
     /// Whitened, an epoch each.
     pub(crate) innovations: &'a [SVector<f64, CHANNELS>],
-    /// The table angle in the middle of each epoch \[rad\].
-    pub(crate) angles: &'a [f64],
-    /// The table's rate \[rad/s\].
-    pub(crate) rates: &'a [f64],
-    /// The length of an epoch \[s\].
-    pub(crate) epoch: f64,
+    pub(crate) motion: &'a TableMotion,
 }
 
 impl Remainder<'_> {
@@ -129,7 +143,7 @@ impl Remainder<'_> {
             }
             turned
         };
-        self.innovations.iter().zip(self.angles).map(turned).collect()
+        self.innovations.iter().zip(&self.motion.angles).map(turned).collect()
     }
 
     /// The strongest line of any frequency, all along or in a part of the run.
@@ -147,9 +161,9 @@ impl Remainder<'_> {
                 }
                 let power = self.spectrum(first, end);
                 let looks = (power.len() * spans.len()) as f64;
-                let longest = n as f64 * self.epoch;
+                let longest = n as f64 * self.motion.epoch;
                 for (bin, power) in power.iter().enumerate().skip(1) {
-                    let frequency = self.frequency(bin, length);
+                    let frequency = self.frequency(bin as f64, length);
                     let slow = frequency * longest < 3.0;
                     let structure =
                         if slow { Structure::Drift } else { Structure::Line(frequency) };
@@ -195,7 +209,7 @@ impl Remainder<'_> {
                 if to < 0.0 || from.max(to) > 0.5 * count {
                     continue;
                 }
-                let frequency = |periods: f64| periods / (count * self.epoch);
+                let frequency = |periods: f64| periods / (count * self.motion.epoch);
                 let find = of_bin(Structure::Chirp(frequency(from), frequency(to)), looks, power);
                 if best.is_none_or(|best| find.ln_p < best.ln_p) {
                     best = Some(find);
@@ -217,9 +231,9 @@ impl Remainder<'_> {
         power
     }
 
-    /// The frequency of a bin of a spectrum over so many epochs \[Hz\].
-    pub(crate) fn frequency(&self, bin: usize, length: usize) -> f64 {
-        bin as f64 / ((FINER * length) as f64 * self.epoch)
+    /// The frequency of a bin of a spectrum over so many epochs, or of a place between two \[Hz\].
+    pub(crate) fn frequency(&self, bin: f64, length: usize) -> f64 {
+        bin / ((FINER * length) as f64 * self.motion.epoch)
     }
 
     /// The strongest order of the table angle: on a sensor, where both senses are one, or of a vector that turns.
@@ -245,8 +259,9 @@ impl Remainder<'_> {
 
     /// The step between the orders that are looked at, and how many there are; none if the table does not turn.
     pub(crate) fn orders(&self) -> Option<(f64, f64)> {
-        let first = self.angles.first()?;
-        let most = self.angles.iter().fold(0.0_f64, |most, angle| most.max((angle - first).abs()));
+        let first = self.motion.angles.first()?;
+        let most =
+            self.motion.angles.iter().fold(0.0_f64, |most, angle| most.max((angle - first).abs()));
         let turns = most / std::f64::consts::TAU;
         if turns < 1.0 {
             return None;
@@ -258,14 +273,14 @@ impl Remainder<'_> {
 
     /// The highest order that epochs show where the table turns fastest.
     pub(crate) fn highest_order(&self) -> f64 {
-        let fastest = self.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        HIGHEST_ORDER.min(std::f64::consts::PI / (fastest * self.epoch))
+        let fastest = self.motion.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        HIGHEST_ORDER.min(std::f64::consts::PI / (fastest * self.motion.epoch))
     }
 
     /// The power of an order of the table angle in each quantity.
     fn turning(&self, series: &[SVector<f64, CHANNELS>], order: f64) -> [f64; CHANNELS] {
         let mut sums = [Complex::new(0.0, 0.0); CHANNELS];
-        for (nu, angle) in series.iter().zip(self.angles) {
+        for (nu, angle) in series.iter().zip(&self.motion.angles) {
             let turned = Complex::from_polar(1.0, -order * angle);
             for (sum, part) in sums.iter_mut().zip(nu.iter()) {
                 *sum += turned * *part;
@@ -277,7 +292,7 @@ impl Remainder<'_> {
     /// The power of a vector across the axis that turns with an order of the table angle: of attitude or of velocity.
     fn vector(&self, order: f64, looks: f64) -> Find {
         let mut sums = [Complex::new(0.0, 0.0); 2];
-        for (nu, angle) in self.innovations.iter().zip(self.angles) {
+        for (nu, angle) in self.innovations.iter().zip(&self.motion.angles) {
             let turned = Complex::from_polar(1.0, -order * angle);
             sums[0] += Complex::new(nu[0], nu[1]) * turned;
             sums[1] += Complex::new(nu[3], nu[4]) * turned;
@@ -292,7 +307,7 @@ impl Remainder<'_> {
 
     /// Whether the spread is the same all along: the likelihood ratio of a variance for each group.
     fn spread(&self, along: Along) -> Find {
-        let groups = groups(along, self.rates);
+        let groups = groups(along, &self.motion.rates);
         let mut best = Find { structure: Structure::Spread(along), channel: 0, ln_p: 0.0 };
         for channel in 0..CHANNELS {
             let mut sums = vec![(0.0, 0.0); groups.iter().max().map_or(0, |most| most + 1)];

@@ -10,13 +10,18 @@ use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
 use crate::disturbance::IN_ANGLE;
 use crate::jolt::Jolts;
-use crate::structure::{CHANNELS, Remainder, Structure};
+use crate::structure::{CHANNELS, Remainder, Structure, TableMotion};
 
 /// How many slow lines are tried at once.
 const SLOW: usize = 2;
 
 /// A line has so many cycles in a run at least.
 const FEWEST_CYCLES: f64 = 5.0;
+
+/// Lines are looked for at so many places an epoch: in two frames, each at half an independent frequency an epoch, where
+/// the best between two of these is larger by what four times as many have by chance (Baluev 2008, where lines of five
+/// sigma are asked for).
+pub(crate) const LOOKS: f64 = 4.0;
 
 /// How many outliers are taken for the time of an event.
 const OUTLIERS: usize = 3;
@@ -36,12 +41,10 @@ impl Case<'_> {
         let mut list = Vec::new();
         for run in 0..self.runs.len() {
             let innovations = present.innovations(run);
-            let (angles, rates): (Vec<f64>, Vec<f64>) =
-                present.linear[run].motion().into_iter().unzip();
-            let epoch = present.linear[run].mean_epoch();
-            let left =
-                Remainder { innovations: &innovations, angles: &angles, rates: &rates, epoch };
+            let motion = TableMotion::of(&present.linear[run]);
+            let left = Remainder { innovations: &innovations, motion: &motion };
             let count = innovations.len() as f64;
+            let length = count * motion.epoch;
             // What sways the base is a line in the axis frame, what disturbs a sensor one in the body.
             let in_body = left.in_body();
             let body = Remainder { innovations: &in_body, ..left };
@@ -55,15 +58,15 @@ impl Case<'_> {
             let duration = self.duration();
             list.extend(events.filter(|one| has_room(present.model(), &one.chosen, duration)));
             // What comes back less often is a drift.
-            let slowest = FEWEST_CYCLES / (count * epoch);
+            let slowest = FEWEST_CYCLES / length;
             let frequencies =
                 left.strongest_lines(SLOW).into_iter().chain(body.strongest_lines(SLOW));
             for frequency in frequencies {
                 let at = at_frequency(frequency).into_iter();
                 for chosen in at.filter(|line| frequency > slowest && self.shows(run, line)) {
                     // Half an independent frequency is the distance of those that were looked at, in two frames.
-                    let step = Some((0, 0.5 / (count * epoch)));
-                    list.push(Candidate { chosen, looks: 2.0 * count, step });
+                    let step = Some((0, 0.5 / length));
+                    list.push(Candidate { chosen, looks: LOOKS * count, step });
                 }
             }
         }
@@ -182,14 +185,41 @@ impl Remainder<'_> {
             .collect();
         peaks.sort_by(|a, b| total(*b).total_cmp(&total(*a)));
         peaks.truncate(count);
-        let lines = peaks.into_iter().map(|bin| self.frequency(bin, self.innovations.len()));
+        // A line that falls between two bins loses a fifth of its square in either.
+        let summit = |bin: usize| bin as f64 + summit([total(bin - 1), total(bin), total(bin + 1)]);
+        let lines =
+            peaks.into_iter().map(|bin| self.frequency(summit(bin), self.innovations.len()));
         lines.collect()
     }
+}
+
+/// Where the parabola through a peak and its two neighbours is highest, in steps from the peak: within half of one.
+fn summit([before, peak, after]: [f64; 3]) -> f64 {
+    let bend = 2.0 * peak - before - after;
+    if bend > 0.0 { 0.5 * (after - before) / bend } else { 0.0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rins_testing::assert_close;
+
+    #[test]
+    fn a_line_between_two_bins_is_found_where_it_is() {
+        for periods in [20.0, 20.1, 20.25, 20.4, 20.5] {
+            let innovations: Vec<SVector<f64, CHANNELS>> = (0..400)
+                .map(|epoch| {
+                    let phase = std::f64::consts::TAU * periods * f64::from(epoch) / 400.0;
+                    SVector::from_fn(|row, _| (phase + row as f64).sin())
+                })
+                .collect();
+            let still = vec![0.0; innovations.len()];
+            let motion = TableMotion { angles: still.clone(), rates: still, epoch: 1.0 / 400.0 };
+            let left = Remainder { innovations: &innovations, motion: &motion };
+            let found = left.strongest_lines(1);
+            assert_close!(found[0], periods, 0.03);
+        }
+    }
 
     #[test]
     fn a_step_that_no_epoch_shows_by_itself_stands_out_of_some() {

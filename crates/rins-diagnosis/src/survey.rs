@@ -4,7 +4,9 @@ use std::borrow::Cow;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise_coarsely};
+use rins_estimation::{
+    Estimate, Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise_coarsely,
+};
 use rins_imu::ImuSpec;
 use rins_terms::Free;
 
@@ -61,8 +63,8 @@ pub(crate) struct Left<'a> {
     /// What the estimated ones explain of it: `L⁻¹ A`, where `A` are their products with what is left, and `L Lᵀ` those with
     /// each other.
     explained: Cow<'a, DMatrix<f64>>,
-    /// The derivative of the log-likelihood.
-    score: DVector<f64>,
+    /// The derivative of the log-likelihood by all that is left.
+    pub(crate) score: DVector<f64>,
     /// The places that are left.
     places: Cow<'a, [usize]>,
     /// The logarithm of the probability of the data, but for a constant, if none of what is left is there.
@@ -118,11 +120,19 @@ impl Survey {
         Ok(Self { known, terms, places: layout.of_terms, said, sigmas: layout.sigmas, off })
     }
 
-    /// What some evidence says, one noise's: of the model's parameters, which are `off` from what was expected of them in
-    /// sigmas, and then of others; `sigmas` are the 1σ that is expected of each, in SI units.
-    pub(crate) fn of_evidence(evidence: &Evidence, sigmas: Vec<f64>, off: DVector<f64>) -> Self {
+    /// What one run says of what comes after the `known` parameters, in units of these `scales`; the known ones are estimated
+    /// from this run alone.
+    pub(crate) fn of_evidence(
+        evidence: &Evidence,
+        known: &[&Estimate],
+        scales: impl Iterator<Item = f64>,
+    ) -> Self {
+        let of_known = known.iter().map(|estimate| estimate.parameter.sigma);
+        let sigmas: Vec<f64> = of_known.chain(scales).collect();
+        let off = known.iter().map(|known| (known.value - known.expected) / known.parameter.sigma);
+        let off = DVector::from_iterator(known.len(), off);
         let said = vec![Said::of(evidence, &sigmas)];
-        Self { known: off.len(), terms: 0, places: Vec::new(), said, sigmas, off }
+        Self { known: known.len(), terms: 0, places: Vec::new(), said, sigmas, off }
     }
 
     /// How many strengths of the noise there are.
@@ -246,10 +256,10 @@ impl Left<'_> {
         }
     }
 
-    /// Information and score of all that is left.
-    pub(crate) fn all(&self) -> (DMatrix<f64>, DVector<f64>) {
+    /// The information on all that is left.
+    pub(crate) fn all(&self) -> DMatrix<f64> {
         let all = chosen(self.information, &self.places, &self.places);
-        (all - self.explained.tr_mul(&*self.explained), self.score.clone())
+        all - self.explained.tr_mul(&*self.explained)
     }
 
     /// Information and score of some of the places that are left.

@@ -9,7 +9,8 @@ use crate::disturbance::CHANNELS;
 use crate::levels::{Parts, Path};
 use crate::noise::triad;
 use crate::structure::Structure;
-use crate::unexplained::{Beyond, Unexplained, beyond, worst};
+use crate::survey::Survey;
+use crate::unexplained::{Unexplained, worst};
 
 /// The biases that may switch.
 const BIASES: [&str; 6] =
@@ -71,12 +72,12 @@ impl Case<'_> {
             *flicker *= part;
             // Each part in units of the prior's sigma of the bias itself.
             let scales = std::iter::repeat_n(known[own].parameter.sigma, parts);
-            let said = beyond(&Evidence::of(&apart, &noise)?, &known, scales);
-            let Some(Beyond { information, score, log_likelihood }) = said else { continue };
-            let parts = Parts { information, score };
-            without = without.max(log_likelihood);
+            let survey = Survey::of_evidence(&Evidence::of(&apart, &noise)?, &known, scales);
+            let Some(left) = survey.left(0, &[], &[]) else { continue };
+            let parts = Parts { information: left.all(), score: left.score };
+            without = without.max(left.log_likelihood);
             if let Some(path) = parts.path() {
-                let with = log_likelihood + path.odds();
+                let with = left.log_likelihood + path.odds();
                 if best.as_ref().is_none_or(|(most, _)| with > *most) {
                     best = Some((with, path));
                 }

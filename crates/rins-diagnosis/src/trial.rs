@@ -38,8 +38,18 @@ pub(crate) struct Trial {
     pub(crate) evidence: f64,
     /// What of these it lost by being smaller than what is looked for.
     pub(crate) slight: f64,
+    /// What of these it lost by being able to follow much.
+    pub(crate) pliable: f64,
     /// The logarithm of the probability of so large a statistic by chance, over all shapes and choices of the effect.
     pub(crate) ln_p: f64,
+}
+
+impl Trial {
+    /// Whether it is likelier than nothing, were it alone: what is small of its kind, or could follow much else, gives way to
+    /// other effects by that and not to chance, which is asked for its significance.
+    pub(crate) fn is_likely(&self) -> bool {
+        self.evidence + self.slight + self.pliable > 0.0
+    }
 }
 
 /// What is left to say, for each strength of the noise, and the most likely of these.
@@ -77,7 +87,7 @@ impl<'a> Context<'a> {
         let choices = choices(shape.chosen.term);
         let of_choices = (choices.len() as f64).ln();
         let looks = shape.looks.ln() + of_choices;
-        let unlikely = unlikely(shape.chosen.term);
+        let Prior { unlikely, pliable } = Prior::of(shape.chosen.term);
         let mut best: Option<Trial> = None;
         let mut least_ln_p = 0.0_f64;
         for Choice { parameters, unlikely: of_choice } in choices {
@@ -86,7 +96,7 @@ impl<'a> Context<'a> {
             let sigmas = self.survey.sigmas(&places);
             let possible = is_possible(shape, &parameters, &score.estimate.component_mul(&sigmas));
             let evidence = if possible {
-                score.evidence - looks - unlikely - of_choice
+                score.evidence - looks - unlikely - pliable - of_choice
             } else {
                 f64::NEG_INFINITY
             };
@@ -105,6 +115,7 @@ impl<'a> Context<'a> {
                     choices: of_choices,
                     evidence,
                     slight,
+                    pliable,
                     ln_p: 0.0,
                 });
             }
@@ -134,14 +145,22 @@ impl<'a> Context<'a> {
     }
 }
 
-/// What the odds for an effect pay beforehand.
-fn unlikely(term: &Term) -> f64 {
-    if term.id == disturbance::ID {
-        UNKNOWN
-    } else if term.settings.iter().any(|setting| setting.name == "frequency") {
-        OF_ANY_FREQUENCY
-    } else {
-        0.0
+/// What the odds for an effect pay beforehand, in e-folds.
+struct Prior {
+    /// For being nothing that is known.
+    unlikely: f64,
+    /// For being able to follow much.
+    pliable: f64,
+}
+
+impl Prior {
+    fn of(term: &Term) -> Self {
+        let is_known = term.id != disturbance::ID;
+        let is_line = term.settings.iter().any(|setting| setting.name == "frequency");
+        Self {
+            unlikely: if is_known { 0.0 } else { UNKNOWN },
+            pliable: if is_known && is_line { OF_ANY_FREQUENCY } else { 0.0 },
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! What no effect of the catalogue explains: found, described, and given no name.
 
-use nalgebra::{DMatrix, DVector};
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
 use rins_terms::{Chosen, Unit};
 
@@ -11,7 +10,7 @@ use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
 use crate::periodic::{modulated, waveforms};
 use crate::probability::ln_tail;
 use crate::score::scored;
-use crate::structure::{self, Along, Structure, groups};
+use crate::structure::{Along, Remainder, Structure, TableMotion, groups};
 use crate::survey::Survey;
 
 /// What the shown quantities of an epoch are called, in the axis frame.
@@ -58,15 +57,8 @@ impl Case<'_> {
         let mut found = Vec::new();
         for run in 0..self.runs.len() {
             let innovations = after.innovations(run);
-            let (angles, rates): (Vec<f64>, Vec<f64>) =
-                after.linear[run].motion().into_iter().unzip();
-            let epoch = after.linear[run].mean_epoch();
-            let left = structure::Remainder {
-                innovations: &innovations,
-                angles: &angles,
-                rates: &rates,
-                epoch,
-            };
+            let motion = TableMotion::of(&after.linear[run]);
+            let left = Remainder { innovations: &innovations, motion: &motion };
             let finds = left.finds();
             let is_signal = |structure| {
                 is_steady(structure)
@@ -87,7 +79,7 @@ impl Case<'_> {
                     worst: Vec::new(),
                 };
                 if is_steady(find.structure) {
-                    self.measure(&mut one, after, epoch * innovations.len() as f64)?;
+                    self.measure(&mut one, after, motion.epoch * innovations.len() as f64)?;
                 }
                 found.push(one);
             }
@@ -208,8 +200,7 @@ impl Case<'_> {
         along: Along,
     ) -> Result<Option<f64>, Indefinite> {
         let linear = &after.linear[run];
-        let rates: Vec<f64> = linear.motion().into_iter().map(|(_, rate)| rate).collect();
-        let mut groups = groups(along, &rates);
+        let mut groups = groups(along, &TableMotion::of(linear).rates);
         let last = compact(&mut groups);
         let of_run = self.of_run(after, run);
         let own: Vec<usize> = (0..of_run.len())
@@ -225,9 +216,10 @@ impl Case<'_> {
         let evidence = Evidence::of(&apart, &after.noise[run])?;
         let own_scale = |&place: &usize| of_run[place].value.abs() + 3.0 * of_run[place].sigma;
         let scales = (0..last).flat_map(|_| own.iter().map(own_scale));
-        let scored = beyond(&evidence, &of_run, scales)
-            .map(|beyond| scored(&beyond.information, &beyond.score))
-            .filter(|scored| scored.dof > 0);
+        let survey = Survey::of_evidence(&evidence, &of_run, scales);
+        let left = survey.left(0, &[], &[]);
+        let scored = left.map(|left| scored(&left.all(), &left.score));
+        let scored = scored.filter(|scored| scored.dof > 0);
         Ok(scored.map(|scored| ln_tail(scored.statistic, scored.dof)))
     }
 
@@ -281,32 +273,6 @@ pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
 /// Whether it is a signal of one shape all along, whose size can be told.
 fn is_steady(structure: Structure) -> bool {
     matches!(structure, Structure::Line(_) | Structure::Order(_) | Structure::Drift)
-}
-
-/// What one run says of parameters beyond those of the model.
-pub(crate) struct Beyond {
-    /// The information on them.
-    pub(crate) information: DMatrix<f64>,
-    /// The derivative of the log-likelihood.
-    pub(crate) score: DVector<f64>,
-    /// The logarithm of the probability of the data, but for a constant, if they are nothing.
-    pub(crate) log_likelihood: f64,
-}
-
-/// What one run says of what comes after the `known` parameters, in units of these `scales`, the known ones being estimated
-/// from this run alone. None if nothing definite is.
-pub(crate) fn beyond(
-    evidence: &Evidence,
-    known: &[&Estimate],
-    scales: impl Iterator<Item = f64>,
-) -> Option<Beyond> {
-    let sigmas = || known.iter().map(|estimate| estimate.parameter.sigma);
-    let off = |(estimate, sigma): (&&Estimate, f64)| (estimate.value - estimate.expected) / sigma;
-    let off = DVector::from_iterator(known.len(), known.iter().zip(sigmas()).map(off));
-    let survey = Survey::of_evidence(evidence, sigmas().chain(scales).collect(), off);
-    let left = survey.left(0, &[], &[])?;
-    let (information, score) = left.all();
-    Some(Beyond { information, score, log_likelihood: left.log_likelihood })
 }
 
 /// Leaves out groups of few epochs, and numbers the others from zero; the last number.
