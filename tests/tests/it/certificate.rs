@@ -13,7 +13,9 @@ use serde_json::Value;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use tempfile::TempDir;
 
-use crate::support::{list, magnitude, number, numbers, result_in, rins_in, texts};
+use crate::support::{
+    assert_found, list, magnitude, number, numbers, parameter, result_in, rins_in, texts,
+};
 
 /// Values by id, in the units of results.
 type Truth = BTreeMap<String, f64>;
@@ -183,17 +185,6 @@ fn runs(rolls: &[f64], effects: &str) -> TempDir {
     }
     fs::write(folder.path().join("model.toml"), MODEL).unwrap();
     folder
-}
-
-fn parameter<'r>(result: &'r Value, id: &str) -> &'r Value {
-    let found = list(result, "/parameters").iter().find(|parameter| parameter["id"] == id);
-    found.unwrap_or_else(|| panic!("no {id}"))
-}
-
-fn assert_found(result: &Value, id: &str, truth: f64) {
-    let (value, sigma) =
-        (number(parameter(result, id), "/value"), number(parameter(result, id), "/sigma"));
-    assert!((value - truth).abs() < 4.0 * sigma, "{id}: {truth} found as {value} ± {sigma}");
 }
 
 #[test]

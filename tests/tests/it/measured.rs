@@ -11,7 +11,7 @@ use rins_tests::{outside_data, workspace};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{list, magnitude, number, numbers, result_in, rins_in, texts};
+use crate::support::{list, magnitude, number, numbers, parameter, result_in, rins_in, texts};
 
 /// A folder with a rig of `tests/rigs` in it that leads to the measured log, where that is at hand.
 fn rig(name: &str) -> Option<TempDir> {
@@ -184,11 +184,6 @@ fn xsens_rests_38_times_and_reads_gravity_each_time() {
     assert!(align["attitude_deg"]["yaw"].is_null(), "{align}");
 }
 
-/// The parameter of this id in a calibration.
-fn calibrated<'r>(result: &'r Value, id: &str) -> &'r Value {
-    list(result, "/parameters").iter().find(|parameter| parameter["id"] == id).unwrap()
-}
-
 /// Of the model's errors only: the chair moves, and more than its sigmas may be off.
 #[test]
 fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
@@ -201,14 +196,14 @@ fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
     assert_eq!(result["consistency"]["verdict"], "misfit");
     assert_eq!(result["consistency"]["nis_dof"], 5);
     // A plain regression of the readings on gravity's turning, w² and w' says (43, -20) mm.
-    let arm = |axis: &str| calibrated(&result, &format!("accel_lever_arm.r_{axis}"));
+    let arm = |axis: &str| parameter(&result, &format!("accel_lever_arm.r_{axis}"));
     assert_close!(number(arm("x"), "/value"), 43.0, 5.0);
     assert_close!(number(arm("y"), "/value"), -20.0, 12.0);
     assert!(number(arm("x"), "/sigma") < 5.0, "{}", arm("x"));
     // Most of gravity turns in the plane of a wheel.
     let across = number(&result, "/runs/0/gravity_across_axis_m_s2");
     assert!((8.5..9.81).contains(&across), "{across}");
-    let scale = calibrated(&result, "gyro.scale.z");
+    let scale = parameter(&result, "gyro.scale.z");
     let (value, sigma) = (number(scale, "/alone/value"), number(scale, "/alone/sigma"));
     // A consumer gyro's scale error, told to a part in a thousand and not better: the chair turns too.
     assert!((300.0..10000.0).contains(&sigma) && value.abs() < 2e4, "{scale}");
@@ -239,7 +234,7 @@ fn laser_gyro_is_quiet_on_a_base_that_sways() {
         assert!(hidden.contains(&id), "{id} is not named: {hidden:?}");
     }
     // Along the vertical a bias and a scale error are one number, told to a few micro-g.
-    let up = calibrated(&result, "accel.scale.z");
+    let up = parameter(&result, "accel.scale.z");
     assert_eq!(texts(up, "/aliases")[0], "accel.bias.z");
     assert!(number(up, "/sigma") < 10.0, "{up}");
 }
@@ -263,14 +258,14 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
         ("accel.scale.z", 1677.5, 38.7),
     ];
     for (id, value, sigma) in fitted {
-        let own = calibrated(&result, id);
+        let own = parameter(&result, id);
         assert_eq!(own["identifiable"], true, "{own}");
         let own_sigma = number(own, "/sigma");
         assert!((0.7..3.0).contains(&(own_sigma / sigma)), "{own}");
         assert_close!(number(own, "/value"), value, APART * own_sigma);
     }
     for (one, other, value) in [("xy", "yx", 726.5), ("xz", "zx", 1903.3), ("yz", "zy", 4408.1)] {
-        let own = calibrated(&result, &format!("accel.misalignment.{one}"));
+        let own = parameter(&result, &format!("accel.misalignment.{one}"));
         assert_eq!(texts(own, "/aliases"), [format!("accel.misalignment.{other}")]);
         assert_close!(number(own, "/value"), value, APART * number(own, "/sigma"));
     }
@@ -283,7 +278,7 @@ fn xsens_names_what_its_rests_do_not_show() {
     let hidden = texts(&result, "/identifiability/not_shown");
     for axis in ["x", "y", "z"] {
         assert!(hidden.contains(&format!("gyro.scale.{axis}").as_str()), "{hidden:?}");
-        let bias = calibrated(&result, &format!("gyro.bias.{axis}"));
+        let bias = parameter(&result, &format!("gyro.bias.{axis}"));
         assert_eq!(bias["identifiable"], true, "{bias}");
         // The rig file's offsets are means over all rests.
         assert!(number(bias, "/value").abs() < 4.0 * number(bias, "/sigma"), "{bias}");

@@ -73,3 +73,16 @@ pub(crate) fn texts<'v>(value: &'v Value, pointer: &str) -> Vec<&'v str> {
 pub(crate) fn magnitude(value: &Value, pointer: &str) -> f64 {
     numbers(value, pointer).iter().map(|component| component * component).sum::<f64>().sqrt()
 }
+
+/// The parameter `id` of a calibration.
+pub(crate) fn parameter<'r>(result: &'r Value, id: &str) -> &'r Value {
+    let found = list(result, "/parameters").iter().find(|parameter| parameter["id"] == id);
+    found.unwrap_or_else(|| panic!("no {id}"))
+}
+
+/// Holds what was found of the parameter `id`, in the unit of the result, against four of its sigmas.
+pub(crate) fn assert_found(result: &Value, id: &str, truth: f64) {
+    let found = parameter(result, id);
+    let (value, sigma) = (number(found, "/value"), number(found, "/sigma"));
+    assert!((value - truth).abs() < 4.0 * sigma, "{id}: {truth} found as {value} ± {sigma}");
+}

@@ -3,9 +3,8 @@
 use std::fs;
 
 use rins_testing::{data_sheets, site};
-use serde_json::Value;
 
-use crate::support::{list, number, result_in, texts};
+use crate::support::{assert_found, number, parameter, result_in, texts};
 
 /// A rest, and two stretches of which the second is the longer one: it begins where the table has turned by who knows what.
 const SCENARIO: &str = concat!(
@@ -59,9 +58,6 @@ fn its_axis_points_where_it_was_surveyed() {
 
     let result = result_in(folder.path(), "calibrate run/rig.toml");
     assert!(texts(&result, "/notes").iter().any(|note| note.contains("Nothing reads the table")));
-    let parameter = |id: &str| -> &Value {
-        list(&result, "/parameters").iter().find(|parameter| parameter["id"] == id).unwrap()
-    };
     for (id, truth) in [
         ("axis.attitude.x", 0.0),
         ("axis.attitude.y", 0.0),
@@ -69,11 +65,10 @@ fn its_axis_points_where_it_was_surveyed() {
         ("gyro.misalignment.xz", 60.0),
         ("gyro.misalignment.yz", -40.0),
     ] {
-        let (value, sigma) = (number(parameter(id), "/value"), number(parameter(id), "/sigma"));
-        assert!((value - truth).abs() < 4.0 * sigma, "{id}: {truth} found as {value} ± {sigma}");
+        assert_found(&result, id, truth);
     }
     // An axis that gravity alone shows is surveyed to two degrees.
-    assert!(number(parameter("axis.attitude.x"), "/sigma") < 720.0);
+    assert!(number(parameter(&result, "axis.attitude.x"), "/sigma") < 720.0);
     let diagnosis = result_in(folder.path(), "diagnose run/rig.toml");
     assert_eq!(diagnosis["verdict"], "adequate", "{}", diagnosis["causes"]);
 }
