@@ -122,15 +122,7 @@ impl Case<'_> {
             let anew = asked.then(|| self.gain_over(after, strength)).flatten();
             let gain = match anew {
                 Some(gain) => gain,
-                None => {
-                    let mut others =
-                        [&after.noise, &after.noise].map(|noise| strength.with(noise, as_said));
-                    if strength.kind == Kind::White(0) {
-                        sway(&mut others[1], found * found - as_said * as_said);
-                    }
-                    let [as_said, swaying] = self.likelihoods(after, &others)?;
-                    here - as_said.max(swaying)
-                }
+                None => here - self.as_said(after, strength, as_said)?,
             };
             let statistic = 2.0 * gain;
             let ln_p = ln_tail(statistic.max(0.0), 1) + (STRENGTHS.len() as f64).ln();
@@ -157,6 +149,21 @@ impl Case<'_> {
             });
         }
         Ok(causes)
+    }
+
+    /// The logarithm of the data's probability with a strength as the sheet says: where a base may sway instead of the gyros
+    /// being noisy, the likelier of the two.
+    fn as_said(&self, after: &Fit, strength: &Strength, said: f64) -> Result<f64, Indefinite> {
+        let stated = strength.with(&after.noise, said);
+        if strength.kind != Kind::White(0) {
+            let [stated] = self.likelihoods(after, &[stated])?;
+            return Ok(stated);
+        }
+        let found = strength.value(&after.noise[0].imu);
+        let mut swaying = stated.clone();
+        sway(&mut swaying, found * found - said * said);
+        let [stated, swaying] = self.likelihoods(after, &[stated, swaying])?;
+        Ok(stated.max(swaying))
     }
 
     /// How much more likely a fit is than one without this strength, all others being found anew, as a logarithm: what a walk
