@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector, Vector3};
+use rins_frames::units::DEG;
 use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use rins_motion::Recording;
 
@@ -64,15 +65,25 @@ const MOST_TURNED: f64 = 60.0 * std::f64::consts::TAU;
 /// By how much two scales that are tried differ in the angle at the end \[rad\].
 const STEP: f64 = 0.25;
 
+/// How far gravity's turning may be off the axis that it shows, 1σ \[rad\]: the base may move.
+pub const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
+
 /// The attitude of an axis about which the body turns, from the accelerometers.
 ///
 /// What of the specific force turns with the body is gravity's part across the axis; the part along
 /// it is what the z accelerometer reads. The gyro's scale error, which would take its angle away from
-/// gravity's within a few turns, is searched for beside it. The azimuth, which gravity does not show, is
-/// `yaw` \[rad\]; the table angle is zero where the run begins.
+/// gravity's within a few turns, is searched for beside it. The table angle is zero where the run begins.
+///
+/// Gravity does not show where the axis heads: it does so as it was `surveyed`. The surveyed yaw alone would not say it, for
+/// that depends on how far the table has turned, which nobody knows where nothing reads it. It is all that is taken of a
+/// survey that leans by more than three times [`AXIS_BY_GRAVITY`] less or more than what is seen, or by no more than that
+/// itself; without a survey the yaw is zero.
 ///
 /// `None` if the body makes less than a turn.
-pub fn axis_from_gravity(recording: &Recording, yaw: f64) -> Option<Dcm<Nav, Table>> {
+pub fn axis_from_gravity(
+    recording: &Recording,
+    surveyed: Option<EulerAngles>,
+) -> Option<Dcm<Nav, Table>> {
     let turned: f64 = recording.increments.iter().map(|k| k.angle.components().z.abs()).sum();
     let turned = turned.min(MOST_TURNED);
     let (mut best, mut least) = (None, f64::INFINITY);
@@ -90,7 +101,24 @@ pub fn axis_from_gravity(recording: &Recording, yaw: f64) -> Option<Dcm<Nav, Tab
     // The third row of C_s^n is up: -cos(pitch) sin(roll), sin(pitch), cos(pitch) cos(roll).
     let pitch = up.y.clamp(-1.0, 1.0).asin();
     let roll = (-up.x).atan2(up.z);
-    Some(EulerAngles { roll, pitch, yaw }.dcm())
+    let yaw = surveyed.map_or(0.0, |angles| angles.yaw);
+    let axis = EulerAngles { roll, pitch, yaw }.dcm();
+    Some(surveyed.and_then(|angles| headed(&axis, &angles.dcm())).unwrap_or(axis))
+}
+
+/// An axis with the heading of the surveyed one; `None` where the two do not lean alike, or not at all.
+fn headed(axis: &Dcm<Nav, Table>, surveyed: &Dcm<Nav, Table>) -> Option<Dcm<Nav, Table>> {
+    const FAR: f64 = 3.0 * AXIS_BY_GRAVITY;
+    let leaning = |axis: &Dcm<Nav, Table>| {
+        let up = axis.matrix().column(2);
+        let across = up[0].hypot(up[1]);
+        (across, across.atan2(up[2]), up[1].atan2(up[0]))
+    };
+    let ((_, tilt, heading), (across, surveyed_tilt, surveyed_heading)) =
+        (leaning(axis), leaning(surveyed));
+    let alike = across >= FAR && (tilt - surveyed_tilt).abs() <= FAR;
+    let about_up = Vector3::new(0.0, 0.0, surveyed_heading - heading);
+    alike.then(|| Dcm::<Nav, Nav>::from_rotation_vector(&about_up) * *axis)
 }
 
 /// Where up is in the axis frame, if the true rate is `scale` times what the z gyro reads; and what is left over

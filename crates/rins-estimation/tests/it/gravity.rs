@@ -8,6 +8,7 @@ use rins_imu::{Axis, ImuError, ImuSpec, TriadError, TriadSpec};
 use rins_motion::Recording;
 use rins_simulation::{TableRecord, simulate};
 use rins_terms::{Chosen, Model, Role, catalogue};
+use rins_testing::assert_close;
 
 use crate::support::{profile, scenario, tilted, white};
 
@@ -45,7 +46,8 @@ fn a_wheel_shows_its_lever_arm_and_the_scale_of_its_gyro() {
         "turns from {first} to {last} s"
     );
     let recording = recording.slice(span.start, span.end);
-    let nav_from_table = axis_from_gravity(&recording, 20.0 * DEG).unwrap();
+    let nav_from_table =
+        axis_from_gravity(&recording, Some(tilted(85.0, 20.0).euler_angles())).unwrap();
     let up = nav_from_table.matrix()[(2, 2)];
     assert!(
         (up.acos() - 85.0 * DEG).abs() < 0.5 * DEG,
@@ -82,9 +84,24 @@ fn a_wheel_shows_its_lever_arm_and_the_scale_of_its_gyro() {
     }
 }
 
+/// How far a table has turned where such a run begins nobody knows: its yaw is another one than the surveyed.
+#[test]
+fn an_axis_that_leans_as_it_was_surveyed_heads_where_it_was() {
+    let recording = wheel(7);
+    let recording = recording.slice(turning_span(&recording).unwrap().start + 777, recording.len());
+    let shown = |surveyed| axis_from_gravity(&recording, surveyed).unwrap();
+    let surveyed = tilted(85.0, 20.0);
+    let off = shown(Some(surveyed.euler_angles())).matrix().column(2) - surveyed.matrix().column(2);
+    assert!(off.norm() < 0.5 * DEG, "{off}");
+    // A survey of another axis.
+    let other = shown(Some(tilted(60.0, 20.0).euler_angles()));
+    assert_close!(other.euler_angles().yaw, 20.0 * DEG, 1e-12);
+    assert_close!(shown(None).euler_angles().yaw, 0.0, 1e-12);
+}
+
 #[test]
 fn what_does_not_turn_has_no_axis() {
     let recording = wheel(6).slice(0, 100);
     assert_eq!(turning_span(&recording), None);
-    assert_eq!(axis_from_gravity(&recording, 0.0), None);
+    assert_eq!(axis_from_gravity(&recording, None), None);
 }

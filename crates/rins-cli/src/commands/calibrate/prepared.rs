@@ -5,7 +5,9 @@ use std::path::Path;
 use anyhow::Context;
 use nalgebra::{Matrix3, Vector3};
 use rins_calibration::{Setup, likely_wobble, table_angles};
-use rins_estimation::{AngleSteps, Reference, Rig, Run, axis_from_gravity, turning_span};
+use rins_estimation::{
+    AXIS_BY_GRAVITY, AngleSteps, Reference, Rig, Run, axis_from_gravity, turning_span,
+};
 use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
@@ -23,9 +25,6 @@ const FOUND_HERE: f64 = 10.0;
 
 /// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
 const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
-
-/// How far gravity's turning may be off the axis that it shows, 1σ \[rad\]: the base may move.
-const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
 
 /// The first guess of how a floor or a hand lets an axis tremble on which no encoder sits \[rad\].
 const UNREAD_WOBBLE: f64 = 20.0 * ARCSEC;
@@ -206,14 +205,12 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
 /// A run whose table nothing reads: it turns by gravity, or rests.
 fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
     let recording = &loaded.recording;
-    let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
+    let surveyed = loaded.rig.attitude.map(|given| given.angles);
     let turning = turning_span(recording).map(|span| (recording.slice(span.start, span.end), span));
     if let Some((turning, span)) = turning
         && spin(&turning) > LEAST_SPIN
-        && let Some(by_gravity) = axis_from_gravity(&turning, yaw)
+        && let Some(nav_from_table) = axis_from_gravity(&turning, surveyed)
     {
-        let stated = loaded.rig.attitude.map(|given| given.angles.dcm());
-        let nav_from_table = headed(by_gravity, stated);
         let angles = nav_from_table.euler_angles();
         let remarks = vec![format!(
             "Nothing reads the table: gravity, {:.2} m/s² of it across the axis (roll {:.1}, pitch {:.1} deg), is the angle \
@@ -249,26 +246,6 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
     };
     let part = Some(recording.slice(rest.span.start, rest.span.end));
     Ok(Axis { part, remarks, ..Axis::of(Reference::Rest, nav_from_table, attitude) })
-}
-
-/// An axis that gravity shows, with the heading of the stated one: the yaw of a table depends on how far it has turned, and
-/// that nobody knows where nothing reads it. As it is, where the two do not lean alike.
-fn headed(by_gravity: Dcm<Nav, Table>, stated: Option<Dcm<Nav, Table>>) -> Dcm<Nav, Table> {
-    let leaning = |axis: &Dcm<Nav, Table>| {
-        let up = axis.matrix().column(2);
-        let across = up[0].hypot(up[1]);
-        (across, across.atan2(up[2]), up[1].atan2(up[0]))
-    };
-    let (_, tilt, heading) = leaning(&by_gravity);
-    let Some((across, stated_tilt, stated_heading)) = stated.as_ref().map(leaning) else {
-        return by_gravity;
-    };
-    let far = 3.0 * AXIS_BY_GRAVITY;
-    if across < far || (tilt - stated_tilt).abs() > far {
-        return by_gravity;
-    }
-    let about_up = Vector3::new(0.0, 0.0, stated_heading - heading);
-    Dcm::<Nav, Nav>::from_rotation_vector(&about_up) * by_gravity
 }
 
 /// A run of many rests, each with an attitude of its own.
