@@ -3,10 +3,10 @@
 /// How far a rate has to change for that to be more than a servo that holds it \[rad/s\].
 const LEAST_CHANGE: f64 = 5e-3;
 
-/// A rate that has not yet changed is within this part of that of where it was furthest ...
+/// A rate that has not yet changed is within this part of [`LEAST_CHANGE`] of where it was furthest ...
 const STEADY: f64 = 0.05;
 
-/// ... or within so many σ of its noise, if these are more.
+/// ... or within so many σ of its noise, if these are more, but never beyond [`LEAST_CHANGE`].
 const SIGMAS: f64 = 8.0;
 
 /// Rates are taken over so many samples, so that they have less of the angles' noise.
