@@ -7,7 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Complex;
-use rins_motion::Recording;
+use rins_motion::{ENOUGH_ANGLES, Recording};
 use rins_terms::Track;
 
 use crate::linear::Epoch;
@@ -29,9 +29,6 @@ const BETWEEN: f64 = 0.1;
 
 /// Over so many samples the gyro's bias and scale are taken to be one.
 const BLOCK: usize = 64;
-
-/// So many samples tell how readings are blurred.
-const ENOUGH: usize = 1_000_000;
 
 /// What blurs a reading more than by so many steps leaves nothing of them.
 const MOST_BLURRED: f64 = 2.0;
@@ -123,7 +120,7 @@ struct Seen {
 impl Seen {
     fn of(angles: &[f64], recording: &Recording, step: f64) -> Self {
         let longest = recording.longest_interval();
-        let turned: Vec<(f64, f64)> = angles[..angles.len().min(ENOUGH)]
+        let turned: Vec<(f64, f64)> = angles[..angles.len().min(ENOUGH_ANGLES)]
             .windows(2)
             .zip(&recording.increments[1..])
             .filter(|(_, sample)| sample.interval < longest)

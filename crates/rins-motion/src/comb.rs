@@ -10,8 +10,8 @@ const ROUNDING: f64 = 1e-9;
 /// A comb is looked for in so many samples: those after them stand on the same.
 const ENOUGH: usize = 100_000;
 
-/// The same of a table, which may rest for long before it turns.
-const ENOUGH_ANGLES: usize = 1_000_000;
+/// So many readings of a table angle tell how it is read: a table may rest for long before it turns.
+pub const ENOUGH_ANGLES: usize = 1_000_000;
 
 /// The fewest readings that differ from the one before.
 const FEWEST: usize = 6;

@@ -53,7 +53,7 @@ mod turntable;
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
-pub use comb::{Comb, Combs};
+pub use comb::{Comb, Combs, ENOUGH_ANGLES};
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,
