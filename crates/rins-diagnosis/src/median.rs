@@ -1,13 +1,8 @@
 //! Medians: a few values far from the others do not move them.
 
-/// The median of some values, the upper one where two are in the middle; of none it is no number.
+/// The median of some values; of none it is no number.
 pub(crate) fn median(values: &[f64]) -> f64 {
-    if values.is_empty() {
-        return f64::NAN;
-    }
-    let mut values = values.to_vec();
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+    rins_motion::median(values.iter().copied()).unwrap_or(f64::NAN)
 }
 
 /// The median of those up to `reach` places from one, itself among them.

@@ -41,6 +41,7 @@ mod comb;
 mod fine_alignment;
 mod inspection;
 pub mod mechanism;
+mod median;
 mod ramps;
 mod recording;
 mod repeats;
@@ -59,6 +60,7 @@ pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,
     ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect,
 };
+pub use median::median;
 pub use ramps::with_ramps;
 pub use recording::Recording;
 pub use repeats::Repeats;

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use rins_frames::units::{DEG, DEG_PER_SECOND};
 use rins_frames::{InFrame, Rates};
 
+use crate::median::median;
 use crate::recording::Recording;
 
 /// The stretch over which rest is judged \[s\].
@@ -156,11 +157,7 @@ fn still_parts(rest: &[&Window]) -> Vec<Range<usize>> {
 /// The median of each component of the windows' mean rates.
 fn usual_rate<'a>(windows: impl Iterator<Item = &'a Window>) -> Vector3<f64> {
     let rates: Vec<Vector3<f64>> = windows.map(|window| window.rate).collect();
-    Vector3::from_fn(|axis, _| {
-        let mut sorted: Vec<f64> = rates.iter().map(|rate| rate[axis]).collect();
-        sorted.sort_by(f64::total_cmp);
-        sorted.get(sorted.len() / 2).copied().unwrap_or_default()
-    })
+    Vector3::from_fn(|axis, _| median(rates.iter().map(|rate| rate[axis])).unwrap_or_default())
 }
 
 struct Window {

@@ -1,5 +1,7 @@
 //! How fast a table turns between two samples.
 
+use rins_motion::median;
+
 /// A rate that changes by so many times the usual change of it has a corner: a ramp begins or ends.
 const CORNER: f64 = 8.0;
 
@@ -20,13 +22,7 @@ pub(crate) fn edges(rates: &[f64]) -> (Vec<f64>, Vec<usize>) {
         let [before, here, after] = [middle - 1, middle, middle + 1].map(|place| rates[place]);
         (before - 2.0 * here + after).abs()
     };
-    let mut bends: Vec<f64> = (1..n.saturating_sub(1)).map(bend).collect();
-    let middle = bends.len() / 2;
-    let usual = if bends.is_empty() {
-        0.0
-    } else {
-        *bends.select_nth_unstable_by(middle, f64::total_cmp).1
-    };
+    let usual = median((1..n.saturating_sub(1)).map(bend)).unwrap_or_default();
     let largest = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
     let corner = (CORNER * usual).max(LEAST * largest);
     // A corner within one of the samples beside an edge bends the rates over either, and over the next.

@@ -1,5 +1,7 @@
 //! The way a table's rate changed last.
 
+use rins_motion::median;
+
 /// How far a rate has to change for that to be more than a servo that holds it \[rad/s\].
 const LEAST_CHANGE: f64 = 5e-3;
 
@@ -61,14 +63,9 @@ fn noise(rates: &[f64]) -> f64 {
     let apart: Vec<f64> = rates.iter().copied().step_by(OVER).collect();
     // Fourth differences, in which nothing is left of a wave.
     let bend = |some: &[f64]| (some[0] + some[4] - 4.0 * (some[1] + some[3]) + 6.0 * some[2]).abs();
-    let mut bends: Vec<f64> = apart.windows(5).map(bend).collect();
-    let middle = bends.len() / 2;
-    if bends.is_empty() {
-        return 0.0;
-    }
+    let usual = median(apart.windows(5).map(bend)).unwrap_or_default();
     // An angle's noise is in both rates that share it: of the angles, these are fifth differences.
-    let median = *bends.select_nth_unstable_by(middle, f64::total_cmp).1;
-    1.4826 * median / (252.0_f64 / 2.0).sqrt()
+    1.4826 * usual / (252.0_f64 / 2.0).sqrt()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Context;
 use rins_imu::{AllanPlan, Axis, CONFIDENCE, NoiseLaw, NoiseSeen, Strength, Triad, TriadSpec};
 use rins_io::Loaded;
-use rins_motion::Recording;
+use rins_motion::{Recording, median};
 use rins_terms::Unit;
 use serde_json::{Value, json};
 
@@ -147,9 +147,8 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
 /// The longest part of these samples without a gap.
 fn unbroken(recording: &Recording, span: Range<usize>) -> Range<usize> {
     let samples = &recording.increments;
-    let mut sorted: Vec<f64> = samples[span.clone()].iter().map(|sample| sample.interval).collect();
-    sorted.sort_by(f64::total_cmp);
-    let longest = GAP * sorted[sorted.len() / 2];
+    let usual = median(samples[span.clone()].iter().map(|sample| sample.interval));
+    let longest = GAP * usual.unwrap_or_default();
     let gaps = span.clone().filter(|k| samples[*k].interval > longest);
     let mut parts = Vec::new();
     let mut start = span.start;

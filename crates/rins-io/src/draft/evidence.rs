@@ -194,7 +194,5 @@ pub(super) fn spin_axis(
 
 /// The median of the numbers that are finite.
 fn median(numbers: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut sorted: Vec<f64> = numbers.filter(|number| number.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied()
+    rins_motion::median(numbers.filter(|number| number.is_finite()))
 }

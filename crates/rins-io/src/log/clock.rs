@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::path::Path;
 
+use rins_motion::median;
+
 use super::problem::LogProblem;
 use super::summary::{Gap, LogPolicy, LogSummary};
 use super::table::RowLines;
@@ -78,7 +80,7 @@ impl Stamps<'_> {
     pub(super) fn timed(&self, times: &[f64], policy: LogPolicy) -> Result<Clock, IoError> {
         self.need_two()?;
         let steps = self.steps(times)?;
-        let median = median(&steps);
+        let median = median(steps.iter().copied()).expect("two rows have a step between them");
         let (least, most) = PACE;
         if !(least..=most).contains(&median) {
             let problem = LogProblem::Pace { interval: median, least, most };
@@ -177,10 +179,4 @@ fn mean_below(steps: &[f64], most: f64) -> f64 {
     let below = steps.iter().filter(|step| **step <= most);
     let (count, sum) = below.fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));
     sum / count
-}
-
-fn median(steps: &[f64]) -> f64 {
-    let mut sorted = steps.to_vec();
-    let middle = sorted.len() / 2;
-    *sorted.select_nth_unstable_by(middle, f64::total_cmp).1
 }

@@ -1,5 +1,7 @@
 //! Time stamps of an even clock that were rounded when they were written.
 
+use rins_motion::median;
+
 use super::summary::Rounded;
 
 /// The finest decimal of a second that stamps are rounded to, as a power of ten.
@@ -23,9 +25,7 @@ const GAP: f64 = 2.5;
 pub(super) fn undo_rounding(times: &mut [f64], nominal: Option<f64>) -> Option<Rounded> {
     let unit = last_decimal(times)?;
     let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-    let mut sorted: Vec<f64> = steps().collect();
-    let middle = sorted.len() / 2;
-    let median = *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let median = median(steps())?;
     let (count, sum) = steps()
         .filter(|step| *step < GAP * median)
         .fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));

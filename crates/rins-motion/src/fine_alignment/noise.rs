@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use rins_ekf::UpdateError;
 use rins_frames::{InFrame, Rates};
 
+use crate::median::median;
 use crate::recording::Recording;
 use crate::rest::RestMean;
 
@@ -114,17 +115,13 @@ pub(super) fn scatter(seconds: &[Second]) -> Option<Noise> {
         .collect();
     let duration = TOGETHER as f64 * UPDATE_INTERVAL;
     let of = |component: fn(&Rates) -> &Vector3<f64>| {
-        let mut steps: Vec<f64> = means
-            .windows(2)
-            .map(|pair| {
-                let step = component(&pair[1]) - component(&pair[0]);
-                // Each of three components has twice the variance of one mean.
-                (step.norm_squared() / 6.0 * duration).sqrt()
-            })
-            .collect();
-        steps.sort_by(f64::total_cmp);
+        let steps = means.windows(2).map(|pair| {
+            let step = component(&pair[1]) - component(&pair[0]);
+            // Each of three components has twice the variance of one mean.
+            (step.norm_squared() / 6.0 * duration).sqrt()
+        });
         // The median of √(χ²₃ / 3) is 0.888.
-        steps.get(steps.len() / 2).map(|median| median / 0.888)
+        median(steps).map(|median| median / 0.888)
     };
     let gyro = of(|rates| rates.angular_rate.components())?;
     let accel = of(|rates| rates.specific_force.components())?;

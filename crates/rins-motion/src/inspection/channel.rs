@@ -5,6 +5,7 @@ use rins_frames::Increments;
 use super::suspicion::Suspicion;
 use super::{CHANNELS, Expected};
 use crate::comb::comb;
+use crate::median::median;
 use crate::recording::Recording;
 
 /// A spike is so many times the robust scatter of the differences between neighbours ...
@@ -111,12 +112,10 @@ fn steps(readings: &[f64]) -> Vec<f64> {
 
 /// The robust scatter of steps; none if there is no step.
 fn scatter(steps: &[f64]) -> Option<f64> {
-    let mut sizes: Vec<f64> = steps.iter().map(|step| step.abs()).collect();
-    let middle = sizes.len() / 2;
-    sizes.get(middle)?;
-    let usual = 1.4826 * *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let sizes = || steps.iter().map(|step| step.abs());
+    let usual = 1.4826 * median(sizes())?;
     // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
-    let coarse = sizes.into_iter().filter(|size| *size > 0.0).min_by(f64::total_cmp)?;
+    let coarse = sizes().filter(|size| *size > 0.0).min_by(f64::total_cmp)?;
     Some(if usual > 0.0 { usual } else { coarse })
 }
 

@@ -27,6 +27,7 @@ use self::spin::{Spin, Suspect, table_angle};
 use self::turning::Turning;
 use self::units::{explained, mistakes};
 use self::whole_turns::WholeTurns;
+use crate::median::median;
 use crate::recording::Recording;
 use crate::rest::{RestMean, rest_spans};
 use crate::station::Station;
@@ -199,7 +200,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
             rests.iter().filter(|rest| rest.mean.duration >= lasting).collect();
         long.sort_by(|a, b| b.mean.duration.total_cmp(&a.mean.duration));
         let angle = |rest: &RestSeen| {
-            table_angle.as_ref().and_then(|angle| median(angle[rest.span.clone()].to_vec()))
+            table_angle.as_ref().and_then(|angle| median(angle[rest.span.clone()].iter().copied()))
         };
         let evidence = Evidence {
             expected,
@@ -242,9 +243,4 @@ fn gravity_suspicion(seen: f64, expected: &Expected, timing: &Timing) -> Option<
     let mistakes = mistakes(&ReadingUnit::ACCEL, expected.accel.unit, timing, "readings");
     let cause = explained(seen / gravity, &mistakes).err()?;
     Some(Suspicion::Gravity { seen, expected: gravity, cause })
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
 }

@@ -3,14 +3,14 @@
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
 
-use super::Expected;
 use super::correction::Hypothesis;
 use super::suspicion::Suspicion;
 use super::timing::Timing;
 use super::turning::Turning;
 use super::units::{Mistake, ReadingUnit, explained, mistakes};
 use super::whole_turns::{STANDS, WholeTurns};
-use super::{CHANNELS, median};
+use super::{CHANNELS, Expected};
+use crate::median::median;
 use crate::recording::Recording;
 
 /// A table that turns by less \[rad\] says nothing of the gyros.
@@ -147,9 +147,9 @@ impl Spin {
             windows.iter().fold(0.0, |most: f64, (_, turn, time)| most.max((turn / time).abs()));
         let standing =
             windows.iter().filter(|(_, turn, time)| (turn / time).abs() < 1e-3 * fastest);
-        let bias = median(standing.map(|(gyro, _, time)| gyro / time).collect()).unwrap_or(0.0);
+        let bias = median(standing.map(|(gyro, _, time)| gyro / time)).unwrap_or(0.0);
         let turning = windows.iter().filter(|(_, turn, time)| (turn / time).abs() > 0.5 * fastest);
-        let ratio = median(turning.map(|(gyro, turn, time)| (gyro - bias * time) / turn).collect());
+        let ratio = median(turning.map(|(gyro, turn, time)| (gyro - bias * time) / turn));
         let all = product / square;
         Some(Self { ratio: ratio.unwrap_or(all.z), all, table, bias, late })
     }
@@ -224,8 +224,8 @@ impl Spin {
         };
         let gains: Vec<f64> = over(WINDOW).iter().map(|stretch| stretch.2).collect();
         // Where the table never stands the bias is what most of the difference is.
-        let usual = median(gains.clone())?;
-        let scatter = 1.4826 * median(gains.iter().map(|gain| (gain - usual).abs()).collect())?;
+        let usual = median(gains.iter().copied())?;
+        let scatter = 1.4826 * median(gains.iter().map(|gain| (gain - usual).abs()))?;
         let rates = self.table.iter().zip(samples).map(|(turn, sample)| turn / sample.interval);
         let fastest = rates.fold(0.0, |most: f64, rate| most.max(rate.abs()));
         let noise = 10.0 * scatter * (STRETCH / WINDOW).sqrt();

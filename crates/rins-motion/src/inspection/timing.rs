@@ -1,5 +1,6 @@
 //! How regularly samples came.
 
+use crate::median::median;
 use crate::recording::Recording;
 
 /// An interval that is longer than the median by this factor is a gap.
@@ -18,10 +19,8 @@ pub struct Timing {
 
 impl Timing {
     pub(super) fn of(recording: &Recording) -> Self {
-        let mut sorted: Vec<f64> =
-            recording.increments.iter().map(|sample| sample.interval).collect();
-        sorted.sort_by(f64::total_cmp);
-        let interval = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+        let intervals = recording.increments.iter().map(|sample| sample.interval);
+        let interval = median(intervals).unwrap_or_default();
         let mut gaps = Vec::new();
         let (mut square, mut count) = (0.0, 0.0_f64);
         for (index, sample) in recording.increments.iter().enumerate() {

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Vector2, Vector3};
 
 use super::correction::SignedAxes;
+use crate::median::median;
 use crate::recording::Recording;
 
 /// A table that goes back by more than this \[rad\] has reversed; an encoder's noise is less.
@@ -119,7 +120,7 @@ impl WholeTurns {
             return None;
         }
         let white = (2.0 * usual_mean(noise) / time).sqrt();
-        Some(Self { fastest, white, force: super::median(forces), turns })
+        Some(Self { fastest, white, force: median(forces), turns })
     }
 
     /// What of the specific force and of the angular rate stands across the table's axis, as shares of

@@ -5,6 +5,8 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use rins_frames::units::{DEG, DEG_PER_SECOND};
 
+use crate::median::median;
+
 /// A base may sway so far \[rad\], to and fro or in steps, and be at rest.
 const LARGEST_SWAY: f64 = 0.5 * DEG;
 
@@ -34,9 +36,8 @@ pub(super) fn parts(forces: &[Vector3<f64>]) -> Vec<Range<usize>> {
         return vec![whole];
     }
     // The scatter of a second's direction, from neighbours so that a drift is not in it.
-    let mut steps: Vec<f64> = up.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
-    steps.sort_by(f64::total_cmp);
-    let scatter = steps[steps.len() / 2] / 2.0_f64.sqrt();
+    let step = median(up.windows(2).map(|pair| (pair[1] - pair[0]).norm()));
+    let scatter = step.unwrap_or_default() / 2.0_f64.sqrt();
     let noise = |count: usize| SIGMAS * scatter * (2.0 / count as f64).sqrt();
     if !strays(&up, averaged, noise(averaged)) && !drifts(&up, noise(up.len().div_ceil(4))) {
         return vec![whole];
