@@ -86,6 +86,21 @@ fn lines_are_found_at_their_frequency() {
     }
 }
 
+/// Of six sigma, which is a thousandth of what interference and floors usually do, and at frequencies between those of a
+/// spectrum.
+#[test]
+fn faint_lines_are_named() {
+    let line = line(0.1364, 2.0, &[0.0094 * DEG_PER_HOUR, 0.0, 0.0, 0.0]);
+    let sway = sway(0.2136, &[0.0075 * ARCSEC, 0.0, 0.0, 0.0]);
+    for (seed, chosen) in [(230, line), (232, sway)] {
+        let diagnosis = hiding(std::slice::from_ref(&chosen), &RATES, seed);
+        let [cause] = &diagnosis.causes[..] else { panic!("{chosen:?}: {:?}", diagnosis.causes) };
+        assert_is(cause, &chosen);
+        assert!((5.5..7.0).contains(&(2.0 * cause.gain).sqrt()), "{cause:?}");
+        assert!(cause.rivals.is_empty(), "{:?}", cause.rivals);
+    }
+}
+
 /// A term is of one axis: the same line on two of them is two causes, and no base that sways.
 #[test]
 fn line_on_two_axes_is_no_sway() {
