@@ -1,6 +1,8 @@
 //! Signals of no known cause, to say how large is what was found: of a frequency, or of an order of the table angle.
 
-use rins_terms::{Action, Dual64, Moment, Owner, Parameter, Prior, Setting, Signals, Term, Unit};
+use rins_terms::{
+    Action, Dual64, Moment, Owner, Parameter, Prior, Setting, Signals, Term, Unit, sin_cos,
+};
 
 /// What a disturbance is called where only a name will do.
 pub(crate) const ID: &str = "disturbance";
@@ -88,11 +90,11 @@ pub(crate) static IN_ANGLE: Term = disturbance(
 );
 
 fn act(p: &[Dual64], mean: f64, end: f64, out: &mut Signals) {
-    let (sin, cos) = mean.sin_cos();
+    let (sin, cos) = sin_cos(mean);
     for axis in 0..3 {
         out.gyro[axis] += p[2 * axis] * cos + p[2 * axis + 1] * sin;
         out.accel[axis] += p[6 + 2 * axis] * cos + p[7 + 2 * axis] * sin;
     }
-    let (sin, cos) = end.sin_cos();
+    let (sin, cos) = sin_cos(end);
     out.angle += p[12] * cos + p[13] * sin;
 }

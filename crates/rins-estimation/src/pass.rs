@@ -25,6 +25,8 @@ pub(crate) struct Pass {
     of_states: Vec<f64>,
     /// `C L⁻ᵀ`, where `C` is the covariance of the next states with what is shown, in rows.
     gain: Vec<f64>,
+    /// The same, one state after the other.
+    gain_of_states: Vec<[f64; SHOWN]>,
     whitened: Vec<f64>,
 }
 
@@ -39,6 +41,7 @@ impl Pass {
             columns: DMatrix::zeros(columns, states),
             of_states: vec![0.0; FOLLOWING * length],
             gain: vec![0.0; SHOWN * length],
+            gain_of_states: vec![[0.0; SHOWN]; states],
             whitened: vec![0.0; SHOWN * columns],
         }
     }
@@ -180,44 +183,72 @@ impl Pass {
                 rows[part * width + place] = gain[part].values();
             }
         }
+        for (part, row) in self.gain.chunks_exact(length).enumerate() {
+            for (to, gain) in self.gain_of_states.iter_mut().zip(row) {
+                to[part] = *gain;
+            }
+        }
     }
 
     /// What of the columns is shown, whitened, and what is carried on.
     #[inline(always)]
     fn carry_columns<S: Simd>(&mut self, simd: S, gains: &Gains, factor: &Square) {
-        let Self { step, columns, gain, whitened, .. } = self;
-        let states = columns.ncols();
+        // Of two vectors side by side what multiplies both is read once; of the widest there may be but one.
+        if S::F64_LANES < WIDEST {
+            self.carry_vectors::<S, 2>(simd, gains, factor);
+        } else {
+            self.carry_vectors::<S, 1>(simd, gains, factor);
+        }
+    }
+
+    /// The same, so many vectors at once.
+    #[inline(always)]
+    fn carry_vectors<S: Simd, const BESIDE: usize>(
+        &mut self,
+        simd: S,
+        gains: &Gains,
+        factor: &Square,
+    ) {
+        let Self { step, columns, gain_of_states, whitened, .. } = self;
         let columns = S::as_mut_simd_f64s(columns.as_mut_slice()).0;
         let whitened = S::as_mut_simd_f64s(whitened).0;
         let navigation = S::as_simd_f64s(gains.navigation()).0;
         let shown = S::as_simd_f64s(gains.shown()).0;
         let width = whitened.len() / SHOWN;
-        let length = step.decay.len();
-        for place in 0..width {
-            let at = |rows: &[S::f64s], row: usize| Lane::new(simd, rows[row * width + place]);
-            let [mean, end, velocity] = step.follow(|state| at(columns, state));
-            let mut carried = [end[0], end[1], end[2], velocity[0], velocity[1], velocity[2]];
-            for (row, carried) in carried.iter_mut().enumerate() {
-                *carried = *carried + at(navigation, row);
+        let (gain_of_navigation, gain_of_others) = gain_of_states.split_at(NAVIGATION);
+        for first in (0..width).step_by(BESIDE) {
+            let mut all_seen = [[Lane::splat(simd, 0.0); SHOWN]; BESIDE];
+            for (beside, all_seen) in all_seen.iter_mut().enumerate() {
+                let place = first + beside;
+                let at = |rows: &[S::f64s], row: usize| Lane::new(simd, rows[row * width + place]);
+                let [mean, end, velocity] = step.follow(|state| at(columns, state));
+                let mut carried = [end[0], end[1], end[2], velocity[0], velocity[1], velocity[2]];
+                for (row, carried) in carried.iter_mut().enumerate() {
+                    *carried = *carried + at(navigation, row);
+                }
+                let mut seen: [Lane<S>; SHOWN] = std::array::from_fn(|part| {
+                    if part < 3 { mean[part] + at(shown, part) } else { carried[part] }
+                });
+                if !step.shows_angle {
+                    seen[2] = Lane::splat(simd, 0.0);
+                }
+                whiten(&mut seen, factor);
+                for (part, seen) in seen.iter().enumerate() {
+                    whitened[part * width + place] = seen.values();
+                }
+                for (state, (carried, gain)) in
+                    carried.into_iter().zip(gain_of_navigation).enumerate()
+                {
+                    columns[state * width + place] = (carried - explained(&seen, gain)).values();
+                }
+                *all_seen = seen;
             }
-            let mut seen: [Lane<S>; SHOWN] = std::array::from_fn(|part| {
-                if part < 3 { mean[part] + at(shown, part) } else { carried[part] }
-            });
-            if !step.shows_angle {
-                seen[2] = Lane::splat(simd, 0.0);
-            }
-            whiten(&mut seen, factor);
-            for (part, seen) in seen.iter().enumerate() {
-                whitened[part * width + place] = seen.values();
-            }
-            for (state, carried) in carried.into_iter().enumerate() {
-                let left = carried - explained(&seen, |part| gain[part * length + state]);
-                columns[state * width + place] = left.values();
-            }
-            for state in NAVIGATION..states {
-                let decayed = at(columns, state) * step.decay[state];
-                let left = decayed - explained(&seen, |part| gain[part * length + state]);
-                columns[state * width + place] = left.values();
+            let rows = columns[NAVIGATION * width..].chunks_exact_mut(width);
+            for ((row, gain), decay) in rows.zip(gain_of_others).zip(&step.decay[NAVIGATION..]) {
+                for (value, seen) in row[first..first + BESIDE].iter_mut().zip(&all_seen) {
+                    let decayed = Lane::new(simd, *value) * *decay;
+                    *value = (decayed - explained(seen, gain)).values();
+                }
             }
         }
     }
@@ -225,7 +256,7 @@ impl Pass {
     /// `Φ P Φᵀ + Q - W Wᵀ`.
     #[inline(always)]
     fn carry_covariance<S: Simd>(&mut self, simd: S, following: &Following) {
-        let Self { step, covariance, of_states, gain, .. } = self;
+        let Self { step, covariance, of_states, gain, gain_of_states, .. } = self;
         let Step { decay, noise, colour_noise, .. } = step;
         let (length, states) = covariance.shape();
         for (state, mut row) in covariance.column_iter_mut().enumerate().take(NAVIGATION) {
@@ -251,12 +282,12 @@ impl Pass {
             let seen: [Lane<S>; SHOWN] =
                 std::array::from_fn(|part| Lane::new(simd, gains[part * width + place]));
             let decays = Lane::new(simd, decays[place]);
-            for state in 0..states {
-                let row = Lane::new(simd, rows[state * width + place]);
+            let rows = rows.chunks_exact_mut(width).zip(&*gain_of_states).zip(&*decay);
+            for (state, ((row, gain), decay)) in rows.enumerate() {
+                let carried = Lane::new(simd, row[place]);
                 let predicted =
-                    if state < NAVIGATION { row } else { row * (decays * decay[state]) };
-                let left = predicted - explained(&seen, |part| gain[part * length + state]);
-                rows[state * width + place] = left.values();
+                    if state < NAVIGATION { carried } else { carried * (decays * *decay) };
+                row[place] = (predicted - explained(&seen, gain)).values();
             }
         }
         for state in NAVIGATION..states {
@@ -281,12 +312,9 @@ fn whiten<S: Simd>(x: &mut [Lane<S>; SHOWN], factor: &Square) {
 
 /// The sum of what is seen, each part times its gain.
 #[inline(always)]
-fn explained<S: Simd>(seen: &[Lane<S>; SHOWN], gain: impl Fn(usize) -> f64) -> Lane<S> {
-    let mut sum = seen[0] * gain(0);
-    for (part, seen) in seen.iter().enumerate().skip(1) {
-        sum = sum + *seen * gain(part);
-    }
-    sum
+fn explained<S: Simd>(seen: &[Lane<S>; SHOWN], gain: &[f64; SHOWN]) -> Lane<S> {
+    let [mean_x, mean_y, mean_z, x, y, z] = *seen;
+    mean_x * gain[0] + mean_y * gain[1] + mean_z * gain[2] + x * gain[3] + y * gain[4] + z * gain[5]
 }
 
 #[cfg(test)]

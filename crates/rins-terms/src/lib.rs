@@ -35,6 +35,7 @@ mod track;
 mod triads;
 mod turns;
 mod unit;
+mod waves;
 
 pub use acting::Acting;
 pub use compensation::{NotUndone, compensated};
@@ -49,6 +50,7 @@ pub use signals::{DualVector, Signals, derivatives, values};
 pub use term::{Action, Need, Noises, Owner, Parameter, Prior, Setting, Term};
 pub use track::{Moments, Track};
 pub use unit::Unit;
+pub use waves::sin_cos;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -4,6 +4,8 @@ use nalgebra::{Complex, Vector3};
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::Station;
 
+use crate::waves::sin_cos;
+
 /// What surrounds a table: the directions in which the Earth turns, pulls and is magnetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surroundings {
@@ -115,12 +117,13 @@ impl Moment {
 
     /// A vector of the axis frame in body axes, at the mean angle of the interval.
     pub fn in_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
-        turned_back(vector, self.mean.angle.sin_cos())
+        turned_back(vector, sin_cos(self.mean.angle))
     }
 
     /// `exp(iζ)` of the mean angle of the interval.
     pub(crate) fn exp_angle(&self) -> Complex<f64> {
-        Complex::cis(self.mean.angle)
+        let (sin, cos) = sin_cos(self.mean.angle);
+        Complex::new(cos, sin)
     }
 
     /// The share of the interval that lies after `time` \[s\], between 0 and 1.

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::signals::add_constant;
 use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
 use crate::unit::Unit;
+use crate::waves::sin_cos;
 
 /// A survey is some minutes of arc off, or none.
 const fn angle(name: &'static str, high: f64) -> Parameter {
@@ -43,7 +44,7 @@ pub static MOUNTING: Term = Term {
     told_apart_by: "never: it is a choice of body axes; hold the misalignments xz and yz of one triad instead",
     owner: Owner::Run,
     action: Action::Signal(|p, _, moment, out| {
-        let (sin, cos) = moment.end.angle.sin_cos();
+        let (sin, cos) = sin_cos(moment.end.angle);
         out.add_tilt(p[0], &Vector3::new(cos, sin, 0.0));
         out.add_tilt(p[1], &Vector3::new(-sin, cos, 0.0));
     }),

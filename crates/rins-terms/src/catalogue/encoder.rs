@@ -3,6 +3,7 @@
 use crate::catalogue::parameters::{TIME, cos_sin, parameter};
 use crate::term::{Action, Need, Owner, Prior, Setting, Term};
 use crate::unit::Unit;
+use crate::waves::sin_cos;
 
 /// A disc that is off centre.
 pub static ENCODER_ECCENTRICITY: Term = Term {
@@ -19,7 +20,7 @@ pub static ENCODER_ECCENTRICITY: Term = Term {
     told_apart_by: "turn the table both ways",
     owner: Owner::Run,
     action: Action::Signal(|p, _, moment, out| {
-        let (sin, cos) = moment.end.angle.sin_cos();
+        let (sin, cos) = sin_cos(moment.end.angle);
         out.angle += p[0] * cos + p[1] * sin;
     }),
 };
@@ -45,7 +46,7 @@ pub static ENCODER_HARMONIC: Term = Term {
     told_apart_by: "turn the table both ways, and at two rates",
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
-        let (sin, cos) = (settings[0] * moment.end.angle).sin_cos();
+        let (sin, cos) = sin_cos(settings[0] * moment.end.angle);
         out.angle += p[0] * cos + p[1] * sin;
     }),
 };

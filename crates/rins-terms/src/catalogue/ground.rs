@@ -4,6 +4,7 @@ use crate::catalogue::parameters::{FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
 use crate::term::{Action, Owner, Prior, Term};
 use crate::unit::Unit;
+use crate::waves::sin_cos;
 
 /// A base that settles.
 pub static BASE_TILT_RAMP: Term = Term {
@@ -62,7 +63,7 @@ pub static BASE_SWAY: Term = Term {
     told_apart_by: "turn at another rate: it keeps its frequency, and shows in gyros and accelerometers at once",
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
-        let (sin, cos) = (std::f64::consts::TAU * settings[0] * moment.end.time).sin_cos();
+        let (sin, cos) = sin_cos(std::f64::consts::TAU * settings[0] * moment.end.time);
         out.tilt[0] += p[0] * cos + p[1] * sin;
         out.tilt[1] += p[2] * cos + p[3] * sin;
     }),

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use crate::catalogue::parameters::{FREQUENCY, parameter, usual};
 use crate::term::{Action, Owner, Prior, Setting, Term};
 use crate::unit::Unit;
+use crate::waves::sin_cos;
 
 /// One gyro's share, and one accelerometer's.
 const GYRO: Prior = usual((0.01, 10.0), (0.01, 1.0), (1.0, 100.0));
@@ -44,8 +45,8 @@ pub static INTERFERENCE_LINE: Term = Term {
     action: Action::Signal(|p, settings, moment, out| {
         let (frequency, axis) = (settings[0], settings[1]);
         let half_turn = PI * frequency * moment.interval;
-        let gain = if half_turn == 0.0 { 1.0 } else { half_turn.sin() / half_turn };
-        let (sin, cos) = (TAU * frequency * moment.mean.time).sin_cos();
+        let gain = if half_turn == 0.0 { 1.0 } else { sin_cos(half_turn).0 / half_turn };
+        let (sin, cos) = sin_cos(TAU * frequency * moment.mean.time);
         let place = [1.5, 2.5].iter().filter(|&&edge| axis > edge).count();
         out.gyro[place] += (p[0] * cos + p[1] * sin) * gain;
         out.accel[place] += (p[2] * cos + p[3] * sin) * gain;

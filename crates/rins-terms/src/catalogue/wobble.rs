@@ -6,6 +6,7 @@ use crate::catalogue::parameters::{cos_sin, named};
 use crate::signals::add_constant;
 use crate::term::{Action, Need, Owner, Prior, Setting, Term};
 use crate::unit::Unit;
+use crate::waves::sin_cos;
 
 /// An axis that moves as it turns.
 pub static TABLE_WOBBLE: Term = Term {
@@ -28,7 +29,7 @@ pub static TABLE_WOBBLE: Term = Term {
     told_apart_by: "turn the table both ways; order 1 never: it is the mounting",
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
-        let (sin, cos) = (settings[0] * moment.end.angle).sin_cos();
+        let (sin, cos) = sin_cos(settings[0] * moment.end.angle);
         out.add_tilt(p[0], &Vector3::new(cos, sin, 0.0));
         out.add_tilt(p[1], &Vector3::new(-sin, cos, 0.0));
     }),
@@ -59,7 +60,7 @@ pub static TABLE_RATE_RIPPLE: Term = Term {
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
         let order = settings[0];
-        let (sin, cos) = (order * moment.end.angle).sin_cos();
+        let (sin, cos) = sin_cos(order * moment.end.angle);
         let ahead = (p[0] * sin - p[1] * cos) / order;
         out.tilt[2] += ahead;
         out.angle += ahead;
