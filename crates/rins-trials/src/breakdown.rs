@@ -88,6 +88,27 @@ pub(crate) fn detection(page: &mut String, records: &[&Record]) {
     }
 }
 
+/// How many of the faintest that have to be found were, class by class.
+pub(crate) fn faint(page: &mut String, records: &[&Record]) {
+    page.push_str(
+        "Theory knows the noise. The diagnosis has to find it from the same run, and what is slow may pass for flicker of which the \
+         data sheet says nothing.\n\n\
+         | at 6.5 σ | detected | theory |\n| --- | --- | ---: |\n",
+    );
+    let ones = ones(records);
+    for row in classes() {
+        let of: Vec<&(&Record, &Hidden)> =
+            ones.iter().filter(meant(6.5, 6.5)).filter(|(_, h)| class(&h.id) == row).collect();
+        if of.is_empty() {
+            continue;
+        }
+        let theory: f64 = of.iter().map(|(record, hidden)| expected(record, hidden)).sum();
+        let detected = Share::count(of.iter().map(|(r, _)| r.detected())).text();
+        let _ =
+            writeln!(page, "| {row} | {detected} | {:.1} % |", 100.0 * theory / of.len() as f64);
+    }
+}
+
 /// The power of a test for what was hidden that looks wherever it may be.
 fn expected(record: &Record, hidden: &Hidden) -> f64 {
     let terms = crate::hide::hideable();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::breakdown::{by_effect, by_level, by_schedule, confusion, detection, outside};
+use crate::breakdown::{by_effect, by_level, by_schedule, confusion, detection, faint, outside};
 use crate::draw::Kind;
 use crate::hide::Hidden;
 use crate::journal::Record;
@@ -30,6 +30,8 @@ pub fn card(records: &[Record]) -> String {
     by_level(&mut page, &answered);
     page.push_str("\n## Detection\n\n");
     detection(&mut page, &answered);
+    page.push('\n');
+    faint(&mut page, &answered);
     page.push_str("\n## By effect\n\n");
     by_effect(&mut page, &answered);
     page.push_str("\n## What is taken for what\n\n");

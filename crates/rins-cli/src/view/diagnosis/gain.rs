@@ -7,6 +7,9 @@ use crate::commands::diagnose::{Measured, On};
 use crate::number::figure;
 use crate::report::{Cell, Column, Item, Section, Table, Tone};
 
+/// By which factor a drift has to grow for it to be said: it scatters, being that of a few windows.
+const FURTHER: f64 = 1.5;
+
 /// The evidence for a gain.
 pub(super) fn gain_section(measured: &Measured) -> Section {
     let heading = match measured.on {
@@ -21,7 +24,8 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
         return Section { heading, intro, items };
     };
     let tone = match gain.verdict {
-        GainVerdict::Improved => Tone::Good,
+        GainVerdict::Improved if !drifts_further(gain) => Tone::Good,
+        GainVerdict::Improved => Tone::Warning,
         GainVerdict::NoImprovement => Tone::Neutral,
     };
     let row = |name: String, [before, after]: [f64; 2]| {
@@ -71,8 +75,14 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
         figure(gain.interval.1, 3)
     );
     let over = format!("Foretelling {}", held_out(measured, gain));
-    let drift =
-        gain.drifts.last().map_or_else(String::new, |drift| format!("; {}", drifting(drift)));
+    let drift = gain.drifts.last().map_or_else(String::new, |drift| {
+        let further = if drifts_further(gain) {
+            "; navigation with its errors undone drifts further: "
+        } else {
+            "; "
+        };
+        format!("{further}{}", drifting(drift))
+    });
     match gain.verdict {
         GainVerdict::Improved => {
             format!("{over}, the extended model does better: {scored}{drift}.")
@@ -81,6 +91,12 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
             format!("{over}, the extended model does not do better: {scored}{drift}.")
         }
     }
+}
+
+/// Whether free navigation ends further off, in velocity or attitude, with what the extended model finds undone.
+fn drifts_further(gain: &Gain) -> bool {
+    let further = |[before, after]: [f64; 2]| after > FURTHER * before;
+    gain.drifts.last().is_some_and(|drift| further(drift.velocity) || further(drift.attitude))
 }
 
 /// What was held out.
@@ -107,4 +123,42 @@ fn drifting(drift: &Drift) -> String {
          {after} deg instead of {before}",
         drift.after
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use rins_diagnosis::Foresight;
+
+    use super::*;
+
+    /// A gain of 30 nats after which the attitude is so many times as far off.
+    fn measured(times: f64) -> Measured {
+        let foresight = |log_score| Foresight { log_score, nis_mean: 6.0, nis_dof: 6 };
+        let drift = Drift {
+            after: 60.0,
+            windows: 3,
+            velocity: [0.02, 0.015],
+            attitude: [0.01 * DEG, times * 0.01 * DEG],
+        };
+        let gain = Gain {
+            spans: vec![vec![0..3000]],
+            samples: 3000,
+            blocks: 6,
+            before: foresight(100.0),
+            after: foresight(130.0),
+            interval: (12.0, 47.0),
+            drifts: vec![drift],
+            verdict: GainVerdict::Improved,
+        };
+        Measured { on: On::Ends, gain: Ok(gain) }
+    }
+
+    #[test]
+    fn drift_that_grows_is_not_passed_over() {
+        let better = gain_sentence(&measured(0.5));
+        assert!(better.contains("does better") && !better.contains("further"), "{better}");
+        let further = gain_sentence(&measured(9.0));
+        assert!(further.contains("; navigation with its errors undone drifts further: after 60 s"));
+        assert!(further.contains("the attitude by 0.0900 deg instead of 0.0100"), "{further}");
+    }
 }
