@@ -1,18 +1,19 @@
 //! How far free inertial navigation drifts over what was held out.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use rins_calibration::navigate_freely;
-use rins_estimation::{Fit, Run, linearise};
-use rins_frames::{Dcm, Nav, Table};
+use rins_estimation::{Fit, Run, attitudes};
+use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use rins_motion::Recording;
-use rins_terms::{Model, NotUndone, compensated};
+use rins_terms::compensated;
+
+use crate::gain::GainError;
 
 /// How long is navigated \[s\], if what was held out is so long.
 const LASTING: [f64; 2] = [60.0, 300.0];
 
-/// The drift of free inertial navigation, each window from rest and from the attitude that the table has.
+/// The drift of free inertial navigation, each window from rest and from the attitude that the IMU is found to have by then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
     /// After how long \[s\].
@@ -25,34 +26,55 @@ pub struct Drift {
     pub attitude: [f64; 2],
 }
 
-/// A run as an IMU without the errors of a fitted model would have recorded it.
-struct Undone {
-    recording: Arc<Recording>,
-    angles: Vec<f64>,
+/// A run as an IMU without the errors of a fitted model would have recorded it, and its attitude all the way.
+struct Undone<'a> {
+    recording: Recording,
+    /// The table angle before each sample and after the last \[rad\].
+    angles: &'a [f64],
     nav_from_table: Dcm<Nav, Table>,
+    /// How the axis frame is turned from there, after which sample.
+    turned: Vec<(usize, Dcm<Table, Table>)>,
 }
 
-impl Undone {
-    fn of(run: &Run, fit: &Fit, place: usize) -> Result<Self, NotUndone> {
-        let around = fit.linear[place].track().surroundings;
-        let recording = Arc::new(compensated(&fit.models[place], around, &run.recording)?);
-        let clean = Run { recording, left_out: Vec::new(), ..run.clone() };
-        let angles = linearise(&clean, &Model::default(), &[]).track().angles().to_vec();
-        Ok(Self { recording: clean.recording, angles, nav_from_table: around.nav_from_table })
+impl<'a> Undone<'a> {
+    fn of(run: &Run, fit: &'a Fit, place: usize) -> Result<Self, GainError> {
+        let linear = &fit.linear[place];
+        let around = linear.track().surroundings;
+        Ok(Self {
+            recording: compensated(&fit.models[place], around, &run.recording)?,
+            angles: linear.track().angles(),
+            nav_from_table: around.nav_from_table,
+            turned: attitudes(run, linear, &fit.noise[place])?,
+        })
+    }
+
+    /// The attitude of the axis frame before a sample, as the data up to there show it.
+    fn attitude(&self, sample: usize) -> Dcm<Nav, Table> {
+        let before = self.turned.partition_point(|(end, _)| *end <= sample).saturating_sub(1);
+        self.turned
+            .get(before)
+            .map_or(self.nav_from_table, |(_, turned)| self.nav_from_table * *turned)
     }
 
     /// The squares of the drift of velocity and attitude over a window.
     fn squares(&self, run: &Run, window: &Range<usize>) -> (f64, f64) {
+        let start = self.attitude(window.start);
         let end = navigate_freely(
             &self.recording.slice(window.start, window.end),
             &self.angles[window.start..=window.end],
-            self.nav_from_table,
+            start,
             &run.rig.station,
             None,
         );
-        let angles = end.attitude_error;
-        let attitude = angles.roll.powi(2) + angles.pitch.powi(2) + angles.yaw.powi(2);
-        (end.velocity.xy().norm_squared(), attitude)
+        let (from, off) = (start.euler_angles(), end.attitude_error);
+        let navigated: Dcm<Nav, Table> = EulerAngles {
+            roll: from.roll + off.roll,
+            pitch: from.pitch + off.pitch,
+            yaw: from.yaw + off.yaw,
+        }
+        .dcm();
+        let off = self.attitude(window.end).inverse() * navigated;
+        (end.velocity.xy().norm_squared(), off.rotation_vector().norm_squared())
     }
 }
 
@@ -61,7 +83,7 @@ pub(crate) fn drifts(
     runs: &[Run],
     spans: &[Vec<Range<usize>>],
     fits: [&Fit; 2],
-) -> Result<Vec<Drift>, NotUndone> {
+) -> Result<Vec<Drift>, GainError> {
     let mut undone = Vec::with_capacity(runs.len());
     for (place, run) in runs.iter().enumerate() {
         undone.push([Undone::of(run, fits[0], place)?, Undone::of(run, fits[1], place)?]);

@@ -5,15 +5,18 @@
 //! parameters as states would find from a diffuse start.
 
 use nalgebra::SVector;
+use rins_frames::{Dcm, Table};
 
 use crate::gains::Gains;
 use crate::gram::Gram;
 use crate::linear::{Epoch, Linear};
 use crate::pass::Pass;
 use crate::posterior::Evidence;
+use crate::run::Run;
 use crate::space::Space;
 use crate::step::SHOWN;
 use crate::strengths::Noise;
+use crate::sway::Sway;
 
 /// A filter whose covariance could not be factored.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -33,8 +36,8 @@ impl Evidence {
     pub fn of(linear: &Linear, noise: &Noise) -> Result<Self, Indefinite> {
         let mut gram = Gram::new(linear.parameters + 1);
         let mut log_determinant = 0.0;
-        pass(linear, noise, None, |_, whitened, log_det| {
-            gram.add(whitened, SHOWN);
+        pass(linear, noise, None, |_, filter, log_det| {
+            gram.add(filter.whitened(), SHOWN);
             log_determinant += log_det;
             Some(())
         })?;
@@ -57,8 +60,36 @@ pub fn innovations(
     let mut all = Vec::with_capacity(linear.epochs.len());
     let mut combination = vec![1.0];
     combination.extend_from_slice(delta);
-    pass(linear, noise, Some(&combination), |_, whitened, _| {
-        all.push(innovation(whitened));
+    pass(linear, noise, Some(&combination), |_, filter, _| {
+        all.push(innovation(filter.whitened()));
+        Some(())
+    })?;
+    Ok(all)
+}
+
+/// How the axis frame is turned from where the model has it, and after which sample: a base that tilts or sways, an angle that is
+/// read wrong. It is what the filter knows after each epoch, the parameters being where the run is linear.
+///
+/// Epochs that play no part have none.
+///
+/// # Errors
+/// [`Indefinite`] if the noise makes no covariance.
+pub fn attitudes(
+    run: &Run,
+    linear: &Linear,
+    noise: &Noise,
+) -> Result<Vec<(usize, Dcm<Table, Table>)>, Indefinite> {
+    // What is linear is what differs from the way that a base sways.
+    let sway = Sway::of(run);
+    let mut all = Vec::with_capacity(linear.epochs.len());
+    pass(linear, noise, Some(&[1.0]), |epoch, filter, _| {
+        let end = epoch.samples.1;
+        let mut attitude = Dcm::from_rotation_vector(&filter.attitude());
+        if let Some(sway) = &sway {
+            attitude =
+                attitude * Dcm::from_rotation_vector(&sway.attitudes[end - 1][1].scaled_axis());
+        }
+        all.push((end, attitude));
         Some(())
     })?;
     Ok(all)
@@ -70,22 +101,22 @@ fn innovation(whitened: &[f64]) -> SVector<f64, SHOWN> {
     SVector::from_fn(|part, _| -whitened[part * width])
 }
 
-/// Runs the filter; `each` is given every epoch with what it shows of the columns, whitened, a row a figure, and
-/// half the logarithm of the determinant. Where it gives nothing back, something has no covariance.
+/// Runs the filter; `each` is given every epoch with the filter after it, and half the logarithm of the determinant. Where it
+/// gives nothing back, something has no covariance.
 ///
 /// With a `combination` the columns are summed up, each times its number, into one.
 pub(crate) fn pass(
     linear: &Linear,
     noise: &Noise,
     combination: Option<&[f64]>,
-    mut each: impl FnMut(&Epoch, &[f64], f64) -> Option<()>,
+    mut each: impl FnMut(&Epoch, &Pass, f64) -> Option<()>,
 ) -> Result<(), Indefinite> {
     let space = Space::new(linear, noise);
     let columns = if combination.is_none() { linear.parameters + 1 } else { 1 };
-    let mut pass = Pass::new(&space, columns);
+    let mut filter = Pass::new(&space, columns);
     for (index, epoch) in linear.epochs.iter().enumerate() {
         if epoch.left_out {
-            pass.pass_over(&space, epoch);
+            filter.pass_over(&space, epoch);
             continue;
         }
         let combined: Gains;
@@ -97,8 +128,9 @@ pub(crate) fn pass(
             }
         };
         let anew = linear.starts_anew(index);
-        pass.step(&space, epoch, gains, anew)
-            .and_then(|log_determinant| each(epoch, pass.whitened(), log_determinant))
+        filter
+            .step(&space, epoch, gains, anew)
+            .and_then(|log_determinant| each(epoch, &filter, log_determinant))
             .ok_or(Indefinite { epoch: index })?;
     }
     Ok(())

@@ -63,10 +63,10 @@ impl Known {
         assert_eq!(places.len(), linear.parameters, "a place for each parameter of the run");
         let constant = 0.5 * linear.shown() as f64 * std::f64::consts::TAU.ln();
         let mut all = Vec::new();
-        pass(linear, noise, None, |epoch, whitened, log_determinant| {
+        pass(linear, noise, None, |epoch, filter, log_determinant| {
             let samples = epoch.samples.0..epoch.samples.1;
             if asked(&samples) {
-                let (innovation, further) = self.learn(whitened, places)?;
+                let (innovation, further) = self.learn(filter.whitened(), places)?;
                 let log_density =
                     -0.5 * innovation.norm_squared() - log_determinant - further - constant;
                 all.push(Foretold { samples, innovation, log_density });

@@ -4,7 +4,7 @@
     reason = "what is not inlined is compiled without the vector instructions"
 )]
 
-use nalgebra::{Cholesky, DMatrix, SMatrix};
+use nalgebra::{Cholesky, DMatrix, SMatrix, Vector3};
 use rins_lanes::{Arch, Lane, Simd, WithSimd};
 
 use crate::gains::{Gains, WIDEST};
@@ -49,6 +49,11 @@ impl Pass {
     /// What the last epoch showed of the columns, whitened: a row a figure.
     pub(crate) fn whitened(&self) -> &[f64] {
         &self.whitened
+    }
+
+    /// The attitude that the first column has by now: a rotation vector in the axis frame \[rad\].
+    pub(crate) fn attitude(&self) -> Vector3<f64> {
+        Vector3::from_fn(|axis, _| self.columns[(0, axis)])
     }
 
     /// Goes on by one epoch, `anew` or from the one before; half the logarithm of the innovation covariance's determinant.

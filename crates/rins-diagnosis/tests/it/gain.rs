@@ -115,6 +115,23 @@ fn what_was_found_is_carried_to_another_run() {
     assert!(other.rise() < -20.0, "{}", other.rise());
 }
 
+/// Navigation starts from where the base is by then. Level to 60 seconds of arc it would gain 3 mm/s every second.
+#[test]
+fn base_that_gave_way_is_where_navigation_starts() {
+    let step = || Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 80.0);
+    let hidden = Model { terms: vec![step().with_values(&[60.0 * ARCSEC, 0.0])] };
+    let run = run(&RATES, hidden, 0.0, 101);
+    let model = Model::full();
+    let (before, after) = (fitted(&run, &model), fitted(&run, &model.with(step().estimated())));
+    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let runs = std::slice::from_ref(&run);
+    let gain = Gain::within(runs, (&before, &after), &fibre(), known).unwrap();
+    let drift = gain.drifts.last().unwrap();
+    let lost = 60.0 * ARCSEC * 9.8 * drift.after;
+    assert!(drift.velocity[0] > 0.3 * lost, "{drift:?}, {lost} m/s");
+    assert!(drift.velocity[1] < 0.1 * lost, "{drift:?}, {lost} m/s");
+}
+
 #[test]
 fn too_short_a_run_holds_nothing_to_measure_by() {
     let run = run(&[5.0, -5.0], Model::default(), 0.0, 98);

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use nalgebra::{Rotation3, Vector3};
-use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, fit};
-use rins_frames::InFrame;
+use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, attitudes, fit};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
+use rins_frames::{Dcm, InFrame, Table};
 use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadSpec};
 use rins_terms::{Model, Surroundings};
 
@@ -24,8 +24,8 @@ fn coarse() -> ImuSpec {
     ImuSpec { gyro: TriadSpec { noise_density, bias_sigma, ..fine.gyro }, ..fine }
 }
 
-/// Five minutes of rest whose attitude walks by `SWAY`, with the noise of the data sheet.
-fn swaying() -> Run {
+/// Five minutes of rest whose attitude walks by `SWAY`, with the noise of the data sheet; and the attitude after each sample.
+fn swaying() -> (Run, Vec<Rotation3<f64>>) {
     let truth = (ImuError::default(), Model::default());
     let still = profile(&[(0.0, 300.0)]);
     let still = scenario(tilted(3.0, 40.0), still, truth, Some(white(&coarse())), 5);
@@ -33,6 +33,7 @@ fn swaying() -> Run {
     let around = Surroundings::new(run.rig.station, run.rig.nav_from_table);
     let mut deviates = Seed::new(7).stream(Sensor::Encoder);
     let mut attitude = Rotation3::<f64>::identity();
+    let mut attitudes = Vec::new();
     for sample in &mut Arc::make_mut(&mut run.recording).increments {
         let t = sample.interval;
         let turn = Vector3::from(SWAY.map(|density| density * t.sqrt() * deviates.sample()));
@@ -42,16 +43,17 @@ fn swaying() -> Run {
         let bias = Vector3::new(BIAS * t, 0.0, 0.0);
         sample.angle += InFrame::from_components(turn + moved(around.earth_rate) + bias);
         sample.velocity += InFrame::from_components(moved(around.specific_force));
+        attitudes.push(attitude);
     }
     run.rig.reference = Reference::Rest;
     run.rig.wobble = ARCSEC;
-    run
+    (run, attitudes)
 }
 
 #[test]
 fn base_that_sways_is_told_from_noise() {
     let imu = coarse();
-    let run = swaying();
+    let (run, _) = swaying();
     let likely = NoiseKnowledge::Likely(Strengths::of(&imu));
     let found = fit(&[run], &Model::full(), &imu, likely, |_| ()).unwrap();
     let noise = &found.noise[0];
@@ -65,4 +67,27 @@ fn base_that_sways_is_told_from_noise() {
     let bias = found.parameter("gyro.bias.x").unwrap();
     assert!(bias.sigma < 0.5 * imu.gyro.bias_sigma, "{}", bias.sigma);
     assert!((bias.value - BIAS).abs() < 4.0 * bias.sigma, "{} ± {}", bias.value, bias.sigma);
+}
+
+/// The base goes some hundreds of seconds of arc, and the filter with it: gravity shows it level.
+#[test]
+fn attitude_of_a_base_that_sways_is_known() {
+    let imu = coarse();
+    let (run, truth) = swaying();
+    let likely = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let found = fit(std::slice::from_ref(&run), &Model::full(), &imu, likely, |_| ()).unwrap();
+    let known = attitudes(&run, &found.linear[0], &found.noise[0]).unwrap();
+    assert_eq!(known.last().unwrap().0, truth.len());
+    // Where it is level at first nobody knows better than the accelerometers' bias: of its way there is no doubt.
+    let settled = known.len() / 4;
+    let off = |(end, attitude): &(usize, Dcm<Table, Table>)| {
+        let truth = Dcm::<Table, Table>::from_rotation_vector(&truth[end - 1].scaled_axis());
+        (*attitude * truth.inverse()).rotation_vector()
+    };
+    let first = off(&known[settled]);
+    let worst = known[settled..].iter().map(|one| (off(one) - first).xy().amax());
+    let worst = worst.fold(0.0, f64::max) / ARCSEC;
+    let moved = known[settled..].iter().map(|(end, _)| truth[end - 1].scaled_axis().xy().amax());
+    let moved = moved.fold(0.0, f64::max) / ARCSEC;
+    assert!(moved > 200.0 && worst < 0.1 * moved, "off by {worst} of {moved} arcsec");
 }
