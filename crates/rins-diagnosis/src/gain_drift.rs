@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rins_calibration::navigate_freely;
-use rins_estimation::{Fit, Run, attitudes};
+use rins_estimation::{Fit, Run, Turned, attitudes};
 use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use rins_motion::Recording;
 use rins_terms::compensated;
@@ -32,8 +32,8 @@ struct Undone<'a> {
     /// The table angle before each sample and after the last \[rad\].
     angles: &'a [f64],
     nav_from_table: Dcm<Nav, Table>,
-    /// How the axis frame is turned from there, after which sample.
-    turned: Vec<(usize, Dcm<Table, Table>)>,
+    /// How the axis frame is turned from there.
+    turned: Vec<Turned>,
 }
 
 impl<'a> Undone<'a> {
@@ -50,10 +50,9 @@ impl<'a> Undone<'a> {
 
     /// The attitude of the axis frame before a sample, as the data up to there show it.
     fn attitude(&self, sample: usize) -> Dcm<Nav, Table> {
-        let before = self.turned.partition_point(|(end, _)| *end <= sample).saturating_sub(1);
-        self.turned
-            .get(before)
-            .map_or(self.nav_from_table, |(_, turned)| self.nav_from_table * *turned)
+        let by_then = self.turned.partition_point(|turned| turned.samples <= sample);
+        let known = self.turned.get(by_then.saturating_sub(1));
+        known.map_or(self.nav_from_table, |turned| self.nav_from_table * turned.by)
     }
 
     /// The squares of the drift of velocity and attitude over a window.

@@ -67,29 +67,32 @@ pub fn innovations(
     Ok(all)
 }
 
-/// How the axis frame is turned from where the model has it, and after which sample: a base that tilts or sways, an angle that is
-/// read wrong. It is what the filter knows after each epoch, the parameters being where the run is linear.
+/// How the axis frame is turned from where a model has it: by a base that tilts or sways, by an angle that is read wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turned {
+    /// After how many samples.
+    pub samples: usize,
+    /// From the frame as it is to the frame as the model has it.
+    pub by: Dcm<Table, Table>,
+}
+
+/// How the axis frame is turned after each epoch, as the filter knows it by then, the parameters being where the run is
+/// linear.
 ///
 /// Epochs that play no part have none.
 ///
 /// # Errors
 /// [`Indefinite`] if the noise makes no covariance.
-pub fn attitudes(
-    run: &Run,
-    linear: &Linear,
-    noise: &Noise,
-) -> Result<Vec<(usize, Dcm<Table, Table>)>, Indefinite> {
+pub fn attitudes(run: &Run, linear: &Linear, noise: &Noise) -> Result<Vec<Turned>, Indefinite> {
     // What is linear is what differs from the way that a base sways.
     let sway = Sway::of(run);
     let mut all = Vec::with_capacity(linear.epochs.len());
     pass(linear, noise, Some(&[1.0]), |epoch, filter, _| {
-        let end = epoch.samples.1;
-        let mut attitude = Dcm::from_rotation_vector(&filter.attitude());
-        if let Some(sway) = &sway {
-            attitude =
-                attitude * Dcm::from_rotation_vector(&sway.attitudes[end - 1][1].scaled_axis());
-        }
-        all.push((end, attitude));
+        let samples = epoch.samples.1;
+        let off = Dcm::<Table, Table>::from_rotation_vector(&filter.attitude());
+        let swayed = sway.as_ref().map(|sway| sway.attitudes[samples - 1][1].scaled_axis());
+        let by = off * Dcm::from_rotation_vector(&swayed.unwrap_or_default());
+        all.push(Turned { samples, by });
         Some(())
     })?;
     Ok(all)

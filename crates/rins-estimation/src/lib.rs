@@ -50,7 +50,7 @@ mod likely;
 mod identifiability;
 
 pub use estimate::{Estimate, Fit, Iteration};
-pub use evidence::{Indefinite, attitudes, innovations};
+pub use evidence::{Indefinite, Turned, attitudes, innovations};
 pub use filter::Filter;
 pub use fit::{fit, fit_near};
 pub use fit_error::FitError;

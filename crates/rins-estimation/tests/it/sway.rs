@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{Rotation3, Vector3};
-use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, attitudes, fit};
+use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, Turned, attitudes, fit};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_frames::{Dcm, InFrame, Table};
 use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadSpec};
@@ -77,17 +77,17 @@ fn attitude_of_a_base_that_sways_is_known() {
     let likely = NoiseKnowledge::Likely(Strengths::of(&imu));
     let found = fit(std::slice::from_ref(&run), &Model::full(), &imu, likely, |_| ()).unwrap();
     let known = attitudes(&run, &found.linear[0], &found.noise[0]).unwrap();
-    assert_eq!(known.last().unwrap().0, truth.len());
+    assert_eq!(known.last().unwrap().samples, truth.len());
     // Where it is level at first nobody knows better than the accelerometers' bias: of its way there is no doubt.
-    let settled = known.len() / 4;
-    let off = |(end, attitude): &(usize, Dcm<Table, Table>)| {
-        let truth = Dcm::<Table, Table>::from_rotation_vector(&truth[end - 1].scaled_axis());
-        (*attitude * truth.inverse()).rotation_vector()
+    let settled = &known[known.len() / 4..];
+    let way = |turned: &Turned| truth[turned.samples - 1].scaled_axis();
+    let off = |turned: &Turned| {
+        let truth = Dcm::<Table, Table>::from_rotation_vector(&way(turned));
+        (turned.by * truth.inverse()).rotation_vector()
     };
-    let first = off(&known[settled]);
-    let worst = known[settled..].iter().map(|one| (off(one) - first).xy().amax());
-    let worst = worst.fold(0.0, f64::max) / ARCSEC;
-    let moved = known[settled..].iter().map(|(end, _)| truth[end - 1].scaled_axis().xy().amax());
-    let moved = moved.fold(0.0, f64::max) / ARCSEC;
+    let first = off(&settled[0]);
+    let most = |of: &dyn Fn(&Turned) -> f64| settled.iter().map(of).fold(0.0, f64::max) / ARCSEC;
+    let worst = most(&|turned| (off(turned) - first).xy().amax());
+    let moved = most(&|turned| way(turned).xy().amax());
     assert!(moved > 200.0 && worst < 0.1 * moved, "off by {worst} of {moved} arcsec");
 }
