@@ -21,8 +21,9 @@ const MULTIPLES: [f64; 2] = [2.0, 3.0];
 /// it would be one by chance.
 const WITHIN: (f64, f64) = (3.0, 0.01);
 
-/// A line is a multiple of the table's turn by chance if it is not known to this part of a turn's frequency.
-const BY_CHANCE: f64 = 0.05;
+/// A line is a multiple of the table's turn by chance if it is not told to this part of a turn's frequency: of two, one pair in
+/// twenty-five is so.
+const BY_CHANCE: f64 = 0.1;
 
 /// A wave so many times a turn at most is looked for between two lines.
 const MOST_A_TURN: u32 = 3;
@@ -141,17 +142,31 @@ pub(crate) fn turn_frequency(after: &Fit, run: usize) -> Option<f64> {
 }
 
 /// How often the table turns \[Hz\], if it does at one rate and two lines are multiples of that.
+///
+/// Where the table turns back, so does what it brings every turn: a line keeps step with that both ways at a frequency that is
+/// off by half a period over one way at most.
 fn of_turn(after: &Fit, run: usize, lines: [&Cause; 2]) -> Option<f64> {
     let turn = turn_frequency(after, run)?;
+    let (ways, longest) = one_way(after, run);
+    let in_step = if ways > 1 { 0.5 / longest } else { 0.0 };
     let is_multiple = |line: &Cause| {
         line.sought.is_some_and(|(place, sigma)| {
             let frequency = line.settings[place];
             let times = (frequency / turn).round();
-            let within = WITHIN.0 * sigma;
+            let within = in_step.max(WITHIN.0 * sigma);
             times > 1.0 && (frequency - times * turn).abs() < within && within < BY_CHANCE * turn
         })
     };
     lines.into_iter().all(is_multiple).then_some(turn)
+}
+
+/// How many times the table goes one way, and how long at most \[s\].
+fn one_way(after: &Fit, run: usize) -> (usize, f64) {
+    let linear = &after.linear[run];
+    let motion = linear.motion();
+    let ways = motion.chunk_by(|(_, one), (_, other)| one * other > 0.0);
+    let (count, epochs) = ways.fold((0, 0), |(n, most), way| (n + 1, most.max(way.len())));
+    (count, epochs as f64 * linear.mean_epoch())
 }
 
 /// On which sensor a line is strongest, and how high it is there.

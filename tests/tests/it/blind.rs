@@ -81,6 +81,16 @@ fn slow_heat_does_not_stand_for_an_imperfect_table() {
     assert!(answer.unexplained.is_empty(), "{answer:?}");
 }
 
+/// On a table that turns back a bump in the turn is neither an effect of gravity nor a line on top, though both follow it.
+#[test]
+fn bump_on_a_table_that_turns_back_is_not_explained() {
+    let trial = Trial::draw(24, 278, Length::Drawn).unwrap();
+    let outside = trial.outside.as_ref().expect("there is something outside the catalogue");
+    assert_eq!((outside.name.as_str(), outside.channel.as_str()), ("bump in the turn", "gyro.z"));
+    let answer = asked(&trial);
+    assert!(answer.unexplained.iter().any(|one| one.starts_with("gyro.z")), "{answer:?}");
+}
+
 #[test]
 fn two_hidden_effects_are_both_in_sets() {
     let effects = [("gyro_bias_step", 20.0), ("encoder_harmonic", 20.0)];
