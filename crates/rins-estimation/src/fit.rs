@@ -1,5 +1,6 @@
 //! The batch solution: iterated least squares over one run or several.
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
@@ -14,7 +15,7 @@ use crate::linear::{Linear, Pieces, linearised};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
 use crate::strengths::{Noise, NoiseKnowledge};
-use crate::stride::{Damping, Stride};
+use crate::stride::{Bottom, Damping, Place, Stride};
 
 /// The most times that a run is made linear.
 const MOST_ITERATIONS: usize = 20;
@@ -152,6 +153,8 @@ struct Problem<'a> {
     linear: Vec<Linear>,
     pieces: Pieces,
     damping: Damping,
+    /// What is not known because an estimate has no place to rest.
+    about: DMatrix<f64>,
 }
 
 impl<'a> Problem<'a> {
@@ -164,6 +167,7 @@ impl<'a> Problem<'a> {
         let expected: Vec<f64> = all.iter().map(value).collect();
         let models = vec![model.clone(); runs.len()];
         let values = expected.clone();
+        let about = DMatrix::zeros(values.len(), values.len());
         let mut problem = Self {
             runs,
             models,
@@ -175,6 +179,7 @@ impl<'a> Problem<'a> {
             linear: Vec::new(),
             pieces: Pieces::Coarse,
             damping: Damping::none(),
+            about,
         };
         if let Some(near) = near {
             problem.start_near(near);
@@ -265,9 +270,12 @@ impl<'a> Problem<'a> {
             Until::NearEnough => MOST_ITERATIONS,
             Until::Converged => iterations.len() + MOST_ITERATIONS,
         };
+        let mut visited = Vec::new();
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
             let from = self.pieces;
+            let squares = evidence.square + self.pull();
+            visited.push(Place { squares, values: self.values.clone() });
             let stride = self.advance(&posterior, until);
             let step = stride.to_estimate;
             let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
@@ -283,10 +291,27 @@ impl<'a> Problem<'a> {
             if arrived {
                 return Ok(());
             }
-            if iterations.len() >= most || !step.is_finite() {
+            let is_last = iterations.len() >= most;
+            if is_last
+                && until == Until::Converged
+                && let Some(Bottom { best, about }) = Bottom::of(&visited)
+            {
+                (self.values, self.about) = (best, about);
+                self.take_values(Pieces::Samples);
+                return Ok(());
+            }
+            if is_last || !step.is_finite() {
                 return Err(FitError::Diverged { iterations: iterations.len(), step });
             }
         }
+    }
+
+    /// The squares by which the values are off from what was expected.
+    fn pull(&self) -> f64 {
+        let of = |(place, &(index, _)): (usize, &(usize, Option<usize>))| {
+            ((self.values[place] - self.expected[place]) / self.free[index].sigma).powi(2)
+        };
+        self.all.iter().enumerate().map(of).sum()
     }
 
     /// Goes to the estimate.
@@ -331,7 +356,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Fit, FitError> {
         // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
         // where the estimate would then be.
-        let mut covariance = posterior.covariance.clone();
+        let mut covariance = &posterior.covariance + &self.about;
         let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
         let others = sides.into_par_iter().map(|side| {
             self.posterior(&self.linear, side, iterations.len()).map(|(_, other)| other)

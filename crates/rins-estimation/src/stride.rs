@@ -1,6 +1,6 @@
 //! How far an iteration goes, and when it has arrived.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// A step below this part of every sigma ends the iteration.
 const CONVERGED: f64 = 1e-3;
@@ -14,6 +14,13 @@ const ON_EDGE: f64 = 0.1;
 
 /// By how much more of a small step is taken if it does not turn back: less than it was lessened, or it would go on for ever.
 const BOLDER: f64 = 1.2;
+
+/// Where there are edges all over, as several dead zones have, steps go about for ever on the rough bottom of a valley: they end
+/// there if at so many places in a row ...
+const ABOUT: usize = 10;
+
+/// ... the squares differ by no more than this, which nobody could tell from noise.
+const ROUGH: f64 = 2.0;
 
 /// How much of a step is taken: what only turns back goes half the way, for an azimuth that hardly shows would swing for ever;
 /// and less and less where steps are small, which finds an edge.
@@ -60,6 +67,40 @@ impl Stride {
     }
 }
 
+/// Where an iteration has been.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    /// The squares there of data and priors.
+    pub(crate) squares: f64,
+    pub(crate) values: Vec<f64>,
+}
+
+/// The rough bottom of a valley, all of whose places are as good.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Bottom {
+    /// The values where the squares are least.
+    pub(crate) best: Vec<f64>,
+    /// The mean square of how far the others are from there: it is not known of the values.
+    pub(crate) about: DMatrix<f64>,
+}
+
+impl Bottom {
+    /// That on which the last of some places lie, if they do.
+    pub(crate) fn of(visited: &[Place]) -> Option<Self> {
+        let last = &visited[visited.len().checked_sub(ABOUT)?..];
+        let most = last.iter().map(|place| place.squares).fold(f64::NEG_INFINITY, f64::max);
+        let least = last.iter().min_by(|a, b| a.squares.total_cmp(&b.squares))?;
+        let best = least.values.clone();
+        let mut about = DMatrix::zeros(best.len(), best.len());
+        for place in last {
+            let off = place.values.iter().zip(&best).map(|(other, best)| other - best);
+            let off = DVector::from_iterator(best.len(), off);
+            about.ger(1.0 / ABOUT as f64, &off, &off, 1.0);
+        }
+        (most - least.squares <= ROUGH).then_some(Self { best, about })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,5 +143,31 @@ mod tests {
     #[test]
     fn a_large_step_to_and_fro_never_counts_as_an_end() {
         assert_eq!(ends(1.0, |place| if place > 0.0 { -1.0 } else { 1.0 }), None);
+    }
+
+    fn at(squares: f64, value: f64) -> Place {
+        Place { squares, values: vec![value, 5.0] }
+    }
+
+    /// Down a slope, and then to and fro between 2 and 4 with the best at 3.
+    #[test]
+    fn rough_bottom_ends_at_its_best_and_is_as_uncertain_as_wide() {
+        let mut visited = vec![at(900.0, 40.0), at(300.0, 20.0)];
+        visited.extend([2.0, 4.0].repeat(ABOUT / 2 - 1).into_iter().map(|value| at(101.5, value)));
+        assert_eq!(Bottom::of(&visited), None, "part of the slope is among the last");
+        visited.extend([at(100.0, 3.0), at(101.0, 3.0)]);
+        let Bottom { best, about } = Bottom::of(&visited).expect("it goes about");
+        assert_eq!(best, [3.0, 5.0]);
+        assert_close!(about[(0, 0)], 0.8, 1e-12);
+        assert_eq!((about[(0, 1)], about[(1, 1)]), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_valley_that_still_falls_is_no_bottom() {
+        let falling: Vec<Place> = (0..20_u8).map(|n| at(100.0 - f64::from(n), 1.0)).collect();
+        assert_eq!(Bottom::of(&falling), None);
+        assert_eq!(Bottom::of(&falling[..3]), None);
+        let nowhere: Vec<Place> = (0..20_u8).map(|_| at(f64::NAN, 1.0)).collect();
+        assert_eq!(Bottom::of(&nowhere), None);
     }
 }

@@ -50,6 +50,12 @@ fn assert_named(seed: u64, index: u64, id: &str) {
     assert!(cause.may_be(id), "{answer:?}");
 }
 
+/// At the edges of a zone derivatives jump: its estimate has no place to rest, only places that are as good.
+#[test]
+fn zone_whose_edges_the_estimate_goes_about_is_named() {
+    assert_named(24, 36, "gyro_dead_zone");
+}
+
 /// At one rate nothing but the table's cogging shows how late an encoder is: what it leaves is a line, of no sensor.
 #[test]
 fn cogging_that_comes_late_is_no_line() {
