@@ -37,6 +37,9 @@ const MOST_REPEATS: f64 = 0.2;
 /// The shortest run of equal readings that is a flat top.
 const SHORTEST_TOP: usize = 5;
 
+/// A reading that is left less often may be that of a top which noise has cut into pieces.
+const LEAST_LEAVINGS: usize = 20;
+
 /// The mistakes that the six channels show, one at a time. `stands` tells which samples are at rest.
 pub(super) fn suspicions(
     recording: &Recording,
@@ -216,6 +219,20 @@ fn saturated(
     Some(Suspicion::Saturated { channel, count, time: recording.times[first], range })
 }
 
+/// Whether a reading is that of a constant rate between two steps of a coarse sensor, which reads the one or the other: time and
+/// again it goes to the next step and back, and hardly ever further.
+fn stands_between(readings: &[f64], extreme: f64) -> bool {
+    let Some(step) = resolution(readings) else { return false };
+    #[expect(clippy::float_cmp, reason = "it is one of the readings")]
+    let leaving = readings.windows(2).filter(|pair| pair[0] == extreme && pair[1] != extreme);
+    let (mut all, mut to_next) = (0, 0);
+    for pair in leaving {
+        all += 1;
+        to_next += usize::from((pair[1] - pair[0]).abs() < 1.5 * step);
+    }
+    all >= LEAST_LEAVINGS && 10 * to_next >= 9 * all
+}
+
 /// The largest or the least reading, repeated while moving so often as no other reading is.
 fn flat_top(
     readings: &[f64],
@@ -248,7 +265,8 @@ fn flat_top(
         return None;
     }
     let by_chance = readings.len() as f64 * chance.powf((count - 1) as f64);
-    (by_chance < LEAST_CHANCE).then(|| Suspicion::FlatTop {
+    let is_cut = by_chance < LEAST_CHANCE && !stands_between(readings, readings[start]);
+    is_cut.then(|| Suspicion::FlatTop {
         channel,
         count,
         time: recording.times[start],

@@ -263,6 +263,31 @@ fn coarse_sensors_are_not_cut_off_and_show_their_step() {
     assert_eq!(inspection.resolution[3..], [None; 3]);
 }
 
+/// A table whose rate lies between two steps of a gyro is read as the one for long, as the other once, and is not cut off.
+#[test]
+fn constant_rate_between_two_steps_is_not_cut_off() {
+    let step = 0.3 * ARCSEC;
+    let slow = profile(&[(0.0, 40.0), (2.0, 200.0), (-2.0, 200.0)]);
+    let mut recording = record(slow, NAVIGATION, 11);
+    let mut carried = Vector3::<f64>::zeros();
+    for sample in &mut recording.increments {
+        carried += sample.angle.components();
+        let rounded = carried.map(|angle| (angle / step).round() * step);
+        carried -= rounded;
+        sample.angle = InFrame::from_components(rounded);
+    }
+    assert_unsuspected(&recording, &expected(NAVIGATION));
+    // At half the rate it would be.
+    let limit = 1.0 * DEG_PER_SECOND;
+    for sample in &mut recording.increments {
+        let cut = sample.angle.components().map(|angle| angle.min(limit * sample.interval));
+        sample.angle = InFrame::from_components(cut);
+    }
+    recording.table_angle = None;
+    let cut = only_suspicion(&recording, &expected(NAVIGATION));
+    assert!(matches!(cut, Suspicion::FlatTop { channel: "gyro.z", .. }), "{cut:?}");
+}
+
 /// Decimals with so many significant digits have no step of their own.
 #[test]
 fn rounded_decimals_are_no_resolution() {
