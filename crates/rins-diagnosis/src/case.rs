@@ -137,10 +137,13 @@ impl Case<'_> {
     ) -> Result<Option<(Candidate, Trial)>, Indefinite> {
         let likely = matches!(self.knowledge, NoiseKnowledge::Likely(_));
         let threshold = if likely { threshold + SWALLOWED } else { threshold };
-        let significant = |trial: &Trial| trial.ln_p < threshold && trial.is_likely();
+        let significant = |candidate: &Candidate, trial: &Trial| {
+            let is_significant = trial.ln_p < threshold && trial.is_likely();
+            is_significant && !self.is_rounding(candidate, trial)
+        };
         let mut best = tried
             .iter()
-            .find(|trial| significant(trial))
+            .find(|trial| significant(&list[trial.candidate], trial))
             .map(|first| (list[first.candidate].clone(), first.clone()));
         let worth = best.as_ref().map_or(f64::NEG_INFINITY, |(_, first)| {
             (REFINED.1 * first.evidence).min(first.evidence)
@@ -153,7 +156,7 @@ impl Case<'_> {
         for event in events.take(REFINED.0) {
             let refined = self.refined(present, &list[event.candidate], event)?;
             let is_better = |(_, best): &(_, Trial)| refined.1.evidence > best.evidence;
-            if significant(&refined.1) && best.as_ref().is_none_or(is_better) {
+            if significant(&refined.0, &refined.1) && best.as_ref().is_none_or(is_better) {
                 best = Some(refined);
             }
         }

@@ -4,11 +4,13 @@ use rins_estimation::{Fit, Run, Strengths};
 use rins_motion::{Comb, Combs};
 use rins_terms::{Term, catalogue};
 
+use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::Cause;
 use crate::noise::{estimate, triad};
 use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
+use crate::trial::Trial;
 use crate::unexplained::Unexplained;
 
 /// Steps are told of that add more than this part to the variance of white noise in a sample: 0.8 of its sigma.
@@ -41,6 +43,8 @@ struct Steps {
     combs: Combs,
     /// Their height, as a rate or a force.
     height: f64,
+    /// The same over a sample: as an angle or a velocity.
+    of_sample: f64,
     /// The root density of white noise that is as strong as their rounding.
     white: f64,
     /// Whether they are coarse.
@@ -63,7 +67,8 @@ impl Rounding {
                     let adds = (white / stated).powi(2);
                     let coarse = adds > COARSE;
                     let combs = combs[channel];
-                    (adds > TOLD).then_some(Steps { combs, height, white, coarse })
+                    let of_sample = height * interval;
+                    (adds > TOLD).then_some(Steps { combs, height, of_sample, white, coarse })
                 });
                 steps.max_by(|a, b| a.white.total_cmp(&b.white))
             })
@@ -90,6 +95,12 @@ impl Rounding {
         of.fold(0.0, f64::max)
     }
 
+    /// The coarse step of the gyros as an angle \[rad\], of all runs' the largest; nothing if they read finely.
+    fn angle(&self) -> f64 {
+        let of_gyros = self.runs.iter().filter_map(|run| run[0]);
+        of_gyros.filter(|steps| steps.coarse).map(|steps| steps.of_sample).fold(0.0, f64::max)
+    }
+
     /// Whether something that is left is what coarse steps do: how much their rounding scatters depends on how fast a
     /// reading goes over them.
     pub(crate) fn explains(&self, left: &Unexplained) -> bool {
@@ -103,6 +114,14 @@ impl Rounding {
 }
 
 impl Case<'_> {
+    /// Whether an effect is a tilt of less than a step of the gyros: by so much they are out for as long as a reading stands.
+    pub(crate) fn is_rounding(&self, candidate: &Candidate, trial: &Trial) -> bool {
+        let term = candidate.chosen.term;
+        let usual = term.parameters.iter().map(|parameter| parameter.sigma(self.imu));
+        let largest = trial.amplitude * usual.fold(0.0, f64::max);
+        term.id == catalogue::BASE_TILT_STEP.id && largest < self.rounding.angle()
+    }
+
     /// The quantisation of either triad, where it is told of: of the first run that shows it.
     pub(crate) fn quantisation(&self, after: &Fit) -> Vec<Cause> {
         let of_triad = |which: usize| {

@@ -42,7 +42,7 @@ pub use axis::{Axis, Triad};
 pub use imu::{Compensation, ImuCompensationError, ImuError};
 pub use noise::{
     GaussMarkov, ImuNoise, ImuNoiseError, ImuNoiseSource, NoiseError, NoiseModel, NormalStream,
-    Quantisation, Seed, Sensor, Span, TriadNoise,
+    Quantisation, Seed, Sensor, Span, TriadNoise, rounded,
 };
 pub use spec::{ImuSpec, TriadSpec};
 pub use triad::{CompensationError, TriadCompensation, TriadError};

@@ -10,5 +10,6 @@ mod source;
 
 pub use imu::{ImuNoise, ImuNoiseError, ImuNoiseSource};
 pub use model::{GaussMarkov, NoiseError, NoiseModel, Quantisation, Span};
+pub use quantiser::rounded;
 pub use seed::{NormalStream, Seed, Sensor};
 pub use source::TriadNoise;

@@ -1,7 +1,7 @@
 //! What is simulated: a table, an IMU on it, and what is written down.
 
 use rins_frames::{Dcm, Nav, Table};
-use rins_imu::{ImuError, ImuNoise, NormalStream, Seed};
+use rins_imu::{ImuError, ImuNoise, NormalStream, Seed, rounded};
 use rins_motion::{Profile, Station};
 use rins_terms::{Model, Noises};
 
@@ -92,6 +92,6 @@ impl Encoder {
     /// What is read where the table stands at `angle` \[rad\].
     pub(crate) fn reading(&self, angle: f64, stream: &mut NormalStream) -> f64 {
         let noisy = angle + self.zero + self.noise * stream.sample();
-        self.resolution.map_or(noisy, |bit| (noisy / bit).round() * bit)
+        self.resolution.map_or(noisy, |bit| rounded(noisy, bit))
     }
 }

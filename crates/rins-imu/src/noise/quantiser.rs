@@ -31,15 +31,25 @@ impl Quantiser {
     }
 }
 
-/// The multiple of `bit` nearest to `value`.
-fn rounded(value: f64, bit: f64) -> f64 {
-    (value / bit).round() * bit
+/// The multiple of `bit` nearest to `value`: itself, where a bit is so small that no number counts how many they are.
+pub fn rounded(value: f64, bit: f64) -> f64 {
+    let bits = (value / bit).round();
+    if bits.is_finite() { bits * bit } else { value }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn bit_too_small_to_count_by_rounds_nothing() {
+        let mut quantiser = Quantiser::new(Quantisation::Increment(5e-310));
+        let increment = Vector3::new(0.25, -3.0, 0.0);
+        assert_eq!(quantiser.quantise(&increment, 0.1), increment);
+        assert_eq!(quantiser.quantise(&increment, 0.1), increment);
+        assert!((rounded(0.24, 0.1) - 0.2).abs() < 1e-15);
+    }
 
     proptest! {
         #[test]
