@@ -178,6 +178,19 @@ fn what_a_logger_does_to_readings_is_named_with_its_size() {
     }
 }
 
+/// Where a gyro's reading hardly changes, the rounding that is carried on is out by a part of a step for long.
+#[test]
+fn rounding_that_stands_still_is_no_tilt() {
+    let bits = [0.3 * ARCSEC, 0.0];
+    for seed in 160..166 {
+        let model = hiding(&[(&catalogue::GYRO_QUANTISATION, &bits)]);
+        let run = run(&[0.0, 2.0, -2.0, 0.0, 2.0, -2.0], model, 0.0, seed);
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
+        assert_eq!(ids, ["gyro_quantisation"], "seed {seed}");
+    }
+}
+
 /// Jitter scatters more the faster the table turns, which where it ramps is not the same over any block: no heavy tails.
 #[test]
 fn jitter_on_a_table_that_ramps_leaves_nothing() {
