@@ -7,5 +7,6 @@ mod hidden;
 mod lines;
 mod outside;
 mod repeated;
+mod rounding;
 mod several;
 mod support;

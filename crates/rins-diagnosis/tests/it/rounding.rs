@@ -1,0 +1,48 @@
+//! Sensors and encoders that read in steps: the rounding is no effect.
+
+use rins_estimation::{NoiseKnowledge, Run};
+use rins_frames::units::ARCSEC;
+use rins_terms::{Chosen, Model, catalogue};
+
+use crate::hidden::{RATES, found, hiding};
+use crate::support::run;
+
+/// The same run, its encoder read in steps \[rad\].
+fn in_steps(run: &Run, step: f64) -> Run {
+    let mut recording = (*run.recording).clone();
+    for angle in recording.table_angle.iter_mut().flatten() {
+        *angle = (*angle / step).round() * step;
+    }
+    Run::new(run.rig, recording).unwrap()
+}
+
+/// At these rates a sample is a whole number of steps of 5 arcsec, and none of 3.7: either way rounding is no white noise.
+#[test]
+fn steps_of_an_encoder_are_no_effect() {
+    let plain = run(&RATES, Model::default(), 0.0, 110);
+    let lever = Chosen::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[3e-3, -2e-3]);
+    let lever = run(&RATES, Model::default().with(lever), 0.0, 111);
+    for step in [3.7 * ARCSEC, 5.0 * ARCSEC, 40.0 * ARCSEC] {
+        let coarse = in_steps(&plain, step);
+        assert!(coarse.angle_steps.is_some(), "{step} rad");
+        let diagnosis = found(&coarse, NoiseKnowledge::Likely);
+        assert!(diagnosis.causes.is_empty(), "{:?}", diagnosis.causes);
+        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
+        let diagnosis = found(&in_steps(&lever, step), NoiseKnowledge::Given);
+        let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, "accel_lever_arm");
+    }
+}
+
+/// Where a gyro's reading hardly changes, the rounding that is carried on is out by a part of a step for long.
+#[test]
+fn rounding_that_stands_still_is_no_tilt() {
+    let bits = [0.3 * ARCSEC, 0.0];
+    for seed in 160..166 {
+        let model = hiding(&[(&catalogue::GYRO_QUANTISATION, &bits)]);
+        let run = run(&[0.0, 2.0, -2.0, 0.0, 2.0, -2.0], model, 0.0, seed);
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
+        assert_eq!(ids, ["gyro_quantisation"], "seed {seed}");
+    }
+}
