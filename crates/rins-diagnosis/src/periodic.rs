@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use rins_estimation::{Estimate, Fit};
-use rins_terms::{Unit, catalogue};
+use rins_terms::{Track, Unit, catalogue};
 
 use crate::diagnosis::Cause;
 use crate::disturbance::CHANNELS;
@@ -22,8 +22,11 @@ const MULTIPLES: [f64; 2] = [2.0, 3.0];
 const WITHIN: (f64, f64) = (3.0, 0.01);
 
 /// A line is a multiple of the table's turn by chance if it is not told to this part of a turn's frequency: of two, one pair in
-/// twenty-five is so.
-const BY_CHANCE: f64 = 0.1;
+/// a hundred is so.
+const BY_CHANCE: f64 = 0.05;
+
+/// The same where the table turns back, and what keeps step with it is no line: one pair in twenty-five.
+const BY_CHANCE_BACK: f64 = 0.1;
 
 /// A wave so many times a turn at most is looked for between two lines.
 const MOST_A_TURN: u32 = 3;
@@ -147,30 +150,37 @@ pub(crate) fn turn_frequency(after: &Fit, run: usize) -> Option<f64> {
 /// off by half a period over one way at most.
 fn of_turn(after: &Fit, run: usize, lines: [&Cause; 2]) -> Option<f64> {
     let turn = turn_frequency(after, run)?;
-    let (ways, longest) = one_way(after, run);
-    let in_step = if ways > 1 { 0.5 / longest } else { 0.0 };
+    let turns_back = turns_before_back(after.linear[run].track());
+    let (in_step, by_chance) =
+        turns_back.map_or((0.0, BY_CHANCE), |turns| (0.5 * turn / turns, BY_CHANCE_BACK));
     let is_multiple = |line: &Cause| {
         line.sought.is_some_and(|(place, sigma)| {
             let frequency = line.settings[place];
             let times = (frequency / turn).round();
             let within = in_step.max(WITHIN.0 * sigma);
-            times > 1.0 && (frequency - times * turn).abs() < within && within < BY_CHANCE * turn
+            times > 1.0 && (frequency - times * turn).abs() < within && within < by_chance * turn
         })
     };
     lines.into_iter().all(is_multiple).then_some(turn)
 }
 
-/// How many times the table goes one way, and how long at most \[s\].
-fn one_way(after: &Fit, run: usize) -> (usize, f64) {
-    let linear = &after.linear[run];
-    let motion = linear.motion();
-    let ways = motion.chunk_by(|(_, one), (_, other)| one * other > 0.0);
-    let (count, epochs) = ways.fold((0, 0), |(n, most), way| (n + 1, most.max(way.len())));
-    (count, epochs as f64 * linear.mean_epoch())
+/// How many turns a table makes one way at most before it turns back, if it does; a rest is no turning back.
+fn turns_before_back(track: &Track) -> Option<f64> {
+    let senses: Vec<f64> = track.moments().map(|moment| moment.end.sense).collect();
+    let (mut first, mut ways, mut most) = (0, 0, 0.0_f64);
+    for way in senses.chunk_by(|one, other| one * other > 0.0) {
+        let last = first + way.len();
+        if way[0] != 0.0 {
+            ways += 1;
+            most = most.max((track.angles()[last] - track.angles()[first]).abs() / TAU);
+        }
+        first = last;
+    }
+    (ways > 1).then_some(most)
 }
 
 /// On which sensor a line is strongest, and how high it is there.
-fn strongest(line: &Cause) -> Option<(&'static str, &Estimate, f64)> {
+pub(crate) fn strongest(line: &Cause) -> Option<(&'static str, &Estimate, f64)> {
     let axis = axis(line)?;
     let pair = |first: usize| {
         let mut own = line.parameters.iter().filter(move |e| e.parameter.parameter / 2 == first);

@@ -247,13 +247,7 @@ impl<'a> Problem<'a> {
     ) -> Result<(Evidence, Posterior), FitError> {
         let evidence = self.evidence(linear, noise)?;
         let sigmas: Vec<f64> = self.all.iter().map(|&(index, _)| self.free[index].sigma).collect();
-        let offsets: Vec<f64> = self
-            .expected
-            .iter()
-            .zip(&self.values)
-            .map(|(expected, value)| expected - value)
-            .collect();
-        let posterior = evidence.posterior(&sigmas, &offsets);
+        let posterior = evidence.posterior(&sigmas, &self.offsets());
         let finite = posterior.filter(|posterior| posterior.log_likelihood.is_finite());
         Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
     }
@@ -270,6 +264,7 @@ impl<'a> Problem<'a> {
             Until::NearEnough => MOST_ITERATIONS,
             Until::Converged => iterations.len() + MOST_ITERATIONS,
         };
+        self.about.fill(0.0);
         let mut visited = Vec::new();
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
@@ -306,12 +301,17 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The squares by which the values are off from what was expected.
+    /// By how much the values are off from what was expected.
+    fn offsets(&self) -> Vec<f64> {
+        self.expected.iter().zip(&self.values).map(|(expected, value)| expected - value).collect()
+    }
+
+    /// The same in squares of what is expected of it.
     fn pull(&self) -> f64 {
-        let of = |(place, &(index, _)): (usize, &(usize, Option<usize>))| {
-            ((self.values[place] - self.expected[place]) / self.free[index].sigma).powi(2)
+        let of = |(offset, &(index, _)): (f64, &(usize, Option<usize>))| {
+            (offset / self.free[index].sigma).powi(2)
         };
-        self.all.iter().enumerate().map(of).sum()
+        self.offsets().into_iter().zip(&self.all).map(of).sum()
     }
 
     /// Goes to the estimate.
