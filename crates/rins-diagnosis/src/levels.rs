@@ -125,8 +125,8 @@ impl Path {
 /// that do as well: a switch comes earlier or later by about as many parts as it takes to show.
 fn odds(statistic: f64, parts: usize, switches: usize) -> f64 {
     let (n, often) = (parts as f64, switches as f64);
-    // No further than to the next one.
-    let freedom = (1.0 + n / statistic).min(n / often);
+    // No further than half the way to the next one: what switches from part to part has no freedom, and is much like noise.
+    let freedom = (1.0 + n / statistic).min(0.5 * n / often).max(1.0);
     // How many switches there are is not known either.
     let cost = ln_binomial(parts as u64, switches as u64) + n.ln() - often * freedom.ln();
     0.5 * statistic - cost
