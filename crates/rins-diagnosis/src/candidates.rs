@@ -9,7 +9,7 @@ use crate::dead_zone;
 const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
 
 /// How many times of an event are tried over a run.
-const EVENTS: u32 = 16;
+pub(crate) const EVENTS: u32 = 16;
 
 /// No more events of one kind are taken for such: what happens again and again is something else.
 const MOST_ALIKE: usize = 2;

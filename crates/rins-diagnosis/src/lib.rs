@@ -40,6 +40,7 @@ mod spectrum;
 mod structure;
 mod switching;
 mod tails;
+mod timing;
 mod uneven;
 mod unexplained;
 mod wander;

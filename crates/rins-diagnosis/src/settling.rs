@@ -8,8 +8,9 @@ use crate::case::Case;
 use crate::dead_zone;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
-use crate::suggested::{LOOKS, at_frequency};
+use crate::suggested::at_frequency;
 use crate::survey::Survey;
+use crate::timing::is_line;
 use crate::trial::{Context, Trial, best_pair, trials};
 
 /// A rival is kept whose odds are no worse than one to this many e-folds: 1 to 55.
@@ -56,8 +57,8 @@ struct Question<'a> {
     tried: Vec<Trial>,
     /// The odds for it with the time, or the exponent, that was found.
     as_found: Option<f64>,
-    /// Among how many frequencies a line was found.
-    frequencies: f64,
+    /// Among how many frequencies a line was found, or an event among how many times more than are tried.
+    among: f64,
 }
 
 impl Case<'_> {
@@ -72,17 +73,22 @@ impl Case<'_> {
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
         let mut changes = 0;
-        let frequencies = LOOKS * before.linear.iter().map(|run| run.epochs() as f64).sum::<f64>();
         while !found.is_empty() {
             let list = self.with_events(&present, &found);
             let noises = self.between(before, &present);
             let survey = Survey::of(self.runs, &present, self.imu, &list, &noises)?;
+            let found_among = self.found_among(&present, &found)?;
             let mut causes = Vec::new();
             let mut change = None;
             for index in 0..found.len() {
                 let places = survey.of_term(given + index);
                 let Some(context) = Context::of(&survey, &places.concat(), &[]) else { continue };
-                let tried = trials(&survey, &context, &list);
+                let mut tried = trials(&survey, &context, &list);
+                tried.retain(|trial| {
+                    let candidate = &list[trial.candidate];
+                    candidate.chosen.term.id == found[index].term.id
+                        || !self.is_rounding(candidate, trial)
+                });
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
@@ -98,15 +104,16 @@ impl Case<'_> {
                     Some(trial.evidence)
                 });
                 let (survey, list, found) = (&survey, &list, &found);
+                let among = found_among[index];
                 let question =
-                    Question { survey, list, found, index, places, tried, as_found, frequencies };
+                    Question { survey, list, found, index, places, tried, as_found, among };
                 let mut look = match how {
                     Found::Searched => self.look(&question),
                     Found::Supposed => Look::Keep(question.cause()),
                 };
                 // Exchanges may go round in circles: what is significant stays then, and what is not goes.
                 if changes >= MOST_CHANGES && matches!(look, Look::Exchange(_)) {
-                    let stays = question.own().is_some_and(|own| own.ln_p < question.threshold());
+                    let stays = question.own().is_some_and(|own| question.is_significant(own));
                     look = if stays { Look::Keep(question.cause()) } else { Look::Drop };
                 }
                 match look {
@@ -176,8 +183,7 @@ impl Case<'_> {
             if cause.term.id == catalogue::ENCODER_HARMONIC.id && !list.iter().any(is_listed) {
                 list.push(Candidate::high_harmonic(cause.settings[0]));
             }
-            let of_frequency = cause.term.settings.first().filter(|s| s.name == "frequency");
-            if of_frequency.is_some() {
+            if is_line(cause) {
                 // That there is a line is known by now: what it is, is asked.
                 let at = at_frequency(cause.settings[0]).into_iter();
                 list.extend(at.map(|chosen| Candidate { chosen, looks: 1.0, step: None }));
@@ -189,9 +195,11 @@ impl Case<'_> {
     fn look(&self, question: &Question<'_>) -> Look {
         let Question { list, tried, .. } = question;
         let expecting = |trial: &Trial| list[trial.candidate].expecting(trial, self.imu);
-        let significant = |trial: &&Trial| trial.ln_p < question.threshold();
-        let better = tried.iter().find(|trial| question.is_new(trial)).filter(significant);
-        let Some(own) = question.own().filter(significant) else {
+        let better = tried
+            .iter()
+            .find(|trial| question.is_new(trial))
+            .filter(|better| better.ln_p < question.threshold());
+        let Some(own) = question.own().filter(|own| question.is_significant(own)) else {
             return match better.filter(|better| better.is_likely()) {
                 Some(better) => Look::Exchange(vec![expecting(better)]),
                 None => Look::Drop,
@@ -228,6 +236,12 @@ impl Question<'_> {
         self.tried.iter().find(|trial| self.id(trial) == self.found[self.index].term.id)
     }
 
+    /// Whether the cause itself is significant. Of a line the frequency is not asked again: it was found against all others.
+    fn is_significant(&self, own: &Trial) -> bool {
+        let is_line = is_line(&self.found[self.index]);
+        own.ln_p + if is_line { 0.0 } else { self.among.ln() } < self.threshold()
+    }
+
     /// Whether an effect is none of those that were found.
     fn is_new(&self, trial: &Trial) -> bool {
         self.found.iter().all(|found| found.term.id != self.id(trial))
@@ -249,10 +263,8 @@ impl Question<'_> {
     fn cause(&self) -> Cause {
         let found = &self.found[self.index];
         let own = self.own();
-        let is_line = found.term.setting("frequency").is_some();
-        // What it is has been asked at the frequency that was found, one of many.
-        let families =
-            (self.tried.len() as f64 * if is_line { self.frequencies } else { 1.0 }).ln();
+        // What it is has been asked at the frequency that was found, or the time, one of many.
+        let families = (self.tried.len() as f64 * self.among).ln();
         Cause {
             term: found.term,
             settings: found.settings.clone(),
