@@ -217,25 +217,15 @@ impl Case<'_> {
             return trial.ln_p;
         }
         let last = after.model().terms.len() - 1;
-        let own: Vec<usize> = (0..after.parameters.len())
-            .filter(|&place| after.parameters[place].parameter.term == last)
-            .collect();
-        // What the likelihood gained at its best, before what the prior takes from it: the logarithm of how much less
-        // is left open.
-        let known: f64 = own.iter().map(|&p| after.parameters[p].parameter.sigma.ln()).sum();
-        let block =
-            DMatrix::from_fn(own.len(), own.len(), |r, c| after.covariance[(own[r], own[c])]);
-        let left: f64 =
-            block.cholesky().map_or(known, |f| f.l_dirty().diagonal().map(f64::ln).sum());
-        let gained = 2.0 * (after.log_likelihood - before.log_likelihood + known - left);
+        let (gained, own) = gained(before, after, last);
         // Where all of an effect was estimated, nothing of it was chosen.
         let is_whole = after.model().terms[last].values.len() <= WHOLE;
-        let (dof, looks) = if is_whole && own.len() > trial.dof {
-            (own.len(), trial.looks - trial.choices)
+        let (dof, looks) = if is_whole && own > trial.dof {
+            (own, trial.looks - trial.choices)
         } else {
             (trial.dof, trial.looks)
         };
-        (ln_tail(gained.max(0.0), dof) + looks).min(trial.ln_p)
+        (ln_tail(gained, dof) + looks).min(trial.ln_p)
     }
 }
 
@@ -262,6 +252,22 @@ impl Candidate {
         }
         chosen
     }
+}
+
+/// By how much the squares fell by the terms of a fit from `first` on, each fit with its own noise, and how many parameters these
+/// have.
+///
+/// It is what the likelihood gained at its best, before what the prior takes from it: the logarithm of how much less is left
+/// open.
+pub(crate) fn gained(before: &Fit, after: &Fit, first: usize) -> (f64, usize) {
+    let own: Vec<usize> = (0..after.parameters.len())
+        .filter(|&place| after.parameters[place].parameter.term >= first)
+        .collect();
+    let known: f64 = own.iter().map(|&p| after.parameters[p].parameter.sigma.ln()).sum();
+    let block = DMatrix::from_fn(own.len(), own.len(), |r, c| after.covariance[(own[r], own[c])]);
+    let left: f64 = block.cholesky().map_or(known, |f| f.l_dirty().diagonal().map(f64::ln).sum());
+    let gained = 2.0 * (after.log_likelihood - before.log_likelihood + known - left);
+    (gained.max(0.0), own.len())
 }
 
 /// A noise between two, in logarithms.

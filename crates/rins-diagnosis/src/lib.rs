@@ -44,6 +44,7 @@ mod timing;
 mod uneven;
 mod unexplained;
 mod wander;
+mod waves;
 
 mod gain;
 mod gain_drift;

@@ -125,7 +125,7 @@ impl<'a> Context<'a> {
 
     /// The score of some places with the noise that is most likely with them, and the statistic with that which
     /// makes it largest. None if nothing of them is shown.
-    fn scored(&self, places: &[usize]) -> Option<(Score, f64)> {
+    pub(crate) fn scored(&self, places: &[usize]) -> Option<(Score, f64)> {
         let mut best: Option<Score> = None;
         let mut statistic = 0.0_f64;
         for left in &self.left {

@@ -7,7 +7,7 @@ use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS};
 use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
-use crate::periodic::{modulated, waveforms};
+use crate::periodic::modulated;
 use crate::probability::ln_tail;
 use crate::score::scored;
 use crate::structure::{Along, Remainder, Structure, TableMotion, groups};
@@ -108,7 +108,7 @@ impl Case<'_> {
                 || !one.channel.split('.').next().is_some_and(stepped)
         });
         found.extend(switching);
-        found.extend(waveforms(after, causes));
+        found.extend(self.waves(after, causes, !found.is_empty())?);
         found.extend(modulated(after, causes));
         found.extend(self.of_every_turn(after, causes));
         found

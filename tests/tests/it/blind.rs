@@ -97,6 +97,18 @@ fn bump_on_a_table_that_turns_back_is_not_explained() {
     assert!(answer.unexplained.iter().any(|one| one.starts_with("gyro.z")), "{answer:?}");
 }
 
+/// What is left of a sawtooth beside a line passes for flicker, multiple by multiple, or for a walk of the bias with steps in it.
+#[test]
+fn sawtooths_are_not_explained() {
+    for (index, channel) in [(638, "gyro.y"), (262, "accel.z")] {
+        let trial = Trial::draw(24, index, Length::Drawn).unwrap();
+        let outside = trial.outside.as_ref().expect("there is something outside the catalogue");
+        assert_eq!((outside.name.as_str(), outside.channel.as_str()), ("sawtooth", channel));
+        let answer = asked(&trial);
+        assert!(answer.unexplained.iter().any(|one| one.starts_with(channel)), "{answer:?}");
+    }
+}
+
 #[test]
 fn two_hidden_effects_are_both_in_sets() {
     let effects = [("gyro_bias_step", 20.0), ("encoder_harmonic", 20.0)];

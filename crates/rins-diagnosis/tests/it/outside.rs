@@ -145,16 +145,7 @@ fn bump_in_the_turn_is_one_waveform() {
             (gyro, [0.0; 3])
         };
         let diagnosis = found(&over(&[11.0; 8], 0.0, 380, bump), NoiseKnowledge::Likely);
-        let periods: Vec<f64> = diagnosis
-            .unexplained
-            .iter()
-            .filter(|one| one.channel == channel)
-            .filter_map(|one| match one.structure {
-                Structure::Waveform(frequency) => Some(1.0 / frequency),
-                _ => None,
-            })
-            .collect();
-        let [period] = periods[..] else {
+        let [period] = periods(&diagnosis, channel)[..] else {
             panic!("{channel}: {:?} {:?}", diagnosis.causes, diagnosis.unexplained)
         };
         // A turn, or a whole part of it.
@@ -171,15 +162,60 @@ fn lines_of_one_waveform_are_one() {
     let run =
         with(0.0, 120, |time| ([0.0; 3], [height * ((time / PERIOD).fract() - 0.5), 0.0, 0.0]));
     let diagnosis = found(&run, NoiseKnowledge::Given);
-    let periods: Vec<f64> = diagnosis
-        .unexplained
-        .iter()
-        .filter(|one| one.channel == "accel.x")
-        .filter_map(|one| match one.structure {
-            Structure::Waveform(frequency) => Some(1.0 / frequency),
-            _ => None,
-        })
-        .collect();
-    let [period] = periods[..] else { panic!("{:?}", diagnosis.unexplained) };
+    let [period] = periods(&diagnosis, "accel.x")[..] else {
+        panic!("{:?}", diagnosis.unexplained)
+    };
     assert!((period / PERIOD - 1.0).abs() < 0.02, "{period}");
+}
+
+/// Of a slow sawtooth one line may be found, and what is left of it be no more than flicker.
+#[test]
+fn line_is_no_sawtooth_and_a_sawtooth_no_line() {
+    const PERIOD: f64 = 47.0;
+    let height = 0.025 * DEG_PER_HOUR;
+    let found_on = |seed: u64, wave: &dyn Fn(f64) -> f64| {
+        let run = with(0.003 * DEG_PER_HOUR, seed, |time| {
+            ([0.0, height * wave(time / PERIOD), 0.0], [0.0; 3])
+        });
+        found(&run, NoiseKnowledge::Likely)
+    };
+    for seed in 400..403 {
+        let sawtooth = found_on(seed, &|periods| 2.0 * periods.fract() - 1.0);
+        let left = &sawtooth.unexplained;
+        assert!(left.iter().any(|one| one.channel == "gyro.y"), "{seed}: {left:?}");
+        let line = found_on(seed, &|periods| (TAU * periods).sin());
+        assert!(line.unexplained.is_empty(), "{seed}: {:?}", line.unexplained);
+        assert!(!line.causes.is_empty(), "{seed}");
+    }
+}
+
+/// A bias that drifts up and falls back, each time by as much, has no steps; one that steps twice by as much has.
+#[test]
+fn steps_that_undo_a_drift_are_a_waveform() {
+    const PERIOD: f64 = 110.0;
+    let height = 250.0 * MICRO_G;
+    let found_on = |wave: &dyn Fn(f64) -> f64| {
+        let run = with(0.0, 410, |time| ([0.0; 3], [0.0, 0.0, height * wave(time / PERIOD)]));
+        found(&run, NoiseKnowledge::Likely)
+    };
+    let sawtooth = found_on(&f64::fract);
+    let [period] = periods(&sawtooth, "accel.z")[..] else {
+        panic!("{:?} {:?}", sawtooth.causes, sawtooth.unexplained)
+    };
+    let times = 2.0 * period / PERIOD;
+    assert!((times - times.round()).abs() < 0.05, "{period}");
+    let steps = found_on(&|time| -f64::from(u8::from(time > 1.2) + u8::from(time > 2.7)));
+    assert!(steps.unexplained.is_empty(), "{:?}", steps.unexplained);
+    let causes: Vec<&str> = steps.causes.iter().map(|cause| cause.term.id).collect();
+    assert_eq!(causes, ["accel_bias_step"; 2]);
+}
+
+/// The periods of what repeats on a channel, and is no sine \[s\].
+fn periods(diagnosis: &Diagnosis, channel: &str) -> Vec<f64> {
+    let of_channel = diagnosis.unexplained.iter().filter(|one| one.channel == channel);
+    let period = |one: &Unexplained| match one.structure {
+        Structure::Waveform(frequency) => Some(1.0 / frequency),
+        _ => None,
+    };
+    of_channel.filter_map(period).collect()
 }
