@@ -1,7 +1,7 @@
 //! Sensors and encoders that read in steps: the rounding is no effect.
 
 use rins_estimation::{NoiseKnowledge, Run};
-use rins_frames::units::ARCSEC;
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::hidden::{RATES, found, hiding};
@@ -45,4 +45,19 @@ fn rounding_that_stands_still_is_no_tilt() {
         let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
         assert_eq!(ids, ["gyro_quantisation"], "seed {seed}");
     }
+}
+
+const STEP: f64 = 0.3 * ARCSEC;
+const SLOW: [f64; 7] = [0.0, 2.0, -2.0, 0.0, 2.0, -2.0, 2.0];
+
+/// A dead zone of far less than a step is one where what is rounded off is carried on.
+#[test]
+fn dead_zone_beside_rounding_that_is_carried_on_is_named() {
+    let bits = [STEP, 0.0];
+    let zone = [0.4 * DEG_PER_HOUR, 0.4 * DEG_PER_HOUR, 0.0];
+    let model =
+        hiding(&[(&catalogue::GYRO_QUANTISATION, &bits), (&catalogue::GYRO_DEAD_ZONE, &zone)]);
+    let diagnosis = found(&run(&SLOW, model, 0.0, 180), NoiseKnowledge::Likely);
+    let names: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
+    assert!(names.contains(&"gyro_dead_zone"), "{names:?}");
 }

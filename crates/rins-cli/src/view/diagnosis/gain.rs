@@ -69,7 +69,8 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
         Err(error) => return format!("What this gains could not be measured: {error}."),
     };
     let scored = format!(
-        "the log score goes up by {} nats (95 %: {} to {})",
+        "the log score {} by {} nats (95 %: {} to {})",
+        if gain.rise() < 0.0 { "changes" } else { "goes up" },
         figure(gain.rise(), 3),
         figure(gain.interval.0, 3),
         figure(gain.interval.1, 3)
