@@ -24,6 +24,9 @@ const ORDERS: [f64; 20] = [
     16.0, 18.0, 24.0,
 ];
 
+/// What settles with two time constants is two effects if one is so many times the other at least.
+const APART: f64 = 3.0;
+
 /// The powers of the rate that are tried.
 const EXPONENTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 
@@ -79,6 +82,10 @@ pub(crate) fn has_room(model: &Model, other: &Chosen, duration: f64) -> bool {
         model.terms.iter().filter(|own| own.term.id == other.term.id).collect();
     if other.term.setting("order").is_some() {
         return alike.iter().all(|own| own.settings != other.settings);
+    }
+    if let Some(place) = other.term.setting("time_constant") {
+        let apart = |own: &&Chosen| (own.settings[place] / other.settings[place]).ln().abs();
+        return alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > APART.ln());
     }
     match other.term.setting("time") {
         Some(place) if other.term.id != catalogue::BASE_TILT_STEP.id => {

@@ -246,6 +246,10 @@ impl Case<'_> {
                 progress(candidate.chosen.term.id);
             }
             present = fitted;
+            // Each of two that settle has taken a part of the other, and what neither has would pass for something else.
+            if settles_twice(&found) {
+                present = case.at_their_best(present, &mut found)?.0;
+            }
         }
         let (after, causes) = case.settled(before, present, found, Found::Searched)?;
         let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
@@ -340,6 +344,14 @@ fn beside(
         }
         accepted.push((list[next.candidate].clone(), next.clone()));
     }
+}
+
+/// Whether the last effect of some settles in another time than one of its kind before.
+fn settles_twice(found: &[Chosen]) -> bool {
+    found.split_last().is_some_and(|(last, before)| {
+        let settles = last.term.setting("time_constant").is_some();
+        settles && before.iter().any(|one| one.term.id == last.term.id)
+    })
 }
 
 /// Terms of which no shape shows.

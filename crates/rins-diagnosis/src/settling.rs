@@ -8,6 +8,7 @@ use crate::case::Case;
 use crate::dead_zone;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
 use crate::disturbance;
+use crate::sought::settling_later;
 use crate::suggested::at_frequency;
 use crate::survey::Survey;
 use crate::timing::is_line;
@@ -75,14 +76,24 @@ impl Case<'_> {
         let mut changes = 0;
         while !found.is_empty() {
             let list = self.with_events(&present, &found);
+            let later = settling_later(&found);
+            let all: Vec<Candidate> =
+                list.iter().chain(later.iter().map(|(_, later)| later)).cloned().collect();
             let noises = self.between(before, &present);
-            let survey = Survey::of(self.runs, &present, self.imu, &list, &noises)?;
+            let survey = Survey::of(self.runs, &present, self.imu, &all, &noises)?;
             let found_among = self.found_among(&present, &found)?;
             let mut causes = Vec::new();
             let mut change = None;
             for index in 0..found.len() {
                 let places = survey.of_term(given + index);
-                let Some(context) = Context::of(&survey, &places.concat(), &[]) else { continue };
+                // What else settles may do so a little sooner or later without this one.
+                let others = later.iter().enumerate().filter(|(_, (cause, _))| *cause != index);
+                let taken: Vec<usize> = others
+                    .flat_map(|(other, _)| survey.of_candidate(list.len() + other).concat())
+                    .collect();
+                let Some(context) = Context::of(&survey, &places.concat(), &taken) else {
+                    continue;
+                };
                 let mut tried = trials(&survey, &context, &list);
                 tried.retain(|trial| {
                     let candidate = &list[trial.candidate];

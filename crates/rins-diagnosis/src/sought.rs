@@ -14,7 +14,13 @@ use crate::survey::Survey;
 const OFF: f64 = 0.2;
 
 /// How often settings are moved at most.
-const MOST_MOVES: usize = 3;
+const MOST_MOVES: usize = 10;
+
+/// A step that makes things worse is tried at this part of its length, ...
+const LESS: f64 = 0.3;
+
+/// ... unless it has come to less than this part of it.
+const LEAST_PART: f64 = 0.2;
 
 /// Derivatives by a setting are taken over so many periods of the lowest frequency that the runs show, as phases; over
 /// this part of a time constant; over one epoch for the time of an event.
@@ -40,16 +46,30 @@ impl Case<'_> {
     /// The fit with every sought setting where it fits best, and its uncertainty in the covariance of all parameters.
     pub(crate) fn sharpened(
         &self,
-        mut present: Fit,
+        present: Fit,
         found: &mut [Chosen],
     ) -> Result<(Fit, Vec<Sought>), DiagnosisError> {
+        let (mut present, sought) = self.at_their_best(present, found)?;
+        for one in &sought {
+            present = present.with_unknown(&(&one.shift * one.sigma));
+        }
+        Ok((present, sought))
+    }
+
+    /// The fit with every sought setting where it fits best, as if it were known.
+    pub(crate) fn at_their_best(
+        &self,
+        mut present: Fit,
+        found: &mut [Chosen],
+    ) -> Result<(Fit, Vec<Sought>), Indefinite> {
         let mut sought = self.sought(&present, found)?;
+        let mut part = 1.0;
         for _ in 0..MOST_MOVES {
             let mut moved = found.to_vec();
             for one in sought.iter().filter(|one| one.is_off()) {
                 let setting = &mut moved[one.cause].settings[one.place];
                 let (low, high) = found[one.cause].term.settings[one.place].within;
-                *setting = (*setting + one.step).clamp(low, high);
+                *setting = (*setting + part * one.step(*setting)).clamp(low, high);
             }
             if moved == found {
                 break;
@@ -57,13 +77,16 @@ impl Case<'_> {
             let fitted = self.fit_near(&present, &moved);
             // A step that makes things worse was too long to be linear.
             let better = |fit: &Fit| fit.log_likelihood > present.log_likelihood;
-            let Some(fitted) = fitted.ok().filter(better) else { break };
-            present = fitted;
-            found.clone_from_slice(&moved);
-            sought = self.sought(&present, found)?;
-        }
-        for one in &sought {
-            present = present.with_unknown(&(&one.shift * one.sigma));
+            match fitted.ok().filter(better) {
+                Some(fitted) => {
+                    present = fitted;
+                    found.clone_from_slice(&moved);
+                    sought = self.sought(&present, found)?;
+                    part = 1.0;
+                }
+                None if part < LEAST_PART => break,
+                None => part *= LESS,
+            }
         }
         Ok((present, sought))
     }
@@ -128,8 +151,24 @@ impl Case<'_> {
     }
 }
 
+/// Of every effect that settles in some time the same in a little longer: with both in a model it may settle in any time.
+pub(crate) fn settling_later(found: &[Chosen]) -> Vec<(usize, Candidate)> {
+    let later = |(cause, chosen): (usize, &Chosen)| {
+        let place = chosen.term.setting("time_constant")?;
+        let mut later = chosen.clone().with_values(&vec![0.0; chosen.values.len()]);
+        later.settings[place] *= 1.0 + APART;
+        Some((cause, Candidate { chosen: later, looks: 1.0, step: None }))
+    };
+    found.iter().enumerate().filter_map(later).collect()
+}
+
 impl Sought {
     fn is_off(&self) -> bool {
         self.is_smooth && self.step.abs() > OFF * self.sigma
+    }
+
+    /// How far to move the setting from where it is: no further than to half of it, or twice.
+    fn step(&self, from: f64) -> f64 {
+        self.step.clamp(-0.5 * from.abs(), from.abs())
     }
 }

@@ -57,3 +57,32 @@ fn what_happens_twice_is_named_twice() {
         }
     }
 }
+
+/// Electronics warm up sooner than the block that they are on: what settles with two time constants is no chain of other effects,
+/// and what settles with one is one.
+#[test]
+fn warm_up_of_two_time_constants_is_two() {
+    let warm_up = |values: [f64; 3], time_constant: f64| {
+        let chosen =
+            Chosen::new(&catalogue::GYRO_WARMUP).with_setting("time_constant", time_constant);
+        chosen.with_values(&values.map(|value| value * DEG_PER_HOUR))
+    };
+    let both = [warm_up([0.0, 0.5, 0.0], 15.0), warm_up([0.0, 0.4, 0.0], 130.0)];
+    for (seed, hidden) in [(420, &both[..]), (421, &both[..]), (422, &both[1..])] {
+        let run = run(&RATES, Model { terms: hidden.to_vec() }, 0.0, seed);
+        let mut diagnosis = found(&run, NoiseKnowledge::Likely);
+        diagnosis.causes.sort_by(|a, b| a.settings[0].total_cmp(&b.settings[0]));
+        let names: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
+        assert_eq!(names, vec!["gyro_warmup"; hidden.len()], "seed {seed}");
+        assert!(diagnosis.unexplained.is_empty(), "seed {seed}: {:?}", diagnosis.unexplained);
+        for (cause, hidden) in diagnosis.causes.iter().zip(hidden) {
+            let (_, sigma) = cause.sought.expect("a time constant that was sought");
+            let off = (cause.settings[0] - hidden.settings[0]) / sigma;
+            assert!(off.abs() < 3.5, "seed {seed}: {} s, {off} sigma off", cause.settings[0]);
+            for (estimate, truth) in cause.parameters.iter().zip(&hidden.values) {
+                let off = (estimate.value - truth) / estimate.sigma;
+                assert!(off.abs() < 3.5, "seed {seed}: {off} sigma off");
+            }
+        }
+    }
+}
