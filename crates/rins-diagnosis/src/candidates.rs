@@ -24,7 +24,7 @@ const ORDERS: [f64; 20] = [
     16.0, 18.0, 24.0,
 ];
 
-/// What settles with two time constants is two effects if one is so many times the other at least.
+/// A warm-up with two time constants is two effects if one is so many times the other at least.
 const APART: f64 = 3.0;
 
 /// The powers of the rate that are tried.
@@ -83,7 +83,8 @@ pub(crate) fn has_room(model: &Model, other: &Chosen, duration: f64) -> bool {
     if other.term.setting("order").is_some() {
         return alike.iter().all(|own| own.settings != other.settings);
     }
-    if let Some(place) = other.term.setting("time_constant") {
+    let follows_heat = other.term.id == catalogue::THERMAL_ONE_PER_TURN.id;
+    if let Some(place) = other.term.setting("time_constant").filter(|_| !follows_heat) {
         let apart = |own: &&Chosen| (own.settings[place] / other.settings[place]).ln().abs();
         return alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > APART.ln());
     }
