@@ -65,12 +65,16 @@ pub(crate) fn modulated(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
     found
 }
 
+/// Whether a cause is a line of one axis.
+pub(crate) fn is_line(cause: &Cause) -> bool {
+    cause.term.id == catalogue::INTERFERENCE_LINE.id
+}
+
 /// Lines of one axis, two and two.
 fn pairs(causes: &[Cause]) -> impl Iterator<Item = (&Cause, &Cause)> {
-    let is_line = |cause: &&Cause| cause.term.id == catalogue::INTERFERENCE_LINE.id;
     let lines = causes.iter().enumerate().filter(move |(_, cause)| is_line(cause));
     lines.flat_map(move |(place, line)| {
-        let others = causes[place + 1..].iter().filter(is_line);
+        let others = causes[place + 1..].iter().filter(|other| is_line(other));
         others.filter(|other| axis(line) == axis(other)).map(move |other| (line, other))
     })
 }

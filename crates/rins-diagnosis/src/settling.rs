@@ -11,7 +11,7 @@ use crate::disturbance;
 use crate::sought::settling_later;
 use crate::suggested::at_frequency;
 use crate::survey::Survey;
-use crate::timing::is_line;
+use crate::timing::has_frequency;
 use crate::trial::{Context, Trial, best_pair, trials};
 
 /// A rival is kept whose odds are no worse than one to this many e-folds: 1 to 55.
@@ -194,7 +194,7 @@ impl Case<'_> {
             if cause.term.id == catalogue::ENCODER_HARMONIC.id && !list.iter().any(is_listed) {
                 list.push(Candidate::high_harmonic(cause.settings[0]));
             }
-            if is_line(cause) {
+            if has_frequency(cause) {
                 // That there is a line is known by now: what it is, is asked.
                 let at = at_frequency(cause.settings[0]).into_iter();
                 list.extend(at.map(|chosen| Candidate { chosen, looks: 1.0, step: None }));
@@ -249,7 +249,7 @@ impl Question<'_> {
 
     /// Whether the cause itself is significant. Of a line the frequency is not asked again: it was found against all others.
     fn is_significant(&self, own: &Trial) -> bool {
-        let is_line = is_line(&self.found[self.index]);
+        let is_line = has_frequency(&self.found[self.index]);
         own.ln_p + if is_line { 0.0 } else { self.among.ln() } < self.threshold()
     }
 

@@ -19,7 +19,7 @@ impl Case<'_> {
     ) -> Result<Vec<f64>, Indefinite> {
         let of = |(index, cause): (usize, &Chosen)| match cause.term.setting("time") {
             Some(place) => self.times_of(present, index, cause, place),
-            None if is_line(cause) => Ok(LOOKS * epochs(present)),
+            None if has_frequency(cause) => Ok(LOOKS * epochs(present)),
             None => Ok(1.0),
         };
         found.iter().enumerate().map(of).collect()
@@ -54,7 +54,7 @@ impl Case<'_> {
 }
 
 /// Whether an effect is a line of any frequency.
-pub(crate) fn is_line(chosen: &Chosen) -> bool {
+pub(crate) fn has_frequency(chosen: &Chosen) -> bool {
     chosen.term.setting("frequency").is_some()
 }
 

@@ -4,8 +4,9 @@ use rins_estimation::{NoiseKnowledge, Strengths, TriadStrengths};
 use rins_terms::{Chosen, Term, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::{Diagnosis, DiagnosisError, Rival};
+use crate::diagnosis::{Cause, Diagnosis, DiagnosisError, Rival};
 use crate::noise::triad;
+use crate::periodic::{is_line, strongest};
 use crate::settling::RIVALS;
 use crate::structure::Structure;
 
@@ -117,18 +118,19 @@ impl Case<'_> {
     fn instead(&self, found: &Diagnosis, which: usize, mut sheet: Strengths) -> Option<Instead> {
         let name = TRIADS[which];
         self.walk(triad(&mut sheet, which));
-        let is_slow = |id: &str, settings: &[f64]| {
+        let is_slow = |id: &str| {
             let of_triad = id.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
-            let few_cycles = || settings[0] * self.duration() < SLOW_CYCLES;
             // What follows heat slowly goes on for long after a rest or a reversal.
             let follows = which == 0 && id == catalogue::THERMAL_ONE_PER_TURN.id;
-            of_triad.is_some_and(|rest| SLOW.contains(&rest))
-                || follows
-                || (id == "interference_line" && few_cycles())
+            of_triad.is_some_and(|rest| SLOW.contains(&rest)) || follows
+        };
+        let is_slow_line = |one: &Cause| {
+            one.settings.first().is_some_and(|frequency| frequency * self.duration() < SLOW_CYCLES)
+                && strongest(one).is_some_and(|(channel, ..)| channel.starts_with(name))
         };
         let causes = found.causes.iter().enumerate();
         let slow: Vec<usize> = causes
-            .filter(|(_, one)| is_slow(one.term.id, &one.settings))
+            .filter(|(_, one)| is_slow(one.term.id) || is_line(one) && is_slow_line(one))
             .map(|(place, _)| place)
             .collect();
         let left = found.unexplained.iter().any(|one| match one.structure {
@@ -136,15 +138,21 @@ impl Case<'_> {
             Structure::Line(frequency) => {
                 one.channel.starts_with(name) && frequency * self.duration() < SLOW_CYCLES
             }
-            Structure::Inconstant(_) => one.of.is_some_and(|id| is_slow(id, &[f64::INFINITY])),
+            Structure::Inconstant(_) => one.of.is_some_and(is_slow),
             _ => false,
         });
         if slow.is_empty() && !left {
             return None;
         }
+        let is_slow = |one: &&Chosen| {
+            let alike = |&place: &usize| {
+                let slow = &found.causes[place];
+                (slow.term.id, &slow.settings) == (one.term.id, &one.settings)
+            };
+            slow.iter().any(alike)
+        };
         let causes = self.causes_in(&found.after).iter();
-        let kept: Vec<Chosen> =
-            causes.filter(|one| !is_slow(one.term.id, &one.settings)).cloned().collect();
+        let kept: Vec<Chosen> = causes.filter(|one| !is_slow(one)).cloned().collect();
         let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let walked = other.fit_near(&found.after, &kept).ok()?;
         let mut strengths = walked.noise[0].imu;

@@ -8,7 +8,7 @@ use crate::case::{Case, gained};
 use crate::diagnosis::{Cause, FALSE_ALARMS};
 use crate::disturbance::CHANNELS;
 use crate::noise::triad;
-use crate::periodic::{strongest, waveforms};
+use crate::periodic::{is_line, strongest, waveforms};
 use crate::probability::ln_tail;
 use crate::structure::Structure;
 use crate::survey::Survey;
@@ -95,8 +95,7 @@ impl Case<'_> {
 
     /// Lines of which multiples are there too, or which are the second multiple of something: it comes back, and is no sine.
     fn multiples(&self, after: &Fit, causes: &[Cause]) -> Result<Vec<Unexplained>, Indefinite> {
-        let is_line = |cause: &&Cause| cause.term.id == catalogue::INTERFERENCE_LINE.id;
-        let lines: Vec<&Cause> = causes.iter().filter(is_line).collect();
+        let lines: Vec<&Cause> = causes.iter().filter(|cause| is_line(cause)).collect();
         let mut found = Vec::new();
         for line in &lines {
             for own in WHICH {
