@@ -85,7 +85,9 @@ impl Case<'_> {
             }
         }
         for run in 0..self.runs.len() {
-            let known = |one: &Unexplained| one.run == run && one.structure == Structure::Tails;
+            let known = |one: &Unexplained| {
+                one.run == run && one.structure == Structure::Tails && is_significant(one)
+            };
             if !found.iter().any(known) {
                 // What a cause puts into single samples, such as the steps of a thermometer, is no noise.
                 found
@@ -108,11 +110,11 @@ impl Case<'_> {
                 || !one.channel.split('.').next().is_some_and(stepped)
         });
         found.extend(switching);
-        found.extend(self.waves(after, causes, !found.is_empty())?);
+        let is_described = found.iter().any(is_significant);
+        found.extend(self.waves(after, causes, is_described)?);
         found.extend(modulated(after, causes));
         found.extend(self.of_every_turn(after, causes));
-        found
-            .retain(|left| left.ln_p < (FALSE_ALARMS / WAYS).ln() && !self.rounding.explains(left));
+        found.retain(|left| is_significant(left) && !self.rounding.explains(left));
         // A few shocks look like outliers, and what else is left may look like shocks.
         if found.iter().all(|left| left.structure == Structure::Tails) {
             for run in 0..self.runs.len() {
@@ -268,6 +270,11 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
     let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * statistic.sqrt()));
     OF_INTEREST.iter().filter_map(of).collect()
+}
+
+/// Whether chance makes nothing like it, of all ways in which something is looked for.
+fn is_significant(left: &Unexplained) -> bool {
+    left.ln_p < (FALSE_ALARMS / WAYS).ln()
 }
 
 /// Whether it is a signal of one shape all along, whose size can be told.
