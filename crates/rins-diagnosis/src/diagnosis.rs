@@ -30,6 +30,12 @@ const MOST_REFUSED: usize = 2;
 /// How many effects are tried as the first of two that mask each other.
 const FIRST_OF_MASKED: usize = 8;
 
+/// A time constant of more than this part of the longest run is that of something that never settles.
+const NEVER: f64 = 0.3;
+
+/// An effect of more parameters that never settles is doubted.
+const MOST_SIMPLE: usize = 3;
+
 /// How many effects are accepted before the noise is found anew and the model made linear about them.
 const AT_ONCE: usize = 3;
 
@@ -163,7 +169,14 @@ impl Case<'_> {
         let inconstant = |one: &Unexplained| {
             one.of.filter(|_| matches!(one.structure, Structure::Inconstant(_)))
         };
-        let doubtful: Vec<&str> = found.unexplained.iter().filter_map(inconstant).collect();
+        let mut doubtful: Vec<&str> = found.unexplained.iter().filter_map(inconstant).collect();
+        // What has not settled when the run ends follows slow effects of any kind.
+        let never_settles = |cause: &&Cause| {
+            let place = cause.term.setting("time_constant");
+            let time_constant = place.map_or(0.0, |place| cause.settings[place]);
+            cause.term.parameters.len() > MOST_SIMPLE && time_constant > NEVER * self.duration()
+        };
+        doubtful.extend(found.causes.iter().filter(never_settles).map(|cause| cause.term.id));
         let given = before.model().terms.len() + fast.len();
         let causes = |one: &Diagnosis| one.after.model().terms.len() - given;
         // One that stands alone has been held against every other by now.
@@ -172,7 +185,8 @@ impl Case<'_> {
         }
         let Ok(other) = self.beyond(before, fast, &doubtful, progress) else { return Ok(found) };
         let gained = other.after.log_likelihood - found.after.log_likelihood;
-        let odds = gained + CHOSEN * (causes(&found) as f64 - causes(&other) as f64);
+        let chosen = |one: &Diagnosis| CHOSEN * causes(one) as f64 + self.sought_from(&one.causes);
+        let odds = gained + chosen(&found) - chosen(&other);
         // Noise may stand for them too, but it is no other effect.
         let is_likelier = causes(&other) > 0 && odds > 0.0;
         Ok(if is_likelier { other } else { found })

@@ -7,7 +7,7 @@ use rins_terms::Chosen;
 
 use crate::candidates::Candidate;
 use crate::case::Case;
-use crate::diagnosis::DiagnosisError;
+use crate::diagnosis::{Cause, DiagnosisError};
 use crate::survey::Survey;
 
 /// A setting is moved that is off by more than this part of its sigma.
@@ -89,6 +89,22 @@ impl Case<'_> {
             }
         }
         Ok((present, sought))
+    }
+
+    /// What it costs, in e-folds of odds, that settings of some causes were sought: how much better they are known than before.
+    pub(crate) fn sought_from(&self, causes: &[Cause]) -> f64 {
+        let of = |cause: &Cause| {
+            let (place, sigma) = cause.sought?;
+            let value = cause.settings[place];
+            let range = match cause.term.settings[place].name {
+                // Any of a decade.
+                "time_constant" => value * std::f64::consts::LN_10,
+                "time" => self.duration(),
+                _ => value,
+            };
+            Some((range / (sigma * std::f64::consts::TAU.sqrt())).ln().max(0.0))
+        };
+        causes.iter().filter_map(of).sum()
     }
 
     /// What the runs say of every setting that was sought for these effects, the last of the model in `present`.
