@@ -109,6 +109,16 @@ fn sawtooths_are_not_explained() {
     }
 }
 
+/// Means over epochs may show outliers, and not enough to be believed: samples do.
+#[test]
+fn heavy_tails_are_told_though_epochs_hardly_show_them() {
+    let trial = Trial::draw(25, 171, Length::Drawn).unwrap();
+    let outside = trial.outside.as_ref().expect("there is something outside the catalogue");
+    assert_eq!((outside.name.as_str(), outside.channel.as_str()), ("heavy tails", "gyro.x"));
+    let answer = asked(&trial);
+    assert!(answer.unexplained.iter().any(|one| one.starts_with("gyro.x")), "{answer:?}");
+}
+
 #[test]
 fn two_hidden_effects_are_both_in_sets() {
     let effects = [("gyro_bias_step", 20.0), ("encoder_harmonic", 20.0)];
