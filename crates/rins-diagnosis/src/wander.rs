@@ -144,7 +144,7 @@ impl Case<'_> {
         if slow.is_empty() && !left {
             return None;
         }
-        let is_slow = |one: &&Chosen| {
+        let is_given_up = |one: &&Chosen| {
             let alike = |&place: &usize| {
                 let slow = &found.causes[place];
                 (slow.term.id, &slow.settings) == (one.term.id, &one.settings)
@@ -152,7 +152,7 @@ impl Case<'_> {
             slow.iter().any(alike)
         };
         let causes = self.causes_in(&found.after).iter();
-        let kept: Vec<Chosen> = causes.filter(|one| !is_slow(one)).cloned().collect();
+        let kept: Vec<Chosen> = causes.filter(|one| !is_given_up(one)).cloned().collect();
         let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let walked = other.fit_near(&found.after, &kept).ok()?;
         let mut strengths = walked.noise[0].imu;

@@ -15,9 +15,6 @@ use crate::survey::Survey;
 use crate::trial::Context;
 use crate::unexplained::{Unexplained, worst};
 
-/// The triads by what their effects and channels begin with.
-const TRIADS: [&str; 2] = ["gyro", "accel"];
-
 /// Which of the multiples a line that was found may be: the frequency of the wave itself, or the second.
 const WHICH: [u32; 2] = [1, 2];
 
@@ -90,7 +87,7 @@ impl Case<'_> {
                 worst: worst(after, 2.0 * (one.gain + other.gain)),
             })
         };
-        (0..TRIADS.len()).filter(|&which| drifts(which)).filter_map(of_triad).collect()
+        (0..DRIFTS.len()).filter(|&which| drifts(which)).filter_map(of_triad).collect()
     }
 
     /// Lines of which multiples are there too, or which are the second multiple of something: it comes back, and is no sine.

@@ -2,16 +2,23 @@
 
 use rins_estimation::{NoiseKnowledge, Run};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
+use rins_imu::rounded;
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::hidden::{RATES, found, hiding};
 use crate::support::run;
 
+/// A step of a gyro in an increment \[rad\].
+const STEP: f64 = 0.3 * ARCSEC;
+
+/// Rates at which a gyro's reading hardly changes \[deg/s\].
+const SLOW: [f64; 7] = [0.0, 2.0, -2.0, 0.0, 2.0, -2.0, 2.0];
+
 /// The same run, its encoder read in steps \[rad\].
 fn in_steps(run: &Run, step: f64) -> Run {
     let mut recording = (*run.recording).clone();
     for angle in recording.table_angle.iter_mut().flatten() {
-        *angle = (*angle / step).round() * step;
+        *angle = rounded(*angle, step);
     }
     Run::new(run.rig, recording).unwrap()
 }
@@ -37,18 +44,15 @@ fn steps_of_an_encoder_are_no_effect() {
 /// Where a gyro's reading hardly changes, the rounding that is carried on is out by a part of a step for long.
 #[test]
 fn rounding_that_stands_still_is_no_tilt() {
-    let bits = [0.3 * ARCSEC, 0.0];
+    let bits = [STEP, 0.0];
     for seed in 160..166 {
         let model = hiding(&[(&catalogue::GYRO_QUANTISATION, &bits)]);
-        let run = run(&[0.0, 2.0, -2.0, 0.0, 2.0, -2.0], model, 0.0, seed);
+        let run = run(&SLOW[..6], model, 0.0, seed);
         let diagnosis = found(&run, NoiseKnowledge::Likely);
         let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
         assert_eq!(ids, ["gyro_quantisation"], "seed {seed}");
     }
 }
-
-const STEP: f64 = 0.3 * ARCSEC;
-const SLOW: [f64; 7] = [0.0, 2.0, -2.0, 0.0, 2.0, -2.0, 2.0];
 
 /// A dead zone of far less than a step is one where what is rounded off is carried on.
 #[test]
