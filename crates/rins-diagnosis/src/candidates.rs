@@ -162,6 +162,13 @@ fn allows(setting: &Setting, value: f64) -> bool {
 }
 
 impl Candidate {
+    /// An effect that was found, of no size yet, with one of its settings moved by so much.
+    pub(crate) fn beside(found: &Chosen, setting: usize, by: f64) -> Self {
+        let mut chosen = found.clone().with_values(&vec![0.0; found.values.len()]);
+        chosen.settings[setting] += by;
+        Self { chosen, looks: 1.0, step: None }
+    }
+
     /// Shapes around this one, `part` of its step apart, four on each side, and itself.
     pub(crate) fn neighbours(&self, part: f64) -> Vec<Self> {
         let Some((place, step)) = self.step else { return vec![self.clone()] };

@@ -171,9 +171,7 @@ impl Case<'_> {
 pub(crate) fn settling_later(found: &[Chosen]) -> Vec<(usize, Candidate)> {
     let later = |(cause, chosen): (usize, &Chosen)| {
         let place = chosen.term.setting("time_constant")?;
-        let mut later = chosen.clone().with_values(&vec![0.0; chosen.values.len()]);
-        later.settings[place] *= 1.0 + APART;
-        Some((cause, Candidate { chosen: later, looks: 1.0, step: None }))
+        Some((cause, Candidate::beside(chosen, place, APART * chosen.settings[place])))
     };
     found.iter().enumerate().filter_map(later).collect()
 }

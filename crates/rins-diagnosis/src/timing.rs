@@ -32,13 +32,9 @@ impl Case<'_> {
         cause: &Chosen,
         place: usize,
     ) -> Result<f64, Indefinite> {
-        let at = |later: f64| {
-            let mut chosen = cause.clone().with_values(&vec![0.0; cause.values.len()]);
-            chosen.settings[place] += later;
-            Candidate { chosen, looks: 1.0, step: None }
-        };
         let epochs = epochs(present);
-        let list = [at(0.0), at(present.linear[0].mean_epoch())];
+        let list = [0.0, present.linear[0].mean_epoch()]
+            .map(|later| Candidate::beside(cause, place, later));
         let noises = std::slice::from_ref(&present.noise);
         let survey = Survey::of(self.runs, present, self.imu, &list, noises)?;
         let own = survey.of_term(self.given.terms.len() + index).concat();
