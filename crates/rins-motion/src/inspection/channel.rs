@@ -91,21 +91,29 @@ struct Spikes {
     largest: usize,
 }
 
-/// Whether the only spikes are those of the gyros across the axis at the same samples, or the one of one of them while
-/// the other shows it too: the base tips over in an instant. What spoils a line of a log, or a sensor, spoils others or
-/// one alone.
+/// Whether the only spikes are those of gyros at the same samples, of both across the axis, or of one of them while the other
+/// shows its one too: the base tips over in an instant, and turns about the axis too if that is not upright. What spoils a line
+/// of a log, or a sensor, spoils others or one alone.
 fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
-    match *found {
-        [(0, x), (1, y)] => x.count == y.count && x.largest == y.largest,
-        [(gyro @ (0 | 1), Spikes { count: 1, largest })] => {
-            let steps = steps(&channels[1 - gyro]);
-            let Some(scatter) = scatter(&steps) else { return false };
-            let least = BESIDE * scatter;
-            let out = |at: usize| steps.get(at).is_some_and(|step| step.abs() > least);
-            out(largest - 1) && out(largest)
+    let Some(&(_, first)) = found.first() else { return false };
+    let at_once = |&(channel, spikes): &(usize, Spikes)| {
+        channel < 3 && (spikes.count, spikes.largest) == (first.count, first.largest)
+    };
+    let across: Vec<usize> =
+        found.iter().map(|(channel, _)| *channel).filter(|channel| *channel < 2).collect();
+    let is_shown = |channel: usize| {
+        let steps = steps(&channels[channel]);
+        let Some(scatter) = scatter(&steps) else { return false };
+        let least = BESIDE * scatter;
+        let out = |at: usize| steps.get(at).is_some_and(|step| step.abs() > least);
+        out(first.largest - 1) && out(first.largest)
+    };
+    found.iter().all(at_once)
+        && match across[..] {
+            [_, _] => true,
+            [one] => first.count == 1 && is_shown(1 - one),
+            _ => false,
         }
-        _ => false,
-    }
 }
 
 /// From each reading to the next.
