@@ -1,4 +1,4 @@
-//! Settings that were sought from a continuum (a frequency, a time, a time constant): how well they are known, and what
+//! Settings that were sought from a continuum (a frequency, a time, a time constant, an exponent): how well they are known, and what
 //! that does to everything else.
 
 use nalgebra::DVector;
@@ -8,7 +8,6 @@ use rins_terms::Chosen;
 use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError};
-use crate::survey::Survey;
 
 /// A setting is moved that is off by more than this part of its sigma.
 const OFF: f64 = 0.2;
@@ -23,7 +22,7 @@ const LESS: f64 = 0.3;
 const LEAST_PART: f64 = 0.2;
 
 /// Derivatives by a setting are taken over so many periods of the lowest frequency that the runs show, as phases; over
-/// this part of a time constant; over one epoch for the time of an event.
+/// this part of a time constant or an exponent; over one epoch for the time of an event.
 const APART: f64 = 0.02;
 
 /// A setting that was sought, where the model is linear in it.
@@ -125,7 +124,7 @@ impl Case<'_> {
             return Ok(Vec::new());
         }
         let noises = std::slice::from_ref(&present.noise);
-        let survey = Survey::of(self.runs, present, self.imu, &list, noises)?;
+        let survey = self.survey(present, &list, noises)?;
         let sought = asked.into_iter().enumerate().filter_map(|(index, asked)| {
             let (cause, place, apart, sigma) = asked;
             let mut weights = Vec::new();
@@ -158,7 +157,7 @@ impl Case<'_> {
         let duration = self.duration();
         chosen.term.settings.iter().enumerate().find_map(|(place, setting)| match setting.name {
             "frequency" => Some((place, APART / duration, 0.5 / duration)),
-            "time_constant" => {
+            "time_constant" | "exponent" => {
                 Some((place, APART * chosen.settings[place], chosen.settings[place]))
             }
             "time" => Some((place, present.linear[0].mean_epoch(), 0.1 * duration)),

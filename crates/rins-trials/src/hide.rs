@@ -152,7 +152,7 @@ impl Ground {
                 // Slow enough for an epoch of the estimator to show it: its strength is told by that.
                 "frequency" => log_uniform(random, 0.02, 0.8),
                 "axis" => f64::from(random.random_range(1..=3_u8)),
-                "exponent" => [0.5, 1.0, 2.0, 3.0][random.random_range(0..4)],
+                "exponent" => 0.5 * 6_f64.powf(random.random()),
                 "order" if setting.within.0 < 0.0 => {
                     [-4.0, -3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 12.0]
                         [random.random_range(0..10)]

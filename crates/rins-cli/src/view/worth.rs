@@ -20,9 +20,10 @@ pub(crate) fn settings_in_words(
         .enumerate()
         .map(|(place, (setting, value))| {
             let unit = setting.unit;
+            let symbol = if unit.symbol == "1" { "" } else { unit.symbol };
             if let Some((_, sigma)) = sought.filter(|(of, _)| *of == place) {
                 let (value, sigma) = estimate(value / unit.factor, sigma / unit.factor);
-                return format!("{} = {value} ± {sigma} {}", setting.name, unit.symbol);
+                return format!("{} = {value} ± {sigma} {symbol}", setting.name).trim_end().into();
             }
             let value = figure(value / unit.factor, 5);
             let value = if value.contains('.') {
@@ -30,7 +31,6 @@ pub(crate) fn settings_in_words(
             } else {
                 &value
             };
-            let symbol = if unit.symbol == "1" { "" } else { unit.symbol };
             format!("{} = {value} {symbol}", setting.name).trim_end().to_owned()
         })
         .collect();

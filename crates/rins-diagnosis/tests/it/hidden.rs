@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rins_diagnosis::{Along, Diagnosis, Structure, chance, diagnose, limits, suppose};
 use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
-use rins_frames::units::{ARCSEC, DEG_PER_HOUR, PPM};
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::Seed;
 use rins_terms::{Chosen, Model, Term, Unit, catalogue};
 
@@ -58,6 +58,29 @@ fn hidden_effects_are_named_with_their_size() {
         for (estimate, truth) in cause.parameters.iter().zip(values) {
             let off = (estimate.value - truth) / estimate.sigma;
             assert!(off.abs() < 4.0, "{}: {off} sigma off", estimate.parameter.id);
+        }
+    }
+}
+
+/// A power of the rate is none of a list, and what is not known of it is not known of the amplitudes.
+#[test]
+fn the_power_of_the_rate_is_estimated_and_its_uncertainty_is_in_the_amplitudes() {
+    const EXPONENT: f64 = 1.4;
+    let values = [0.0, 12.0 * MICRO_G, -8.0 * MICRO_G];
+    let shaken = Chosen::new(&catalogue::ACCEL_VIBRATION_RECTIFICATION);
+    let shaken = shaken.with_setting("exponent", EXPONENT).with_values(&values);
+    for seed in 430..434 {
+        let run = run(&RATES, Model::default().with(shaken.clone()), 0.0, seed);
+        let diagnosis = found(&run, NoiseKnowledge::Given);
+        let [cause] = &diagnosis.causes[..] else { panic!("seed {seed}: {:?}", diagnosis.causes) };
+        assert_eq!(cause.term.id, shaken.term.id);
+        let (_, sigma) = cause.sought.expect("an exponent that was sought");
+        assert!(sigma < 0.3, "seed {seed}: {sigma}");
+        let off = (cause.settings[0] - EXPONENT) / sigma;
+        assert!(off.abs() < 3.0, "seed {seed}: exponent {off} sigma off");
+        for (estimate, truth) in cause.parameters.iter().zip(values) {
+            let off = (estimate.value - truth) / estimate.sigma;
+            assert!(off.abs() < 3.5, "seed {seed}: {off} sigma off");
         }
     }
 }

@@ -90,7 +90,7 @@ pub(crate) struct ByChance {
 /// A cause, and what its amplitude is worth.
 pub(crate) struct Named {
     pub(crate) cause: Cause,
-    /// How many sigmas its parameters are from zero, all together.
+    /// How many sigmas its parameters are from zero, all together; where a setting was sought, as if it had been known.
     pub(crate) sigmas: f64,
     /// Whether an IMU, a table or a place like this may have it so large.
     pub(crate) plausible: bool,
@@ -234,7 +234,9 @@ impl Found {
 
 impl Named {
     fn of(cause: Cause, after: &Fit, imu: &ImuSpec, next_test: Option<NextTest>) -> Self {
-        let sigmas = distance(&cause.parameters, after);
+        // What is not known of a setting that was sought says nothing against there being an effect.
+        let sought = if cause.sought.is_some() { (2.0 * cause.gain).sqrt() } else { 0.0 };
+        let sigmas = distance(&cause.parameters, after).max(sought);
         let plausible = cause.parameters.iter().all(|estimate| {
             let parameter = &cause.term.parameters[estimate.parameter.parameter];
             estimate.value.abs() - BEYOND * estimate.sigma <= parameter.range(imu).1
