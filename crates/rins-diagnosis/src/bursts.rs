@@ -55,8 +55,10 @@ pub(crate) fn gathered(mut causes: Vec<Cause>, duration: f64) -> (Vec<Cause>, Ve
 /// How much higher the frequency of one line is than that of another beside it \[Hz\].
 fn apart(line: &Cause, other: &Cause) -> Option<f64> {
     let run = |cause: &Cause| cause.parameters.first().and_then(|estimate| estimate.run);
-    let is_line = line.term.settings.first().is_some_and(|setting| setting.name == "frequency");
-    if !is_line || line.term.id != other.term.id || line.settings == other.settings {
+    if line.term.setting("frequency") != Some(0)
+        || line.term.id != other.term.id
+        || line.settings == other.settings
+    {
         return None;
     }
     let alike = line.settings[1..] == other.settings[1..] && run(line) == run(other);

@@ -126,6 +126,18 @@ impl Case<'_> {
         noises
     }
 
+    /// What the runs say of the estimates in a fit and of some candidates, for each of `noises`.
+    pub(crate) fn survey(
+        &self,
+        fit: &Fit,
+        list: &[Candidate],
+        noises: &[RunNoise],
+    ) -> Result<Survey, Indefinite> {
+        let mut survey = Survey::of(self.runs, fit, self.imu, list, noises)?;
+        survey.least_tilt = self.rounding.angle();
+        Ok(survey)
+    }
+
     /// The most likely of the effects that are significant, or may be with their own noise; events where they
     /// fit best.
     pub(crate) fn best(
@@ -137,13 +149,10 @@ impl Case<'_> {
     ) -> Result<Option<(Candidate, Trial)>, Indefinite> {
         let likely = matches!(self.knowledge, NoiseKnowledge::Likely(_));
         let threshold = if likely { threshold + SWALLOWED } else { threshold };
-        let significant = |candidate: &Candidate, trial: &Trial| {
-            let is_significant = trial.ln_p < threshold && trial.is_likely();
-            is_significant && !self.is_rounding(candidate, trial)
-        };
+        let is_significant = |trial: &Trial| trial.ln_p < threshold && trial.is_likely();
         let mut best = tried
             .iter()
-            .find(|trial| significant(&list[trial.candidate], trial))
+            .find(|trial| is_significant(trial))
             .map(|first| (list[first.candidate].clone(), first.clone()));
         let worth = best.as_ref().map_or(f64::NEG_INFINITY, |(_, first)| {
             (REFINED.1 * first.evidence).min(first.evidence)
@@ -156,7 +165,7 @@ impl Case<'_> {
         for event in events.take(REFINED.0) {
             let refined = self.refined(present, &list[event.candidate], event)?;
             let is_better = |(_, best): &(_, Trial)| refined.1.evidence > best.evidence;
-            if significant(&refined.0, &refined.1) && best.as_ref().is_none_or(is_better) {
+            if is_significant(&refined.1) && best.as_ref().is_none_or(is_better) {
                 best = Some(refined);
             }
         }
@@ -178,7 +187,7 @@ impl Case<'_> {
         let noises = self.noises(present);
         for part in FINER {
             let list = best.0.neighbours(part);
-            let survey = Survey::of(self.runs, present, self.imu, &list, &noises)?;
+            let survey = self.survey(present, &list, &noises)?;
             let Some(context) = Context::of(&survey, &[], &[]) else { break };
             for found in trials(&survey, &context, &list) {
                 if found.evidence > best.1.evidence {
@@ -199,7 +208,7 @@ impl Case<'_> {
         loop {
             let zone = dead_zone::of_shape(&best.0.chosen, &best.1.parameters);
             let list = dead_zone::with_another(&zone);
-            let survey = Survey::of(self.runs, present, self.imu, &list, &noises)?;
+            let survey = self.survey(present, &list, &noises)?;
             let Some(context) = Context::of(&survey, &[], &[]) else { return Ok(best) };
             match trials(&survey, &context, &list).into_iter().next() {
                 Some(found) if found.parameters.len() > best.1.parameters.len() => {

@@ -216,7 +216,7 @@ impl Case<'_> {
             let jolts = case.jolts(&present);
             list.extend(case.suggested(&present, &jolts));
             list.retain(|candidate| !refused.contains(&candidate.chosen.term.id));
-            let survey = Survey::of(runs, &present, imu, &list, &case.noises(&present))?;
+            let survey = case.survey(&present, &list, &case.noises(&present))?;
             let Some(context) = Context::of(&survey, &[], &[]) else { break };
             let tried = trials(&survey, &context, &list);
             not_testable.get_or_insert_with(|| unseen(&list, &tried));

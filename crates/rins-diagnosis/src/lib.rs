@@ -31,6 +31,7 @@ mod limits;
 mod lines;
 mod median;
 mod noise;
+mod noisier;
 mod periodic;
 mod residuals;
 mod rounding;

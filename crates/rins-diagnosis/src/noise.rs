@@ -9,7 +9,7 @@ use rins_terms::{Free, Term, catalogue};
 use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS};
 use crate::probability::ln_tail;
-use crate::survey::{RunNoise, Survey};
+use crate::survey::RunNoise;
 
 /// White noise that differs from the sheet's by less than this factor is as the sheet says.
 const WHITE: f64 = 1.25;
@@ -185,7 +185,7 @@ impl Case<'_> {
         after: &Fit,
         noises: &[RunNoise; N],
     ) -> Result<[f64; N], Indefinite> {
-        let survey = Survey::of(self.runs, after, self.imu, &[], noises)?;
+        let survey = self.survey(after, &[], noises)?;
         let of =
             |noise| survey.left(noise, &[], &[]).map_or(f64::NEG_INFINITY, |l| l.log_likelihood);
         Ok(std::array::from_fn(of))

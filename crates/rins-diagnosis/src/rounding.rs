@@ -4,13 +4,11 @@ use rins_estimation::{Fit, Run, Strengths};
 use rins_motion::{Comb, Combs};
 use rins_terms::{Term, catalogue};
 
-use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::Cause;
 use crate::noise::{estimate, triad};
 use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;
-use crate::trial::Trial;
 use crate::unexplained::Unexplained;
 
 /// Steps are told of that add more than this part to the variance of white noise in a sample: 0.8 of its sigma.
@@ -95,8 +93,9 @@ impl Rounding {
         of.fold(0.0, f64::max)
     }
 
-    /// The coarse step of the gyros as an angle \[rad\], of all runs' the largest; nothing if they read finely.
-    fn angle(&self) -> f64 {
+    /// The coarse step of the gyros as an angle \[rad\], of all runs' the largest, by which they are out for as long as a reading
+    /// stands; nothing if they read finely.
+    pub(crate) fn angle(&self) -> f64 {
         let of_gyros = self.runs.iter().filter_map(|run| run[0]);
         of_gyros.filter(|steps| steps.coarse).map(|steps| steps.of_sample).fold(0.0, f64::max)
     }
@@ -104,7 +103,10 @@ impl Rounding {
     /// Whether something that is left is what coarse steps do: how much their rounding scatters depends on how fast a
     /// reading goes over them.
     pub(crate) fn explains(&self, left: &Unexplained) -> bool {
-        let scatters = matches!(left.structure, Structure::Spread(_) | Structure::Tails);
+        let scatters = matches!(
+            left.structure,
+            Structure::Spread(_) | Structure::Noisier(_) | Structure::Tails
+        );
         let shows = |which: usize| SHOWN[which].iter().any(|of| left.channel.starts_with(of));
         let about_axis = left.channel == SHOWN_ABOUT_AXIS && self.is_coarse(left.run, ABOUT_AXIS);
         scatters
@@ -114,14 +116,6 @@ impl Rounding {
 }
 
 impl Case<'_> {
-    /// Whether an effect is a tilt of less than a step of the gyros: by so much they are out for as long as a reading stands.
-    pub(crate) fn is_rounding(&self, candidate: &Candidate, trial: &Trial) -> bool {
-        let term = candidate.chosen.term;
-        let usual = term.parameters.iter().map(|parameter| parameter.sigma(self.imu));
-        let largest = trial.amplitude * usual.fold(0.0, f64::max);
-        term.id == catalogue::BASE_TILT_STEP.id && largest < self.rounding.angle()
-    }
-
     /// The quantisation of either triad, where it is told of: of the first run that shows it.
     pub(crate) fn quantisation(&self, after: &Fit) -> Vec<Cause> {
         let of_triad = |which: usize| {

@@ -80,7 +80,7 @@ impl Case<'_> {
             let all: Vec<Candidate> =
                 list.iter().chain(later.iter().map(|(_, later)| later)).cloned().collect();
             let noises = self.between(before, &present);
-            let survey = Survey::of(self.runs, &present, self.imu, &all, &noises)?;
+            let survey = self.survey(&present, &all, &noises)?;
             let found_among = self.found_among(&present, &found)?;
             let mut causes = Vec::new();
             let mut change = None;
@@ -94,12 +94,7 @@ impl Case<'_> {
                 let Some(context) = Context::of(&survey, &places.concat(), &taken) else {
                     continue;
                 };
-                let mut tried = trials(&survey, &context, &list);
-                tried.retain(|trial| {
-                    let candidate = &list[trial.candidate];
-                    candidate.chosen.term.id == found[index].term.id
-                        || !self.is_rounding(candidate, trial)
-                });
+                let tried = trials(&survey, &context, &list);
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {

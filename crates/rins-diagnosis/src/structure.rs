@@ -44,6 +44,8 @@ pub enum Structure {
     Switching(usize),
     /// A spread that is not the same all along.
     Spread(Along),
+    /// A sensor whose noise is so many times that of the other one of its kind across the axis.
+    Noisier(f64),
     /// More large innovations than normal ones have.
     Tails,
     /// So many shocks, the strongest of them at this time \[s\] of the run.
@@ -77,7 +79,7 @@ pub(crate) struct Find {
 impl Find {
     /// Whether it was found in body axes, so that its channel is a sensor.
     pub(crate) const fn is_in_body(&self) -> bool {
-        matches!(self.structure, Structure::EveryTurn(_))
+        matches!(self.structure, Structure::EveryTurn(_) | Structure::Noisier(_))
     }
 }
 
@@ -134,16 +136,8 @@ impl Remainder<'_> {
 
     /// The innovations turned into body axes.
     pub(crate) fn in_body(&self) -> Vec<SVector<f64, CHANNELS>> {
-        let turned = |(nu, angle): (&SVector<f64, CHANNELS>, &f64)| {
-            let (sin, cos) = angle.sin_cos();
-            let mut turned = *nu;
-            for x in [0, 3] {
-                turned[x] = nu[x] * cos + nu[x + 1] * sin;
-                turned[x + 1] = nu[x + 1] * cos - nu[x] * sin;
-            }
-            turned
-        };
-        self.innovations.iter().zip(&self.motion.angles).map(turned).collect()
+        let each = self.innovations.iter().zip(&self.motion.angles);
+        each.map(|(nu, angle)| turned(nu, *angle)).collect()
     }
 
     /// The strongest line of any frequency, all along or in a part of the run.
@@ -346,6 +340,17 @@ impl Remainder<'_> {
         }
         best
     }
+}
+
+/// Turned by an angle about the axis.
+pub(crate) fn turned(nu: &SVector<f64, CHANNELS>, angle: f64) -> SVector<f64, CHANNELS> {
+    let (sin, cos) = angle.sin_cos();
+    let mut turned = *nu;
+    for x in [0, 3] {
+        turned[x] = nu[x] * cos + nu[x + 1] * sin;
+        turned[x + 1] = nu[x + 1] * cos - nu[x] * sin;
+    }
+    turned
 }
 
 /// The group of each epoch.

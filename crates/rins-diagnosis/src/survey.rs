@@ -35,6 +35,8 @@ pub(crate) struct Survey {
     sigmas: Vec<f64>,
     /// How far each of the model's parameters is from what was expected of it, in sigmas.
     off: DVector<f64>,
+    /// A tilt of the base by less is what the gyros' rounding does \[rad\].
+    pub(crate) least_tilt: f64,
 }
 
 struct Said {
@@ -117,7 +119,8 @@ impl Survey {
             })
             .collect::<Result<Vec<Said>, Indefinite>>()?;
         let terms = fit.model().terms.len();
-        Ok(Self { known, terms, places: layout.of_terms, said, sigmas: layout.sigmas, off })
+        let Places { of_terms: places, sigmas, .. } = layout;
+        Ok(Self { known, terms, places, said, sigmas, off, least_tilt: 0.0 })
     }
 
     /// What one run says of what comes after the `known` parameters, in units of these `scales`; the known ones are estimated
@@ -132,7 +135,8 @@ impl Survey {
         let off = known.iter().map(|known| (known.value - known.expected) / known.parameter.sigma);
         let off = DVector::from_iterator(known.len(), off);
         let said = vec![Said::of(evidence, &sigmas)];
-        Self { known: known.len(), terms: 0, places: Vec::new(), said, sigmas, off }
+        let (known, places) = (known.len(), Vec::new());
+        Self { known, terms: 0, places, said, sigmas, off, least_tilt: 0.0 }
     }
 
     /// How many strengths of the noise there are.

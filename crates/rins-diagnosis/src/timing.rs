@@ -7,7 +7,6 @@ use rins_terms::Chosen;
 use crate::candidates::{Candidate, EVENTS};
 use crate::case::Case;
 use crate::suggested::LOOKS;
-use crate::survey::Survey;
 
 impl Case<'_> {
     /// Of each of the effects that were found, among how many more of its kind than are always tried: a line among all
@@ -17,45 +16,40 @@ impl Case<'_> {
         present: &Fit,
         found: &[Chosen],
     ) -> Result<Vec<f64>, Indefinite> {
-        let of = |(index, cause): (usize, &Chosen)| match cause.term.setting("time") {
-            Some(place) => self.times_of(present, index, cause, place),
-            None if has_frequency(cause) => Ok(LOOKS * epochs(present)),
-            None => Ok(1.0),
-        };
-        found.iter().enumerate().map(of).collect()
-    }
-
-    fn times_of(
-        &self,
-        present: &Fit,
-        index: usize,
-        cause: &Chosen,
-        place: usize,
-    ) -> Result<f64, Indefinite> {
-        let epochs = epochs(present);
-        let list = [0.0, present.linear[0].mean_epoch()]
-            .map(|later| Candidate::beside(cause, place, later));
+        let epochs: f64 = present.linear.iter().map(|run| run.epochs() as f64).sum();
+        // Every event as it was found, and an epoch later.
+        let time = |cause: &Chosen| cause.term.setting("time");
+        let events = found.iter().filter_map(|cause| Some((cause, time(cause)?)));
+        let list: Vec<Candidate> = events
+            .flat_map(|(cause, place)| {
+                let epoch = present.linear[0].mean_epoch();
+                [0.0, epoch].map(|later| Candidate::beside(cause, place, later))
+            })
+            .collect();
         let noises = std::slice::from_ref(&present.noise);
-        let survey = Survey::of(self.runs, present, self.imu, &list, noises)?;
-        let own = survey.of_term(self.given.terms.len() + index).concat();
-        let likeness = survey.left(0, &own, &[]).and_then(|left| {
-            let places: Vec<usize> =
-                (0..2).flat_map(|candidate| survey.of_candidate(candidate).concat()).collect();
-            likeness(&left.block(&places).0)
-        });
-        let always = f64::from(EVENTS);
-        let times = likeness.map_or(always, |likeness| -likeness.ln() * epochs);
-        Ok(times.min(epochs).max(always) / always)
+        let survey = (!list.is_empty()).then(|| self.survey(present, &list, noises)).transpose()?;
+        let mut pairs = (0..list.len()).step_by(2);
+        let of = |(index, cause): (usize, &Chosen)| {
+            let pair = time(cause).and_then(|_| pairs.next());
+            let Some((first, survey)) = pair.zip(survey.as_ref()) else {
+                return if has_frequency(cause) { LOOKS * epochs } else { 1.0 };
+            };
+            let own = survey.of_term(self.given.terms.len() + index).concat();
+            let likeness = survey.left(0, &own, &[]).and_then(|left| {
+                let places = [first, first + 1].map(|one| survey.of_candidate(one).concat());
+                likeness(&left.block(&places.concat()).0)
+            });
+            let always = f64::from(EVENTS);
+            let times = likeness.map_or(always, |likeness| -likeness.ln() * epochs);
+            times.min(epochs).max(always) / always
+        };
+        Ok(found.iter().enumerate().map(of).collect())
     }
 }
 
 /// Whether an effect is a line of any frequency.
 pub(crate) fn has_frequency(chosen: &Chosen) -> bool {
     chosen.term.setting("frequency").is_some()
-}
-
-fn epochs(fit: &Fit) -> f64 {
-    fit.linear.iter().map(|run| run.epochs() as f64).sum()
 }
 
 /// The correlation of what is shown of the first half of some parameters with what is of the second, root mean square over their

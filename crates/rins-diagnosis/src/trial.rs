@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 use rayon::prelude::*;
-use rins_terms::Term;
+use rins_terms::{Term, catalogue};
 
 use crate::candidates::Candidate;
 use crate::dead_zone;
@@ -94,7 +94,8 @@ impl<'a> Context<'a> {
             let places: Vec<usize> = parameters.iter().flat_map(|&p| own[p].clone()).collect();
             let Some((score, statistic)) = self.scored(&places) else { continue };
             let sigmas = self.survey.sigmas(&places);
-            let possible = is_possible(shape, &parameters, &score.estimate.component_mul(&sigmas));
+            let amplitudes = score.estimate.component_mul(&sigmas);
+            let possible = self.survey.allows(shape, &parameters, &amplitudes);
             let evidence = if possible {
                 score.evidence - looks - unlikely - pliable - of_choice
             } else {
@@ -156,7 +157,7 @@ struct Prior {
 impl Prior {
     fn of(term: &Term) -> Self {
         let is_known = term.id != disturbance::ID;
-        let is_line = term.settings.iter().any(|setting| setting.name == "frequency");
+        let is_line = term.setting("frequency").is_some();
         Self {
             unlikely: if is_known { 0.0 } else { UNKNOWN },
             pliable: if is_known && is_line { OF_ANY_FREQUENCY } else { 0.0 },
@@ -195,10 +196,15 @@ pub(crate) fn best_pair<'a>(
     best.map(|(_, pair)| pair)
 }
 
-/// Whether a shape can have these amplitudes, in SI units.
-fn is_possible(shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
-    !dead_zone::is_of_widths(&shape.chosen)
-        || dead_zone::is_as_deep(&shape.chosen, parameters, amplitudes.as_slice())
+impl Survey {
+    /// Whether a shape can have these amplitudes, in SI units.
+    fn allows(&self, shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
+        let is_rounding = shape.chosen.term.id == catalogue::BASE_TILT_STEP.id
+            && amplitudes.amax() < self.least_tilt;
+        let is_as_deep = !dead_zone::is_of_widths(&shape.chosen)
+            || dead_zone::is_as_deep(&shape.chosen, parameters, amplitudes.as_slice());
+        is_as_deep && !is_rounding
+    }
 }
 
 /// The best shape of every term that the runs show anything of, most likely first.

@@ -20,9 +20,9 @@ const SHOWN: [&str; 6] =
 /// The figures that the paper is about.
 const OF_INTEREST: [&str; 3] = ["gyro.misalignment.xz", "gyro.misalignment.yz", "gyro.scale.z"];
 
-/// In so many ways something is looked for: structure in what is shown, heavy tails, causes that change, and biases that
-/// switch. They share the false alarms.
-const WAYS: f64 = 4.0;
+/// In so many ways something is looked for: structure in what is shown, sensors that are noisier, heavy tails, causes that
+/// change, and biases that switch. They share the false alarms.
+const WAYS: f64 = 5.0;
 
 /// A part of a run of fewer epochs is none.
 const LEAST_PART: usize = 20;
@@ -56,18 +56,24 @@ impl Case<'_> {
         let threshold = FALSE_ALARMS.ln() - 2.0_f64.ln() - (self.runs.len() as f64).ln();
         let mut found = Vec::new();
         for run in 0..self.runs.len() {
-            let innovations = after.innovations(run);
+            let mut innovations = after.innovations(run);
             let motion = TableMotion::of(&after.linear[run]);
-            let left = Remainder { innovations: &innovations, motion: &motion };
-            let finds = left.finds();
+            let of_sensors = Remainder { innovations: &innovations, motion: &motion };
+            let noisier = of_sensors.noisier().filter(|find| find.ln_p < threshold);
+            if noisier.is_some() {
+                innovations = of_sensors.evened();
+            }
+            let finds = Remainder { innovations: &innovations, motion: &motion }.finds();
             let is_signal = |structure| {
                 is_steady(structure)
                     || matches!(structure, Structure::Chirp(..) | Structure::EveryTurn(_))
             };
             // The strongest signal, and the strongest of what is none: each is seen in many ways.
-            for signal in [true, false] {
+            let strongest = [true, false].map(|signal| {
                 let strongest = finds.iter().find(|find| is_signal(find.structure) == signal);
-                let Some(find) = strongest.filter(|find| find.ln_p < threshold) else { continue };
+                strongest.filter(|find| find.ln_p < threshold).copied()
+            });
+            for find in strongest.into_iter().chain([noisier]).flatten() {
                 let names = if find.is_in_body() { &CHANNELS[..] } else { &SHOWN };
                 let mut one = Unexplained {
                     run,
@@ -115,6 +121,7 @@ impl Case<'_> {
         found.extend(modulated(after, causes));
         found.extend(self.of_every_turn(after, causes));
         found.retain(|left| is_significant(left) && !self.rounding.explains(left));
+        let mut found = told_from_noise(found);
         // A few shocks look like outliers, and what else is left may look like shocks.
         if found.iter().all(|left| left.structure == Structure::Tails) {
             for run in 0..self.runs.len() {
@@ -141,7 +148,7 @@ impl Case<'_> {
         chosen.settings[0] = setting;
         let list = [Candidate { chosen, looks: 1.0, step: None }];
         let noises = std::slice::from_ref(&after.noise);
-        let survey = Survey::of(self.runs, after, self.imu, &list, noises)?;
+        let survey = self.survey(after, &list, noises)?;
         let Some(left) = survey.left(0, &[], &[]) else { return Ok(()) };
         let own = survey.of_candidate(0);
         let mut strongest = 0.0;
@@ -270,6 +277,23 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
     let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * statistic.sqrt()));
     OF_INTEREST.iter().filter_map(of).collect()
+}
+
+/// Without what is another of the same sensor: a bias that switches and noise with heavy tails spread more than the other sensor
+/// of a kind, and noise that is larger looks like them. What is least likely by chance stays.
+fn told_from_noise(mut found: Vec<Unexplained>) -> Vec<Unexplained> {
+    let scatters =
+        |one: &Unexplained| matches!(one.structure, Structure::Switching(_) | Structure::Tails);
+    let is_noisier = |one: &Unexplained| matches!(one.structure, Structure::Noisier(_));
+    let all = found.clone();
+    found.retain(|one| {
+        let other = |other: &&Unexplained| {
+            (one.run, one.channel) == (other.run, other.channel)
+                && (is_noisier(one) && scatters(other) || scatters(one) && is_noisier(other))
+        };
+        all.iter().filter(other).all(|other| one.ln_p <= other.ln_p)
+    });
+    found
 }
 
 /// Whether chance makes nothing like it, of all ways in which something is looked for.

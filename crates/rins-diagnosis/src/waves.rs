@@ -11,7 +11,6 @@ use crate::noise::triad;
 use crate::periodic::{is_line, strongest, waveforms};
 use crate::probability::ln_tail;
 use crate::structure::Structure;
-use crate::survey::Survey;
 use crate::trial::Context;
 use crate::unexplained::{Unexplained, worst};
 
@@ -129,7 +128,7 @@ impl Case<'_> {
         if list.is_empty() {
             return Ok(None);
         }
-        let survey = Survey::of(self.runs, after, self.imu, &list, &self.noises(after))?;
+        let survey = self.survey(after, &list, &self.noises(after))?;
         let Some(context) = Context::of(&survey, &[], &[]) else { return Ok(None) };
         let places: Vec<usize> =
             (0..list.len()).flat_map(|candidate| survey.of_candidate(candidate).concat()).collect();

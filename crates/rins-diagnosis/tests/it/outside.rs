@@ -1,8 +1,12 @@
 //! What is in no catalogue: a bias that switches, a wave that is no sine.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
 use rins_diagnosis::{Diagnosis, Structure, Unexplained};
 use rins_estimation::{NoiseKnowledge, Run};
 use rins_frames::InFrame;
@@ -10,7 +14,7 @@ use rins_frames::units::{DEG_PER_HOUR, MICRO_G};
 use rins_terms::Model;
 
 use crate::hidden::{RATES, found};
-use crate::support::run;
+use crate::support::{INTERVAL, fibre, run};
 
 /// Rates \[rad/s\] and forces \[m/s²\] of a sample.
 type Readings = ([f64; 3], [f64; 3]);
@@ -218,4 +222,35 @@ fn periods(diagnosis: &Diagnosis, channel: &str) -> Vec<f64> {
         _ => None,
     };
     of_channel.filter_map(period).collect()
+}
+
+/// A data sheet has one figure for three sensors, of which one may be worse than the others.
+#[test]
+fn sensor_that_is_noisier_than_the_other_is_told() {
+    let imu = fibre();
+    let cases = [
+        ("gyro.y", 0.0, 0),
+        ("gyro.y", 1.5 * imu.gyro.noise_density, 1),
+        ("accel.x", 1.5 * imu.accel.noise_density, 1),
+    ];
+    for (sensor, density, told) in cases {
+        let random = RefCell::new(Pcg64::seed_from_u64(7));
+        let run = with(0.0, 180, |_| {
+            let white: f64 = StandardNormal.sample(&mut *random.borrow_mut());
+            let more = density * white / INTERVAL.sqrt();
+            match sensor {
+                "gyro.y" => ([0.0, more, 0.0], [0.0; 3]),
+                _ => ([0.0; 3], [more, 0.0, 0.0]),
+            }
+        });
+        let diagnosis = found(&run, NoiseKnowledge::Likely);
+        assert!(diagnosis.causes.is_empty(), "{sensor}: {:?}", diagnosis.causes);
+        assert_eq!(diagnosis.unexplained.len(), told, "{sensor}: {:?}", diagnosis.unexplained);
+        for one in diagnosis.unexplained {
+            let Structure::Noisier(times) = one.structure else { panic!("{sensor}: {one:?}") };
+            assert_eq!(one.channel, sensor);
+            // White noise of 1 and of 1.5 beside each other is of 1.8.
+            assert!((times / 1.8 - 1.0).abs() < 0.15, "{sensor}: {times}");
+        }
+    }
 }

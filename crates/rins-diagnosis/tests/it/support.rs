@@ -10,6 +10,9 @@ use rins_terms::Model;
 
 const ENCODER: f64 = 0.5 * ARCSEC;
 
+/// The time between samples \[s\].
+pub(crate) const INTERVAL: f64 = 0.04;
+
 /// The data sheet of a navigation-grade fibre-optic unit.
 pub(crate) fn fibre() -> ImuSpec {
     ImuSpec {
@@ -52,7 +55,7 @@ pub(crate) fn run(rates: &[f64], effects: Model, flicker: f64, seed: u64) -> Run
             station,
             nav_from_table,
             Profile::new(&turns, Some(5.0 * DEG_PER_SECOND)).unwrap(),
-            0.04,
+            INTERVAL,
         )
     };
     let rig = Rig {

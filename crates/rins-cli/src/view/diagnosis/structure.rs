@@ -25,6 +25,9 @@ pub(crate) fn structure_in_words(one: &Unexplained) -> String {
         }
         Structure::Switching(times) => format!("switches between two levels, {times} times"),
         Structure::Spread(along) => format!("spread that changes with {}", along_in_words(along)),
+        Structure::Noisier(times) => {
+            format!("noise {} times that of the other across the axis", figure(times, 3))
+        }
         Structure::Tails => "more outliers than normal noise has".into(),
         Structure::Shocks(1, at) => format!("shock at {at:.1} s"),
         Structure::Shocks(count, at) => {
