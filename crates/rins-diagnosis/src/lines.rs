@@ -7,7 +7,7 @@ use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS, Rival};
 use crate::noise::estimate;
 use crate::probability::ln_tail;
-use crate::residuals::{beyond, in_axis_frame};
+use crate::residuals::{ABOUT_AXIS, beyond, in_axis_frame};
 use crate::settling::RIVALS;
 use crate::sinusoid::{Series, Sinusoid, sinusoid};
 use crate::spectrum::{Peak, Spectrum, highest};
@@ -251,21 +251,18 @@ impl Readings<'_> {
         ln_p: f64,
     ) -> Option<FastLine> {
         let frequency = line.peak.frequency;
-        let pair = match line.place {
-            Place::Base => of_base.each_ref(),
-            Place::Axis(axis) => [&self.of_sensors[axis], &self.of_sensors[3 + axis]],
+        let shown = match line.place {
+            // The gyro about the axis is the same in the body and in the axis frame.
+            Place::Base => vec![&of_base[0], &of_base[1], &self.of_sensors[ABOUT_AXIS]],
+            Place::Axis(axis) => vec![&self.of_sensors[axis], &self.of_sensors[3 + axis]],
         };
         // A sensor of which nothing is known has no noise.
-        let with_noise = |(which, values): (usize, &'_ Vec<f64>)| {
+        let with_noise = |(which, values): (usize, &&Vec<f64>)| {
             Some((which, self.spectrum(values)?.noise_at(frequency)))
         };
-        let known: Vec<(usize, f64)> = pair
-            .iter()
-            .enumerate()
-            .filter_map(|(which, values)| with_noise((which, values)))
-            .collect();
+        let known: Vec<(usize, f64)> = shown.iter().enumerate().filter_map(with_noise).collect();
         let series: Vec<Series<'_>> =
-            known.iter().map(|&(which, noise)| Series { values: pair[which], noise }).collect();
+            known.iter().map(|&(which, noise)| Series { values: shown[which], noise }).collect();
         let fitted =
             sinusoid(&series, &middles(self.run), self.run.recording.mean_interval(), frequency)?;
         let mut chosen = effect(line.place, fitted.frequency);

@@ -302,11 +302,12 @@ impl Question<'_> {
         rivals
     }
 
-    /// The places of what each sensor shows of the cause, if it is a matrix and more than one does.
+    /// The places of what each sensor shows of the cause, if it is a matrix and more than one does. A base that sways about three
+    /// axes at one frequency is one thing.
     fn rows(&self) -> Vec<Vec<usize>> {
         let found = &self.found[self.index];
         let n = found.values.len();
-        if n <= 3 || !n.is_multiple_of(3) {
+        if n <= 3 || !n.is_multiple_of(3) || has_frequency(found) {
             return Vec::new();
         }
         let mut rows = vec![Vec::new(); 3];

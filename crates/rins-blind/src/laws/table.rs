@@ -29,7 +29,7 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
         "base_sway",
         Law::Tilt(|p, s, pose| {
             let (sin, cos) = (TAU * s[0] * pose.time).sin_cos();
-            Vector3::new(p[0] * cos + p[1] * sin, p[2] * cos + p[3] * sin, 0.0)
+            Vector3::from_fn(|axis, _| p[2 * axis] * cos + p[2 * axis + 1] * sin)
         }),
     ),
     (

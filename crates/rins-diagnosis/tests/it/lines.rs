@@ -16,8 +16,10 @@ fn line(frequency: f64, axis: f64, values: &[f64]) -> Chosen {
         .with_values(values)
 }
 
-fn sway(frequency: f64, values: &[f64]) -> Chosen {
-    Chosen::new(&catalogue::BASE_SWAY).with_setting("frequency", frequency).with_values(values)
+/// With these amplitudes \[arcsec\].
+fn sway(frequency: f64, values: &[f64; 6]) -> Chosen {
+    let values = values.map(|value| value * ARCSEC);
+    Chosen::new(&catalogue::BASE_SWAY).with_setting("frequency", frequency).with_values(&values)
 }
 
 fn hiding(terms: &[Chosen], rates: &[f64], seed: u64) -> Diagnosis {
@@ -43,12 +45,12 @@ fn assert_is(cause: &Cause, truth: &Chosen) {
 fn a_supposed_line_is_measured() {
     let hidden = [
         line(7.31, 2.0, &[0.01 * DEG_PER_HOUR, 0.06 * DEG_PER_HOUR, 0.0, 60.0 * MICRO_G]),
-        sway(2.3, &[0.01 * ARCSEC, 0.06 * ARCSEC, 0.02 * ARCSEC, 0.0]),
+        sway(2.3, &[0.01, 0.06, 0.02, 0.0, 0.0, 0.03]),
     ];
     let run = run(&RATES, Model { terms: hidden.to_vec() }, 0.0, 209);
     let supposed = [
         line(7.3098, 2.0, &[0.0; 4]).estimated(),
-        sway(2.3, &[0.0; 4]).estimated(),
+        sway(2.3, &[0.0; 6]).estimated(),
         Chosen::new(&catalogue::ACCEL_LEVER_ARM).estimated(),
     ];
     let imu = fibre();
@@ -70,10 +72,10 @@ fn lines_are_found_at_their_frequency() {
     let hidden = [
         line(0.137, 2.0, &[rate, 0.0, 0.0, 0.0]),
         line(7.31, 2.0, &[0.0, 2.0 * rate, 0.0, 0.0]),
-        sway(0.21, &[0.3 * ARCSEC, 0.0, 0.0, 0.2 * ARCSEC]),
+        sway(0.21, &[0.3, 0.0, 0.0, 0.2, 0.1, 0.1]),
         // An epoch shows these at 0.3 Hz, if at all.
-        sway(2.3, &[0.05 * ARCSEC, 0.0, 0.0, -0.05 * ARCSEC]),
-        sway(2.3, &[0.01 * ARCSEC, 0.06 * ARCSEC, 0.0, 0.0]),
+        sway(2.3, &[0.05, 0.0, 0.0, -0.05, 0.0, 0.03]),
+        sway(2.3, &[0.01, 0.06, 0.0, 0.0, 0.0, 0.0]),
         // One cause on both sensors of an axis.
         line(5.77, 1.0, &[2.0 * rate, 0.0, 0.0, 60.0 * MICRO_G]),
     ];
@@ -91,7 +93,7 @@ fn lines_are_found_at_their_frequency() {
 #[test]
 fn faint_lines_are_named() {
     let line = line(0.1364, 2.0, &[0.0094 * DEG_PER_HOUR, 0.0, 0.0, 0.0]);
-    let sway = sway(0.2136, &[0.0075 * ARCSEC, 0.0, 0.0, 0.0]);
+    let sway = sway(0.2136, &[0.0075, 0.0, 0.0, 0.0, 0.0, 0.0]);
     for (seed, chosen) in [(230, line), (232, sway)] {
         let diagnosis = hiding(std::slice::from_ref(&chosen), &RATES, seed);
         let [cause] = &diagnosis.causes[..] else { panic!("{chosen:?}: {:?}", diagnosis.causes) };
@@ -117,7 +119,7 @@ fn line_on_two_axes_is_no_sway() {
 /// On a table that stands still the gyros do not tell a base that sways from a line in them.
 #[test]
 fn sway_of_a_table_at_rest_may_be_a_line() {
-    let swaying = sway(3.3, &[0.0, 0.1 * ARCSEC, 0.0, 0.0]);
+    let swaying = sway(3.3, &[0.0, 0.1, 0.0, 0.0, 0.0, 0.0]);
     let diagnosis = hiding(&[swaying], &[0.0; 7], 211);
     assert!(!diagnosis.causes.is_empty());
     for cause in &diagnosis.causes {

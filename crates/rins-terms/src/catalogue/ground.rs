@@ -50,10 +50,10 @@ pub static BASE_SWAY: Term = Term {
     also: &[],
     name: "sway of the base",
     cause: "a building, a pier or a chair rocks at a frequency of its own",
-    equation: "(θ_x, θ_y) = c cos 2πft + s sin 2πft",
+    equation: "θ = c cos 2πft + s sin 2πft, about the axis too if that is not upright",
     source: "one mode of a structure",
     parameters: &named(
-        ["x_cos", "x_sin", "y_cos", "y_sin"],
+        ["x_cos", "x_sin", "y_cos", "y_sin", "z_cos", "z_sin"],
         Unit::ARCSEC,
         Prior::Anywhere(0.1, 5.0),
     ),
@@ -64,8 +64,9 @@ pub static BASE_SWAY: Term = Term {
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(std::f64::consts::TAU * settings[0] * moment.end.time);
-        out.tilt[0] += p[0] * cos + p[1] * sin;
-        out.tilt[1] += p[2] * cos + p[3] * sin;
+        for axis in 0..3 {
+            out.tilt[axis] += p[2 * axis] * cos + p[2 * axis + 1] * sin;
+        }
     }),
 };
 
