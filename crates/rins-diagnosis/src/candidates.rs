@@ -4,6 +4,7 @@ use rins_estimation::{Reference, Run};
 use rins_terms::{Chosen, Model, Need, Setting, Term, catalogue};
 
 use crate::dead_zone;
+use crate::timing::has_frequency;
 
 /// Choices of a frame: nothing could be named by them that a baseline does not hold.
 const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
@@ -138,7 +139,7 @@ fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let alike = |_: f64| 1.0;
     if dead_zone::is_true(&chosen) {
         dead_zone::shapes()
-    } else if term.setting("frequency").is_some() {
+    } else if has_frequency(term) {
         Vec::new()
     } else if let Some(place) = term.setting("time") {
         let step = duration / f64::from(EVENTS);

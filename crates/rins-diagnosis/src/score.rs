@@ -207,7 +207,9 @@ mod tests {
         let of = |term| choices(term).into_iter().map(|choice| choice.parameters);
         assert!(of(&catalogue::ENCODER_ECCENTRICITY).eq([[0, 1]]));
         assert!(of(&catalogue::INTERFERENCE_LINE).eq([vec![0, 1], vec![2, 3], vec![0, 1, 2, 3]]));
-        assert_eq!(choices(&catalogue::BASE_SWAY).len(), 7);
+        let (xy, xz, yz) = (vec![0, 1, 2, 3], vec![0, 1, 4, 5], vec![2, 3, 4, 5]);
+        let [x, y, z] = [vec![0, 1], vec![2, 3], vec![4, 5]];
+        assert!(of(&catalogue::BASE_SWAY).eq([x, y, xy, z, xz, yz, (0..6).collect()]));
         assert_eq!(choices(&catalogue::ACCEL_LEVER_ARM).len(), 3);
     }
 

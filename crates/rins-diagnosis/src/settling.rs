@@ -189,7 +189,7 @@ impl Case<'_> {
             if cause.term.id == catalogue::ENCODER_HARMONIC.id && !list.iter().any(is_listed) {
                 list.push(Candidate::high_harmonic(cause.settings[0]));
             }
-            if has_frequency(cause) {
+            if has_frequency(cause.term) {
                 // That there is a line is known by now: what it is, is asked.
                 let at = at_frequency(cause.settings[0]).into_iter();
                 list.extend(at.map(|chosen| Candidate { chosen, looks: 1.0, step: None }));
@@ -244,7 +244,7 @@ impl Question<'_> {
 
     /// Whether the cause itself is significant. Of a line the frequency is not asked again: it was found against all others.
     fn is_significant(&self, own: &Trial) -> bool {
-        let is_line = has_frequency(&self.found[self.index]);
+        let is_line = has_frequency(self.found[self.index].term);
         own.ln_p + if is_line { 0.0 } else { self.among.ln() } < self.threshold()
     }
 
@@ -307,7 +307,7 @@ impl Question<'_> {
     fn rows(&self) -> Vec<Vec<usize>> {
         let found = &self.found[self.index];
         let n = found.values.len();
-        if n <= 3 || !n.is_multiple_of(3) || has_frequency(found) {
+        if n <= 3 || !n.is_multiple_of(3) || has_frequency(found.term) {
             return Vec::new();
         }
         let mut rows = vec![Vec::new(); 3];

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix};
 use rins_estimation::{Fit, Indefinite};
-use rins_terms::Chosen;
+use rins_terms::{Chosen, Term};
 
 use crate::candidates::{Candidate, EVENTS};
 use crate::case::Case;
@@ -17,39 +17,40 @@ impl Case<'_> {
         found: &[Chosen],
     ) -> Result<Vec<f64>, Indefinite> {
         let epochs: f64 = present.linear.iter().map(|run| run.epochs() as f64).sum();
-        // Every event as it was found, and an epoch later.
-        let time = |cause: &Chosen| cause.term.setting("time");
-        let events = found.iter().filter_map(|cause| Some((cause, time(cause)?)));
-        let list: Vec<Candidate> = events
-            .flat_map(|(cause, place)| {
-                let epoch = present.linear[0].mean_epoch();
-                [0.0, epoch].map(|later| Candidate::beside(cause, place, later))
-            })
+        let of_lines = |cause: &Chosen| {
+            if has_frequency(cause.term) { LOOKS * epochs } else { 1.0 }
+        };
+        let mut among: Vec<f64> = found.iter().map(of_lines).collect();
+        let events: Vec<(usize, usize)> = (0..found.len())
+            .filter_map(|index| Some((index, found[index].term.setting("time")?)))
             .collect();
-        let noises = std::slice::from_ref(&present.noise);
-        let survey = (!list.is_empty()).then(|| self.survey(present, &list, noises)).transpose()?;
-        let mut pairs = (0..list.len()).step_by(2);
-        let of = |(index, cause): (usize, &Chosen)| {
-            let pair = time(cause).and_then(|_| pairs.next());
-            let Some((first, survey)) = pair.zip(survey.as_ref()) else {
-                return if has_frequency(cause) { LOOKS * epochs } else { 1.0 };
-            };
+        if events.is_empty() {
+            return Ok(among);
+        }
+        // Every event as it was found, and an epoch later.
+        let epoch = present.linear[0].mean_epoch();
+        let twice = |&(index, time): &(usize, usize)| {
+            [0.0, epoch].map(|later| Candidate::beside(&found[index], time, later))
+        };
+        let list: Vec<Candidate> = events.iter().flat_map(twice).collect();
+        let survey = self.survey(present, &list, std::slice::from_ref(&present.noise))?;
+        let always = f64::from(EVENTS);
+        for (event, (index, _)) in events.into_iter().enumerate() {
             let own = survey.of_term(self.given.terms.len() + index).concat();
             let likeness = survey.left(0, &own, &[]).and_then(|left| {
-                let places = [first, first + 1].map(|one| survey.of_candidate(one).concat());
+                let places = [0, 1].map(|later| survey.of_candidate(2 * event + later).concat());
                 likeness(&left.block(&places.concat()).0)
             });
-            let always = f64::from(EVENTS);
             let times = likeness.map_or(always, |likeness| -likeness.ln() * epochs);
-            times.min(epochs).max(always) / always
-        };
-        Ok(found.iter().enumerate().map(of).collect())
+            among[index] = times.min(epochs).max(always) / always;
+        }
+        Ok(among)
     }
 }
 
 /// Whether an effect is a line of any frequency.
-pub(crate) fn has_frequency(chosen: &Chosen) -> bool {
-    chosen.term.setting("frequency").is_some()
+pub(crate) fn has_frequency(term: &Term) -> bool {
+    term.setting("frequency").is_some()
 }
 
 /// The correlation of what is shown of the first half of some parameters with what is of the second, root mean square over their

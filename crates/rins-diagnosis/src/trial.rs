@@ -10,6 +10,7 @@ use crate::disturbance;
 use crate::probability::ln_tail;
 use crate::score::{Choice, Score, choices, scored};
 use crate::survey::{Left, Survey};
+use crate::timing::has_frequency;
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
 pub(crate) const UNKNOWN: f64 = 10.0;
@@ -157,7 +158,7 @@ struct Prior {
 impl Prior {
     fn of(term: &Term) -> Self {
         let is_known = term.id != disturbance::ID;
-        let is_line = term.setting("frequency").is_some();
+        let is_line = has_frequency(term);
         Self {
             unlikely: if is_known { 0.0 } else { UNKNOWN },
             pliable: if is_known && is_line { OF_ANY_FREQUENCY } else { 0.0 },
