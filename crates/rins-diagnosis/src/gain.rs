@@ -132,19 +132,26 @@ impl Gain {
         Self::of((runs, &held), [before, after].map(anew), imu, knowledge)
     }
 
-    /// The same on runs that played no part at all: what belongs to the sensors is held as it was found, and what belongs to
-    /// a run, such as its turn-on biases, is estimated from the first 70 % of its every stretch.
+    /// The same on `others`, runs that played no part at all. What the causes say of the sensors is held as it was found in
+    /// `runs`. All else is estimated from those and from the first 70 % of the others' every stretch: one run seldom shows
+    /// all errors of an IMU, and those that it does not show would be wrong in another attitude.
     ///
     /// # Errors
     /// [`GainError`] if too little can be held out, or a model does not fit the rest.
     pub fn on(
         others: &[Run],
+        runs: &[Run],
         (before, after): (&Fit, &Fit),
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
-        let models = [(None, transferred(before)), (None, transferred(after))];
-        Self::of((others, &ends(others)), models, imu, knowledge)
+        let given = before.model().terms.len();
+        let models = [(None, as_expected(before)), (None, with_causes_held(after, given))];
+        let all = [runs, others].concat();
+        let none = vec![Vec::new(); runs.len()];
+        let held = [none, ends(others)].concat();
+        let gain = Self::of((&all, &held), models, imu, knowledge)?;
+        Ok(Self { spans: gain.spans[runs.len()..].to_vec(), ..gain })
     }
 
     fn of(
@@ -222,11 +229,12 @@ fn without_nameless(mut model: Model) -> Model {
     model
 }
 
-/// The same with what belongs to the sensors held as it was found.
-fn transferred(fit: &Fit) -> Model {
+/// The same with what belongs to the sensors held as it was found, of all terms but the first, which were `given`.
+fn with_causes_held(fit: &Fit, given: usize) -> Model {
     let mut model = fit.model().clone();
     take_back(&mut model, fit);
-    for estimate in fit.parameters.iter().filter(|e| e.parameter.owner == Owner::Sensor) {
+    let of_sensors = fit.parameters.iter().filter(|e| e.parameter.owner == Owner::Sensor);
+    for estimate in of_sensors.filter(|estimate| estimate.parameter.term >= given) {
         let at = &estimate.parameter;
         model.terms[at.term].values[at.parameter] = estimate.value;
         model.terms[at.term].roles[at.parameter] = Role::Held;

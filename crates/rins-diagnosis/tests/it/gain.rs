@@ -2,10 +2,11 @@
 
 use rins_diagnosis::{Gain, GainError, GainVerdict, Overlay};
 use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
-use rins_frames::units::{ARCSEC, PPM};
+use rins_frames::EulerAngles;
+use rins_frames::units::{ARCSEC, DEG, PPM};
 use rins_terms::{Chosen, Model, catalogue};
 
-use crate::support::{fibre, run};
+use crate::support::{fibre, run, run_at};
 
 /// Stretches of 50 s: a rest, and such of five revolutions and more.
 const RATES: [f64; 5] = [0.0, 40.0, -40.0, 80.0, -80.0];
@@ -104,9 +105,11 @@ fn the_last_of_every_stretch_is_held_out_in_whole_revolutions() {
 #[test]
 fn what_was_found_is_carried_to_another_run() {
     let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
-    let (before, after) = fits(&hiding(3.0, 95));
+    let found = hiding(3.0, 95);
+    let (before, after) = fits(&found);
     let on = |other: &Run| {
-        Gain::on(std::slice::from_ref(other), (&before, &after), &fibre(), known).unwrap()
+        let [others, runs] = [other, &found].map(std::slice::from_ref);
+        Gain::on(others, runs, (&before, &after), &fibre(), known).unwrap()
     };
     let same = on(&hiding(3.0, 96));
     assert_eq!(same.verdict, GainVerdict::Improved, "{same:?}");
@@ -115,11 +118,32 @@ fn what_was_found_is_carried_to_another_run() {
     assert!(other.rise() < -20.0, "{}", other.rise());
 }
 
+/// A level table shows nothing of the scale of the accelerometers across its axis. What is only guessed of it is no part of
+/// the model that is carried to a table that lies on its side.
+#[test]
+fn what_one_run_does_not_show_is_not_held_against_another() {
+    let hidden = || {
+        let scale = Chosen::new(&catalogue::ACCEL_SCALE).with_values(&[3e-4, -2e-4, 2e-4]);
+        Model { terms: vec![asymmetric().with_values(&[3.0 * PPM]), scale] }
+    };
+    let at = |roll: f64, seed| {
+        let attitude = EulerAngles { roll: roll * DEG, pitch: 0.0, yaw: 40.0 * DEG };
+        run_at(attitude, &RATES, hidden(), 0.0, seed)
+    };
+    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let level = [at(0.0, 102)];
+    let (before, after) = fits(&level[0]);
+    let gain = Gain::on(&[at(80.0, 103)], &level, (&before, &after), &fibre(), known).unwrap();
+    assert_eq!(gain.verdict, GainVerdict::Improved, "{gain:?}");
+    assert_eq!(gain.spans.len(), 1);
+    assert!((gain.after.nis_mean - 6.0).abs() < 0.8, "{}", gain.after.nis_mean);
+}
+
 /// Navigation starts from where the base is by then. Level to 60 seconds of arc it would gain 3 mm/s every second.
 #[test]
 fn base_that_gave_way_is_where_navigation_starts() {
     let step = || Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 80.0);
-    let hidden = Model { terms: vec![step().with_values(&[60.0 * ARCSEC, 0.0])] };
+    let hidden = Model { terms: vec![step().with_values(&[60.0 * ARCSEC, 0.0, 0.0])] };
     let run = run(&RATES, hidden, 0.0, 101);
     let model = Model::full();
     let (before, after) = (fitted(&run, &model), fitted(&run, &model.with(step().estimated())));

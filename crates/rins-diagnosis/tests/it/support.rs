@@ -28,10 +28,22 @@ pub(crate) fn fibre() -> ImuSpec {
 
 /// A run over these rates \[deg/s\], 50 s each, with `effects` hidden in it; its gyros flicker by `flicker` \[rad/s\].
 pub(crate) fn run(rates: &[f64], effects: Model, flicker: f64, seed: u64) -> Run {
+    let attitude = EulerAngles { roll: 25.0 * DEG, pitch: 5.0 * DEG, yaw: 40.0 * DEG };
+    run_at(attitude, rates, effects, flicker, seed)
+}
+
+/// The same with the table in some attitude.
+pub(crate) fn run_at(
+    attitude: EulerAngles,
+    rates: &[f64],
+    effects: Model,
+    flicker: f64,
+    seed: u64,
+) -> Run {
     let imu = fibre();
     let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
     let station = Station::with_normal_gravity(site);
-    let nav_from_table = EulerAngles { roll: 25.0 * DEG, pitch: 5.0 * DEG, yaw: 40.0 * DEG }.dcm();
+    let nav_from_table = attitude.dcm();
     let turns: Vec<Segment> =
         rates.iter().map(|rate| Segment { rate: rate * DEG_PER_SECOND, duration: 50.0 }).collect();
     let gyro = NoiseModel {

@@ -28,11 +28,12 @@ impl Measured {
     /// What `after` gains over `before` on a part of the runs of a case, or on another run.
     pub(crate) fn of(case: &Case, held_out: Option<&Prepared>, fits: (&Fit, &Fit)) -> Self {
         let (imu, knowledge) = (case.imu(), case.knowledge());
+        let runs = case.given();
         match held_out {
-            None => Self { on: On::Ends, gain: Gain::within(&case.given(), fits, imu, knowledge) },
+            None => Self { on: On::Ends, gain: Gain::within(&runs, fits, imu, knowledge) },
             Some(other) => Self {
                 on: On::Run(other.name.clone()),
-                gain: Gain::on(std::slice::from_ref(&other.run), fits, imu, knowledge),
+                gain: Gain::on(std::slice::from_ref(&other.run), &runs, fits, imu, knowledge),
             },
         }
     }
