@@ -14,6 +14,7 @@ use crate::rounding::Rounding;
 use crate::settling::Found;
 use crate::structure::Structure;
 use crate::survey::Survey;
+use crate::timing::has_frequency;
 use crate::trial::{Context, Trial, best_pair, trials};
 use crate::unexplained::{Unexplained, described};
 use crate::wander::CHOSEN;
@@ -260,8 +261,10 @@ impl Case<'_> {
                 progress(candidate.chosen.term.id);
             }
             present = fitted;
-            // Each of two that settle has taken a part of the other, and what neither has would pass for something else.
-            if settles_twice(&found) {
+            // Each of two that settle has taken a part of the other, and what a line leaves whose frequency is a little off is
+            // another line beside it: either would pass for something else.
+            let is_line = |(one, _): &(Candidate, Trial)| has_frequency(one.chosen.term);
+            if settles_twice(&found) || accepted.iter().any(is_line) {
                 present = case.at_their_best(present, &mut found)?.0;
             }
         }

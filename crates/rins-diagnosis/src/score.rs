@@ -1,7 +1,7 @@
 //! How well a block of parameters explains what is left, and at what price.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use rins_terms::Term;
+use rins_terms::{Term, catalogue};
 
 /// A direction of an effect's parameters counts as shown if its amplitude is found to this part of what is usual at least.
 const LEAST_SHOWN: f64 = 1.0;
@@ -21,6 +21,10 @@ const MOST_UNUSUAL: f64 = 5.0;
 /// What two elements of a matrix pay beforehand that are neither of one sensor nor of the two that turn, to the same or each to
 /// its own: it happens, but one thing that acts on all of these is more likely.
 const SCATTERED: f64 = 3.0;
+
+/// What tilts the base turns it about the table's axis besides, if that is not upright, but never about that alone: nobody could
+/// tell this from a slip of the encoder.
+const ABOUT_AXIS: usize = 2;
 
 /// What data say of some parameters of an effect.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +83,10 @@ pub(crate) fn choices(term: &Term) -> Vec<Choice> {
         let flat = parameters.into_iter().flat_map(|unit: usize| units[unit].clone());
         Choice { parameters: flat.collect(), unlikely }
     };
-    choices_of(units.len()).into_iter().map(of_parameters).collect()
+    let tilts = term.id == catalogue::BASE_TILT_STEP.id;
+    let mut list: Vec<Choice> = choices_of(units.len()).into_iter().map(of_parameters).collect();
+    list.retain(|choice| !(tilts && choice.parameters == [ABOUT_AXIS]));
+    list
 }
 
 /// Parameters of an effect that may be there without the others.
@@ -149,7 +156,6 @@ fn choices_of(n: usize) -> Vec<Choice> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rins_terms::catalogue;
     use rins_testing::assert_close;
 
     /// One parameter: the statistic is the square of the estimate over its sigma.
@@ -210,6 +216,14 @@ mod tests {
         let (xy, xz, yz) = (vec![0, 1, 2, 3], vec![0, 1, 4, 5], vec![2, 3, 4, 5]);
         let [x, y, z] = [vec![0, 1], vec![2, 3], vec![4, 5]];
         assert!(of(&catalogue::BASE_SWAY).eq([x, y, xy, z, xz, yz, (0..6).collect()]));
+        assert!(of(&catalogue::BASE_TILT_STEP).eq([
+            vec![0],
+            vec![1],
+            vec![0, 1],
+            vec![0, 2],
+            vec![1, 2],
+            vec![0, 1, 2]
+        ]));
         assert_eq!(choices(&catalogue::ACCEL_LEVER_ARM).len(), 3);
     }
 

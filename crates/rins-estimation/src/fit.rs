@@ -23,6 +23,9 @@ const MOST_ITERATIONS: usize = 20;
 /// A step below this many sigmas leads near enough to judge the noise, and to take derivatives in earnest.
 const NEAR: f64 = 1.0;
 
+/// After a step of so many sigmas and more noise is judged again: coarse derivatives led somewhere else.
+const FAR: f64 = 10.0;
+
 /// How often noise is judged at most.
 const MOST_JUDGED: usize = 3;
 
@@ -103,10 +106,12 @@ fn fitted(
             inverse_curvature = Some(likely.inverse_curvature);
             judged += 1;
         }
+        let earlier = iterations.len();
         problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
         let said = problem.posterior(&problem.linear, &noise, iterations.len())?;
         // Judged far from where the estimate ends, noise may stand for what the parameters explain there.
-        if !find_noise || judged == MOST_JUDGED || problem.fits(&said.0) {
+        let was_near = iterations[earlier..].iter().all(|iteration| iteration.step < FAR);
+        if !find_noise || judged == MOST_JUDGED || was_near && problem.fits(&said.0) {
             break said;
         }
     };

@@ -9,6 +9,13 @@ use crate::run::{Reference, Run};
 /// An error of the angle whose square is without effect \[rad\].
 const SMALL_ERROR: f64 = 1e-4;
 
+/// Larger ones are taken from the way until they change by less than this \[rad\]: an angle that is late shows the rate
+/// that changes at another time, and from a wrong rate it is late by a wrong angle, ...
+const SAME_ERROR: f64 = 1e-7;
+
+/// ... and so many times at most.
+const MOST_PASSES: usize = 5;
+
 /// How many samples a thread looks at in one go.
 const SAMPLES_AT_A_TIME: usize = 4096;
 
@@ -17,13 +24,20 @@ const SAMPLES_AT_A_TIME: usize = 4096;
 /// The z gyro gives its details, the reference its slow part: neither the gyro's drift nor the
 /// encoder's noise is in it.
 pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block: usize) -> Track {
-    let track = through(run, surroundings, &[], block);
+    let mut track = through(run, surroundings, &[], block);
     let Reference::Encoder { .. } = run.rig.reference else { return track };
-    let errors = errors(&track, model);
-    if errors.iter().all(|error| error.abs() < SMALL_ERROR) {
-        return track;
+    let mut known = vec![0.0; track.len()];
+    for pass in 0..MOST_PASSES {
+        let errors = errors(&track, model);
+        let change = known.iter().zip(&errors).map(|(known, error)| (error - known).abs());
+        let small = if pass == 0 { SMALL_ERROR } else { SAME_ERROR };
+        if change.fold(0.0, f64::max) < small {
+            break;
+        }
+        track = through(run, surroundings, &errors, block);
+        known = errors;
     }
-    through(run, surroundings, &errors, block)
+    track
 }
 
 /// By how much the model says that the angle is read wrong, at the end of each sample \[rad\].

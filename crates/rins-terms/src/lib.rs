@@ -42,7 +42,7 @@ pub use compensation::{NotUndone, compensated};
 pub use grade::Grade;
 pub use making::{Making, Reading};
 pub use model::{Chosen, Free, Model, Role};
-pub use moment::{Instant, Moment, Surroundings};
+pub use moment::{Instant, Moment, Stretch, Surroundings};
 /// A number with its derivative, of which [`Signals`] are made.
 pub use num_dual::Dual64;
 pub use page::page;

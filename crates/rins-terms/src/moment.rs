@@ -1,6 +1,7 @@
 //! What is going on over one sample: the table, the true motion, the surroundings.
 
 use nalgebra::{Complex, Vector3};
+use num_dual::Dual64;
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::Station;
 
@@ -72,6 +73,36 @@ pub struct Instant {
     pub warming_rate: f64,
 }
 
+/// How the table turned over a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stretch {
+    /// How long it lasted \[s\].
+    pub duration: f64,
+    /// The mean rate \[rad/s\].
+    pub rate: f64,
+    /// The mean acceleration \[rad/s²\].
+    pub acceleration: f64,
+}
+
+impl Stretch {
+    /// How far the table turned over a time of it \[rad\], counted from one of its ends, at which it had this rate: towards the
+    /// other end, to which it turned as far as it did in all, and on from there if the time is longer.
+    ///
+    /// The acceleration is that away from the end.
+    pub(crate) fn turned(&self, time: Dual64, from: f64, acceleration: f64) -> Dual64 {
+        let Self { duration, rate, .. } = *self;
+        let to = from + acceleration * duration;
+        if time.re > duration {
+            let on = time - duration;
+            return on * to + on * on * (0.5 * acceleration) + rate * duration;
+        }
+        // The cubic of these rates at its ends.
+        let part = time / duration;
+        let bent = part * (3.0 * rate - 2.0 * from - to) + part * part * (from + to - 2.0 * rate);
+        time * (bent + from)
+    }
+}
+
 /// What is going on over one sample.
 ///
 /// Gyros and accelerometers are described by means over the sample, `mean`; what is read at an instant, an
@@ -88,8 +119,8 @@ pub struct Moment {
     pub mean: Instant,
     /// The table at the end of the interval.
     pub end: Instant,
-    /// The table's mean acceleration over the sample before and over the next \[rad/s²\].
-    pub beside: [f64; 2],
+    /// The sample before and the next.
+    pub beside: [Stretch; 2],
     /// The mean of the true angular rate `ω_ib^b` \[rad/s\].
     pub rate: Vector3<f64>,
     /// The mean of the true specific force `f^b` \[m/s²\].

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::edges::edges;
-use crate::moment::{Instant, Moment, Surroundings, turned_back};
+use crate::moment::{Instant, Moment, Stretch, Surroundings, turned_back};
 use crate::senses::senses;
 use crate::slope::slopes;
 use crate::turns::turns;
@@ -65,9 +65,11 @@ impl Track {
             temperature,
             warming_rates,
         };
-        let rates: Vec<f64> = (0..track.len()).map(|sample| track.rate(sample)).collect();
+        let rate = |sample: usize| track.over(sample).0;
+        let rates: Vec<f64> = (0..track.len()).map(rate).collect();
+        let senses = senses(&track.angles, rate);
         (track.edges, track.corners) = edges(&rates);
-        track.senses = senses(&track.angles, |sample| track.rate(sample));
+        track.senses = senses;
         track.rate_changes = turns(track.len(), |from, to| track.rate_over(from, to).0);
         track
     }
@@ -141,10 +143,10 @@ impl Track {
 
     /// What is going on over each sample, in order.
     pub fn moments(&self) -> Moments<'_> {
-        let (rate, accelerations) = if self.is_empty() {
+        let around = if self.is_empty() {
             Default::default()
         } else {
-            (self.rate(0), [0, 0, 1].map(|sample| self.acceleration(sample)))
+            [0, 0, 1].map(|sample| self.stretch(sample))
         };
         Moments {
             track: self,
@@ -156,13 +158,12 @@ impl Track {
                 duration: self.duration(),
                 mean: Instant::default(),
                 end: Instant::default(),
-                beside: [0.0; 2],
+                beside: Default::default(),
                 rate: Vector3::zeros(),
                 force: Vector3::zeros(),
                 surroundings: self.surroundings,
             },
-            rate,
-            accelerations,
+            around,
         }
     }
 
@@ -194,10 +195,18 @@ impl Track {
         if sample == 0 { self.start() } else { self.times[sample - 1] }
     }
 
-    /// The mean rate over the time up to the end of a sample \[rad/s\], or that of the nearest one.
-    fn rate(&self, sample: usize) -> f64 {
+    /// The mean rate over the time up to the end of a sample \[rad/s\], or that of the nearest one, and that time \[s\].
+    fn over(&self, sample: usize) -> (f64, f64) {
         let sample = sample.min(self.len() - 1);
-        self.rate_over(sample, sample + 1).0
+        self.rate_over(sample, sample + 1)
+    }
+
+    /// How the table turned over a sample, or over the nearest one.
+    fn stretch(&self, sample: usize) -> Stretch {
+        let sample = sample.min(self.len() - 1);
+        let (rate, duration) = self.over(sample);
+        let acceleration = (self.edges[sample + 1] - self.edges[sample]) / duration;
+        Stretch { duration, rate, acceleration }
     }
 
     /// The mean rate from one edge to another \[rad/s\], and the time between them \[s\].
@@ -228,13 +237,6 @@ impl Track {
         (before * long_after + after * long_before) / (long_before + long_after)
     }
 
-    /// The mean acceleration over a sample, or over the nearest one \[rad/s²\].
-    fn acceleration(&self, sample: usize) -> f64 {
-        let sample = sample.min(self.len() - 1);
-        let elapsed = self.times[sample] - self.time_before(sample);
-        (self.edges[sample + 1] - self.edges[sample]) / elapsed
-    }
-
     fn sense(&self, sample: usize) -> f64 {
         f64::from(self.senses[sample])
     }
@@ -253,10 +255,8 @@ pub struct Moments<'a> {
     start: f64,
     /// The moment of the sample before.
     moment: Moment,
-    /// The mean rate over this sample \[rad/s\].
-    rate: f64,
-    /// The mean accelerations over the sample before, this one and the next \[rad/s²\].
-    accelerations: [f64; 3],
+    /// The sample before, this one and the next.
+    around: [Stretch; 3],
 }
 
 impl Moments<'_> {
@@ -264,8 +264,7 @@ impl Moments<'_> {
     pub fn advance(&mut self) -> Option<&Moment> {
         let (track, sample) = (self.track, self.sample);
         let time = *track.times.get(sample)?;
-        let rate = self.rate;
-        let [before, acceleration, after] = self.accelerations;
+        let [before, Stretch { rate, acceleration, .. }, after] = self.around;
         self.pass();
         let interval = track.intervals[sample];
         let warming_before = track.warming(sample.saturating_sub(1));
@@ -315,9 +314,8 @@ impl Moments<'_> {
     /// Goes on to the next sample.
     fn pass(&mut self) {
         self.sample += 1;
-        self.rate = self.track.rate(self.sample);
-        let [_, own, next] = self.accelerations;
-        self.accelerations = [own, next, self.track.acceleration(self.sample + 1)];
+        let [_, own, next] = self.around;
+        self.around = [own, next, self.track.stretch(self.sample + 1)];
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("base_tilt_ramp", Law::Tilt(|p, _, pose| Vector3::new(p[0], p[1], 0.0) * pose.time)),
     (
         "base_tilt_step",
-        Law::Tilt(|p, s, pose| Vector3::new(p[0], p[1], 0.0) * smooth_step(pose.time - s[0])),
+        Law::Tilt(|p, s, pose| Vector3::new(p[0], p[1], p[2]) * smooth_step(pose.time - s[0])),
     ),
     (
         "base_sway",

@@ -85,29 +85,6 @@ fn the_power_of_the_rate_is_estimated_and_its_uncertainty_is_in_the_amplitudes()
     }
 }
 
-/// However far an encoder slips, or whatever it loses: in which sample that was is seen.
-#[test]
-fn what_an_encoder_does_at_once_is_named_in_its_sample() {
-    const TIME: f64 = 133.333;
-    let cases: [(&'static Term, f64); 3] = [
-        (&catalogue::ENCODER_SLIP, 8.0 * ARCSEC),
-        (&catalogue::ENCODER_SLIP, 200.0 * ARCSEC),
-        (&catalogue::DROPPED_SAMPLES, 20e-3),
-    ];
-    for (seed, (term, size)) in cases.into_iter().enumerate() {
-        let event = Chosen::new(term).with_setting("time", TIME).with_values(&[size]);
-        let run = run(&RATES, Model::default().with(event), 0.0, seed as u64 + 80);
-        let diagnosis = found(&run, NoiseKnowledge::Likely);
-        let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
-        assert_eq!(cause.term.id, term.id);
-        assert!((cause.settings[0] - TIME).abs() < 0.04, "{}: {:?}", term.id, cause.settings);
-        let [estimate] = &cause.parameters[..] else { panic!("{:?}", cause.parameters) };
-        let off = (estimate.value - size) / estimate.sigma;
-        assert!(off.abs() < 4.0, "{}: {off} sigma off", term.id);
-        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
-    }
-}
-
 /// Half a sample of latency leaves so much that white noise is first taken for flicker: it is not where the search for the
 /// noise ends, neither without the latency nor with it.
 #[test]
@@ -270,53 +247,6 @@ fn chance_names_as_often_as_it_may() {
     let named = chance(&[clean], &before, &fibre(), 2000, Seed::new(5)).unwrap();
     assert!(named < 0.02, "{named}");
     assert!(named > 0.0005, "{named}");
-}
-
-/// A step of the base is over within an epoch, and no grid of times would meet it.
-#[test]
-fn a_step_is_found_at_its_instant() {
-    let mut step = Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 137.31);
-    step.values[0] = 0.3 * ARCSEC;
-    let hidden = Model { terms: vec![step] };
-    let diagnosis = found(&run(&RATES, hidden, 0.0, 75), NoiseKnowledge::Likely);
-    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
-    assert_eq!(cause.term.id, "base_tilt_step");
-    assert!((cause.settings[0] - 137.31).abs() < 0.5, "{:?}", cause.settings);
-    let off = (cause.parameters[0].value - 0.3 * ARCSEC) / cause.parameters[0].sigma;
-    assert!(off.abs() < 4.0, "{off}");
-}
-
-/// One reversal, within an epoch: play shifts the reading from that very sample on, and a slip would need its time.
-#[test]
-fn backlash_shows_at_the_instant_of_a_reversal() {
-    for (seed, rate) in [11.0, 12.5, 14.3].into_iter().enumerate() {
-        let play = -2.0 * ARCSEC;
-        let hidden = hiding(&[(&catalogue::ENCODER_BACKLASH, &[play])]);
-        let run = run(&[0.0, rate, -rate], hidden, 0.0, seed as u64 + 320);
-        let diagnosis = found(&run, NoiseKnowledge::Likely);
-        let [cause] = &diagnosis.causes[..] else { panic!("{rate}: {:?}", diagnosis.causes) };
-        assert_eq!(cause.term.id, "encoder_backlash", "{rate}");
-        let [of] = &cause.parameters[..] else { panic!("{:?}", cause.parameters) };
-        assert!((of.value - play).abs() < 4.0 * of.sigma, "{rate}: {} of {play}", of.value);
-        assert!(diagnosis.unexplained.is_empty(), "{rate}: {:?}", diagnosis.unexplained);
-    }
-}
-
-/// A base that tips over within an epoch: the gyros show in which sample.
-#[test]
-fn a_base_that_tips_over_is_found_in_its_sample() {
-    let tilt = [3.0 * ARCSEC, -2.0 * ARCSEC];
-    let step = Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 151.13);
-    let hidden = Model { terms: vec![step.with_values(&tilt)] };
-    let diagnosis = found(&run(&RATES, hidden, 0.0, 75), NoiseKnowledge::Likely);
-    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
-    assert_eq!(cause.term.id, "base_tilt_step");
-    assert!((cause.settings[0] - 151.13).abs() < 0.04, "{:?}", cause.settings);
-    for (estimate, truth) in cause.parameters.iter().zip(tilt) {
-        let off = (estimate.value - truth) / estimate.sigma;
-        assert!(off.abs() < 4.0 && estimate.sigma < 0.1 * ARCSEC, "{off} sigma off");
-    }
-    assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
 }
 
 /// Noise that is not as the sheet says is named as such, and with its size.

@@ -76,6 +76,8 @@ fn lines_are_found_at_their_frequency() {
         // An epoch shows these at 0.3 Hz, if at all.
         sway(2.3, &[0.05, 0.0, 0.0, -0.05, 0.0, 0.03]),
         sway(2.3, &[0.01, 0.06, 0.0, 0.0, 0.0, 0.0]),
+        // Of ten thousand sigmas: what is left of a frequency a little off is no other line.
+        sway(0.37, &[0.0, 6.0, 0.0, -3.0, 0.0, 1.0]),
         // One cause on both sensors of an axis.
         line(5.77, 1.0, &[2.0 * rate, 0.0, 0.0, 60.0 * MICRO_G]),
     ];

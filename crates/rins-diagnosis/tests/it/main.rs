@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod dead_zone;
+mod events;
 mod gain;
 mod hidden;
 mod lines;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use num_dual::{Dual64, DualNum};
 
 use crate::catalogue::parameters::{TIME, parameter, usual};
-use crate::moment::Moment;
+use crate::moment::{Instant, Moment, Stretch};
 use crate::signals::DualVector;
 use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
 use crate::unit::Unit;
@@ -17,20 +17,29 @@ const fn delay(prior: Prior) -> Parameter {
 }
 
 /// How far the table turned over the last `delay` before an instant at this rate \[rad\], or turns over the next one if it
-/// is negative; its accelerations are those before the instant and after it.
-fn turned_within(delay: Dual64, rate: f64, [before, after]: [f64; 2]) -> Dual64 {
-    let acceleration = if delay.re < 0.0 { after } else { before };
-    delay * rate - delay * delay * (0.5 * acceleration)
+/// is negative; `before` and `after` are what comes before the instant and after it.
+fn turned_within(delay: Dual64, rate: f64, [before, after]: [Stretch; 2]) -> Dual64 {
+    if delay.re < 0.0 {
+        -after.turned(-delay, rate, after.acceleration)
+    } else {
+        before.turned(delay, rate, -before.acceleration)
+    }
+}
+
+/// The sample that a moment is of.
+fn own(moment: &Moment) -> Stretch {
+    let Instant { rate, acceleration, .. } = moment.mean;
+    Stretch { duration: moment.interval, rate, acceleration }
 }
 
 /// The same from the end of a sample.
 fn turned_to_end(delay: Dual64, moment: &Moment) -> Dual64 {
-    turned_within(delay, moment.end.rate, [moment.mean.acceleration, moment.beside[1]])
+    turned_within(delay, moment.end.rate, [own(moment), moment.beside[1]])
 }
 
 /// The same from its middle.
 fn turned_to_middle(delay: Dual64, moment: &Moment) -> Dual64 {
-    turned_within(delay, moment.mean.rate, [moment.mean.acceleration; 2])
+    delay * moment.mean.rate - delay * delay * (0.5 * moment.mean.acceleration)
 }
 
 /// Adds by how much `vector`, of fixed direction in the axis frame, differed when the table stood
@@ -60,9 +69,8 @@ pub static GYRO_LAG: Term = Term {
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
         // The rate over as long a time before: both its ends are late.
-        let own = moment.mean.acceleration;
-        let start = moment.end.rate - own * moment.interval;
-        let to_start = turned_within(p[0], start, [moment.beside[0], own]);
+        let start = moment.end.rate - moment.mean.acceleration * moment.interval;
+        let to_start = turned_within(p[0], start, [moment.beside[0], own(moment)]);
         let late = turned_to_end(p[0], moment) - to_start;
         out.gyro[2] -= late / moment.interval;
     }),

@@ -6,7 +6,7 @@ use rins_frames::units::DEG;
 use rins_frames::{Dcm, EulerAngles, Site, Table};
 use rins_motion::Station;
 use rins_terms::catalogue::CATALOGUE;
-use rins_terms::{Acting, Chosen, Dual64, Instant, Model, Moment, Signals, Surroundings};
+use rins_terms::{Acting, Chosen, Dual64, Instant, Model, Moment, Signals, Stretch, Surroundings};
 use rins_testing::assert_close;
 use rins_testing::{any_euler_angles, any_latitude};
 
@@ -41,8 +41,13 @@ fn any_moment() -> impl Strategy<Value = Moment> {
                 rate: rate + acceleration * interval / 2.0,
                 ..mean
             };
+            let beside = [-1.0, 1.0].map(|sense| Stretch {
+                duration: interval,
+                rate: rate + sense * acceleration * interval,
+                acceleration,
+            });
             let mut moment = Moment {
-                beside: [acceleration; 2],
+                beside,
                 sample: 0,
                 interval,
                 duration: 4000.0,
