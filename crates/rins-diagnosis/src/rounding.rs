@@ -17,6 +17,9 @@ const TOLD: f64 = 0.05;
 /// Steps are coarse that add more than this: noise does not make all of them alike.
 const COARSE: f64 = 0.25;
 
+/// Steps are as a sheet states if they are no higher than so many times what it does.
+const AS_STATED: f64 = 1.1;
+
 /// The effects of either triad.
 const TERMS: [&Term; 2] = [&catalogue::GYRO_QUANTISATION, &catalogue::ACCEL_QUANTISATION];
 
@@ -121,6 +124,11 @@ impl Case<'_> {
         let of_triad = |which: usize| {
             let mut runs = self.rounding.runs.iter().enumerate();
             let (run, steps) = runs.find_map(|(run, of)| Some((run, of[which]?)))?;
+            // What the sheet states is nothing that the model lacks.
+            let stated = [self.imu.gyro.resolution, self.imu.accel.resolution][which];
+            if stated.is_some_and(|stated| steps.height < AS_STATED * stated) {
+                return None;
+            }
             let (place, comb) = match steps.combs {
                 Combs { increments: Some(increments), rates: Some(rates) } => {
                     // About the axis, the encoder's noise is a difference too.

@@ -24,7 +24,7 @@ const SCATTERED: f64 = 3.0;
 
 /// What tilts the base turns it about the table's axis besides, if that is not upright, but never about that alone: nobody could
 /// tell this from a slip of the encoder.
-const ABOUT_AXIS: usize = 2;
+pub(crate) const ABOUT_AXIS: usize = 2;
 
 /// What data say of some parameters of an effect.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,9 +8,12 @@ use crate::candidates::Candidate;
 use crate::dead_zone;
 use crate::disturbance;
 use crate::probability::ln_tail;
-use crate::score::{Choice, Score, choices, scored};
+use crate::score::{ABOUT_AXIS, Choice, Score, choices, scored};
 use crate::survey::{Left, Survey};
 use crate::timing::has_frequency;
+
+/// A step that turns the base about the table's axis by more than this over what it tilts it is a slip of the encoder.
+const LEAST_ACROSS: f64 = 0.1;
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
 pub(crate) const UNKNOWN: f64 = 10.0;
@@ -200,11 +203,15 @@ pub(crate) fn best_pair<'a>(
 impl Survey {
     /// Whether a shape can have these amplitudes, in SI units.
     fn allows(&self, shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
-        let is_rounding = shape.chosen.term.id == catalogue::BASE_TILT_STEP.id
-            && amplitudes.amax() < self.least_tilt;
+        let tilts = shape.chosen.term.id == catalogue::BASE_TILT_STEP.id;
+        let is_rounding = tilts && amplitudes.amax() < self.least_tilt;
+        // What turns the base about the table's axis tilts it too.
+        let across = parameters.iter().zip(amplitudes).filter(|(of, _)| **of != ABOUT_AXIS);
+        let tilt = across.fold(0.0_f64, |most, (_, amplitude)| most.max(amplitude.abs()));
+        let is_slip = tilts && tilt < LEAST_ACROSS * amplitudes.amax();
         let is_as_deep = !dead_zone::is_of_widths(&shape.chosen)
             || dead_zone::is_as_deep(&shape.chosen, parameters, amplitudes.as_slice());
-        is_as_deep && !is_rounding
+        is_as_deep && !is_rounding && !is_slip
     }
 }
 

@@ -47,6 +47,7 @@ mod recording;
 mod repeats;
 mod rest;
 mod station;
+mod sticking;
 mod strapdown;
 mod truth;
 mod turntable;

@@ -5,12 +5,14 @@ use std::ops::Range;
 use rins_frames::Increments;
 
 use crate::recording::Recording;
+use crate::sticking::Sticking;
 
 /// Readings are the same if they differ by no more than rounding, relative to the larger.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// A longer row of equal samples is no hiccup of a driver: a recording without noise, or one that stands still.
-const LONGEST: usize = 50;
+/// A longer row of equal samples is no hiccup of a driver: a recording without noise, one that stands still, or a sensor that
+/// sticks.
+pub(crate) const LONGEST: usize = 50;
 
 /// Nor is it one if more than this share of all samples repeats.
 const MOST: f64 = 0.2;
@@ -27,21 +29,40 @@ pub struct Repeats {
     pub rows: usize,
     /// How many of all samples would be so by chance.
     pub by_chance: f64,
+    /// Which of gyros and accelerometers x, y and z repeat while others go on.
+    pub alone: [bool; 6],
 }
 
 impl Recording {
-    /// Takes out the samples whose six readings are those of the sample before, as if they had been lost: the first new
-    /// sample after each row covers its time.
+    /// Takes out the samples whose six readings, or those of one channel, are those of the sample before, as if they had been
+    /// lost: the first new sample after each row covers its time.
     ///
     /// None, and nothing is changed, if there are none, if they are not more than chance makes of coarse readings, or if
     /// so many or so long a row of them is there that it says something else.
     pub fn take_out_repeats(&mut self) -> Option<Repeats> {
-        let rows = self.repeats();
-        let samples: usize = rows.iter().map(Range::len).sum();
-        let longest = rows.iter().map(Range::len).max()?;
-        let by_chance = self.equal_by_chance(&rows);
+        let together = self.repeats();
+        let is_together = marked(self.len(), &together);
+        let samples: usize = together.iter().map(Range::len).sum();
+        let longest = together.iter().map(Range::len).max().unwrap_or_default();
+        let mut by_chance = self.equal_by_chance(&together);
         let few = (samples as f64) < MOST * self.len() as f64 && longest <= LONGEST;
-        if !few || (samples as f64) < 1.0 + BEYOND_CHANCE * by_chance {
+        let are_lost = few && (samples as f64) >= 1.0 + BEYOND_CHANCE * by_chance;
+        let mut lost = if are_lost { is_together.clone() } else { vec![false; self.len()] };
+        let mut alone = [false; 6];
+        for (channel, alone) in alone.iter_mut().enumerate() {
+            let sticking = self.sticking(channel, &is_together);
+            let rows = sticking.rows.into_iter().filter(|row| row.len() <= LONGEST);
+            for row in rows {
+                *alone = true;
+                lost[row].fill(true);
+            }
+            if *alone {
+                by_chance += sticking.by_chance;
+            }
+        }
+        let rows = rows_of(&lost);
+        let samples: usize = rows.iter().map(Range::len).sum();
+        if samples == 0 {
             return None;
         }
         for row in &rows {
@@ -50,10 +71,7 @@ impl Recording {
                 *after = after.rates().over(after.interval + lost);
             }
         }
-        let mut stays = vec![true; self.len()];
-        for row in &rows {
-            stays[row.clone()].fill(false);
-        }
+        let stays: Vec<bool> = lost.iter().map(|lost| !lost).collect();
         let keep = |list: &mut Vec<f64>| retain(list, &stays);
         retain(&mut self.increments, &stays);
         keep(&mut self.times);
@@ -61,7 +79,22 @@ impl Recording {
             .into_iter()
             .flatten()
             .for_each(keep);
-        Some(Repeats { samples, rows: rows.len(), by_chance })
+        Some(Repeats { samples, rows: rows.len(), by_chance, alone })
+    }
+
+    /// Where a channel sticks for longer than a driver's hiccup lasts, the longest row first.
+    pub(crate) fn stuck_for_long(&self, channel: usize) -> Vec<Range<usize>> {
+        let together = marked(self.len(), &self.repeats());
+        let mut rows = self.sticking(channel, &together).rows;
+        rows.retain(|row| row.len() > LONGEST);
+        rows.sort_by_key(|row| std::cmp::Reverse(row.len()));
+        rows
+    }
+
+    fn sticking(&self, channel: usize, together: &[bool]) -> Sticking {
+        let of_channel: Vec<f64> =
+            self.increments.iter().map(|sample| readings(sample)[channel]).collect();
+        Sticking::of(&of_channel, alike, |sample| together[sample])
     }
 
     /// The rows of samples that are those before them.
@@ -111,8 +144,30 @@ fn readings(increments: &Increments) -> [f64; 6] {
 }
 
 fn same([before, now]: [[f64; 6]; 2], channel: usize) -> bool {
-    let (before, now) = (before[channel], now[channel]);
+    alike(before[channel], now[channel])
+}
+
+fn alike(before: f64, now: f64) -> bool {
     (now - before).abs() <= ROUNDING * before.abs().max(now.abs())
+}
+
+/// Which of so many samples are in some rows.
+fn marked(samples: usize, rows: &[Range<usize>]) -> Vec<bool> {
+    let mut marked = vec![false; samples];
+    for row in rows {
+        marked[row.clone()].fill(true);
+    }
+    marked
+}
+
+/// The rows of samples that are marked.
+fn rows_of(marked: &[bool]) -> Vec<Range<usize>> {
+    let mut end = 0;
+    let rows = marked.chunk_by(|a, b| a == b).map(|row| {
+        end += row.len();
+        (row[0], end - row.len()..end)
+    });
+    rows.filter(|(is_marked, _)| *is_marked).map(|(_, row)| row).collect()
 }
 
 fn retain<T>(list: &mut Vec<T>, stays: &[bool]) {
@@ -167,6 +222,22 @@ mod tests {
         let rate = |one: &Increments| *one.rates().angular_rate.components();
         assert!((rate(after) - rate(&before.increments[303])).norm() < 1e-12);
         assert_eq!(stuck.take_out_repeats(), None);
+    }
+
+    #[test]
+    fn a_channel_that_repeats_alone_is_taken_out_too() {
+        let mut stuck = recording(false);
+        let mut held = 0.0;
+        for (sample, increments) in stuck.increments.iter_mut().enumerate() {
+            if !(500..540).contains(&sample) {
+                held = (43_758.545 * ((sample + 1) as f64).sin()).fract();
+            }
+            let others = *increments.velocity.components();
+            increments.velocity = InFrame::new(others.x, held, others.z);
+        }
+        let repeats = stuck.take_out_repeats().unwrap();
+        assert_eq!((repeats.samples, repeats.rows, stuck.len()), (40, 1, 1960));
+        assert_eq!(repeats.alone, [false, false, false, false, true, false]);
     }
 
     #[test]

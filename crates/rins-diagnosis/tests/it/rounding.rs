@@ -1,12 +1,13 @@
 //! Sensors and encoders that read in steps: the rounding is no effect.
 
-use rins_estimation::{NoiseKnowledge, Run};
+use rins_diagnosis::diagnose;
+use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_imu::rounded;
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::hidden::{RATES, found, hiding};
-use crate::support::run;
+use crate::support::{fibre, run};
 
 /// A step of a gyro in an increment \[rad\].
 const STEP: f64 = 0.3 * ARCSEC;
@@ -51,6 +52,23 @@ fn rounding_that_stands_still_is_no_tilt() {
         let diagnosis = found(&run, NoiseKnowledge::Likely);
         let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
         assert_eq!(ids, ["gyro_quantisation"], "seed {seed}");
+    }
+}
+
+/// The sheet's step, of two sigmas of a sample, is nothing that the model lacks; one three times as high is.
+#[test]
+fn steps_that_the_sheet_states_are_no_effect() {
+    let step = 0.2 * DEG_PER_HOUR;
+    let model = hiding(&[(&catalogue::GYRO_QUANTISATION, &[0.0, step])]);
+    let runs = [run(&RATES, model, 0.0, 166)];
+    let mut imu = fibre();
+    let known = NoiseKnowledge::Likely(Strengths::of(&imu));
+    for (stated, named) in [(1.0, 0), (0.3, 1)] {
+        imu.gyro.resolution = Some(stated * step);
+        let diagnosis = diagnose(&runs, &Model::full(), &imu, known, |_| ()).unwrap();
+        let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
+        assert_eq!(ids, &["gyro_quantisation"][..named], "{stated}");
+        assert!(diagnosis.unexplained.is_empty(), "{:?}", diagnosis.unexplained);
     }
 }
 

@@ -164,6 +164,16 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         .filter(|&channel| recording.len() > 1 && longest_repeat[channel] == recording.len())
         .map(|channel| Suspicion::StuckChannel { channel: CHANNELS[channel] })
         .collect();
+    suspicions.extend((0..6).filter_map(|channel| {
+        let rows = recording.stuck_for_long(channel);
+        let longest = rows.first()?.clone();
+        Some(Suspicion::Sticks {
+            channel: CHANNELS[channel],
+            rows: rows.len(),
+            count: longest.len(),
+            time: recording.times[longest.start],
+        })
+    }));
     suspicions.extend(channel::suspicions(recording, expected, &stands));
     let timing = Timing::of(recording);
     let longest = rests.iter().max_by(|a, b| a.mean.duration.total_cmp(&b.mean.duration));

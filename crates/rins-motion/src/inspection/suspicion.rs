@@ -57,6 +57,17 @@ pub enum Suspicion {
         /// The channel.
         channel: &'static str,
     },
+    /// A channel that goes on otherwise repeats one reading for longer than a driver's hiccup lasts.
+    Sticks {
+        /// The channel.
+        channel: &'static str,
+        /// In how many rows of samples.
+        rows: usize,
+        /// How many samples the longest of them has.
+        count: usize,
+        /// The time at which that begins \[s\].
+        time: f64,
+    },
     /// Single readings lie far outside of what comes before and after them.
     Spike {
         /// The channel.

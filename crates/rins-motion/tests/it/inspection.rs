@@ -6,7 +6,9 @@ use rand_distr::{Distribution, StandardNormal, StudentT};
 use rand_pcg::Pcg64;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND};
 use rins_frames::{InFrame, Increments};
-use rins_motion::{Expected, ExpectedTriad, Profile, Recording, Segment, Suspicion, inspect};
+use rins_motion::{
+    CHANNELS, Expected, ExpectedTriad, Profile, Recording, Segment, Suspicion, inspect,
+};
 use rins_testing::assert_close;
 
 use crate::run::{
@@ -120,7 +122,7 @@ fn spikes_are_found_in_each_channel() {
         else {
             panic!("{found:?}");
         };
-        assert_eq!((*name, *count), (rins_motion::CHANNELS[channel], 2));
+        assert_eq!((*name, *count), (CHANNELS[channel], 2));
         assert_close!(*time, 180.02, 1e-9);
         assert!((reading - size).abs() < 10.0, "{reading}");
     }
@@ -302,6 +304,32 @@ fn rounded_decimals_are_no_resolution() {
     }
     let inspection = assert_unsuspected(&recording, &expected(NAVIGATION));
     assert_eq!(inspection.resolution, [None; 6]);
+}
+
+#[test]
+fn channel_that_sticks_for_long_is_suspected() {
+    for (channel, grade) in [(0, NAVIGATION), (4, NAVIGATION), (2, CHIP)] {
+        let mut recording = record(usual(), grade, 12);
+        let held = recording.increments[4000];
+        for sample in &mut recording.increments[4001..4100] {
+            let (mut angle, mut velocity) =
+                (*sample.angle.components(), *sample.velocity.components());
+            match channel {
+                0..3 => angle[channel] = held.angle.components()[channel],
+                _ => velocity[channel - 3] = held.velocity.components()[channel - 3],
+            }
+            sample.angle = InFrame::from_components(angle);
+            sample.velocity = InFrame::from_components(velocity);
+        }
+        let found = inspect(&recording, &expected(grade)).suspicions;
+        let sticks = Suspicion::Sticks {
+            channel: CHANNELS[channel],
+            rows: 1,
+            count: 99,
+            time: recording.times[4001],
+        };
+        assert!(found.contains(&sticks), "{found:?}");
+    }
 }
 
 #[test]

@@ -12,7 +12,7 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
 use rins_io::Loaded;
-use rins_motion::{Recording, Repeats};
+use rins_motion::{CHANNELS, Recording, Repeats};
 
 use crate::args::NoiseChoice;
 use crate::commands::align::{Found, found};
@@ -141,10 +141,14 @@ impl Prepared {
         });
         let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
         let (attitude, mut remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
-        remarks.extend(repeats.map(|Repeats { samples, rows, .. }| {
-            format!(
-                "{samples} samples, in {rows} row(s), repeat all six readings of the one before: they are taken for lost."
-            )
+        remarks.extend(repeats.map(|Repeats { samples, rows, alone, .. }| {
+            let channels: Vec<&str> =
+                CHANNELS.into_iter().zip(alone).filter(|(_, alone)| *alone).map(|(name, _)| name).collect();
+            let which = match channels[..] {
+                [] => "all six readings".to_owned(),
+                _ => format!("all six readings, or that of {},", channels.join(" or ")),
+            };
+            format!("{samples} samples, in {rows} row(s), repeat {which} of the one before: they are taken for lost.")
         }));
         remarks.extend(run.angle_steps.map(|AngleSteps { step, .. }| {
             format!(

@@ -129,7 +129,7 @@ fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         suspected(
             inspection,
             "stuck",
-            |s| matches!(s, Suspicion::StuckChannel { .. }),
+            |s| matches!(s, Suspicion::StuckChannel { .. } | Suspicion::Sticks { .. }),
             "every channel moves",
         ),
         suspected(

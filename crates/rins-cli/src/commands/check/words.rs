@@ -47,6 +47,10 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
         Suspicion::StuckChannel { channel } => {
             format!("{channel} repeats one reading throughout: not connected?")
         }
+        Suspicion::Sticks { channel, rows, count, time } => format!(
+            "{channel} sticks: it repeats one reading for long in {rows} row(s) of samples, the longest of {count} from \
+             {time:.3} s on: take the lines out of the log"
+        ),
         Suspicion::Spike { channel, count, time, reading } => format!(
             "{channel} has {count} spike(s) of a single sample, the largest at {time:.3} s with {}: take the lines out \
              of the log",

@@ -153,7 +153,8 @@ fn amplitude(found: &Found, named: &Named) -> String {
             let samples = found
                 .in_samples(own)
                 .map_or_else(String::new, |count| format!(" ({} samples)", figure(count, 3)));
-            format!("{name} = {value} ± {sigma} {}{samples}", unit.symbol)
+            let symbol = if unit.symbol == "1" { "" } else { unit.symbol };
+            format!("{name} = {value} ± {sigma} {symbol}{samples}").trim_end().to_owned()
         })
         .collect();
     let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
