@@ -12,8 +12,8 @@ use crate::score::{ABOUT_AXIS, Choice, Score, choices, scored};
 use crate::survey::{Left, Survey};
 use crate::timing::has_frequency;
 
-/// A step that turns the base about the table's axis by more than this over what it tilts it is a slip of the encoder.
-const LEAST_ACROSS: f64 = 0.1;
+/// A step that tilts the base by less than this part of what it turns it about the table's axis is a slip of the encoder.
+const LEAST_ACROSS: f64 = 0.3;
 
 /// By how many e-folds of odds the unknown has to be better than what is known.
 pub(crate) const UNKNOWN: f64 = 10.0;
