@@ -31,6 +31,8 @@ struct Shown {
     jumps: Vec<f64>,
     /// The length of an epoch \[s\].
     epoch: f64,
+    /// The time between samples \[s\].
+    interval: f64,
 }
 
 impl Case<'_> {
@@ -56,23 +58,32 @@ impl Case<'_> {
             let mut jumps = large(&sizes, (JUMP * median(&sizes) / 0.67).max(rounding));
             jumps.sort_by(|a, b| b.1.total_cmp(&a.1));
             let jumps = jumps.into_iter().take(JUMPS).map(|(time, _)| time).collect();
-            Shown { parts, jumps, epoch: linear.mean_epoch() }
+            let interval = recorded.recording.mean_interval();
+            Shown { parts, jumps, epoch: linear.mean_epoch(), interval }
         };
         Jolts { runs: self.runs.iter().enumerate().map(of_run).collect() }
     }
 }
 
 impl Jolts {
-    /// The middle of the one about this time since the start, within an epoch of it, if there is one \[s\].
-    pub(crate) fn about(&self, time: f64) -> Option<f64> {
-        let of_run = |shown: &Shown| {
-            let near = shown.parts.iter().filter(|(at, _)| (at - time).abs() < shown.epoch);
-            let (sum, moment) =
-                near.fold((0.0, 0.0), |(sum, moment), (at, size)| (sum + size, moment + size * at));
-            (sum > 0.0).then_some((sum, moment / sum))
-        };
-        let found = self.runs.iter().filter_map(of_run);
-        found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, time)| time)
+    /// The middle of the one about this time since the start, within an epoch of it, if there is one, and how long it takes
+    /// if that is more than a sample \[s\].
+    pub(crate) fn about(&self, time: f64) -> Option<(f64, f64)> {
+        let found = self.runs.iter().filter_map(|shown| {
+            let near = |(at, _): &&(f64, f64)| (at - time).abs() < shown.epoch;
+            let near: Vec<(f64, f64)> = shown.parts.iter().filter(near).copied().collect();
+            let largest = near.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+            let goes_on = |a: &(f64, f64), b: &(f64, f64)| b.0 - a.0 < 1.5 * shown.interval;
+            let jolt = near.chunk_by(goes_on).find(|row| row.contains(largest))?;
+            let sum: f64 = jolt.iter().map(|(_, size)| size).sum();
+            let middle = jolt.iter().map(|(at, size)| size * at).sum::<f64>() / sum;
+            let square = |(at, size): &(f64, f64)| size * (at - middle).powi(2);
+            let variance = jolt.iter().map(square).sum::<f64>() / sum;
+            // An even step over n samples: (n² - 1) / 12.
+            let duration = (12.0 * variance + shown.interval.powi(2)).sqrt();
+            Some((sum, middle, if jolt.len() > 1 { duration } else { 0.0 }))
+        });
+        found.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, middle, duration)| (middle, duration))
     }
 
     /// When the encoder of a run jumps, the largest jump first \[s\].
@@ -84,22 +95,24 @@ impl Jolts {
     pub(crate) fn pin(&self, event: &mut Chosen) {
         let Some(place) = event.term.setting("time") else { return };
         let time = event.settings[place];
-        let shown = if event.term.id == catalogue::BASE_TILT_STEP.id {
-            self.about(time)
+        if event.term.id == catalogue::BASE_TILT_STEP.id {
+            if let Some((middle, duration)) = self.about(time) {
+                *event =
+                    event.clone().with_setting("time", middle).with_setting("duration", duration);
+            }
         } else if event.term.needs.contains(&Need::TableAngle) {
             let near = |shown: &Shown| {
                 shown.jumps.iter().copied().find(|at| (at - time).abs() < shown.epoch)
             };
-            self.runs.iter().find_map(near)
-        } else {
-            None
-        };
-        event.settings[place] = shown.unwrap_or(time);
+            event.settings[place] = self.runs.iter().find_map(near).unwrap_or(time);
+        }
     }
 }
 
 /// The samples in which a base steps: not at once, and what it does in between no step describes.
 pub(crate) fn around(step: &Chosen, track: &Track, epoch: f64) -> Range<usize> {
     let first = |after: f64| track.times().partition_point(|time| time - track.start() < after);
-    first(step.settings[0] - epoch)..first(step.settings[0] + epoch)
+    let [time, duration] = step.settings[..] else { return 0..0 };
+    let reach = epoch + 0.5 * duration;
+    first(time - reach)..first(time + reach)
 }

@@ -102,9 +102,10 @@ impl Case<'_> {
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
                 let within = ends[outlier.start] - begin - 0.5 * epoch;
-                let tips = chosen.term.id == catalogue::BASE_TILT_STEP.id;
-                let jolt = tips.then(|| jolts.about(within)).flatten();
-                chosen.settings[place] = jolt.unwrap_or(within);
+                chosen.settings[place] = within;
+                if chosen.term.id == catalogue::BASE_TILT_STEP.id {
+                    jolts.pin(&mut chosen);
+                }
                 let step = 2.0 * outlier.len() as f64 * epoch;
                 list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
             }

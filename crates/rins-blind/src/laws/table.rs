@@ -7,7 +7,7 @@ use nalgebra::{Complex, Vector3};
 use crate::drive::Ripple;
 use crate::effect::Law;
 
-/// How long a step of the base takes \[s\].
+/// How long a step of the base takes at least \[s\].
 const STEP_TIME: f64 = 0.02;
 
 /// The laws of this file.
@@ -23,7 +23,9 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("base_tilt_ramp", Law::Tilt(|p, _, pose| Vector3::new(p[0], p[1], 0.0) * pose.time)),
     (
         "base_tilt_step",
-        Law::Tilt(|p, s, pose| Vector3::new(p[0], p[1], p[2]) * smooth_step(pose.time - s[0])),
+        Law::Tilt(|p, s, pose| {
+            Vector3::new(p[0], p[1], p[2]) * smooth_step(pose.time - s[0], s[1].max(STEP_TIME))
+        }),
     ),
     (
         "base_sway",
@@ -40,8 +42,8 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ),
 ];
 
-/// From 0 to 1 about a time of zero.
-fn smooth_step(time: f64) -> f64 {
-    let part = (time / STEP_TIME + 0.5).clamp(0.0, 1.0);
+/// From 0 to 1 about a time of zero, in this time.
+fn smooth_step(time: f64, duration: f64) -> f64 {
+    let part = (time / duration + 0.5).clamp(0.0, 1.0);
     0.5 - 0.5 * (PI * part).cos()
 }

@@ -1,6 +1,6 @@
 //! A base that does not stand still.
 
-use crate::catalogue::parameters::{FREQUENCY, TIME, named, parameter, usual};
+use crate::catalogue::parameters::{DURATION, FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
 use crate::term::{Action, Owner, Prior, Term};
 use crate::unit::Unit;
@@ -29,17 +29,23 @@ pub static BASE_TILT_STEP: Term = Term {
     also: &[],
     name: "base that gives way",
     cause: "somebody steps on the slab, or a foot of the table slips",
-    equation: "θ = p H(t - t0), about the axis too if that is not upright",
+    equation: "θ = p H(t - t0), evenly over some time about t0, about the axis too if that is not upright",
     source: "a step in time",
     parameters: &named(["x", "y", "z"], Unit::ARCSEC, Prior::Anywhere(0.5, 60.0)),
-    settings: &[TIME],
+    settings: &[TIME, DURATION],
     needs: &[],
     partners: &["accel_bias_step", "gyro_bias_step"],
     told_apart_by: "it shows in gyros and accelerometers at once",
     owner: Owner::Run,
     action: Action::Signal(|p, settings, moment, out| {
-        if moment.end.time >= settings[0] {
-            add_constant(&mut out.tilt, p, 1.0);
+        let (since, duration) = (moment.end.time - settings[0], settings[1]);
+        let part = if since.abs() < 0.5 * duration {
+            since / duration + 0.5
+        } else {
+            f64::from(u8::from(since >= 0.0))
+        };
+        if part > 0.0 {
+            add_constant(&mut out.tilt, p, part);
         }
     }),
 };

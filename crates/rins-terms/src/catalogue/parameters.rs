@@ -53,6 +53,15 @@ pub(super) const TIME: Setting = Setting {
     within: (0.0, 1e7),
 };
 
+/// How long a step takes \[s\]; none where nothing is said.
+pub(super) const DURATION: Setting = Setting {
+    name: "duration",
+    meaning: "how long it takes, evenly, that time being its middle",
+    unit: Unit::SECOND,
+    default: 0.0,
+    within: (0.0, 10.0),
+};
+
 /// Over how long something settles \[s\].
 pub(super) const TIME_CONSTANT: Setting = Setting {
     name: "time_constant",
