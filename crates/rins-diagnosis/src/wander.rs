@@ -58,9 +58,13 @@ impl Instead {
         // A walk has one parameter that is open, a few effects have many: that alone does not rule them out.
         let least = (self.odds - self.open).max(0.0);
         if least < RIVALS {
-            own.rivals.extend(self.slow.iter().map(|&place| &found.causes[place]).map(|slow| {
-                Rival { term: slow.term, settings: slow.settings.clone(), odds: -least }
-            }));
+            for slow in self.slow.iter().map(|&place| &found.causes[place]) {
+                // Several steps are one effect.
+                if own.rivals.iter().all(|other| other.term.id != slow.term.id) {
+                    let (term, settings) = (slow.term, slow.settings.clone());
+                    own.rivals.push(Rival { term, settings, odds: -least });
+                }
+            }
         }
         true
     }
