@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::{Matrix3, SVector, Vector3};
 use rins_ekf::UpdateError;
 use rins_frames::units::{ARCSEC, PPM};
-use rins_frames::{Body, Dcm, Increments, Nav, Table};
+use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::{ImuCompensationError, ImuError, TriadError};
 use rins_motion::{AlignmentError, MeanUncertainty, Recording, RestMean, align, rest_spans};
 
@@ -17,6 +17,7 @@ use crate::navigation::{FreeNavigation, navigate_freely};
 use crate::parameter::{Parameter, ParameterKind};
 use crate::separability::SpinRateSums;
 use crate::setup::{Setup, TableSpec};
+use crate::table_angle::table_angles;
 
 /// The shortest rest at the start that is left out, and can be aligned on \[s\].
 const SHORTEST_REST: f64 = 5.0;
@@ -289,30 +290,6 @@ impl<'a> Run<'a> {
         }
         sums
     }
-}
-
-/// The table angle before the first sample of a recording and after each \[rad\]: as read, brought
-/// forward by its `latency` \[s\] at the gyro's rate, or the commanded rate integrated from zero.
-pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
-    if let Some(angle) = &recording.table_angle {
-        let turn = |sample: &Increments| sample.angle.components().z;
-        let current =
-            |(angle, sample): (&f64, &Increments)| angle + latency * turn(sample) / sample.interval;
-        let mut angles = vec![0.0];
-        angles.extend(angle.iter().zip(&recording.increments).map(current));
-        // Nothing was read before the first sample; the gyro says how far the table came since.
-        if let (Some(first), Some(sample)) = (angles.get(1), recording.increments.first()) {
-            angles[0] = first - turn(sample);
-        }
-        return Some(angles);
-    }
-    let rate = recording.table_rate.as_ref()?;
-    let mut angle = 0.0;
-    let turns = rate.iter().zip(&recording.increments).map(|(rate, sample)| {
-        angle += rate * sample.interval;
-        angle
-    });
-    Some(std::iter::once(0.0).chain(turns).collect())
 }
 
 /// How the filter starts at the end of a rest.

@@ -33,10 +33,10 @@ mod parameter;
 mod separability;
 mod setup;
 pub mod structured;
+mod table_angle;
 
 pub use calibration::{
     AttitudeSource, Calibration, CalibrationError, EstimatePoint, calibrate, likely_wobble,
-    table_angles,
 };
 pub use consistency::{Consistency, Verdict};
 pub use estimate::{Estimate, beginning, estimate};
@@ -45,3 +45,4 @@ pub use lanes::SpinAxisLanes;
 pub use navigation::{FreeNavigation, NavigationPoint, navigate_freely};
 pub use parameter::{Parameter, ParameterKind, Partner};
 pub use setup::{AxisAttitude, Setup, TableSpec};
+pub use table_angle::table_angles;
