@@ -12,6 +12,9 @@ use crate::view::settings_in_words;
 /// How many of the estimates that moved are told in words.
 const SHIFTS_TOLD: usize = 3;
 
+/// A delay is a convention of time stamps if it is off whole halves of a sample by less than this part of one.
+const CONVENTION: f64 = 0.02;
+
 /// A delay of so many negative sigmas is less than none.
 const AHEAD: f64 = 3.0;
 
@@ -34,6 +37,13 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     if found.causes.iter().any(is_ahead_of_its_time) {
         sentences.push(
             "No encoder is read ahead of its time: the gyros and the accelerometers, both late by as much, look the same."
+                .to_owned(),
+        );
+    }
+    if found.causes.iter().any(|named| is_convention(found, named)) {
+        sentences.push(
+            "A latency of whole samples or half ones is a convention of the log: say so by `latency` under [log] table_angle, or by \
+             another `stamp`."
                 .to_owned(),
         );
     }
@@ -60,6 +70,16 @@ fn is_ahead_of_its_time(named: &Named) -> bool {
     let delay = named.cause.parameters.first();
     named.cause.term.id == catalogue::ENCODER_LATENCY.id
         && delay.is_some_and(|delay| delay.value < -AHEAD * delay.sigma)
+}
+
+/// Whether the table's angle is late, or early, by whole samples or by half ones.
+fn is_convention(found: &Found, named: &Named) -> bool {
+    let samples = named.cause.parameters.first().and_then(|delay| found.in_samples(delay));
+    let is = |samples: f64| {
+        let halves = (2.0 * samples).round();
+        halves != 0.0 && (2.0 * samples - halves).abs() < CONVENTION
+    };
+    named.cause.term.id == catalogue::ENCODER_LATENCY.id && samples.is_some_and(is)
 }
 
 fn headline(found: &Found) -> String {
