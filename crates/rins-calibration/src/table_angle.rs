@@ -1,19 +1,21 @@
 //! The table angle of each sample, from what was read of it or commanded.
 
-use rins_motion::Recording;
+use rins_motion::{Recording, cubic};
 
 /// The table angle before the first sample of a recording and after each \[rad\]: as read, brought
 /// forward by its `latency` \[s\], over which it turned as the gyro says, or the commanded rate integrated from zero.
 pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
     if let Some(read) = &recording.table_angle {
-        let turned = Turned::of(recording);
         let mut angles = vec![0.0];
         if latency == 0.0 {
             angles.extend(read);
         } else {
-            let since =
-                |(angle, time): (&f64, &f64)| angle + turned.at(*time) - turned.at(time - latency);
-            angles.extend(read.iter().zip(&recording.times).map(since));
+            let turned = Turned::of(recording);
+            let now = turned.angles[1..].iter().zip(&recording.times);
+            let since = |(angle, (now, time)): (&f64, (&f64, &f64))| {
+                angle + now - turned.at(time - latency)
+            };
+            angles.extend(read.iter().zip(now).map(since));
         }
         // Nothing was read before the first sample; the gyro says how far the table came since.
         if let (Some(first), Some(sample)) = (angles.get(1), recording.increments.first()) {
@@ -77,12 +79,10 @@ impl Turned {
         let before = after - 1;
         let duration = self.times[after] - self.times[before];
         let part = (time - self.times[before]) / duration;
-        // The cubic that turns as far over the sample, and has these rates at its ends.
         let turned = self.angles[after] - self.angles[before];
-        let (from, to) = (self.rates[before] * duration, self.rates[after] * duration);
-        let bent =
-            part * (3.0 * turned - 2.0 * from - to) + part * part * (from + to - 2.0 * turned);
-        self.angles[before] + part * (from + bent)
+        let [from, to] = [before, after].map(|edge| self.rates[edge] * duration);
+        let [first, second, third] = cubic(turned, from, to);
+        self.angles[before] + part * (part * (part * third + second) + first)
     }
 }
 

@@ -38,6 +38,7 @@
 
 mod alignment;
 mod comb;
+mod cubic;
 mod fine_alignment;
 mod inspection;
 pub mod mechanism;
@@ -56,6 +57,7 @@ pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
 pub use comb::{Comb, Combs, ENOUGH_ANGLES};
+pub use cubic::cubic;
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,

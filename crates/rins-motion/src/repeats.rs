@@ -15,10 +15,10 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 pub(crate) const LONGEST: usize = 50;
 
 /// Nor is it one if more than this share of all samples repeats.
-const MOST: f64 = 0.2;
+pub(crate) const MOST: f64 = 0.2;
 
 /// So many times what chance would make of sensors that read in steps.
-const BEYOND_CHANCE: f64 = 10.0;
+pub(crate) const BEYOND_CHANCE: f64 = 10.0;
 
 /// What repeats in a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +40,8 @@ impl Recording {
     /// None, and nothing is changed, if there are none, if they are not more than chance makes of coarse readings, or if
     /// so many or so long a row of them is there that it says something else.
     pub fn take_out_repeats(&mut self) -> Option<Repeats> {
-        let together = self.repeats();
-        let is_together = marked(self.len(), &together);
+        let is_together = self.repeats();
+        let together = rows_of(&is_together);
         let samples: usize = together.iter().map(Range::len).sum();
         let longest = together.iter().map(Range::len).max().unwrap_or_default();
         let mut by_chance = self.equal_by_chance(&together);
@@ -82,35 +82,32 @@ impl Recording {
         Some(Repeats { samples, rows: rows.len(), by_chance, alone })
     }
 
-    /// Where a channel sticks for longer than a driver's hiccup lasts, the longest row first.
-    pub(crate) fn stuck_for_long(&self, channel: usize) -> Vec<Range<usize>> {
-        let together = marked(self.len(), &self.repeats());
-        let mut rows = self.sticking(channel, &together).rows;
-        rows.retain(|row| row.len() > LONGEST);
-        rows.sort_by_key(|row| std::cmp::Reverse(row.len()));
-        rows
+    /// Where each channel sticks for longer than a driver's hiccup lasts, the longest row first.
+    pub(crate) fn stuck_for_long(&self) -> [Vec<Range<usize>>; 6] {
+        let together = self.repeats();
+        std::array::from_fn(|channel| {
+            let mut rows = self.sticking(channel, &together).rows;
+            rows.retain(|row| row.len() > LONGEST);
+            rows.sort_by_key(|row| std::cmp::Reverse(row.len()));
+            rows
+        })
     }
 
     fn sticking(&self, channel: usize, together: &[bool]) -> Sticking {
         let of_channel: Vec<f64> =
             self.increments.iter().map(|sample| readings(sample)[channel]).collect();
-        Sticking::of(&of_channel, alike, |sample| together[sample])
+        Sticking::of(&of_channel, together)
     }
 
-    /// The rows of samples that are those before them.
-    fn repeats(&self) -> Vec<Range<usize>> {
-        let mut rows: Vec<Range<usize>> = Vec::new();
-        for sample in 1..self.len() {
-            let pair = [sample - 1, sample].map(|at| readings(&self.increments[at]));
-            if !(0..6).all(|channel| same(pair, channel)) {
-                continue;
+    /// Which samples are those before them.
+    fn repeats(&self) -> Vec<bool> {
+        let is_repeat = |sample: usize| {
+            sample > 0 && {
+                let pair = [sample - 1, sample].map(|at| readings(&self.increments[at]));
+                (0..6).all(|channel| same(pair, channel))
             }
-            match rows.last_mut().filter(|row| row.end == sample) {
-                Some(row) => row.end += 1,
-                None => rows.push(sample..sample + 1),
-            }
-        }
-        rows
+        };
+        (0..self.len()).map(is_repeat).collect()
     }
 
     /// How many samples would be those before them if the channels repeated each by itself as often as they do elsewhere.
@@ -147,21 +144,12 @@ fn same([before, now]: [[f64; 6]; 2], channel: usize) -> bool {
     alike(before[channel], now[channel])
 }
 
-fn alike(before: f64, now: f64) -> bool {
+pub(crate) fn alike(before: f64, now: f64) -> bool {
     (now - before).abs() <= ROUNDING * before.abs().max(now.abs())
 }
 
-/// Which of so many samples are in some rows.
-fn marked(samples: usize, rows: &[Range<usize>]) -> Vec<bool> {
-    let mut marked = vec![false; samples];
-    for row in rows {
-        marked[row.clone()].fill(true);
-    }
-    marked
-}
-
 /// The rows of samples that are marked.
-fn rows_of(marked: &[bool]) -> Vec<Range<usize>> {
+pub(crate) fn rows_of(marked: &[bool]) -> Vec<Range<usize>> {
     let mut end = 0;
     let rows = marked.chunk_by(|a, b| a == b).map(|row| {
         end += row.len();

@@ -4,17 +4,12 @@ use std::ops::Range;
 
 use crate::comb::comb;
 use crate::median::median;
+use crate::repeats::{BEYOND_CHANCE, MOST, alike, rows_of};
 
 /// Readings whose noise is less than so many teeth of their comb, or than this part of the largest, say the same for long while
 /// nothing happens.
 const TEETH: f64 = 3.0;
 const ROUNDING: f64 = 1e-9;
-
-/// So many times as often as chance, ...
-const BEYOND_CHANCE: f64 = 10.0;
-
-/// ... but in no more than this share of all samples: then it is how the channel reads.
-const MOST: f64 = 0.2;
 
 /// The rows in which a channel sticks, and how many samples would repeat the one before by chance.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,31 +20,22 @@ pub(crate) struct Sticking {
 }
 
 impl Sticking {
-    /// Where `readings` repeat to within rounding, as `same` says, without those samples that are `passed` over; nowhere if they
-    /// are coarse or without noise, if they repeat by chance, or if they are at the end of what the sensor reads.
-    pub(crate) fn of(
-        readings: &[f64],
-        same: impl Fn(f64, f64) -> bool,
-        passed: impl Fn(usize) -> bool,
-    ) -> Self {
+    /// Where `readings` repeat, without those samples that are `passed` over; nowhere if they are coarse or without noise, if they
+    /// repeat by chance, or if they are at the end of what the sensor reads.
+    pub(crate) fn of(readings: &[f64], passed: &[bool]) -> Self {
         let none = Self::default();
         let ends = readings.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
             (least.min(*x), most.max(*x))
         });
         let repeats = |sample: usize, back: usize| {
-            sample >= back && same(readings[sample - back], readings[sample])
+            sample >= back && alike(readings[sample - back], readings[sample])
         };
         let counts = |sample: &usize| {
-            let is_end = same(readings[*sample], ends.0) || same(readings[*sample], ends.1);
-            !passed(*sample) && !is_end
+            let is_end = alike(readings[*sample], ends.0) || alike(readings[*sample], ends.1);
+            !passed[*sample] && !is_end
         };
-        let mut rows: Vec<Range<usize>> = Vec::new();
-        for sample in (1..readings.len()).filter(counts).filter(|&sample| repeats(sample, 1)) {
-            match rows.last_mut().filter(|row| row.end == sample) {
-                Some(row) => row.end += 1,
-                None => rows.push(sample..sample + 1),
-            }
-        }
+        let sticks = |sample: usize| counts(&sample) && repeats(sample, 1);
+        let rows = rows_of(&(0..readings.len()).map(sticks).collect::<Vec<bool>>());
         let samples = rows.iter().map(Range::len).sum::<usize>() as f64;
         if samples == 0.0 || samples > MOST * readings.len() as f64 {
             return none;
@@ -70,16 +56,19 @@ impl Sticking {
     }
 }
 
+/// From each reading to the next.
+pub(crate) fn steps(readings: &[f64]) -> Vec<f64> {
+    readings.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
 /// The noise of readings: what their fourth differences are of, in which nothing is left of what is slow, or nothing if these are no
 /// larger than the third.
 fn noise(readings: &[f64]) -> f64 {
-    let differences =
-        |values: &[f64]| -> Vec<f64> { values.windows(2).map(|pair| pair[1] - pair[0]).collect() };
     let size = |values: &[f64]| {
         median(values.iter().map(|x| x.abs()).filter(|x| *x > 0.0)).unwrap_or_default()
     };
-    let third = differences(&differences(&differences(readings)));
-    let fourth = size(&differences(&third));
+    let third = steps(&steps(&steps(readings)));
+    let fourth = size(&steps(&third));
     // Of white noise it has 70 times the variance.
     if fourth > size(&third) { fourth / 70.0_f64.sqrt() } else { 0.0 }
 }
@@ -89,8 +78,7 @@ mod tests {
     use super::*;
 
     fn sticking(readings: &[f64]) -> Vec<Range<usize>> {
-        #[expect(clippy::float_cmp, reason = "a repeated reading is the same to the last bit")]
-        Sticking::of(readings, |a, b| a == b, |_| false).rows
+        Sticking::of(readings, &vec![false; readings.len()]).rows
     }
 
     fn random(count: u32) -> Vec<f64> {

@@ -3,7 +3,7 @@
 use nalgebra::{Complex, Vector3};
 use num_dual::Dual64;
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
-use rins_motion::Station;
+use rins_motion::{Station, cubic};
 
 use crate::waves::sin_cos;
 
@@ -96,10 +96,9 @@ impl Stretch {
             let on = time - duration;
             return on * to + on * on * (0.5 * acceleration) + rate * duration;
         }
-        // The cubic of these rates at its ends.
         let part = time / duration;
-        let bent = part * (3.0 * rate - 2.0 * from - to) + part * part * (from + to - 2.0 * rate);
-        time * (bent + from)
+        let [first, second, third] = cubic(rate * duration, from * duration, to * duration);
+        part * (part * (part * third + second) + first)
     }
 }
 

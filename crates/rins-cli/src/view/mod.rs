@@ -19,7 +19,7 @@ pub(crate) use certificate::{certificate_report, certificate_text};
 pub(crate) use comparison::{comparison_report, comparison_text};
 pub(crate) use diagnosis::{diagnosis_report, diagnosis_text, size_in_words, structure_in_words};
 pub(crate) use navigation::{attitude_plot, position_plot, velocity_plot};
-pub(crate) use worth::{budget_section, compensation_section, settings_in_words};
+pub(crate) use worth::{budget_section, compensation_section, settings_in_words, symbol};
 
 use rins_frames::EulerAngles;
 use rins_frames::units::DEG;

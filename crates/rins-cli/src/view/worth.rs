@@ -1,7 +1,7 @@
 //! How a calibration is used: the compensation in words, and what each error is worth in navigation.
 
 use rins_frames::units::{ARCSEC, DEG};
-use rins_terms::{Model, Term};
+use rins_terms::{Model, Term, Unit};
 
 use crate::commands::calibrate::{Budget, EQUATION, STEPS};
 use crate::number::{estimate, figure};
@@ -20,7 +20,7 @@ pub(crate) fn settings_in_words(
         .enumerate()
         .map(|(place, (setting, value))| {
             let unit = setting.unit;
-            let symbol = if unit.symbol == "1" { "" } else { unit.symbol };
+            let symbol = symbol(unit);
             if let Some((_, sigma)) = sought.filter(|(of, _)| *of == place) {
                 let (value, sigma) = estimate(value / unit.factor, sigma / unit.factor);
                 return format!("{} = {value} ± {sigma} {symbol}", setting.name).trim_end().into();
@@ -35,6 +35,11 @@ pub(crate) fn settings_in_words(
         })
         .collect();
     words.join(", ")
+}
+
+/// A unit in a sentence: nothing of a plain number.
+pub(crate) fn symbol(unit: Unit) -> &'static str {
+    if unit == Unit::ONE { "" } else { unit.symbol }
 }
 
 /// The compensation equation, its steps, and the terms of the model.

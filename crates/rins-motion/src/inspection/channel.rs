@@ -7,6 +7,7 @@ use super::{CHANNELS, Expected};
 use crate::comb::comb;
 use crate::median::median;
 use crate::recording::Recording;
+use crate::sticking::steps;
 
 /// A spike is so many times the robust scatter of the differences between neighbours ...
 const SPIKE_RATIO: f64 = 50.0;
@@ -114,11 +115,6 @@ fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
             [one] => first.count == 1 && is_shown(1 - one),
             _ => false,
         }
-}
-
-/// From each reading to the next.
-fn steps(readings: &[f64]) -> Vec<f64> {
-    readings.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
 /// The robust scatter of steps; none if there is no step.

@@ -164,15 +164,11 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
         .filter(|&channel| recording.len() > 1 && longest_repeat[channel] == recording.len())
         .map(|channel| Suspicion::StuckChannel { channel: CHANNELS[channel] })
         .collect();
-    suspicions.extend((0..6).filter_map(|channel| {
-        let rows = recording.stuck_for_long(channel);
-        let longest = rows.first()?.clone();
-        Some(Suspicion::Sticks {
-            channel: CHANNELS[channel],
-            rows: rows.len(),
-            count: longest.len(),
-            time: recording.times[longest.start],
-        })
+    let stuck = CHANNELS.into_iter().zip(recording.stuck_for_long());
+    suspicions.extend(stuck.filter_map(|(channel, rows)| {
+        let longest = rows.first()?;
+        let (count, time) = (longest.len(), recording.times[longest.start]);
+        Some(Suspicion::Sticks { channel, rows: rows.len(), count, time })
     }));
     suspicions.extend(channel::suspicions(recording, expected, &stands));
     let timing = Timing::of(recording);

@@ -141,15 +141,7 @@ impl Prepared {
         });
         let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
         let (attitude, mut remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
-        remarks.extend(repeats.map(|Repeats { samples, rows, alone, .. }| {
-            let channels: Vec<&str> =
-                CHANNELS.into_iter().zip(alone).filter(|(_, alone)| *alone).map(|(name, _)| name).collect();
-            let which = match channels[..] {
-                [] => "all six readings".to_owned(),
-                _ => format!("all six readings, or that of {},", channels.join(" or ")),
-            };
-            format!("{samples} samples, in {rows} row(s), repeat {which} of the one before: they are taken for lost.")
-        }));
+        remarks.extend(repeats.map(repeats_in_words));
         remarks.extend(run.angle_steps.map(|AngleSteps { step, .. }| {
             format!(
                 "The encoder reads in steps of {:.3} arcsec, coarse beside its noise: its angle is trusted as far as their \
@@ -178,6 +170,18 @@ impl Prepared {
         }
         self
     }
+}
+
+fn repeats_in_words(Repeats { samples, rows, alone, .. }: Repeats) -> String {
+    let alone = CHANNELS.into_iter().zip(alone).filter(|(_, alone)| *alone);
+    let channels: Vec<&str> = alone.map(|(name, _)| name).collect();
+    let which = match channels[..] {
+        [] => "all six readings".to_owned(),
+        _ => format!("all six readings, or that of {},", channels.join(" or ")),
+    };
+    format!(
+        "{samples} samples, in {rows} row(s), repeat {which} of the one before: they are taken for lost."
+    )
 }
 
 fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {

@@ -7,7 +7,7 @@ use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
 use crate::commands::diagnose::{ByChance, Found, Named, Verdict};
 use crate::number::{estimate, figure};
-use crate::view::settings_in_words;
+use crate::view::{settings_in_words, symbol};
 
 /// How many of the estimates that moved are told in words.
 const SHIFTS_TOLD: usize = 3;
@@ -173,7 +173,7 @@ fn amplitude(found: &Found, named: &Named) -> String {
             let samples = found
                 .in_samples(own)
                 .map_or_else(String::new, |count| format!(" ({} samples)", figure(count, 3)));
-            let symbol = if unit.symbol == "1" { "" } else { unit.symbol };
+            let symbol = symbol(unit);
             format!("{name} = {value} ± {sigma} {symbol}{samples}").trim_end().to_owned()
         })
         .collect();
