@@ -18,8 +18,9 @@ use crate::trial::{Context, Trial, trials};
 /// How many events, and such of at least this part of the best one's evidence, are searched for their time.
 const REFINED: (usize, f64) = (3, 0.4);
 
-/// What an event may lose whose time is one of a few, in e-folds of p.
-const COARSE: f64 = 1.5;
+/// What an event may lose whose time is one of a few, in e-folds of p and of its odds: between two such times a step in what
+/// wanders loses half of its statistic.
+const COARSE: f64 = 4.0;
 
 /// How finely the time of an event is searched, in parts of the step between candidates.
 const FINER: [f64; 3] = [0.125, 0.03, 0.0075];
@@ -159,7 +160,7 @@ impl Case<'_> {
         });
         let events = tried.iter().filter(|trial| {
             let is_event = list[trial.candidate].step.is_some();
-            let in_reach = trial.ln_p < threshold + COARSE && trial.is_likely();
+            let in_reach = trial.ln_p < threshold + COARSE && trial.odds() > -COARSE;
             is_event && in_reach && trial.evidence >= worth
         });
         for event in events.take(REFINED.0) {

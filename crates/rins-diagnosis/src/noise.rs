@@ -151,19 +151,25 @@ impl Case<'_> {
         Ok(causes)
     }
 
-    /// The logarithm of the data's probability with a strength as the sheet says: where a base may sway instead of the gyros
-    /// being noisy, the likelier of the two.
+    /// The logarithm of the data's probability with a strength as the sheet says. Of white noise the likeliest of some: a base may
+    /// sway instead of the gyros being noisy, and flicker was found too strong if it stands for the white noise.
     fn as_said(&self, after: &Fit, strength: &Strength, said: f64) -> Result<f64, Indefinite> {
         let stated = strength.with(&after.noise, said);
-        if strength.kind != Kind::White(0) {
+        let Kind::White(which) = strength.kind else {
             let [stated] = self.likelihoods(after, &[stated])?;
             return Ok(stated);
-        }
+        };
         let found = strength.value(&after.noise[0].imu);
-        let mut swaying = stated.clone();
-        sway(&mut swaying, found * found - said * said);
-        let [stated, swaying] = self.likelihoods(after, &[stated, swaying])?;
-        Ok(stated.max(swaying))
+        let (mut swaying, mut steady) = (stated.clone(), stated.clone());
+        if which == 0 {
+            sway(&mut swaying, found * found - said * said);
+        }
+        let sheet = triad(&mut { self.sheet }, which).flicker;
+        for noise in &mut steady {
+            triad(&mut noise.imu, which).flicker = sheet;
+        }
+        let all = self.likelihoods(after, &[stated, swaying, steady])?;
+        Ok(all.into_iter().fold(f64::NEG_INFINITY, f64::max))
     }
 
     /// How much more likely a fit is than one without this strength, all others being found anew, as a logarithm: what a walk

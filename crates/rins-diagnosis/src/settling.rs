@@ -73,8 +73,15 @@ impl Case<'_> {
         mut how: Found,
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
+        // What was found, if exchanges lead to nothing: of two in its place one may be dropped, and the other not be enough.
+        let mut as_searched = None;
         let mut changes = 0;
-        while !found.is_empty() {
+        loop {
+            if found.is_empty() {
+                let Some(searched) = as_searched.take() else { break };
+                (present, found) = searched;
+                changes = MOST_CHANGES;
+            }
             let list = self.with_events(&present, &found);
             let later = settling_later(&found);
             let all: Vec<Candidate> =
@@ -94,7 +101,15 @@ impl Case<'_> {
                 let Some(context) = Context::of(&survey, &places.concat(), &taken) else {
                     continue;
                 };
-                let tried = trials(&survey, &context, &list);
+                let mut tried = trials(&survey, &context, &list);
+                if let [only] = &found[..] {
+                    // The fits that it was accepted by say more than what is linear about the last one.
+                    let own =
+                        |trial: &&mut Trial| list[trial.candidate].chosen.term.id == only.term.id;
+                    if let Some(own) = tried.iter_mut().find(own) {
+                        own.ln_p = self.ln_p(before, &present, own);
+                    }
+                }
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
@@ -132,6 +147,9 @@ impl Case<'_> {
             }
             changes += 1;
             let is_exchange = matches!(change, Some((_, Look::Exchange(_))));
+            if is_exchange && as_searched.is_none() {
+                as_searched = Some((present.clone(), found.clone()));
+            }
             let mut changed = found.clone();
             match change {
                 Some((index, Look::Exchange(better))) => _ = changed.splice(index..=index, better),

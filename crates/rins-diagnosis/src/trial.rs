@@ -49,10 +49,15 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
-    /// Whether it is likelier than nothing, were it alone: what is small of its kind, or could follow much else, gives way to
-    /// other effects by that and not to chance, which is asked for its significance.
+    /// The logarithm of its odds against nothing, were it alone: what is small of its kind, or could follow much else, gives way
+    /// to other effects by that and not to chance, which is asked for its significance.
+    pub(crate) fn odds(&self) -> f64 {
+        self.evidence + self.slight + self.pliable
+    }
+
+    /// Whether it is likelier than nothing.
     pub(crate) fn is_likely(&self) -> bool {
-        self.evidence + self.slight + self.pliable > 0.0
+        self.odds() > 0.0
     }
 }
 

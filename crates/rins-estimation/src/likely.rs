@@ -41,7 +41,7 @@ const LEAST_SHOWING: f64 = -2.0;
 
 /// A strength that a data sheet states is lost below this, as a logarithm over that: something else stands for it, and as
 /// it does not show it has no slope that would lead back.
-const LOST: f64 = -1.5;
+const LOST: f64 = -1.0;
 
 /// The most steps of the search.
 const MOST_STEPS: usize = 40;
