@@ -55,22 +55,22 @@ const STRENGTHS: [Strength; 7] = [
     Strength { term: &catalogue::TIMESTAMP_JITTER, kind: Kind::Jitter },
 ];
 
-impl Strength {
-    fn slot<'a>(&self, strengths: &'a mut Strengths) -> &'a mut f64 {
-        match self.kind {
-            Kind::White(which) => &mut triad(strengths, which).white,
-            Kind::Flicker(which) => &mut triad(strengths, which).flicker,
-            Kind::Walk(which) => &mut triad(strengths, which).walk,
-            Kind::Jitter => &mut strengths.jitter,
+impl Kind {
+    fn slot(self, strengths: &mut Strengths) -> &mut f64 {
+        match self {
+            Self::White(which) => &mut triad(strengths, which).white,
+            Self::Flicker(which) => &mut triad(strengths, which).flicker,
+            Self::Walk(which) => &mut triad(strengths, which).walk,
+            Self::Jitter => &mut strengths.jitter,
         }
     }
 
-    fn value(&self, strengths: &Strengths) -> f64 {
+    fn value(self, strengths: &Strengths) -> f64 {
         *self.slot(&mut { *strengths })
     }
 
     /// All runs' noise with another strength.
-    fn with(&self, noise: &[Noise], value: f64) -> RunNoise {
+    fn with(self, noise: &[Noise], value: f64) -> RunNoise {
         let mut other = noise.to_vec();
         for noise in &mut other {
             *self.slot(&mut noise.imu) = value;
@@ -93,10 +93,10 @@ impl Case<'_> {
         let NoiseKnowledge::Likely(sought) = self.knowledge else { return Ok(Vec::new()) };
         let mut causes = Vec::new();
         for strength in &STRENGTHS {
-            let found = strength.value(&after.noise[0].imu);
+            let found = strength.kind.value(&after.noise[0].imu);
             let is_white = matches!(strength.kind, Kind::White(_));
-            let said = strength.value(&self.sheet);
-            let asked = said == 0.0 && strength.value(&sought) > 0.0;
+            let said = strength.kind.value(&self.sheet);
+            let asked = said == 0.0 && strength.kind.value(&sought) > 0.0;
             let usual = strength.term.parameters[0].range(self.imu).1;
             let (as_said, limit) = match (strength.kind, said > 0.0) {
                 (Kind::White(_), _) => (said, WHITE),
@@ -117,7 +117,7 @@ impl Case<'_> {
                 continue;
             }
             let around = [found, found * STEP.exp(), found * (-STEP).exp()];
-            let around = around.map(|value| strength.with(&after.noise, value));
+            let around = around.map(|value| strength.kind.with(&after.noise, value));
             let [here, above, below] = self.likelihoods(after, &around)?;
             let anew = asked.then(|| self.gain_over(after, strength)).flatten();
             let gain = match anew {
@@ -154,22 +154,22 @@ impl Case<'_> {
     /// The logarithm of the data's probability with a strength as the sheet says. Of white noise the likeliest of some: a base may
     /// sway instead of the gyros being noisy, and flicker was found too strong if it stands for the white noise.
     fn as_said(&self, after: &Fit, strength: &Strength, said: f64) -> Result<f64, Indefinite> {
-        let stated = strength.with(&after.noise, said);
+        let stated = strength.kind.with(&after.noise, said);
         let Kind::White(which) = strength.kind else {
             let [stated] = self.likelihoods(after, &[stated])?;
             return Ok(stated);
         };
-        let found = strength.value(&after.noise[0].imu);
-        let (mut swaying, mut steady) = (stated.clone(), stated.clone());
-        if which == 0 {
-            sway(&mut swaying, found * found - said * said);
+        let flicker = Kind::Flicker(which);
+        let steady = flicker.with(&stated, flicker.value(&self.sheet));
+        if which != 0 {
+            let [stated, steady] = self.likelihoods(after, &[stated, steady])?;
+            return Ok(stated.max(steady));
         }
-        let sheet = triad(&mut { self.sheet }, which).flicker;
-        for noise in &mut steady {
-            triad(&mut noise.imu, which).flicker = sheet;
-        }
-        let all = self.likelihoods(after, &[stated, swaying, steady])?;
-        Ok(all.into_iter().fold(f64::NEG_INFINITY, f64::max))
+        let found = strength.kind.value(&after.noise[0].imu);
+        let mut swaying = stated.clone();
+        sway(&mut swaying, found * found - said * said);
+        let [stated, steady, swaying] = self.likelihoods(after, &[stated, steady, swaying])?;
+        Ok(stated.max(steady).max(swaying))
     }
 
     /// How much more likely a fit is than one without this strength, all others being found anew, as a logarithm: what a walk
@@ -178,7 +178,7 @@ impl Case<'_> {
         let mut sought = self.knowledge.sheet();
         let mut near = after.clone();
         for strengths in near.noise.iter_mut().map(|noise| &mut noise.imu).chain([&mut sought]) {
-            *strength.slot(strengths) = 0.0;
+            *strength.kind.slot(strengths) = 0.0;
         }
         let without = Case { knowledge: NoiseKnowledge::Likely(sought), ..*self };
         let fitted = without.fit_near(&near, self.causes_in(after)).ok()?;

@@ -101,15 +101,7 @@ impl Case<'_> {
                 let Some(context) = Context::of(&survey, &places.concat(), &taken) else {
                     continue;
                 };
-                let mut tried = trials(&survey, &context, &list);
-                if let [only] = &found[..] {
-                    // The fits that it was accepted by say more than what is linear about the last one.
-                    let own =
-                        |trial: &&mut Trial| list[trial.candidate].chosen.term.id == only.term.id;
-                    if let Some(own) = tried.iter_mut().find(own) {
-                        own.ln_p = self.ln_p(before, &present, own);
-                    }
-                }
+                let tried = trials(&survey, &context, &list);
                 let is_found = |candidate: &Candidate| {
                     let (own, found) = (&candidate.chosen, &found[index]);
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
@@ -126,8 +118,12 @@ impl Case<'_> {
                 });
                 let (survey, list, found) = (&survey, &list, &found);
                 let among = found_among[index];
-                let question =
+                let mut question =
                     Question { survey, list, found, index, places, tried, as_found, among };
+                // One that is alone has been fitted with and without, which says more than what is linear about the last fit.
+                if let (1, Some(own)) = (found.len(), question.own_place()) {
+                    question.tried[own].ln_p = self.ln_p(before, &present, &question.tried[own]);
+                }
                 let mut look = match how {
                     Found::Searched => self.look(&question),
                     Found::Supposed => Look::Keep(question.cause()),
@@ -257,7 +253,11 @@ impl Question<'_> {
 
     /// The cause itself among those that are tried in its place.
     fn own(&self) -> Option<&Trial> {
-        self.tried.iter().find(|trial| self.id(trial) == self.found[self.index].term.id)
+        self.own_place().map(|own| &self.tried[own])
+    }
+
+    fn own_place(&self) -> Option<usize> {
+        self.tried.iter().position(|trial| self.id(trial) == self.found[self.index].term.id)
     }
 
     /// Whether the cause itself is significant. Of a line the frequency is not asked again: it was found against all others.
