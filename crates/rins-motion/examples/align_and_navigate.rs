@@ -12,8 +12,8 @@ use rand_pcg::Pcg64;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G};
 use rins_frames::{Body, Dcm, EulerAngles, InFrame, Increments, Site, Table};
 use rins_motion::{
-    MeanUncertainty, Navigator, Profile, Recording, RestMean, Segment, Station, TrueMotion,
-    VerticalChannel, align, rest_spans,
+    MeanUncertainty, Navigator, Profile, Recording, RestMean, Segment, StaticIntervals,
+    StaticOptions, Station, TrueMotion, VerticalChannel, align,
 };
 
 const INTERVAL: f64 = 0.01;
@@ -31,7 +31,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let recording = record(&motion);
 
-    let dwell = rest_spans(&recording, 60.0).into_iter().next().ok_or("the table never stands")?;
+    let dwell = StaticIntervals::of(&recording, &StaticOptions::default())
+        .spans(60.0)
+        .into_iter()
+        .next()
+        .ok_or("the table never stands")?;
     let mean = RestMean::of(&recording, dwell.clone()).ok_or("the dwell is too short")?;
     let sigma = MeanUncertainty {
         angular_rate: mean.angular_rate_sigma.max(),

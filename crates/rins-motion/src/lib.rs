@@ -2,7 +2,7 @@
 //!
 //! **What it does.** A [`Profile`] tells a single-axis table what to do; [`TrueMotion`] puts the
 //! table on the turning Earth and integrates what a perfect IMU measures there, to the last digit.
-//! [`rest_spans`], [`align`] and [`Navigator`] go the other way, from increments to rest, attitude,
+//! [`StaticIntervals`], [`align`] and [`Navigator`] go the other way, from increments to static intervals, attitude,
 //! velocity and position; [`inspect`] says what a [`Recording`] looks like before any of that. The
 //! [`mechanism`] module foretells what sensor errors do to all this: the paper's closed forms, with
 //! their sign corrected, and a linear model of the round Earth beside them.
@@ -47,6 +47,7 @@ mod ramps;
 mod recording;
 mod repeats;
 mod rest;
+mod static_intervals;
 mod station;
 mod sticking;
 mod strapdown;
@@ -61,13 +62,16 @@ pub use cubic::cubic;
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
 pub use inspection::{
     CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,
-    ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect,
+    ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect, inspect_with,
 };
 pub use median::median;
 pub use ramps::with_ramps;
 pub use recording::Recording;
 pub use repeats::Repeats;
-pub use rest::{RestMean, rest_spans};
+pub use rest::RestMean;
+pub use static_intervals::{
+    NotStatic, SensorFigures, StaticInterval, StaticIntervals, StaticOptions,
+};
 pub use station::Station;
 pub use strapdown::{Figures, Mechanisation, NavState, Navigator, VerticalChannel};
 pub use truth::{TrueMotion, TrueSample};

@@ -29,11 +29,9 @@ use self::units::{explained, mistakes};
 use self::whole_turns::WholeTurns;
 use crate::median::median;
 use crate::recording::Recording;
-use crate::rest::{RestMean, rest_spans};
+use crate::rest::RestMean;
+use crate::static_intervals::{SensorFigures, StaticIntervals, StaticOptions};
 use crate::station::Station;
-
-/// The shortest rest that is reported \[s\].
-const SHORTEST_REST: f64 = 1.0;
 
 /// Rests that last this share of the longest are looked at like it.
 const LONG_REST: f64 = 0.5;
@@ -95,7 +93,9 @@ pub struct Expected {
 pub struct Inspection {
     /// How regularly samples came.
     pub timing: Timing,
-    /// When the IMU stood still.
+    /// The static intervals, and what looks like one and is none.
+    pub static_intervals: StaticIntervals,
+    /// The means over those that are used.
     pub rests: Vec<RestSeen>,
     /// How many turns were made about body z, forwards and backwards added up.
     pub turns: f64,
@@ -146,10 +146,29 @@ pub struct Inspection {
 /// assert!(inspection.suspicions.iter().any(|s| matches!(s, Suspicion::Level { off, .. } if *off > 3.1)));
 /// ```
 pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
+    let figures = |triad: &ExpectedTriad| SensorFigures {
+        bias_sigma: triad.bias_sigma,
+        ..SensorFigures::default()
+    };
+    let options = StaticOptions {
+        gyro: figures(&expected.gyro),
+        accel: figures(&expected.accel),
+        ..StaticOptions::default()
+    };
+    inspect_with(recording, expected, StaticIntervals::of(recording, &options))
+}
+
+/// [`inspect`] where the static intervals are found already.
+pub fn inspect_with(
+    recording: &Recording,
+    expected: &Expected,
+    static_intervals: StaticIntervals,
+) -> Inspection {
     let channels: [Vec<f64>; 6] = std::array::from_fn(|channel| {
         recording.increments.iter().map(|sample| reading(sample, channel)).collect()
     });
-    let rests: Vec<RestSeen> = rest_spans(recording, SHORTEST_REST)
+    let rests: Vec<RestSeen> = static_intervals
+        .spans(0.0)
         .into_iter()
         .filter_map(|span| {
             RestMean::of(recording, span.clone()).map(|mean| RestSeen { span, mean })
@@ -231,6 +250,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
             .iter()
             .any(|rest| rest.mean.rates.angular_rate.norm() < EARTH_RATE_VISIBLE * EARTH_RATE),
         rests,
+        static_intervals,
         timing,
         suspicions,
     }

@@ -1,10 +1,17 @@
 //! Turns too slow for the gyros to tell from a bias end a rest; a base that sways does not.
 
+use std::ops::Range;
+
 use rins_frames::InFrame;
 use rins_frames::units::{DEG, DEG_PER_SECOND};
-use rins_motion::{Recording, rest_spans};
+use rins_motion::{Recording, StaticIntervals, StaticOptions};
 
 use crate::run::{CHIP, Grade, NAVIGATION, profile, record};
+
+/// The static intervals that last so long \[s\].
+fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
+    StaticIntervals::of(recording, &StaticOptions::default()).spans(shortest)
+}
 
 /// A recording of these segments without a word of the table.
 fn unattended(segments: &[(f64, f64)]) -> Recording {
