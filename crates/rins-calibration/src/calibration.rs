@@ -6,8 +6,11 @@ use nalgebra::{Matrix3, SVector, Vector3};
 use rins_ekf::UpdateError;
 use rins_frames::units::{ARCSEC, PPM};
 use rins_frames::{Body, Dcm, Nav, Table};
-use rins_imu::{ImuCompensationError, ImuError, TriadError};
-use rins_motion::{AlignmentError, MeanUncertainty, Recording, RestMean, align, rest_spans};
+use rins_imu::{ImuCompensationError, ImuError, TriadError, TriadSpec};
+use rins_motion::{
+    AlignmentError, MeanUncertainty, Recording, RestMean, SensorFigures, StaticIntervals,
+    StaticOptions, align,
+};
 
 use crate::consistency::Consistency;
 use crate::filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};
@@ -241,7 +244,18 @@ impl<'a> Run<'a> {
     ) -> Result<Self, CalibrationError> {
         let angles =
             table_angles(recording, setup.table.latency).ok_or(CalibrationError::NoTable)?;
-        let rest = rest_spans(recording, SHORTEST_REST)
+        let figures = |sheet: &TriadSpec| SensorFigures {
+            bias_sigma: Some(sheet.bias_sigma),
+            noise_density: Some(sheet.noise_density),
+            resolution: sheet.resolution,
+        };
+        let options = StaticOptions {
+            gyro: figures(&setup.imu.gyro),
+            accel: figures(&setup.imu.accel),
+            ..StaticOptions::default()
+        };
+        let rest = StaticIntervals::of(recording, &options)
+            .spans(SHORTEST_REST)
             .into_iter()
             .next()
             .filter(|span| span.start == 0)

@@ -64,7 +64,7 @@ pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use rounding::AngleSteps;
-pub use run::{FEWEST_SAMPLES, Reference, Rig, Run, RunError};
+pub use run::{Reference, Rig, Run, RunError};
 pub use strengths::{Noise, NoiseKnowledge, Strengths, TriadStrengths};
 
 #[cfg(doctest)]

@@ -15,7 +15,10 @@ use crate::run::{Reference, Run};
 use crate::step::SHOWN;
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
-const EPOCH: (f64, f64) = (0.1, 0.5);
+const EPOCH: (f64, f64) = (SHORTEST_EPOCH, 0.5);
+
+/// The shortest epoch \[s\].
+pub(crate) const SHORTEST_EPOCH: f64 = 0.1;
 
 /// No more epochs than this, however long the run is: those of a day last two seconds.
 const MOST_EPOCHS: f64 = 40_000.0;

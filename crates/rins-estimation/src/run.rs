@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rins_frames::{Dcm, Nav, Table};
 use rins_motion::{Recording, Station};
 
+use crate::linear::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
 
 /// What tells where the table is.
@@ -57,18 +58,22 @@ pub struct Run {
     pub angle_steps: Option<AngleSteps>,
 }
 
-/// The fewest samples that a run may have.
-pub const FEWEST_SAMPLES: usize = 100;
+/// A run has so many epochs at least: with fewer, six parameters and the noise cannot be told from each other.
+const FEWEST_EPOCHS: f64 = 10.0;
 
 /// Why a run cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// Too few samples.
-    #[error("a run of {samples} samples is too short; it needs {FEWEST_SAMPLES}")]
+    /// Too few epochs.
+    #[error(
+        "{duration:.3} s of data are too short to estimate from: {needed:.3} s are needed at this sampling rate"
+    )]
     TooShort {
-        /// How many there are.
-        samples: usize,
+        /// How long it lasts \[s\].
+        duration: f64,
+        /// How long it must last \[s\].
+        needed: f64,
     },
     /// The log has no encoder, which is to be the reference.
     #[error("the table angle is to be the reference, and the recording has none")]
@@ -99,8 +104,11 @@ impl Run {
     /// [`RunError`] if it is too short, lacks the reference, or a figure of the rig is impossible.
     pub fn new(rig: Rig, recording: impl Into<Arc<Recording>>) -> Result<Self, RunError> {
         let recording = recording.into();
-        if recording.len() < FEWEST_SAMPLES {
-            return Err(RunError::TooShort { samples: recording.len() });
+        let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
+        let interval = duration / recording.len().max(1) as f64;
+        let needed = FEWEST_EPOCHS * SHORTEST_EPOCH.max(interval);
+        if recording.len() < 2 || duration < needed * (1.0 - 1e-9) {
+            return Err(RunError::TooShort { duration, needed });
         }
         let positive = |quantity, value: f64| {
             let fine = value.is_finite() && value > 0.0;

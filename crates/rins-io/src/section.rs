@@ -243,7 +243,13 @@ impl<'d> Section<'d> {
         self.error_at(key, Some(value.line), KeyProblem::WrongType { got, expected })
     }
 
-    fn quantity_of(&self, key: &str, value: &Value, kind: &Kind) -> Result<f64, IoError> {
+    /// The quantity that a value is, in SI units and radians.
+    pub(crate) fn quantity_of(
+        &self,
+        key: &str,
+        value: &Value,
+        kind: &Kind,
+    ) -> Result<f64, IoError> {
         let Node::Text(text) = &value.node else {
             return Err(self.wrong_type(key, value, such_as(kind)));
         };

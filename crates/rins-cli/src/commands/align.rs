@@ -4,22 +4,29 @@ use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
 
+use anyhow::Context;
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
 use rins_io::Loaded;
 use rins_motion::{
     AlignmentError, FineAlignment, FineAlignmentError, GyroFigures, MeanUncertainty, PlaceSeen,
-    Recording, RestMean, align_finely, level, place_seen, residual, rest_spans,
+    RestMean, StaticIntervals, align_finely, level, place_seen, residual,
 };
 use serde_json::{Value, json};
 
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{load, shown};
+use crate::commands::statics::{
+    longest, none_found, only, static_intervals, statics_in_words, statics_json,
+};
 use crate::outcome::Outcome;
 use crate::report::{Cell, Column, Item, Report, Section, Table};
 use crate::view::euler_json;
 use crate::view::table::aligned;
+
+/// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
+pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
 
 /// The shortest rest that is aligned on \[s\].
 const SHORTEST_REST: f64 = 5.0;
@@ -62,19 +69,10 @@ impl Found {
 
 /// Aligns on the longest rest of a run.
 pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
-    let span = longest_rest(&loaded.recording, SHORTEST_REST).ok_or_else(|| {
-        anyhow::anyhow!(
-            "{}: the IMU never stands still for {SHORTEST_REST} s, so there is nothing to align on",
-            loaded.rig.log.path.display()
-        )
+    let span = longest(loaded, SHORTEST_REST).ok_or_else(|| {
+        anyhow::anyhow!("{}, so there is nothing to align on", none_found(loaded, SHORTEST_REST))
     })?;
     found_over(loaded, span)
-}
-
-/// The longest rest of a run, if one lasts as long as `shortest` \[s\].
-pub(crate) fn longest_rest(recording: &Recording, shortest: f64) -> Option<Range<usize>> {
-    let lasting = |span: &Range<usize>| recording.times[span.end - 1] - recording.times[span.start];
-    rest_spans(recording, shortest).into_iter().max_by(|a, b| lasting(a).total_cmp(&lasting(b)))
 }
 
 /// Aligns on one rest of a run.
@@ -106,10 +104,13 @@ pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<
             let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
             (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
         }
-        Err(error) => {
-            let log = loaded.rig.log.path.display().to_string();
-            return Err(anyhow::Error::new(error).context(log));
+        // What is too short for the Earth's rate to show is not too short for gravity.
+        Err(FineAlignmentError::TooShort { .. }) => {
+            let hidden = AlignmentError::NorthNotFound { azimuth_sigma: ANY_AZIMUTH };
+            let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
+            (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
         }
+        Err(error) => return Err(error.into()),
     };
     // The filter tells the rate at the start of the rest, so that up must be that of the start too.
     let seen = fine.map_or(mean.rates, |fine| {
@@ -152,10 +153,12 @@ fn accel_sigma(loaded: &Loaded) -> f64 {
 pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     let loaded = load(rig)?;
     refuse_mistaken(&loaded)?;
-    let found = found(&loaded)?;
+    let found = found(&loaded).with_context(|| loaded.rig.log.path.display().to_string())?;
     let rows = rows(&found, &loaded);
     let title = format!("Alignment of {}", shown(rig));
-    let sentences = sentences(&found, &loaded);
+    let statics = static_intervals(&loaded);
+    let mut sentences = sentences(&found, &loaded);
+    sentences.extend(statics_in_words(&statics, &loaded.rig));
     let mut text = format!("{title}\n");
     for sentence in &sentences {
         let _ = writeln!(text, "  {sentence}");
@@ -173,7 +176,7 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
         }],
     };
     Ok(Outcome {
-        json: json(&found, &loaded, rig),
+        json: json(&found, &loaded, rig, &statics),
         text,
         report: Some(report),
         ..Outcome::default()
@@ -293,7 +296,7 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
     rows
 }
 
-fn json(found: &Found, loaded: &Loaded, rig: &Path) -> Value {
+fn json(found: &Found, loaded: &Loaded, rig: &Path, statics: &StaticIntervals) -> Value {
     let angles = found.nav_from_body.euler_angles();
     let (east, north, up) = found.sigma;
     let place = &found.place;
@@ -305,6 +308,7 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path) -> Value {
         "command": "align",
         "rig": shown(rig),
         "rest_s": [found.start, loaded.recording.times[found.span.end - 1]],
+        "static_intervals": statics_json(statics, only(&found.span)),
         "attitude_deg": {
             "roll": angles.roll / DEG,
             "pitch": angles.pitch / DEG,

@@ -4,23 +4,29 @@ use std::ops::Range;
 use std::path::Path;
 
 use anyhow::Context;
+use rins_frames::{Increments, Rates};
 use rins_imu::{AllanPlan, Axis, CONFIDENCE, NoiseLaw, NoiseSeen, Strength, Triad, TriadSpec};
-use rins_io::Loaded;
+use rins_io::{Gaps, Loaded, LogFormat};
 use rins_motion::{Recording, median};
 use rins_terms::Unit;
 use serde_json::{Value, json};
 
-use crate::commands::align::longest_rest;
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{load, shown};
+use crate::commands::statics::{
+    longest, none_found, static_intervals, statics_in_words, statics_json,
+};
 use crate::outcome::Outcome;
 use crate::view::{allan_report, allan_text};
 
 /// The shortest rest whose noise is looked at \[s\].
 const SHORTEST_REST: f64 = 10.0;
 
-/// An interval that is so many times the usual one holds a gap, across which nothing is averaged.
+/// An interval that is so many times the usual one holds a gap.
 const GAP: f64 = 1.5;
+
+/// Lost samples are filled in up to this share of all.
+const MOST_FILLED: f64 = 0.01;
 
 /// The noise of six sensors over a rest.
 #[derive(Debug)]
@@ -31,6 +37,12 @@ pub(crate) struct Rest {
     pub(crate) interval: f64,
     /// The gyros, then the accelerometers.
     pub(crate) channels: Vec<Channel>,
+    /// How many lost samples were filled in.
+    lost: usize,
+    /// The static intervals, for a machine.
+    statics: Value,
+    /// What a reader must know of the samples that were used.
+    pub(crate) remarks: Vec<String>,
 }
 
 /// What one sensor shows.
@@ -103,35 +115,64 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     .of_log(&loaded))
 }
 
-/// The noise over the longest rest, or where gaps part it over the longest part.
+/// The noise over the longest static interval, lost samples filled in.
 fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     let recording = &loaded.recording;
     let log = loaded.rig.log.path.display();
-    let still = longest_rest(recording, SHORTEST_REST).ok_or_else(|| {
-        anyhow::anyhow!(
-            "{log}: the IMU never stands still for {SHORTEST_REST} s, and what it reads on the move is no noise"
-        )
+    let still = longest(loaded, SHORTEST_REST).ok_or_else(|| {
+        let none = none_found(loaded, SHORTEST_REST);
+        anyhow::anyhow!("{log}: {none}, and what it reads on the move is no noise")
     })?;
-    let span = unbroken(recording, still);
-    let samples = &recording.increments[span.clone()];
-    let duration: f64 = samples.iter().map(|sample| sample.interval).sum();
+    let accumulated = matches!(
+        &loaded.rig.log.format,
+        LogFormat::Columns(columns) if columns.gaps == Some(Gaps::Accumulated)
+    );
+    let (span, filled, remark) = match Filled::of(recording, still.clone(), accumulated) {
+        Some(filled) => {
+            let remark = (filled.lost > 0).then(|| {
+                format!(
+                    "{} lost samples, {:.2} % of the interval, are filled in from those beside them.",
+                    filled.lost,
+                    100.0 * filled.share()
+                )
+            });
+            (still, filled, remark)
+        }
+        None => {
+            let part = unbroken(recording, still.clone());
+            let lasting = |span: &Range<usize>| -> f64 {
+                recording.increments[span.clone()].iter().map(|sample| sample.interval).sum()
+            };
+            let remark = format!(
+                "Of the static interval of {:.0} s only {:.0} s are used, the longest part without a gap: more than \
+                 {:.0} % of it is lost.",
+                lasting(&still),
+                lasting(&part),
+                100.0 * MOST_FILLED
+            );
+            let filled = Filled::whole(recording, part.clone());
+            (part, filled, Some(remark))
+        }
+    };
+    let interval = filled.interval;
+    let duration = interval * filled.samples.len() as f64;
     anyhow::ensure!(
         duration >= SHORTEST_REST * (1.0 - 1e-9),
-        "{log}: gaps leave at most {duration:.1} s of rest in one piece, and {SHORTEST_REST} s are needed"
+        "{log}: gaps leave at most {duration:.1} s of a static interval in one piece, and {SHORTEST_REST} s are needed"
     );
-    let interval = duration / samples.len() as f64;
-    let plan = AllanPlan::new(samples.len(), interval).with_context(|| log.to_string())?;
+    let plan = AllanPlan::new(filled.samples.len(), interval).with_context(|| log.to_string())?;
     let mut channels = Vec::new();
     for triad in [Triad::Gyro, Triad::Accel] {
         for axis in Axis::ALL {
-            let of = |k: usize| match triad {
-                Triad::Gyro => samples[k].angle.components()[axis.index()],
-                Triad::Accel => samples[k].velocity.components()[axis.index()],
+            let of = |sample: &Increments| match triad {
+                Triad::Gyro => sample.angle.components()[axis.index()],
+                Triad::Accel => sample.velocity.components()[axis.index()],
             };
-            let mean = (0..samples.len()).map(of).sum::<f64>() / duration;
+            let lasting: f64 = filled.samples.iter().map(|sample| sample.interval).sum();
+            let mean = filled.samples.iter().map(of).sum::<f64>() / lasting;
             // Less the mean over its own interval: where intervals jitter, gravity is no noise.
             let noise: Vec<f64> =
-                (0..samples.len()).map(|k| of(k) - mean * samples[k].interval).collect();
+                filled.samples.iter().map(|sample| of(sample) - mean * sample.interval).collect();
             let seen = plan.noise(&noise).with_context(|| format!("{log}: {triad} {axis}"))?;
             let sheet = loaded.rig.imu.map(|imu| match triad {
                 Triad::Gyro => imu.gyro,
@@ -140,8 +181,96 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
             channels.push(Channel { triad, axis, seen, sheet });
         }
     }
-    let start = recording.times[span.start] - samples[0].interval;
-    Ok(Rest { span: (start, recording.times[span.end - 1]), interval, channels })
+    let statics = static_intervals(loaded);
+    let start = recording.times[span.start] - recording.increments[span.start].interval;
+    let start = if start.abs() < 1e-6 * interval { 0.0 } else { start };
+    let mut remarks: Vec<String> = remark.into_iter().collect();
+    remarks.extend(statics_in_words(&statics, &loaded.rig));
+    Ok(Rest {
+        span: (start, recording.times[span.end - 1]),
+        interval,
+        channels,
+        lost: filled.lost,
+        statics: statics_json(&statics, |interval| {
+            (interval.span.start > span.start || interval.span.end < span.end)
+                .then(|| "static, but only the longest interval is used".into())
+        }),
+        remarks,
+    })
+}
+
+/// Samples at even intervals, those that are lost filled in.
+struct Filled {
+    samples: Vec<Increments>,
+    interval: f64,
+    lost: usize,
+}
+
+impl Filled {
+    /// The samples of `span` as they are.
+    fn whole(recording: &Recording, span: Range<usize>) -> Self {
+        let samples = recording.increments[span].to_vec();
+        let duration: f64 = samples.iter().map(|sample| sample.interval).sum();
+        Self { interval: duration / samples.len().max(1) as f64, samples, lost: 0 }
+    }
+
+    /// Those of `span`; none if more are lost than may be filled in.
+    ///
+    /// A sensor that went on summing says what the lost samples were together. Of one that did not, a lost sample is the
+    /// mean of those before and after: with half the variance of white noise, so that one lost of a hundred makes the Allan
+    /// variance of the shortest time half a percent too small.
+    fn of(recording: &Recording, span: Range<usize>, accumulated: bool) -> Option<Self> {
+        let samples = &recording.increments[span.clone()];
+        let usual = median(samples.iter().map(|sample| sample.interval))?;
+        let mut filled = Vec::with_capacity(samples.len());
+        let mut lost = 0;
+        for (place, sample) in samples.iter().enumerate() {
+            let missing = missing(sample.interval, usual);
+            if missing == 0 {
+                filled.push(*sample);
+                continue;
+            }
+            lost += missing;
+            if lost as f64 > MOST_FILLED * samples.len() as f64 {
+                return None;
+            }
+            let part = sample.interval / (missing + 1) as f64;
+            let own = sample.rates();
+            let between = match place.checked_sub(1).filter(|_| !accumulated) {
+                Some(before) => {
+                    let before = samples[before].rates();
+                    Rates {
+                        angular_rate: (before.angular_rate + own.angular_rate) * 0.5,
+                        specific_force: (before.specific_force + own.specific_force) * 0.5,
+                    }
+                }
+                None => own,
+            };
+            filled.extend(std::iter::repeat_n(between.over(part), missing));
+            filled.push(own.over(part));
+        }
+        let duration: f64 = samples.iter().map(|sample| sample.interval).sum();
+        Some(Self { interval: duration / filled.len() as f64, samples: filled, lost })
+    }
+
+    /// The share of them that is filled in.
+    fn share(&self) -> f64 {
+        self.lost as f64 / self.samples.len() as f64
+    }
+}
+
+/// How many samples are missing in an interval.
+fn missing(interval: f64, usual: f64) -> usize {
+    if interval <= GAP * usual {
+        return 0;
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it is more than one, and gaps are of a second at most"
+    )]
+    let samples = (interval / usual).round() as usize;
+    samples.saturating_sub(1)
 }
 
 /// The longest part of these samples without a gap.
@@ -166,6 +295,8 @@ fn json(rest: &Rest, rig: &Path) -> Value {
         "rig": shown(rig),
         "rest_s": [rest.span.0, rest.span.1],
         "interval_s": rest.interval,
+        "lost_samples": rest.lost,
+        "static_intervals": rest.statics,
         "confidence": CONFIDENCE,
         "channels": rest.channels.iter().map(channel_json).collect::<Vec<_>>(),
     })

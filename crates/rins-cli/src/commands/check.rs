@@ -14,7 +14,9 @@ use std::path::Path;
 
 use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_io::Loaded;
-use rins_motion::{CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect};
+use rins_motion::{
+    CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect_with,
+};
 use serde_json::{Value, json};
 
 use self::mends::{mends, mends_in_words};
@@ -27,6 +29,7 @@ use self::words::suspicion_in_words;
 use crate::commands::align::table;
 use crate::commands::repairs::repairs;
 use crate::commands::setup::{load, shown};
+use crate::commands::statics::{static_intervals, statics_in_words, statics_json};
 use crate::number::figure;
 use crate::outcome::Outcome;
 use crate::report::{Item, Report, Section, Tone};
@@ -46,6 +49,9 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
         let _ = writeln!(text, "\n  rests\n{}", aligned(&rests(&inspection, &loaded)));
     }
     let _ = writeln!(text, "\n{}", aligned(&judged(&inspection, &loaded)[1..]));
+    for line in statics_in_words(&inspection.static_intervals, &loaded.rig) {
+        let _ = writeln!(text, "  {line}");
+    }
     for oddity in &oddities {
         let _ = writeln!(text, "  ! {oddity}");
     }
@@ -88,7 +94,7 @@ pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
         gyro: triad(rig.imu.map(|imu| imu.gyro), units.gyro),
         accel: triad(rig.imu.map(|imu| imu.accel), units.accel),
     };
-    inspect(&loaded.recording, &expected)
+    inspect_with(&loaded.recording, &expected, static_intervals(loaded))
 }
 
 fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
@@ -261,6 +267,7 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
     };
     let mut summary = vec![verdict.to_owned()];
     summary.extend(oddities.iter().cloned());
+    summary.extend(statics_in_words(&inspection.static_intervals, &loaded.rig));
     let mut items: Vec<Item> = inspection
         .suspicions
         .iter()
@@ -335,6 +342,7 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         "jitter_rms_s": inspection.timing.jitter,
         "gaps": gaps,
         "rests": rests,
+        "static_intervals": statics_json(&inspection.static_intervals, |_| None),
         "turns": inspection.turns,
         "spin_ratio": inspection.spin_ratio,
         "earth_rate_visible": inspection.earth_rate_visible,

@@ -19,3 +19,4 @@ pub(crate) mod observe;
 pub(crate) mod repairs;
 mod setup;
 pub(crate) mod simulate;
+pub(crate) mod statics;

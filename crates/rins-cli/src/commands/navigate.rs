@@ -75,7 +75,7 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
             angles,
         });
     }
-    let found = found(loaded)?;
+    let found = found(loaded).with_context(|| loaded.rig.log.path.display().to_string())?;
     let first = if has_table(recording) { 0 } else { found.span.start };
     let angle = angles[found.span.start];
     let table_from_body = Dcm::<Table, Body>::about_z(angle);

@@ -61,6 +61,7 @@ fn sentences(rest: &Rest) -> Vec<String> {
         figure(rest.interval, 3),
         figure(longest, 3),
     )];
+    sentences.extend(rest.remarks.iter().cloned());
     sentences.extend(rest.channels.iter().filter_map(off_the_laws));
     sentences
 }

@@ -65,7 +65,7 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// numbers in the columns that are asked for, if its times do not increase, have longer gaps or
 /// more of them than `policy` accepts or do not fit the stated rate, if a gyro never moves, or if the table angle
 /// steps by about half a turn.
-pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
+pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     let (mut recording, mut summary, psins_header) = match &rig.log.format {
         LogFormat::Columns(columns) => {
             let (recording, summary) = assemble::read(&rig, columns, policy)?;
@@ -88,30 +88,52 @@ pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
             summary.ramps = with_ramps(rates, &recording.increments);
         }
     }
+    window(&mut rig, &mut recording, &mut summary)?;
     Ok(Loaded { rig, station, recording, summary, psins_header })
 }
 
-/// The commanded table rate over each interval, if the rig tells the profile, which begins `late`
-/// seconds before the recording.
-fn commanded(rig: &Rig, recording: &Recording, late: f64) -> Result<Option<Vec<f64>>, IoError> {
-    let Some(profile) = rig.table.as_ref().and_then(|table| table.profile.as_ref()) else {
-        return Ok(None);
+/// Keeps the part of a recording that the rig's window names, and refuses static intervals of which it holds nothing.
+///
+/// Where a log counts from so long ago that its times are counted from an origin, both are understood.
+fn window(
+    rig: &mut Rig,
+    recording: &mut Recording,
+    summary: &mut LogSummary,
+) -> Result<(), IoError> {
+    let origin = summary.time_origin;
+    let from_origin =
+        |time: &mut f64| *time -= if origin > 0.0 && *time >= origin { origin } else { 0.0 };
+    rig.log.window.iter_mut().chain(&mut rig.log.static_spans).flatten().for_each(from_origin);
+    let outside = |key, [from, to]: [f64; 2], recording: &Recording| {
+        let start = recording.times.first().zip(recording.increments.first());
+        let first = start.map_or(0.0, |(time, sample)| time - sample.interval);
+        let last = recording.times.last().copied().unwrap_or_default();
+        LogError::of(&rig.log.path, LogProblem::OutsideLog { key, from, to, first, last })
     };
-    let (Some(first), Some(last)) = (recording.increments.first(), recording.times.last()) else {
-        return Ok(None);
+    // A sample's interval may begin a rounding error before the window.
+    let slack = 0.01 * summary.nominal_interval;
+    let samples = |[from, to]: [f64; 2], recording: &Recording| {
+        let mut samples = recording.times.iter().zip(&recording.increments);
+        let inside = |(time, sample): (&f64, &rins_frames::Increments)| {
+            time - sample.interval >= from - slack
+        };
+        let first = samples.position(inside).unwrap_or(recording.len());
+        let end = recording.times.partition_point(|time| *time <= to + slack);
+        (end > first + 1).then_some(first..end)
     };
-    let start = recording.times[0] - first.interval - late;
-    let (log, commanded) = (last - start, profile.duration());
-    if log > commanded + 1.5 * first.interval {
-        let problem = LogProblem::BeyondProfile { log, profile: commanded };
-        return Err(LogError::of(&rig.log.path, problem));
+    if let Some(window) = rig.log.window {
+        let Some(kept) = samples(window, recording) else {
+            return Err(outside("window", window, recording));
+        };
+        *recording = recording.slice(kept.start, kept.end);
+        summary.samples = kept.len();
+        summary.gaps.retain(|gap| kept.contains(&gap.sample));
+        for gap in &mut summary.gaps {
+            gap.sample -= kept.start;
+        }
     }
-    let mut angle = profile.angle(0.0);
-    let mut rates = Vec::with_capacity(recording.len());
-    for (time, increments) in recording.times.iter().zip(&recording.increments) {
-        let next = profile.angle(time - start);
-        rates.push((next - angle) / increments.interval);
-        angle = next;
+    match rig.log.static_spans.iter().find(|span| samples(**span, recording).is_none()) {
+        Some(span) => Err(outside("static", *span, recording)),
+        None => Ok(()),
     }
-    Ok(Some(rates))
 }

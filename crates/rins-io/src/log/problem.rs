@@ -232,6 +232,22 @@ pub enum LogProblem {
         /// How long the profile lasts \[s\].
         profile: f64,
     },
+    /// The stated window or static interval holds none of the log.
+    #[error(
+        "[log] {key} is from {from} to {to} s, and the log from {first} to {last} s; times are those of its time column"
+    )]
+    OutsideLog {
+        /// The key.
+        key: &'static str,
+        /// From when \[s\].
+        from: f64,
+        /// To when \[s\].
+        to: f64,
+        /// When the log begins \[s\].
+        first: f64,
+        /// When it ends \[s\].
+        last: f64,
+    },
     /// A binary file ends within a row.
     #[error("the last row is cut short: rows have {bytes} bytes")]
     PartOfARow {

@@ -168,6 +168,8 @@ pub const LATENCY: Kind = Kind::new(
 );
 /// By how much one clock is ahead of another.
 pub const CLOCK_OFFSET: Kind = Kind::new("a time", Dimension::TIME, "12 ms", Range::Any);
+/// A time of a log.
+pub const LOG_TIME: Kind = Kind::new("a time", Dimension::TIME, "10 s", Range::Any);
 /// A time span.
 pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::Positive);
 /// A table's rate.

@@ -9,13 +9,14 @@ use super::log_spec::{
     ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, Stamp, Table, TemperatureColumn,
     TimeColumn, TimeUnit, TriadColumns,
 };
+use super::log_times::Clock;
 use super::table_columns;
 use crate::error::IoError;
 use crate::quantity::{Dimension, QuantityError, Unit, kinds};
 use crate::section::Section;
 
 /// The keys of `[log]`.
-pub(crate) const KEYS: [&str; 11] = [
+pub(crate) const KEYS: [&str; 13] = [
     "path",
     "format",
     "imu",
@@ -27,6 +28,8 @@ pub(crate) const KEYS: [&str; 11] = [
     "table_rate",
     "temperature",
     "gaps",
+    "static",
+    "window",
 ];
 
 const FORMATS: [(&str, Format); 8] = [
@@ -76,20 +79,45 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
     let path = folder.join(path);
     let gyro_axes = axes(gyro.as_ref())?;
     let accel_axes = axes(accel.as_ref())?;
-    let spec = LogSpec { path, format: LogFormat::Psins, rate, gyro_axes, accel_axes };
+    let spec = LogSpec {
+        path,
+        format: LogFormat::Psins,
+        rate,
+        gyro_axes,
+        accel_axes,
+        window: None,
+        static_spans: Vec::new(),
+    };
+    let spec = of_format(&log, folder, format, spec, [gyro.as_ref(), accel.as_ref()])?;
+    let time = match &spec.format {
+        LogFormat::Columns(columns) => columns.time.as_ref(),
+        LogFormat::Psins => None,
+    };
+    let clock = Clock::of(&log, time, spec.rate);
+    Ok(LogSpec { window: clock.window()?, static_spans: clock.static_spans()?, ..spec })
+}
+
+/// What the keys that depend on the format say.
+fn of_format(
+    log: &Section<'_>,
+    folder: &Path,
+    format: Format,
+    spec: LogSpec,
+    [gyro, accel]: [Option<&Section<'_>>; 2],
+) -> Result<LogSpec, IoError> {
     match format {
         Format::Psins => {
             let own = ["time", "table_angle", "table_rate", "temperature", "gaps"];
-            refuse_own(&log, &own, "a psins log has no such column")?;
+            refuse_own(log, &own, "a psins log has no such column")?;
             let own = ["path", "time", "columns", "unit", "scale", "offset"];
-            for triad in [&gyro, &accel].into_iter().flatten() {
+            for triad in [gyro, accel].into_iter().flatten() {
                 refuse_own(triad, &own, "a psins log's header says so itself")?;
             }
             Ok(spec)
         }
         Format::Fixed(fixed) => {
-            let columns = fixed.columns(&log, [gyro.as_ref(), accel.as_ref()], &spec.path)?;
-            let columns = others(&log, folder, columns)?;
+            let columns = fixed.columns(log, [gyro, accel], &spec.path)?;
+            let columns = others(log, folder, columns)?;
             Ok(LogSpec {
                 format: LogFormat::Columns(Box::new(columns)),
                 gyro_axes: spec.gyro_axes.after(&fixed.axes()),
@@ -98,8 +126,8 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
             })
         }
         Format::Table(table) => {
-            let time = time(&log, rate)?;
-            let (Some(gyro), Some(accel)) = (&gyro, &accel) else {
+            let time = time(log, spec.rate)?;
+            let (Some(gyro), Some(accel)) = (gyro, accel) else {
                 let (key, unit) =
                     if gyro.is_none() { ("gyro", "deg/s") } else { ("accel", "m/s^2") };
                 let example = format!("{{ columns = [\"x\", \"y\", \"z\"], unit = \"{unit}\" }}");
@@ -109,7 +137,7 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
             let accel_clock = own_clock(accel, time.as_ref())?;
             let accel = triad(accel, folder, &spec.path, &ACCEL)?;
             let imu = ColumnSpec { accel_clock, ..ColumnSpec::of(table, time, gyro, accel) };
-            let columns = others(&log, folder, imu)?;
+            let columns = others(log, folder, imu)?;
             Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec })
         }
     }

@@ -18,6 +18,10 @@ pub struct LogSpec {
     pub gyro_axes: Axes,
     /// From the accelerometers' axes to the body's.
     pub accel_axes: Axes,
+    /// The times from and to which the log is read, if not all of it is \[s\]: those of its time column.
+    pub window: Option<[f64; 2]>,
+    /// The static intervals that are stated, in order of time \[s\].
+    pub static_spans: Vec<[f64; 2]>,
 }
 
 /// How a log is written.
@@ -219,6 +223,8 @@ impl LogSpec {
             rate: None,
             gyro_axes: Axes::IDENTITY,
             accel_axes: Axes::IDENTITY,
+            window: None,
+            static_spans: Vec::new(),
         }
     }
 

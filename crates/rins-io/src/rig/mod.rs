@@ -5,6 +5,7 @@ mod formats;
 mod imu;
 mod log_keys;
 mod log_spec;
+mod log_times;
 mod novatel;
 mod place;
 mod table;

@@ -236,6 +236,15 @@ impl Description<'_> {
         if !(self.loaded.summary.gaps.is_empty() || holds_rates || self.format == LogFile::Psins) {
             keys.push_str("gaps = \"accumulated\"\n");
         }
+        // A format without a time column counts from where the log begins.
+        let spans = &self.loaded.rig.log.static_spans;
+        if matches!(self.format, LogFile::Csv | LogFile::Parquet | LogFile::Mat)
+            && !spans.is_empty()
+        {
+            let spans: Vec<String> =
+                spans.iter().map(|[from, to]| format!("[\"{from} s\", \"{to} s\"]")).collect();
+            let _ = writeln!(keys, "static = [{}]", spans.join(", "));
+        }
         keys
     }
 }

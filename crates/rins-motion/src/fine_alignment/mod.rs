@@ -79,10 +79,12 @@ pub enum FineAlignmentError {
     #[error(transparent)]
     Coarse(#[from] AlignmentError),
     /// The span holds too little to align on.
-    #[error("the rest holds {samples} samples, too few to align on")]
+    #[error(
+        "{duration:.2} s are too short to align on: two seconds are needed, and at least four samples"
+    )]
     TooShort {
-        /// How many it holds.
-        samples: usize,
+        /// How long it is \[s\].
+        duration: f64,
     },
     /// The filter broke off.
     #[error("the alignment filter broke off")]
@@ -107,9 +109,10 @@ pub fn align_finely(
     station: &Station,
     gyro: Option<&GyroFigures>,
 ) -> Result<FineAlignment, FineAlignmentError> {
-    let samples = span.len();
-    let mean =
-        RestMean::of(recording, span.clone()).ok_or(FineAlignmentError::TooShort { samples })?;
+    let held = recording.increments.get(span.clone()).unwrap_or_default();
+    let duration = held.iter().map(|sample| sample.interval).sum();
+    let too_short = FineAlignmentError::TooShort { duration };
+    let mean = RestMean::of(recording, span.clone()).ok_or(too_short.clone())?;
     let scattered = |sigma: &Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
     let uncertainty = MeanUncertainty {
         angular_rate: scattered(&mean.angular_rate_sigma),
@@ -122,7 +125,7 @@ pub fn align_finely(
     }
     let coarse = align(&mean.rates, &uncertainty, station)?;
     let seconds = seconds(recording, span);
-    let guess = scatter(&seconds).ok_or(FineAlignmentError::TooShort { samples })?;
+    let guess = scatter(&seconds).ok_or(too_short)?;
 
     let run = |start: &Prior, noise: Noise| -> Result<(Pass, Score), UpdateError> {
         let mut pass = Pass::new(station, start, noise);

@@ -97,15 +97,16 @@ pub(super) fn seconds(recording: &Recording, span: Range<usize>) -> Vec<Second> 
 /// A first guess of the noise: what the means over so many seconds show.
 ///
 /// The median of the differences of neighbours, so that a footstep does not count. Over ten seconds
-/// the rounding of increments, which does not accumulate, has averaged out.
+/// the rounding of increments, which does not accumulate, has averaged out; of less than twenty, halves are compared.
 pub(super) fn scatter(seconds: &[Second]) -> Option<Noise> {
-    const TOGETHER: usize = 10;
+    const MOST: usize = 10;
+    let together = MOST.min(seconds.len() / 2).max(1);
     let means: Vec<Rates> = seconds
-        .chunks_exact(TOGETHER)
+        .chunks_exact(together)
         .map(|seconds| {
             let mean = |of: fn(&Rates) -> &Vector3<f64>| {
                 let sum: Vector3<f64> = seconds.iter().map(|second| of(&second.rates)).sum();
-                InFrame::from_components(sum / TOGETHER as f64)
+                InFrame::from_components(sum / together as f64)
             };
             Rates {
                 angular_rate: mean(|rates| rates.angular_rate.components()),
@@ -113,7 +114,7 @@ pub(super) fn scatter(seconds: &[Second]) -> Option<Noise> {
             }
         })
         .collect();
-    let duration = TOGETHER as f64 * UPDATE_INTERVAL;
+    let duration = together as f64 * UPDATE_INTERVAL;
     let of = |component: fn(&Rates) -> &Vector3<f64>| {
         let steps = means.windows(2).map(|pair| {
             let step = component(&pair[1]) - component(&pair[0]);

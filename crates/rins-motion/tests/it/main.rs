@@ -14,6 +14,7 @@ mod rest;
 mod run;
 mod schuler;
 mod slow_turn;
+mod static_population;
 mod strapdown;
 mod support;
 mod truth;

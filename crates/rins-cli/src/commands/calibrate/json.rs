@@ -76,9 +76,22 @@ pub(super) fn certificate(certificate: &Certificate) -> Value {
         "identifiability": identifiability_json(&certificate.told),
         "error_budget": budget_json(&ids(certificate, first), &first.budget),
         "compensation": EQUATION,
+        "static_intervals": statics(&runs),
         "runs": runs,
         "notes": certificate.remarks,
     })
+}
+
+/// The static intervals of all runs; of several, each with the run that it is in.
+fn statics(runs: &[Value]) -> Vec<Value> {
+    let of_run = |(place, run): (usize, &Value)| {
+        let intervals = run["static_intervals"].as_array().cloned().unwrap_or_default();
+        intervals.into_iter().map(move |mut interval| {
+            interval["run"] = json!(place + 1);
+            interval
+        })
+    };
+    runs.iter().enumerate().flat_map(of_run).collect()
 }
 
 /// The ids of what was estimated of a run and of the IMU, in the order of the run's budget.
@@ -141,6 +154,7 @@ fn run_json(certificate: &Certificate, place: usize, run: &CertifiedRun) -> Valu
             Reference::Rest => "rest",
         },
         "samples": run.prepared.samples(),
+        "static_intervals": run.prepared.static_intervals,
         "rests": (!run.prepared.others.is_empty()).then_some(1 + run.prepared.others.len()),
         "axis_attitude_deg": euler_json(&run.nav_from_table.euler_angles()),
         "gravity_across_axis_m_s2":

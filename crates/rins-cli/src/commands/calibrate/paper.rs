@@ -18,6 +18,7 @@ use crate::commands::calibrate::json::{budget_json, consistency_json};
 use crate::commands::calibrate::{Budget, EQUATION, navigation_json};
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{setup, shown};
+use crate::commands::statics::{static_intervals, statics_json};
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{
@@ -73,6 +74,7 @@ pub(crate) fn outcome(
     let mut result = json(calibration, rig);
     result["error_budget"] = budget_json(&ids, &budget);
     result["compensation"] = EQUATION.into();
+    result["static_intervals"] = statics_json(&static_intervals(loaded), |_| None);
     Ok(Outcome {
         json: result,
         text: calibration_text(calibration, &title),

@@ -12,19 +12,18 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
 use rins_io::Loaded;
-use rins_motion::{CHANNELS, Recording, Repeats};
+use rins_motion::{CHANNELS, Recording, Repeats, StaticIntervals};
+use serde_json::Value;
 
 use crate::args::NoiseChoice;
-use crate::commands::align::{Found, found};
-use crate::commands::calibrate::rests::Rests;
+use crate::commands::align::{ANY_AZIMUTH, Found, found};
+use crate::commands::calibrate::rests::{self, Rests};
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::{setup, shown};
+use crate::commands::statics::{lasting, only, static_intervals, statics_in_words, statics_json};
 
 /// An attitude that was found in the same data is counted again by a hundredth of its information.
 const FOUND_HERE: f64 = 10.0;
-
-/// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
-const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
 
 /// The first guess of how a floor or a hand lets an axis tremble on which no encoder sits \[rad\].
 const UNREAD_WOBBLE: f64 = 20.0 * ARCSEC;
@@ -48,6 +47,8 @@ pub(crate) struct Prepared {
     pub(crate) repeats: Option<Repeats>,
     /// How well the axis' attitude is known beforehand.
     pub(crate) attitude: Attitude,
+    /// The static intervals of the log, for a machine.
+    pub(crate) static_intervals: Value,
     /// What a reader must know of how it was prepared.
     pub(crate) remarks: Vec<String>,
 }
@@ -104,6 +105,13 @@ impl Prepared {
         let log = || name.clone();
         let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
         let axis = axis(&loaded, &setup).with_context(log)?;
+        let statics = static_intervals(&loaded);
+        let told = statics_in_words(&statics, &loaded.rig);
+        let unused = match axis.reference {
+            Reference::Rest if axis.others.is_empty() => None,
+            _ => Some(rests::SHORTEST),
+        };
+        let static_intervals = statics_of(&statics, unused);
         let turned = matches!(axis.reference, Reference::Encoder { .. });
         if noise == NoiseChoice::Given && !has_wobble && turned {
             setup.table.wobble = likely_wobble(&loaded.recording, &setup).with_context(log)?;
@@ -141,6 +149,10 @@ impl Prepared {
         });
         let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
         let (attitude, mut remarks, imu) = (axis.attitude, axis.remarks, setup.imu);
+        match remarks.first_mut() {
+            Some(first) if !told.is_empty() => *first = format!("{first} {}", told.join(" ")),
+            _ => remarks.extend(told),
+        }
         remarks.extend(repeats.map(repeats_in_words));
         remarks.extend(run.angle_steps.map(|AngleSteps { step, .. }| {
             format!(
@@ -149,7 +161,17 @@ impl Prepared {
                 step / ARCSEC
             )
         }));
-        Ok(Self { name: shown(path), loaded, imu, run, others, repeats, attitude, remarks })
+        Ok(Self {
+            name: shown(path),
+            loaded,
+            imu,
+            run,
+            others,
+            repeats,
+            attitude,
+            static_intervals,
+            remarks,
+        })
     }
 
     /// How many samples are used.
@@ -169,6 +191,14 @@ impl Prepared {
             self.remarks.push("Of these only the longest is used here.".into());
         }
         self
+    }
+}
+
+/// The static intervals for a machine: all that last so long are used, or only the longest.
+fn statics_of(found: &StaticIntervals, shortest: Option<f64>) -> Value {
+    match (shortest, found.longest()) {
+        (None, Some(longest)) => statics_json(found, only(&longest.span)),
+        (shortest, _) => statics_json(found, lasting(shortest.unwrap_or_default())),
     }
 }
 

@@ -3,12 +3,12 @@
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
 use rins_io::Loaded;
-use rins_motion::rest_spans;
 
 use crate::commands::align::{Found, found_over};
+use crate::commands::statics::static_intervals;
 
 /// The shortest rest that is used \[s\].
-const SHORTEST: f64 = 2.0;
+pub(super) const SHORTEST: f64 = 2.0;
 
 /// Rests between which gravity turns by less stand alike \[rad\].
 const ALIKE: f64 = 5.0 * DEG;
@@ -31,7 +31,7 @@ impl Rests {
     pub(super) fn of(loaded: &Loaded) -> anyhow::Result<Option<Self>> {
         let recording = &loaded.recording;
         let mut ways: Vec<Vector3<f64>> = Vec::new();
-        let spans = rest_spans(recording, SHORTEST);
+        let spans = static_intervals(loaded).spans(SHORTEST);
         for span in &spans {
             let gained = recording.increments[span.clone()].iter().map(|s| s.velocity.components());
             let up: Vector3<f64> = gained.sum();
