@@ -137,3 +137,28 @@ fn window(
         None => Ok(()),
     }
 }
+
+/// The commanded table rate over each interval, if the rig tells the profile, which begins `late`
+/// seconds before the recording.
+fn commanded(rig: &Rig, recording: &Recording, late: f64) -> Result<Option<Vec<f64>>, IoError> {
+    let Some(profile) = rig.table.as_ref().and_then(|table| table.profile.as_ref()) else {
+        return Ok(None);
+    };
+    let (Some(first), Some(last)) = (recording.increments.first(), recording.times.last()) else {
+        return Ok(None);
+    };
+    let start = recording.times[0] - first.interval - late;
+    let (log, commanded) = (last - start, profile.duration());
+    if log > commanded + 1.5 * first.interval {
+        let problem = LogProblem::BeyondProfile { log, profile: commanded };
+        return Err(LogError::of(&rig.log.path, problem));
+    }
+    let mut angle = profile.angle(0.0);
+    let mut rates = Vec::with_capacity(recording.len());
+    for (time, increments) in recording.times.iter().zip(&recording.increments) {
+        let next = profile.angle(time - start);
+        rates.push((next - angle) / increments.interval);
+        angle = next;
+    }
+    Ok(Some(rates))
+}

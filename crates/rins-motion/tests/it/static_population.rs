@@ -220,8 +220,7 @@ impl Footstep {
         if !(0.0..0.8).contains(&since) {
             return [Vector3::zeros(); 2];
         }
-        let swing =
-            (-since / 0.12).exp() * (std::f64::consts::TAU * self.frequency * since).sin();
+        let swing = (-since / 0.12).exp() * (std::f64::consts::TAU * self.frequency * since).sin();
         self.strength.map(|strength| self.along * (strength * swing))
     }
 }
@@ -246,8 +245,8 @@ fn log(seed: u64) -> Log {
     }
     let accel_bias =
         Vector3::from_fn(|_, _| normal(&mut rng).clamp(-2.5, 2.5)) * grade.bias_sigma[1];
-    let sensitivity = nalgebra::Matrix3::from_fn(|_, _| normal(&mut rng) / 3.0_f64.sqrt())
-        * grade.g_sensitivity;
+    let sensitivity =
+        nalgebra::Matrix3::from_fn(|_, _| normal(&mut rng) / 3.0_f64.sqrt()) * grade.g_sensitivity;
 
     // When it rests and moves.
     let count = 2 + pick(6, &mut rng);
@@ -405,8 +404,7 @@ fn score(log: &Log, tell: bool) -> Score {
     let mut score =
         Score { intervals: log.stationary.len(), found: spans.len(), ..Score::default() };
     for [from, to] in &spans {
-        let inside =
-            |&&[start, end]: &&[f64; 2]| *from >= start - WITHIN && *to <= end + WITHIN;
+        let inside = |&&[start, end]: &&[f64; 2]| *from >= start - WITHIN && *to <= end + WITHIN;
         if log.stationary.iter().find(inside).is_none() {
             score.moving += 1;
             if tell {
@@ -422,7 +420,10 @@ fn score(log: &Log, tell: bool) -> Score {
                 if (first[0] - start).abs() > WITHIN || (last[1] - end).abs() > WITHIN {
                     score.ends_off += 1;
                     if tell {
-                        println!("  ends: {start:.2} to {end:.2} as {:.2} to {:.2}", first[0], last[1]);
+                        println!(
+                            "  ends: {start:.2} to {end:.2} as {:.2} to {:.2}",
+                            first[0], last[1]
+                        );
                     }
                 }
             }
@@ -436,7 +437,12 @@ fn score(log: &Log, tell: bool) -> Score {
     }
     if tell && score.missed + score.ends_off + score.moving > 0 {
         for one in found.all.iter().filter(|one| one.remark().is_some()) {
-            println!("    {:.2} to {:.2}: {}", one.start, one.end, one.remark().unwrap_or_default());
+            println!(
+                "    {:.2} to {:.2}: {}",
+                one.start,
+                one.end,
+                one.remark().unwrap_or_default()
+            );
         }
     }
     score
@@ -459,8 +465,10 @@ fn static_intervals_of_any_log_are_found() {
 fn static_intervals_of_five_hundred_logs_are_found() {
     let count: u64 =
         std::env::var("RINS_STATIC_LOGS").ok().and_then(|count| count.parse().ok()).unwrap_or(500);
-    let first: u64 =
-        std::env::var("RINS_STATIC_FIRST").ok().and_then(|count| count.parse().ok()).unwrap_or(1000);
+    let first: u64 = std::env::var("RINS_STATIC_FIRST")
+        .ok()
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(1000);
     let mut by: BTreeMap<String, Score> = BTreeMap::new();
     for seed in first..first + count {
         let log = log(seed);
@@ -469,7 +477,8 @@ fn static_intervals_of_five_hundred_logs_are_found() {
             println!("{seed}: {} {} Hz {}", log.grade, log.rate, log.motion);
             score(&log, true);
         }
-        for key in ["all".into(), log.grade.into(), format!("{:6.0} Hz", log.rate), log.motion.into()]
+        for key in
+            ["all".into(), log.grade.into(), format!("{:6.0} Hz", log.rate), log.motion.into()]
         {
             by.entry(key).or_default().add(&one);
         }

@@ -74,7 +74,11 @@ pub(crate) fn outcome(
     let mut result = json(calibration, rig);
     result["error_budget"] = budget_json(&ids, &budget);
     result["compensation"] = EQUATION.into();
-    result["static_intervals"] = statics_json(&static_intervals(loaded), |_| None);
+    result["static_intervals"] = statics_json(&static_intervals(loaded), |interval| {
+        (interval.span.start > 0).then(|| {
+            "static, but this method uses only the interval that the log starts with".into()
+        })
+    });
     Ok(Outcome {
         json: result,
         text: calibration_text(calibration, &title),
