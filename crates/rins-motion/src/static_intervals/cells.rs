@@ -39,6 +39,7 @@ pub(super) struct Cell {
 /// The cells of a recording.
 #[derive(Clone, Debug)]
 pub(super) struct Cells {
+    #[expect(clippy::struct_field_names, reason = "they are the cells, and the rest is of them")]
     pub(super) cells: Vec<Cell>,
     /// The time, angle and velocity gained before each cell, and after the last.
     time: Vec<f64>,

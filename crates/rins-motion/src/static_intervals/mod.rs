@@ -41,8 +41,12 @@ const END_RATE: f64 = 0.002 * DEG_PER_SECOND;
 /// The same of accelerometers \[m/s²\].
 const END_FORCE: f64 = 1e-3;
 
-/// A disturbance changes the velocity of a stationary IMU by so much at most \[m/s\]: more is a hand that slides it.
-const LARGEST_VELOCITY: f64 = 0.05;
+/// How often the noise is estimated anew from what it splits the log into.
+const NOISE_PASSES: usize = 2;
+
+/// A disturbance changes the velocity of a stationary IMU by so much at most \[m/s\], as accelerometers read a knock whose
+/// peaks they cut off: more is a hand that slides it.
+const LARGEST_VELOCITY: f64 = 0.2;
 
 /// The direction of gravity is judged over so much of a span, at most \[s\].
 const DIRECTION: f64 = 1.0;
@@ -238,7 +242,17 @@ impl<'r> Search<'r> {
         let table = table::stands(recording, &cells);
         let stand = table.clone().unwrap_or_else(|| vec![true; cells.len()]);
         let quiet = Limits::of(&cells, &stand, options).quiet(&cells, &stand);
-        let noise = Noise::of(&cells, &runs(&quiet));
+        let mut noise = Noise::of(&cells, &runs(&quiet));
+        if table.is_none() {
+            // What moves slowly is as quiet as what is static; it is no noise.
+            for _ in 0..NOISE_PASSES {
+                let parts = runs(&quiet)
+                    .into_iter()
+                    .flat_map(|run| split::parts(&cells, run, &noise, options))
+                    .collect::<Vec<_>>();
+                noise = Noise::of(&cells, &parts);
+            }
+        }
         Self { recording, options, cells, table, quiet, noise }
     }
 
@@ -262,7 +276,7 @@ impl<'r> Search<'r> {
             }
         }
         let all = self.bridged(all);
-        all.into_iter().filter_map(|found| self.interval(found)).collect()
+        all.iter().filter_map(|found| self.interval(found)).collect()
     }
 
     /// The parts over which gravity keeps its direction, and those over which it does not.
@@ -328,31 +342,44 @@ impl<'r> Search<'r> {
         if reach == 0 {
             return part;
         }
-        let off = |cell: usize, inner: &Range<usize>| {
-            let one = cell..cell + 1;
-            let lasting = cells.duration(&one);
-            let rate = cells.rate(&one) - cells.rate(inner);
-            let force = cells.force(&one) - cells.force(inner);
-            let gyro = self.noise.of_mean(&self.noise.gyro, lasting) * END_SIGMAS;
-            let accel = self.noise.of_mean(&self.noise.accel, lasting) * END_SIGMAS;
-            (0..3).any(|axis| {
-                rate[axis].abs() > gyro[axis] + END_RATE + cells.gyro_step[axis]
-                    || force[axis].abs() > accel[axis] + END_FORCE + cells.accel_step[axis]
-            })
-        };
+        let off = |cell: usize, inner: &Range<usize>| self.is_off(&(cell..cell + 1), inner);
         let (mut start, mut end) = (part.start, part.end);
         // Nothing moves before and after a log.
         if part.start > 0 {
             let inner = part.start + reach..part.start + behind;
             let last = (part.start..inner.start).rev().find(|cell| off(*cell, &inner));
             start = last.map_or(start, |last| last + 1);
+            // Several cells together show a motion that begins too gently for one.
+            while (start + 1..=inner.start).any(|end| self.is_off(&(start..end), &inner)) {
+                start += 1;
+            }
         }
         if part.end < cells.len() {
             let inner = part.end - behind..part.end - reach;
             let first = (inner.end..part.end).find(|cell| off(*cell, &inner));
             end = first.unwrap_or(end);
+            while (inner.end..end).any(|start| self.is_off(&(start..end), &inner)) {
+                end -= 1;
+            }
         }
         start..end
+    }
+
+    /// Whether the means over some cells are not those over others that are stationary.
+    fn is_off(&self, some: &Range<usize>, stationary: &Range<usize>) -> bool {
+        let cells = &self.cells;
+        let rate = cells.rate(some) - cells.rate(stationary);
+        let force = cells.force(some) - cells.force(stationary);
+        let sigma = |of: &[Vector3<f64>]| {
+            let [some, stationary] =
+                [some, stationary].map(|range| self.noise.of_mean(of, cells.duration(range)));
+            some.zip_map(&stationary, f64::hypot) * END_SIGMAS
+        };
+        let (gyro, accel) = (sigma(&self.noise.gyro), sigma(&self.noise.accel));
+        (0..3).any(|axis| {
+            rate[axis].abs() > gyro[axis] + END_RATE + cells.gyro_step[axis]
+                || force[axis].abs() > accel[axis] + END_FORCE + cells.accel_step[axis]
+        })
     }
 
     fn piece(&self, part: &Range<usize>) -> Piece {
@@ -377,7 +404,33 @@ impl<'r> Search<'r> {
                 _ => joined.push(found),
             }
         }
+        for found in &mut joined {
+            self.strip(found);
+        }
         joined
+    }
+
+    /// Takes off short parts at the ends of what was joined if their means differ: a motion that begins or ends gently
+    /// looks like a disturbance and what follows it.
+    fn strip(&self, found: &mut Found) {
+        let cells = &self.cells;
+        let Some(main) = found.parts.iter().max_by_key(|part| part.len()).cloned() else { return };
+        let short = |part: &Range<usize>| cells.duration(part) < LONGEST_END && *part != main;
+        let most = 10 * cells.window;
+        while let Some(last) = found.parts.last()
+            && last.end < cells.len()
+            && short(last)
+            && self.is_off(last, &(main.end.saturating_sub(most).max(main.start)..main.end))
+        {
+            found.parts.pop();
+        }
+        while let Some(first) = found.parts.first()
+            && first.start > 0
+            && short(first)
+            && self.is_off(first, &(main.start..(main.start + most).min(main.end)))
+        {
+            found.parts.remove(0);
+        }
     }
 
     /// Whether between two spans the IMU was disturbed, and is where it was.
@@ -425,7 +478,7 @@ impl<'r> Search<'r> {
             && up_first.angle(&up_next) <= sway + noise_first + noise_next
     }
 
-    fn interval(&self, found: Found) -> Option<StaticInterval> {
+    fn interval(&self, found: &Found) -> Option<StaticInterval> {
         let (first, last) = (found.parts.first()?, found.parts.last()?);
         let run = first.start..last.end;
         let shortest = self.options.shortest;
@@ -452,7 +505,10 @@ impl<'r> Search<'r> {
         disturbances: Vec<Range<usize>>,
     ) -> StaticInterval {
         let recording = self.recording;
-        let start = recording.times[span.start] - recording.increments[span.start].interval;
+        let first = recording.increments[span.start].interval;
+        let start = recording.times[span.start] - first;
+        // Where a log starts at zero, so does the interval, whatever the rounding of its times.
+        let start = if start.abs() < 1e-6 * first { 0.0 } else { start };
         let end = recording.times[span.end - 1];
         StaticInterval { span, start, end, why, stated, disturbances }
     }
@@ -480,7 +536,7 @@ impl<'r> Search<'r> {
                     disturbances: Vec::new(),
                 };
             };
-            let span = first..samples.last().unwrap_or(first) + 1;
+            let span = first..samples.next_back().unwrap_or(first) + 1;
             let why = self.contradiction(&span);
             self.of_samples(span, why, true, Vec::new())
         });

@@ -97,6 +97,9 @@ fn quietest(mut scatters: Vec<f64>) -> f64 {
     scatters.get(scatters.len() / QUIETEST).copied().unwrap_or_default()
 }
 
+/// By how much the mean rate and specific force of neighbouring blocks differ.
+type Difference = (Vector3<f64>, Vector3<f64>);
+
 /// The 1σ of differences between the means of neighbouring blocks of cells, by the blocks' length.
 #[derive(Clone, Debug)]
 pub(super) struct Noise {
@@ -138,7 +141,7 @@ impl Noise {
                     },
                 ));
             }
-            let sigma = |of: fn(&(Vector3<f64>, Vector3<f64>)) -> &Vector3<f64>| {
+            let sigma = |of: fn(&Difference) -> &Vector3<f64>| {
                 Vector3::from_fn(|axis, _| {
                     let magnitudes =
                         differences.iter().map(|difference| of(difference)[axis].abs());
@@ -158,7 +161,12 @@ impl Noise {
             } else {
                 (white(&noise.gyro), white(&noise.accel))
             };
-            // The rounding of a coarse sensor that noise does not carry over its steps.
+            // Longer means scatter no more than shorter ones: what makes them is a motion, or a drift that is allowed for
+            // apart from noise.
+            let limited = |sigma: Vector3<f64>, shorter: &[Vector3<f64>]| {
+                shorter.last().map_or(sigma, |shorter| sigma.inf(shorter))
+            };
+            let (gyro, accel) = (limited(gyro, &noise.gyro), limited(accel, &noise.accel));
             noise.blocks.push(block);
             noise.gyro.push(gyro);
             noise.accel.push(accel);
