@@ -185,7 +185,7 @@ impl StaticIntervals {
     /// use rins_frames::{InFrame, Rates};
     /// use rins_motion::{Recording, StaticIntervals, StaticOptions};
     /// let still = Rates { angular_rate: InFrame::new(0.0, 0.0, 0.01), specific_force: InFrame::new(0.0, 0.0, 9.8) };
-    /// let turning = Rates { angular_rate: InFrame::new(0.0, 0.5, 0.01), ..still };
+    /// let turning = Rates { angular_rate: InFrame::new(0.0, 0.0, 0.5), ..still };
     /// let increments = [still, turning].map(|rates| vec![rates.over(0.01); 300]).concat();
     /// let times = (1..=increments.len()).map(|count| 0.01 * count as f64).collect();
     /// let recording = Recording { times, increments, ..Recording::default() };
