@@ -15,6 +15,7 @@ mod search;
 mod split;
 mod stated;
 mod table;
+mod wander;
 
 use std::fmt;
 use std::ops::Range;

@@ -36,7 +36,7 @@ pub struct StaticOptions {
     /// floor yields under a person and a parked vehicle rocks by in wind.
     pub largest_sway: f64,
     /// The longest disturbance that an interval is bridged over, if the attitude is the same after it \[s\]. By default
-    /// 10 s: somebody walks by.
+    /// 30 s: somebody walks by, and back.
     pub longest_disturbance: f64,
     /// The largest bias of a gyro whose data sheet states no `bias_sigma` \[rad/s\]. By default 1 deg/s, the zero-rate
     /// output of consumer MEMS gyros after one calibration at the factory.
@@ -54,7 +54,7 @@ impl Default for StaticOptions {
             shortest: 1.0,
             stated: Vec::new(),
             largest_sway: 0.5 * DEG,
-            longest_disturbance: 10.0,
+            longest_disturbance: 30.0,
             assumed_bias: 1.0 * DEG_PER_SECOND,
             g_sensitivity: 0.2 * DEG_PER_SECOND / rins_frames::units::STANDARD_GRAVITY,
         }

@@ -10,6 +10,7 @@ use super::cells::Cells;
 use super::noise::{Limits, Noise};
 use super::options::StaticOptions;
 use super::split::{SIGMAS, coarse_step};
+use super::wander::wanders;
 use super::{NotStatic, StaticInterval, drift, runs, split, table, whole};
 use crate::recording::Recording;
 
@@ -88,7 +89,12 @@ impl<'r> Search<'r> {
                 continue;
             }
             for part in split::parts(&self.cells, run, &self.noise, self.options) {
-                all.extend(self.still(&self.trimmed(part)));
+                let still = self.still(&self.trimmed(part)).into_iter();
+                all.extend(still.map(|found| {
+                    let why =
+                        found.why.or_else(|| wanders(&self.cells, &found.parts[0], self.options));
+                    Found { why, ..found }
+                }));
             }
         }
         if self.table.is_none() {
