@@ -43,7 +43,7 @@ pub(crate) fn longest(loaded: &Loaded, shortest: f64) -> Option<Range<usize>> {
 /// That there is no static interval of so many seconds, and what was assumed.
 pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
     let found = static_intervals(loaded);
-    let mut message = format!("the IMU never stands still for {shortest} s");
+    let message = format!("the IMU never stands still for {shortest} s");
     let rejected: Vec<String> = found
         .all
         .iter()
@@ -51,10 +51,7 @@ pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
         .take(LISTED)
         .filter_map(|interval| Some(format!("{}: {}", span(interval), interval.remark()?)))
         .collect();
-    if !rejected.is_empty() {
-        message.push_str(&format!(" ({})", rejected.join("; ")));
-    }
-    message
+    if rejected.is_empty() { message } else { format!("{message} ({})", rejected.join("; ")) }
 }
 
 fn span(interval: &StaticInterval) -> String {
