@@ -363,7 +363,7 @@ fn parameters(filter: &SpinAxisFilter, sums: &SpinRateSums, setup: &Setup) -> Ve
     .collect()
 }
 
-fn sigma(filter: &SpinAxisFilter, first: usize) -> Vector3<f64> {
+pub(crate) fn sigma(filter: &SpinAxisFilter, first: usize) -> Vector3<f64> {
     Vector3::from_fn(|row, _| filter.covariance()[(first + row, first + row)].sqrt())
 }
 

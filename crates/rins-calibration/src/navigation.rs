@@ -1,7 +1,7 @@
 //! Free inertial navigation over a calibrated run, and how far it goes wrong.
 
 use nalgebra::Vector3;
-use rins_frames::{Body, Dcm, EulerAngles, Nav, Site, Table};
+use rins_frames::{Body, Dcm, EulerAngles, Increments, Nav, Site, Table};
 use rins_imu::Compensation;
 use rins_motion::{Navigator, Recording, Station, VerticalChannel};
 
@@ -45,6 +45,20 @@ pub fn navigate_freely(
     station: &Station,
     compensation: Option<&Compensation>,
 ) -> FreeNavigation {
+    navigate_compensating(recording, angles, nav_from_table, station, |_, sample| {
+        compensation.map_or(*sample, |compensation| compensation.compensate(sample))
+    })
+}
+
+/// [`navigate_freely`] with a compensation that may differ from sample to sample; `compensated` gets a
+/// sample's index in the recording and the sample.
+pub(crate) fn navigate_compensating(
+    recording: &Recording,
+    angles: &[f64],
+    nav_from_table: Dcm<Nav, Table>,
+    station: &Station,
+    mut compensated: impl FnMut(usize, &Increments) -> Increments,
+) -> FreeNavigation {
     let turned = |angle: f64| Dcm::<Table, Body>::about_z(angle);
     let start = nav_from_table * turned(angles.first().copied().unwrap_or_default());
     let mut navigator = Navigator::at_rest(station, start, VerticalChannel::Held);
@@ -58,10 +72,7 @@ pub fn navigate_freely(
         attitude_error: EulerAngles::default(),
     };
     for (index, sample) in recording.increments.iter().enumerate() {
-        match compensation {
-            Some(compensation) => navigator.step(&compensation.compensate(sample)),
-            None => navigator.step(sample),
-        }
+        navigator.step(&compensated(index, sample));
         if thinning.keeps(index) {
             let state = navigator.state();
             let table: Dcm<Nav, Table> = state.nav_from_body * turned(angles[index + 1]).inverse();

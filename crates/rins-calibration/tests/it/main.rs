@@ -1,4 +1,5 @@
 //! Integration tests of the calibration.
 mod consistency;
 mod lanes;
+mod online;
 mod soak;
