@@ -17,6 +17,7 @@ mod monte_carlo;
 mod pure_navigation;
 mod statistics;
 
+pub mod accelerometers;
 mod bias_filter;
 pub mod causes;
 pub mod coverage;

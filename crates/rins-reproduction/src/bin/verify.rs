@@ -1,10 +1,11 @@
-//! Prints eqs. (6), (8) and (9) against numerical integration; fails if a bound is broken.
+//! Prints eqs. (6), (8), (9) and (A.5) against numerical integration; fails if a bound is broken.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
 use std::process::ExitCode;
 
-use rins_reproduction::ReproductionError;
+use rins_reproduction::accelerometers::{ALL, Left, TURNS, left_over};
 use rins_reproduction::grid::{ATTITUDES, Errors, RATES, Row, TIMES, grid};
+use rins_reproduction::{Experiment, ReproductionError};
 
 fn main() -> ExitCode {
     match run() {
@@ -56,11 +57,53 @@ fn run() -> Result<usize, ReproductionError> {
         "  extended to navigator        {:.1e}",
         worst(&|row| row.extended.relative_to(&row.navigated))
     );
-    let broken: Vec<String> = rows.iter().flat_map(Row::broken).collect();
+    let left = left_over(&Experiment::simulation()?.scenario.imu_error.accel)?;
+    print_accelerometers(&left);
+    let broken: Vec<String> =
+        rows.iter().flat_map(Row::broken).chain(left.iter().flat_map(Left::broken)).collect();
     for bound in &broken {
         println!("broken: {bound}");
     }
     Ok(broken.len())
+}
+
+/// Prints what whole turns leave of all of Table 1 together, and the largest differences over each error alone.
+fn print_accelerometers(left: &[Left]) {
+    println!(
+        "\neq. (A.5): velocity [m/s] that the accelerometer errors of Table 1 leave after {TURNS} turns; mean = the mean over a turn\n\
+         times the time, quadrature = numerical, navigator = integrated on the round Earth\n"
+    );
+    println!(
+        "{:>16} {:>5} {:>5}   {:>9} {:>10} {:>9}",
+        "roll/pitch/yaw", "deg/s", "s", "mean", "quadrature", "navigator"
+    );
+    for one in left.iter().filter(|one| one.name == ALL) {
+        let [roll, pitch, yaw] = one.attitude;
+        for (axis, name) in ["E", "N"].into_iter().enumerate() {
+            println!(
+                "{:>16} {:>5} {:>5} {name} {:>9.4} {:>10.4} {:>9.4}",
+                format!("{roll}/{pitch}/{yaw}"),
+                one.rate,
+                one.time.round(),
+                one.closed[axis],
+                one.integrated[axis],
+                one.navigated[axis],
+            );
+        }
+    }
+    let worst = |of: &dyn Fn(&Left) -> f64| left.iter().map(of).fold(0.0, f64::max);
+    println!(
+        "\n{} places; largest differences over the size of the error times the time",
+        left.len()
+    );
+    println!(
+        "  mean to quadrature           {:.1e}",
+        worst(&|one| (one.closed - one.integrated).norm() / one.scale)
+    );
+    println!(
+        "  quadrature to navigator      {:.1e}",
+        worst(&|one| (one.integrated - one.navigated).xy().norm() / one.scale)
+    );
 }
 
 fn print_line(row: &Row, axis: usize, name: &str) {
