@@ -37,6 +37,13 @@ pub enum Cause {
     Tilt(usize),
     /// The attitude that is read is older than its reference, or the table went past its end.
     Readout,
+    /// The table turns faster than it is commanded, while the calibration takes the commanded rate for the
+    /// true one. The estimates are those printed, so that the true errors are others.
+    TableRate,
+    /// The IMU's sample clock is slow against the table's: the effect is that of [`Cause::TableRate`].
+    SampleClock,
+    /// White noise of the gyros, whose effect is given as 1σ.
+    GyroNoise,
 }
 
 impl Cause {
@@ -79,6 +86,9 @@ impl Cause {
             Self::Duration => "a longer navigation".into(),
             Self::Tilt(axis) => format!("axis tipped about {}", nav(axis)),
             Self::Readout => "attitude older than its reference".into(),
+            Self::TableRate => "table rate against its command".into(),
+            Self::SampleClock => "sample clock against the table's".into(),
+            Self::GyroNoise => "gyro noise, 1σ".into(),
         }
     }
 
@@ -88,7 +98,8 @@ impl Cause {
             Self::GyroBias(_) | Self::GyroBiasChange(_) => ("°/h", DEG_PER_HOUR),
             Self::AccelBias(_) | Self::AccelBiasChange(_) => ("µg", MICRO_G),
             Self::Start(_) | Self::Tilt(_) | Self::Estimate(0 | 1) => ("″", ARCSEC),
-            Self::Estimate(_) => ("ppm", PPM),
+            Self::Estimate(_) | Self::TableRate | Self::SampleClock => ("ppm", PPM),
+            Self::GyroNoise => ("°/h/√Hz", DEG_PER_HOUR),
             Self::StartLag | Self::Readout => ("ms", 1e-3),
             Self::Latitude => ("°", DEG),
             Self::Gravity => ("m/s²", 1.0),
@@ -102,6 +113,9 @@ impl Cause {
     /// # Errors
     /// [`ReproductionError`] if the navigation cannot be done.
     pub fn effect(self, base: &PureNavigation) -> Result<SVector<f64, 5>, ReproductionError> {
+        if self == Self::GyroNoise {
+            return Ok(noise_effect(base, self.unit().1));
+        }
         // Where a unit is too little to be seen or too much to be straight.
         let units = match self {
             Self::Gravity => 1e-3,
@@ -158,6 +172,18 @@ impl Cause {
                 scenario.profile = Profile::new(&[longer], None)?;
             }
             Self::Tilt(axis) => return Ok(tipped(base, axis, size)),
+            Self::TableRate | Self::SampleClock => {
+                // What the gyros deliver stays, and with it what is estimated of them: (1 + e) ω is the
+                // true rate and ω the commanded one, (z + m) ω is measured.
+                let (rate, duration) = (scenario.profile.rate(0.0), scenario.profile.duration());
+                let segment = Segment { rate: rate * (1.0 + size), duration };
+                scenario.profile = Profile::new(&[segment], None)?;
+                let matrix = &mut scenario.imu_error.gyro.matrix;
+                let measured = matrix.column(2) + Vector3::z();
+                matrix.set_column(2, &(measured / (1.0 + size) - Vector3::z()));
+            }
+            // Its effect is random, and known without a navigation.
+            Self::GyroNoise => {}
             Self::Readout => {
                 let reference = scenario.nav_from_table.euler_angles();
                 let rate = scenario.profile.rate(scenario.profile.duration());
@@ -166,6 +192,16 @@ impl Cause {
         }
         Ok(changed.outcome()?.vector())
     }
+}
+
+/// The 1σ that white gyro noise of `density` \[rad/s/√Hz\] leaves: an angle random walk about each axis,
+/// and its integral under gravity in the velocity.
+fn noise_effect(base: &PureNavigation, density: f64) -> SVector<f64, 5> {
+    let scenario = &base.scenario;
+    let time = scenario.profile.duration();
+    let angle = density * time.sqrt();
+    let velocity = scenario.station.gravity * density * (time.powi(3) / 3.0).sqrt();
+    SVector::from([velocity, velocity, angle / DEG, angle / DEG, angle / DEG])
 }
 
 /// What is read where the axis has tipped about an axis of n \[rad\], less nothing else.
@@ -229,13 +265,24 @@ pub fn velocity_explanations(
     Ok(explanations)
 }
 
-/// A cause with the size that the paper's description of its instruments allows it, in its unit.
+/// Where the size that a cause is allowed comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// The paper states it of its instruments, or it follows from what it states.
+    Stated,
+    /// The paper says nothing of it: a size that such instruments commonly have.
+    Plausible,
+}
+
+/// A cause with the size that it is allowed, in its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Graded {
     /// The cause.
     pub cause: Cause,
     /// The size allowed, in its unit.
     pub grade: f64,
+    /// Where that size comes from.
+    pub basis: Basis,
     /// What a size of one unit does: m/s and degrees.
     pub effect: SVector<f64, 5>,
 }
@@ -246,8 +293,27 @@ impl Graded {
         wanted / self.effect[figure]
     }
 
+    /// How much of the error `wanted` in one figure it makes at the size allowed: 1 is all of it.
+    pub fn share(&self, figure: usize, wanted: f64) -> f64 {
+        (self.effect[figure] * self.grade / wanted).abs()
+    }
+
     /// The same over the size allowed.
     pub fn multiple(&self, figure: usize, wanted: f64) -> f64 {
         (self.needed(figure, wanted) / self.grade).abs()
     }
+}
+
+/// The causes of one figure's error `wanted`, those that make most of it first, each with its share.
+pub fn ranked(causes: &[Graded], figure: usize, wanted: f64) -> Vec<(&Graded, f64)> {
+    let mut ranked: Vec<(&Graded, f64)> =
+        causes.iter().map(|graded| (graded, graded.share(figure, wanted))).collect();
+    ranked.sort_by(|one, other| other.1.total_cmp(&one.1));
+    ranked
+}
+
+/// How much of an error all causes make together at the sizes allowed them: the root sum of squares of
+/// their shares, for causes that know nothing of each other.
+pub fn share_of_all(causes: &[Graded], figure: usize, wanted: f64) -> f64 {
+    causes.iter().map(|graded| graded.share(figure, wanted).powi(2)).sum::<f64>().sqrt()
 }

@@ -1,7 +1,10 @@
 //! The page of the book that sets the paper's figures beside ours, and its charts.
 
+mod accelerometers;
 mod attitude;
 mod chart;
+mod convergence;
+mod enhancement;
 mod errata;
 mod experiment;
 mod figures;
@@ -9,8 +12,13 @@ mod filter;
 mod mechanism;
 mod navigation;
 mod number;
+mod online;
 mod overview;
+mod ranking;
 mod results;
+mod roll;
+mod rotation;
+mod uncertainty;
 
 pub use results::{Results, Scale};
 
@@ -46,7 +54,10 @@ fn page(results: &Results) -> String {
         attitude::section(results),
         navigation::velocities(results),
         experiment::section(results),
+        online::section(results),
+        rotation::section(results),
         mechanism::section(results),
+        accelerometers::section(results),
         errata::section(results),
     ]
     .concat()

@@ -22,6 +22,7 @@ pub(super) fn all(results: &Results) -> Vec<(&'static str, String)> {
         ("figure-5.svg", figure_5(&results.with_bias)),
         ("table-6.svg", table_6(results)),
         ("mechanism.svg", mechanism()),
+        ("static-and-rotating.svg", super::rotation::figure(results)),
     ]
 }
 
@@ -141,7 +142,7 @@ fn figure_4(campaign: &Campaign) -> String {
     svg("Figure 4: the estimates of 30 runs against time", &panels)
 }
 
-fn series(
+pub(super) fn series(
     label: Option<&'static str>,
     mark: Mark,
     colour: usize,

@@ -13,6 +13,7 @@ const TRUTH: [f64; 3] = [60.0, 60.0, 300.0];
 pub(super) fn section(results: &Results) -> String {
     let mut out = String::from(INPUT);
     out.push_str(&table_3(results));
+    out.push_str(&super::convergence::section(results));
     out.push_str(&honesty(results));
     out
 }

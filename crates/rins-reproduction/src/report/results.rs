@@ -6,6 +6,7 @@ use rins_frames::{Dcm, EulerAngles};
 use rins_imu::{ImuError, TriadError};
 use rins_simulation::Scenario;
 
+use crate::accelerometers::{ALL, Left, single_errors};
 use crate::causes::{Cause, Explanation, Graded, velocity_explanations};
 use crate::coverage::{Honesty, Model, Schedule, coverage};
 use crate::equations::{
@@ -20,6 +21,8 @@ use crate::printed;
 use crate::pure_navigation::{Outcome, PureNavigation};
 use crate::readout::{Disagreement, Pair, Turning};
 use crate::real_test::{self, Emulated};
+use crate::rotation::{AttitudeHistory, histories};
+use crate::running::{Followed, followed};
 
 /// How much is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,16 +35,18 @@ pub struct Scale {
     pub honesty_duration: f64,
     /// The emulated runs of section 5.
     pub emulated: u64,
+    /// The runs of section 4 that are followed sample by sample.
+    pub followed: u64,
 }
 
 impl Scale {
     /// What the page is made of: the paper's 30 runs, and enough of the rest for 1 % of coverage.
     pub const FULL: Self =
-        Self { runs: 30, honesty_runs: 240, honesty_duration: 72.0, emulated: 100 };
+        Self { runs: 30, honesty_runs: 240, honesty_duration: 72.0, emulated: 200, followed: 200 };
 
     /// How often `progress` is told of a run.
     pub const fn total(&self) -> u64 {
-        3 * self.runs + 6 * self.honesty_runs + self.emulated
+        3 * self.runs + 6 * self.honesty_runs + self.emulated + self.followed
     }
 }
 
@@ -78,6 +83,13 @@ pub(super) struct LagCase {
 pub struct Results {
     pub(super) scale: Scale,
     pub(super) simulation: Experiment,
+    pub(super) real_test: Experiment,
+    /// Runs of the simulation with the biases of Table 2, followed sample by sample.
+    pub(super) followed: Vec<Followed>,
+    /// The attitude errors of the simulation's IMU, static and rotating.
+    pub(super) histories: Vec<AttitudeHistory>,
+    /// What ten turns leave of Table 1's errors on Table 4's axis, and on a level one.
+    pub(super) accelerometers: [Vec<Left>; 2],
     pub(super) with_bias: Campaign,
     pub(super) without_bias: Campaign,
     pub(super) section_4_1: Campaign,
@@ -152,7 +164,11 @@ impl Results {
             vertical_coupling: vertical_coupling(),
             transposed_error: transposed_error(),
             position_columns: position_columns(),
+            followed: followed(&simulation, scale.followed, &progress)?,
+            histories: histories(&simulation)?,
+            accelerometers: accelerometers(&simulation)?,
             simulation,
+            real_test,
         })
     }
 }
@@ -162,6 +178,19 @@ pub(super) fn spin_axis(parameters: [f64; 3]) -> ImuError {
     let [m_xz, m_yz, s_z] = parameters;
     let column = Vector3::new(m_xz * ARCSEC, m_yz * ARCSEC, s_z * PPM);
     ImuError { gyro: spin_axis_error(&column), accel: TriadError::default() }
+}
+
+/// What ten turns leave of Table 1's errors at Table 4's attitude and on a level axis.
+fn accelerometers(simulation: &Experiment) -> Result<[Vec<Left>; 2], ReproductionError> {
+    let all = simulation.scenario.imu_error.accel;
+    let of = |attitude| {
+        let together = std::iter::once((ALL.to_owned(), all));
+        together
+            .chain(single_errors(&all))
+            .map(|(name, error)| Left::of(&name, &error, attitude, RATES[0]))
+            .collect::<Result<Vec<Left>, ReproductionError>>()
+    };
+    Ok([of(ATTITUDES[0])?, of(ATTITUDES[2])?])
 }
 
 /// What one constant rate shows of `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\]: each with its bias over

@@ -1,0 +1,70 @@
+//! Causes in order of what they can make of an error, and whether that is enough.
+
+use super::number::{Table, fixed, significant, with_unit};
+use crate::causes::{Basis, Graded, ranked, share_of_all};
+
+/// The names of the five figures.
+pub(super) const FIGURES: [&str; 5] =
+    ["$V_x$ [m/s]", "$V_y$ [m/s]", "roll [°]", "pitch [°]", "yaw [°]"];
+
+/// How many causes a figure is given.
+const SHOWN: usize = 3;
+
+/// A table of the five figures: what is to be explained, the causes that make most of it at the sizes
+/// allowed them, and a verdict.
+pub(super) fn table(causes: &[Graded], wanted: [f64; 5], title: &str) -> String {
+    let title = format!("{title}>");
+    let titles =
+        ["", title.as_str(), "largest causes and their share", "stated causes together>", ""];
+    let mut table = Table::new(&titles);
+    let stated: Vec<Graded> =
+        causes.iter().filter(|graded| graded.basis == Basis::Stated).copied().collect();
+    for (figure, name) in FIGURES.into_iter().enumerate() {
+        let wanted = wanted[figure];
+        let order = ranked(causes, figure, wanted);
+        let largest: Vec<String> = order
+            .iter()
+            .take(SHOWN)
+            .map(|(graded, share)| {
+                let mark = if graded.basis == Basis::Plausible { " (assumed)" } else { "" };
+                format!("{}{mark}: {}", graded.cause.name(), percent(*share))
+            })
+            .collect();
+        let together = share_of_all(&stated, figure, wanted);
+        table.row(&[
+            name.to_owned(),
+            fixed(wanted, 4),
+            largest.join("; "),
+            percent(together),
+            verdict(&stated, causes, figure, wanted).to_owned(),
+        ]);
+    }
+    table.finish()
+}
+
+fn verdict(stated: &[Graded], all: &[Graded], figure: usize, wanted: f64) -> &'static str {
+    let enough =
+        |causes: &[Graded]| ranked(causes, figure, wanted).first().is_some_and(|c| c.1 >= 1.0);
+    if enough(stated) {
+        "explained"
+    } else if share_of_all(stated, figure, wanted) >= 1.0 {
+        "explained by several"
+    } else if enough(all) {
+        "explained by an assumed size"
+    } else {
+        "**unexplained**"
+    }
+}
+
+/// Where the size allowed a cause comes from, in a word.
+pub(super) fn basis(graded: &Graded) -> &'static str {
+    match graded.basis {
+        Basis::Stated => "stated",
+        Basis::Plausible => "assumed",
+    }
+}
+
+/// A share as per cent, with two digits.
+pub(super) fn percent(share: f64) -> String {
+    with_unit(&significant(100.0 * share, 2), "%")
+}

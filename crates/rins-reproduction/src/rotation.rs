@@ -1,0 +1,189 @@
+//! "Rotation restrains the divergence of attitude": one IMU static and rotating, axis by axis.
+
+use nalgebra::Vector3;
+use rins_frames::InFrame;
+use rins_imu::{ImuError, TriadError};
+use rins_motion::mechanism::{NavErrors, SensorErrors};
+use rins_motion::{NavState, Navigator, Profile, Segment, TrueMotion, VerticalChannel};
+use rins_simulation::Scenario;
+
+use crate::error::ReproductionError;
+use crate::experiment::{Experiment, Sensors, spin_axis_error};
+
+/// Whether the table turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// It stands.
+    Static,
+    /// It turns at the experiment's rate.
+    Rotating,
+}
+
+/// An attitude error on the way, of one motion with one set of gyro errors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttitudeHistory {
+    /// The motion.
+    pub motion: Motion,
+    /// Which gyro errors are in the data.
+    pub errors: GyroErrors,
+    /// Time \[s\], and the attitude error in the axis frame: x and y across the axis, z along it \[rad\].
+    pub points: Vec<(f64, Vector3<f64>)>,
+}
+
+/// The gyro errors of Table 2 that are in the data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GyroErrors {
+    /// The biases.
+    Biases,
+    /// The biases and all of the matrix but its last column: what a perfect calibration of the spin-axis
+    /// errors leaves.
+    AllButSpinAxis,
+    /// All of them.
+    All,
+}
+
+impl GyroErrors {
+    /// These of the errors in `gyro`.
+    fn of(self, gyro: &TriadError) -> TriadError {
+        let spin_axis = spin_axis_error(&gyro.matrix.column(2).into_owned());
+        match self {
+            Self::Biases => TriadError { bias: gyro.bias, ..TriadError::default() },
+            Self::AllButSpinAxis => {
+                TriadError { bias: gyro.bias, matrix: gyro.matrix - spin_axis.matrix }
+            }
+            Self::All => *gyro,
+        }
+    }
+}
+
+impl AttitudeHistory {
+    /// The attitude error at the end, axis by axis \[rad\].
+    pub fn end(&self) -> Vector3<f64> {
+        self.points.last().map_or_else(Vector3::zeros, |point| point.1)
+    }
+
+    /// The largest error so far about each axis, at each time \[rad\].
+    pub fn largest_so_far(&self) -> Vec<(f64, Vector3<f64>)> {
+        let mut largest = Vector3::<f64>::zeros();
+        let so_far = self.points.iter().map(|&(time, error)| {
+            largest = largest.zip_map(&error, |largest, error| largest.max(error.abs()));
+            (time, largest)
+        });
+        so_far.collect()
+    }
+
+    /// The largest error about each axis \[rad\].
+    pub fn largest(&self) -> Vector3<f64> {
+        self.largest_so_far().last().map_or_else(Vector3::zeros, |point| point.1)
+    }
+}
+
+/// The attitude errors of an experiment's IMU without noise, static and rotating, with three sets of gyro
+/// errors; the accelerometers are perfect.
+///
+/// # Errors
+/// [`ReproductionError::Profile`] if the experiment's profile makes none.
+pub fn histories(experiment: &Experiment) -> Result<Vec<AttitudeHistory>, ReproductionError> {
+    let all = Sensors::Gyros.of(&experiment.scenario.imu_error).gyro;
+    let mut histories = Vec::new();
+    for motion in [Motion::Static, Motion::Rotating] {
+        for errors in [GyroErrors::Biases, GyroErrors::AllButSpinAxis, GyroErrors::All] {
+            let imu = ImuError { gyro: errors.of(&all), ..ImuError::default() };
+            let points = attitude_errors(&experiment.scenario, motion, &imu)?;
+            histories.push(AttitudeHistory { motion, errors, points });
+        }
+    }
+    Ok(histories)
+}
+
+fn attitude_errors(
+    scenario: &Scenario,
+    motion: Motion,
+    imu: &ImuError,
+) -> Result<Vec<(f64, Vector3<f64>)>, ReproductionError> {
+    let rate = match motion {
+        Motion::Static => 0.0,
+        Motion::Rotating => scenario.profile.rate(0.0),
+    };
+    let duration = scenario.profile.duration();
+    let Scenario { station, nav_from_table, .. } = *scenario;
+    let profile = Profile::new(&[Segment { rate, duration }], None)?;
+    let sensors = SensorErrors {
+        gyro_bias: InFrame::from_components(imu.gyro.bias),
+        gyro_matrix: imu.gyro.matrix,
+        ..SensorErrors::none()
+    };
+    let turned = |angle: f64| nav_from_table * rins_frames::Dcm::about_z(angle);
+    let mut navigator = Navigator::at_rest(&station, turned(0.0), VerticalChannel::Held);
+    let truth: NavState = *navigator.state();
+    let motion = TrueMotion { station, nav_from_table, profile };
+    let points = motion.samples(scenario.interval).map(|sample| {
+        navigator.step(&sensors.measured(&sample.increments));
+        let truth = NavState { nav_from_body: turned(sample.angle), ..truth };
+        let error = NavErrors::between(navigator.state(), &truth).attitude;
+        (sample.time, *(nav_from_table.inverse() * error).components())
+    });
+    Ok(points.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_testing::assert_close;
+
+    fn history(
+        histories: &[AttitudeHistory],
+        motion: Motion,
+        errors: GyroErrors,
+    ) -> &AttitudeHistory {
+        let found = histories.iter().find(|one| one.motion == motion && one.errors == errors);
+        found.expect("each pair has a history")
+    }
+
+    #[test]
+    fn rotation_bounds_what_biases_do_across_the_axis_and_nothing_along_it() {
+        let experiment = Experiment::simulation().unwrap();
+        let gyro = experiment.scenario.imu_error.gyro;
+        let (rate, time) = (experiment.scenario.profile.rate(0.0), 360.0);
+        let histories = histories(&experiment).unwrap();
+        let fixed = history(&histories, Motion::Static, GyroErrors::Biases);
+        let turning = history(&histories, Motion::Rotating, GyroErrors::Biases);
+        // Earth's rate, Schuler's loop and the products of errors take less than (t / τ)² and Ω t of it.
+        let coupled = 0.2;
+        for axis in 0..3 {
+            let drift = -gyro.bias[axis] * time;
+            assert_close!(fixed.end()[axis], drift, coupled * drift.abs());
+        }
+        // Static or rotating, the drift about the axis is the same.
+        assert_close!(turning.end().z, fixed.end().z, coupled * fixed.end().z.abs());
+        // Two radians' worth of bias over rate, in the plane; what couples from the z drift is on top.
+        let bound = 2.0 * gyro.bias.xy().norm() / rate;
+        let across = turning.largest().xy().norm();
+        assert!(across > 0.5 * bound, "{across} of {bound}");
+        assert!(across < bound + coupled * fixed.largest().xy().norm(), "{across} of {bound}");
+    }
+
+    #[test]
+    fn misalignments_swing_and_the_scale_error_diverges() {
+        let experiment = Experiment::simulation().unwrap();
+        let gyro = experiment.scenario.imu_error.gyro;
+        let histories = histories(&experiment).unwrap();
+        let all = history(&histories, Motion::Rotating, GyroErrors::All);
+        let rest = history(&histories, Motion::Rotating, GyroErrors::AllButSpinAxis);
+        // Eq. (6): S_z ω t along the axis. Of the part that is horizontal, sin² of the axis' tilt, Schuler's loop takes
+        // (ω_s t)² / 6.
+        let Scenario { station, nav_from_table, profile, .. } = &experiment.scenario;
+        let scale = gyro.matrix[(2, 2)] * profile.angle(360.0);
+        let horizontal = 1.0 - nav_from_table.matrix()[(2, 2)].powi(2);
+        let schuler = station.gravity / station.site.meridian_radius() * 360.0 * 360.0 / 6.0;
+        let drift = -scale * (1.0 - horizontal * schuler);
+        assert_close!(all.end().z - rest.end().z, drift, 0.002 * scale);
+        // Eq. (6) over one turn: up to twice the length of the misalignments across the axis.
+        let early: Vec<_> = all.points.iter().filter(|point| point.0 < 36.01).copied().collect();
+        let one_turn = AttitudeHistory { points: early, ..all.clone() };
+        let swing = 2.0 * gyro.matrix[(0, 2)].hypot(gyro.matrix[(1, 2)]);
+        let largest = one_turn.points.iter().map(|point| point.1.xy().norm()).fold(0.0, f64::max);
+        assert_close!(largest, swing, 0.05 * swing);
+        assert!(one_turn.end().xy().norm() < 0.05 * swing, "a whole turn takes it back");
+    }
+}
