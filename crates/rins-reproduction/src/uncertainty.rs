@@ -10,15 +10,6 @@ use crate::monte_carlo::UNITS;
 use crate::printed;
 use crate::real_test::rate_accuracy;
 
-/// How an uncertainty was evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Evaluation {
-    /// From the scatter of the data.
-    TypeA,
-    /// From a data sheet, or from anything else but the data.
-    TypeB,
-}
-
 /// What is assumed of a quantity's distribution, and what its size means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
@@ -43,8 +34,6 @@ impl Distribution {
 pub struct Contribution {
     /// What it is.
     pub name: &'static str,
-    /// How it was evaluated.
-    pub evaluation: Evaluation,
     /// What is assumed of its distribution.
     pub distribution: Distribution,
     /// Its size, a standard uncertainty or a half-width by its distribution.
@@ -155,9 +144,8 @@ pub fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Budget; 3]
     std::array::from_fn(|row| {
         let value = printed::TABLE_5[row];
         let by_rate = if row == 2 { 1.0 / UNITS[2] } else { value };
-        let contribution = |name, evaluation, distribution, size, sensitivity| Contribution {
+        let contribution = |name, distribution, size, sensitivity| Contribution {
             name,
-            evaluation,
             distribution,
             size,
             sensitivity,
@@ -168,26 +156,23 @@ pub fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Budget; 3]
             contributions: vec![
                 contribution(
                     "table rate, 0.0001 °/s",
-                    Evaluation::TypeB,
                     table_rate,
                     rate_accuracy(scenario),
                     by_rate,
                 ),
                 contribution(
                     "gyro bias, 0.1 °/h",
-                    Evaluation::TypeB,
                     normal,
                     GYRO_ACCURACY,
                     1.0 / (spin * UNITS[row]),
                 ),
                 contribution(
                     "gyro noise over 900 s",
-                    Evaluation::TypeA,
                     normal,
                     information_bound(noise, spin, f64::INFINITY, turning),
                     1.0 / UNITS[row],
                 ),
-                contribution("rounding of the print", Evaluation::TypeB, rectangular, 0.5e-4, 1.0),
+                contribution("rounding of the print", rectangular, 0.5e-4, 1.0),
             ],
         }
     })
@@ -208,7 +193,6 @@ mod tests {
             .iter()
             .map(|&(distribution, size)| Contribution {
                 name: "one",
-                evaluation: Evaluation::TypeB,
                 distribution,
                 size,
                 sensitivity: -1.0,

@@ -28,7 +28,7 @@ pub(super) fn section(results: &Results) -> String {
          The convergence time $t_c$ of a parameter is the time from which on its estimate stays within {within} final sigmas of its \
          final value; the final sigma is the filter's 1σ at the end, {duration} s. {} runs, followed sample by sample. The bound \
          is that of an ideal estimator: the gyro shows $M w$ in white noise of density $N$ while the rate $w$ is known, so that \
-         no estimate has a smaller 1σ than $N / (w \\sqrt t)$ (and the prior's at first).\n\n",
+         no estimate has a smaller 1σ than $N\\,t^{{-1/2}} / w$ (and the prior's at first).\n\n",
         runs.len(),
         within = fixed(WITHIN, 0),
         duration = fixed(duration, 0),
@@ -51,7 +51,7 @@ pub(super) fn section(results: &Results) -> String {
     ]);
     out.push_str(&table.finish());
     out.push_str(
-        "The sigmas on the way: claimed by the filter, the spread of the runs, and the bound.\n\n",
+        "The 1σ against time: claimed by the filter, the spread of the runs, and the bound.\n\n",
     );
 
     let gyro = &setup.imu.gyro;
@@ -65,7 +65,7 @@ pub(super) fn section(results: &Results) -> String {
         "bound>",
     ]);
     for (place, time) in TIMES.into_iter().enumerate() {
-        let mut cells = vec![significant(time, 3)];
+        let mut cells = vec![significant(time, 2)];
         for (row, prior) in [(0, gyro.misalignment_sigma), (2, gyro.scale_sigma)] {
             let of = |what: usize| {
                 Sample::of(runs.iter().map(|run| run.kept[place][what][row] / UNITS[row]))

@@ -16,18 +16,17 @@ pub(super) fn section(results: &Results) -> String {
         out,
         "### \"Enhanced at least 20 %\" {{#enhancement}}\n\n\
          The enhancement of a figure is $1 - |\\text{{after}}| / |\\text{{before}}|$. Printed: from Table 6. Emulated: \
-         over the same {} runs; *of the rms* compares the root mean squares over all runs.\n\n",
+         over the same {} runs.\n\n",
         results.scale.emulated,
     );
-    let runs_met = format!("runs with {claimed} % or more>");
+    let runs_met = format!("runs with ≥ {claimed} %>");
     let titles = [
         "",
         "printed before>",
         "printed after>",
         "printed>",
         "emulated, median>",
-        "5 % to 95 % of the runs>",
-        "of the rms>",
+        "quantiles 5 % to 95 %>",
         runs_met.as_str(),
     ];
     let mut table = Table::new(&titles);
@@ -42,7 +41,6 @@ pub(super) fn section(results: &Results) -> String {
             format!("**{}**", percent(one.printed)),
             percent(one.median),
             one.range.map(percent).join(" to "),
-            percent(one.of_rms),
             percent(one.share),
         ]);
     }

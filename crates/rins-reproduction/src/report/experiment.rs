@@ -105,7 +105,7 @@ fn table_6(out: &mut String, results: &Results) {
 
 /// A table of causes: the size that each needs for one figure alone, over what it is allowed.
 fn sizes(out: &mut String, causes: &[Graded], wanted: [f64; 5]) {
-    let titles = ["cause", "allowed>", "from", "$V_x$>", "$V_y$>", "roll>", "pitch>", "yaw>"];
+    let titles = ["cause", "allowed>", "$V_x$>", "$V_y$>", "roll>", "pitch>", "yaw>"];
     let mut table = Table::new(&titles);
     let mut ranked: Vec<&Graded> = causes.iter().collect();
     let least = |graded: &Graded| {
@@ -123,9 +123,8 @@ fn sizes(out: &mut String, causes: &[Graded], wanted: [f64; 5]) {
             }
         };
         table.row(&[
-            graded.cause.name(),
+            ranking::cause_name(graded),
             with_unit(&significant(graded.grade, 2), unit),
-            ranking::basis(graded).to_owned(),
             cell(0),
             cell(1),
             cell(2),
@@ -154,7 +153,8 @@ fn after(out: &mut String, results: &Results) {
     out.push_str(
         "How large each cause would have to be to make one of the figures by itself, as a multiple of \
          the size allowed it. Stated are the IMU's 0.1 °/h and 100 µg, the table's 2″ and 0.0001 °/s, half a sample of timing, and \
-         for an estimate what a bias of 0.1 °/h hides in it; assumed are a common quartz clock and the noise of a common gyro of 0.1 °/h. \
+         for an estimate what a bias of 0.1 °/h hides in it. The paper states no clock and no noise: a common quartz clock and the noise of a \
+         common gyro of 0.1 °/h are assumed. \
          A dash is more than a thousand times.\n\n",
     );
     sizes(out, causes, wanted);

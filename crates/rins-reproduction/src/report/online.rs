@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::number::{Table, spread};
+use super::number::{Table, significant};
 use super::results::Results;
+use crate::Sample;
 use crate::pure_navigation::Outcome;
 use crate::running::Followed;
-use crate::{Sample, real_test};
 
 pub(super) fn section(results: &Results) -> String {
     let mut out = String::new();
@@ -15,46 +15,33 @@ pub(super) fn section(results: &Results) -> String {
         out,
         "## Online compensation {{#online}}\n\n\
          The conclusions say that errors \"can be estimated and compensated online\". Free navigation over the whole \
-         turn, errors at its end, mean ± spread over {} runs of section 4 (all errors of Tables 1 and 2, 360 s) and {} \
+         turn, root mean squares of the errors at its end over {} runs of section 4 (all errors of Tables 1 and 2, 360 s) and {} \
          emulated runs of section 5 (900 s). *Online*: each sample is compensated with what the filter had estimated before \
          it, the first with nothing. *Batch*: all samples with the estimate after 360 s (section 4) or 100 s of the turn \
          (section 5).\n\n",
         results.scale.followed, results.scale.emulated,
     );
-    let mut table = Table::new(&[
-        "",
-        "",
-        "$V_x$ [m/s]>",
-        "$V_y$ [m/s]>",
-        "roll [°]>",
-        "pitch [°]>",
-        "yaw [°]>",
-    ]);
-    let mut row = |run: &str, name: &str, of: &dyn Fn(usize) -> Sample| {
-        let cell = |figure: usize| spread(&of(figure), if figure < 2 { 3 } else { 4 });
-        let [a, b, c, d, e] = [cell(0), cell(1), cell(2), cell(3), cell(4)];
-        table.row(&[run.to_owned(), name.to_owned(), a, b, c, d, e]);
+    let titles = ["", "$V_x$ [m/s]>", "$V_y$ [m/s]>", "roll [°]>", "pitch [°]>", "yaw [°]>"];
+    let mut table = Table::new(&titles);
+    let mut row = |name: &str, squares: &dyn Fn(usize) -> f64| {
+        let cell = |figure| significant(squares(figure).sqrt(), 3);
+        table.row(&[name.to_owned(), cell(0), cell(1), cell(2), cell(3), cell(4)]);
     };
-    let runs = &results.followed;
-    let section_4 = |of: &dyn Fn(&Followed, usize) -> f64, figure: usize| {
-        Sample::of(runs.iter().map(|run| of(run, figure)))
-    };
-    row("section 4", "none", &|figure| section_4(&|run, at| run.none.figures()[at], figure));
-    row("", "online", &|figure| section_4(&|run, at| run.online.figures()[at], figure));
-    row("", "batch", &|figure| section_4(&|run, at| run.batch.figures()[at], figure));
-    row("", "online − batch", &|figure| {
-        section_4(&|run, at| difference(&run.online, &run.batch, at), figure)
-    });
-    let emulated = &results.emulated;
-    let spread_of = |of: &dyn Fn(&real_test::Emulated) -> [f64; 5], figure: usize| {
-        real_test::spread(emulated, of, figure)
-    };
-    row("section 5", "none", &|figure| spread_of(&|run| run.before.figures(), figure));
-    row("", "online", &|figure| spread_of(&|run| run.online.figures(), figure));
-    row("", "batch", &|figure| spread_of(&|run| run.after.figures(), figure));
-    row("", "online − batch", &|figure| {
-        Sample::of(emulated.iter().map(|run| difference(&run.online, &run.after, figure)))
-    });
+    let simulated: Vec<[Outcome; 3]> =
+        results.followed.iter().map(|run| [run.none, run.online, run.batch]).collect();
+    let emulated: Vec<[Outcome; 3]> =
+        results.emulated.iter().map(|run| [run.before, run.online, run.after]).collect();
+    for (section, runs) in [("section 4", &simulated), ("section 5", &emulated)] {
+        for (place, name) in ["none", "online", "batch"].into_iter().enumerate() {
+            row(&format!("{section}: {name}"), &|figure| {
+                Sample::of(runs.iter().map(|run| run[place].figures()[figure].powi(2))).mean
+            });
+        }
+        row("– online less batch", &|figure| {
+            let of = |[_, online, batch]: &[Outcome; 3]| difference(online, batch, figure).powi(2);
+            Sample::of(runs.iter().map(of)).mean
+        });
+    }
     out.push_str(&table.finish());
     out.push_str(&verdict(results));
     out

@@ -25,10 +25,7 @@ pub(super) fn table(causes: &[Graded], wanted: [f64; 5], title: &str) -> String 
         let largest: Vec<String> = order
             .iter()
             .take(SHOWN)
-            .map(|(graded, share)| {
-                let mark = if graded.basis == Basis::Plausible { " (assumed)" } else { "" };
-                format!("{}{mark}: {}", graded.cause.name(), percent(*share))
-            })
+            .map(|(graded, share)| format!("{}: {}", cause_name(graded), percent(*share)))
             .collect();
         let together = share_of_all(&stated, figure, wanted);
         table.row(&[
@@ -56,11 +53,11 @@ fn verdict(stated: &[Graded], all: &[Graded], figure: usize, wanted: f64) -> &'s
     }
 }
 
-/// Where the size allowed a cause comes from, in a word.
-pub(super) fn basis(graded: &Graded) -> &'static str {
+/// A cause's name, and whether the size allowed it is assumed.
+pub(super) fn cause_name(graded: &Graded) -> String {
     match graded.basis {
-        Basis::Stated => "stated",
-        Basis::Plausible => "assumed",
+        Basis::Stated => graded.cause.name(),
+        Basis::Plausible => format!("{} (assumed)", graded.cause.name()),
     }
 }
 

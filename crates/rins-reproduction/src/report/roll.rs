@@ -27,23 +27,15 @@ fn causes(results: &Results) -> String {
     let mut out = String::from(
         "### The roll that stays {#table-6-roll}\n\n\
          Each cause that can make the roll after compensation with less than a thousand times the size allowed it, ranked by that multiple, \
-         and what it would make of the other figures at that size.\n\n",
+         and what it would make of the other figures at that size. *Excluded*: one of these would be more than 3 spreads of the \
+         emulation from the printed one. *Random*: 1σ of each figure by itself.\n\n",
     );
     let size = format!("size for {}° of roll>", fixed(wanted, 4));
-    let titles = [
-        "cause",
-        size.as_str(),
-        "× allowed>",
-        "then $V_x$ [m/s]>",
-        "$V_y$ [m/s]>",
-        "pitch [°]>",
-        "yaw [°]>",
-        "",
-    ];
+    let titles =
+        ["cause", size.as_str(), "then $V_x$ [m/s]>", "$V_y$ [m/s]>", "pitch [°]>", "yaw [°]>", ""];
     let mut table = Table::new(&titles);
     table.row(&[
         "**printed after**".to_owned(),
-        String::new(),
         String::new(),
         format!("**{}**", fixed(after[0], 2)),
         format!("**{}**", fixed(after[1], 2)),
@@ -69,16 +61,19 @@ fn causes(results: &Results) -> String {
             });
         table.row(&[
             graded.cause.name(),
-            with_unit(&significant(size, 3), graded.cause.unit().0),
-            significant(share.recip(), 2),
+            format!(
+                "{} ({}×)",
+                with_unit(&significant(size, 3), graded.cause.unit().0),
+                significant(share.recip(), 2)
+            ),
             fixed(made[0], 2),
             fixed(made[1], 2),
             fixed(made[3], 4),
             fixed(made[4], 4),
             match (graded.cause, excluded) {
-                (Cause::GyroNoise, _) => "random: 1σ of each figure by itself",
-                (_, true) => "excluded by another figure",
-                (_, false) => "",
+                (Cause::GyroNoise, _) => "random",
+                (_, true) => "excluded",
+                (_, false) => "possible",
             }
             .to_owned(),
         ]);

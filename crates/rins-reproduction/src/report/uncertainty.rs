@@ -8,7 +8,7 @@ use super::number::{Table, fixed, significant};
 use super::results::Results;
 use crate::printed;
 use crate::real_test::rate_accuracy;
-use crate::uncertainty::{Budget, Distribution, Evaluation, alone, table_5};
+use crate::uncertainty::{Budget, Distribution, alone, table_5};
 
 /// The coverage factor of an expanded uncertainty.
 const COVERAGE_FACTOR: f64 = 2.0;
@@ -39,7 +39,8 @@ pub(super) fn section(results: &Results) -> String {
          of 0.0001 °/s, which is {} ppm of 10 °/s, without a coverage factor or a distribution. Where only bounds are known, \
          JCGM 100 (4.3.7) assumes a rectangular distribution between them: half-width {} ppm, standard uncertainty {} ppm. \
          A true rate of $(1 + e)\\,\\omega$ adds $e$ to the estimate of $S_z$. The accuracy of the gyros is taken as the \
-         standard uncertainty of their biases, the noise is that of Tables 1 and 2.\n\n",
+         standard uncertainty of their biases, the noise is that of Tables 1 and 2. All are type B evaluations: the log was not \
+         published, so nothing can be evaluated from its scatter.\n\n",
         fixed(accuracy, 0),
         fixed(accuracy, 0),
         fixed(alone(&budgets[2], 0).combined(), 1),
@@ -78,17 +79,13 @@ fn scale_of(decimals: usize) -> String {
 }
 
 fn contributions(budgets: &[Budget; 3]) -> String {
-    let titles = ["", "type", "distribution", "$M_{xz}$ [″]>", "$M_{yz}$ [″]>", "$S_z$ [ppm]>"];
+    let titles = ["", "distribution", "$M_{xz}$ [″]>", "$M_{yz}$ [″]>", "$S_z$ [ppm]>"];
     let mut table = Table::new(&titles);
     for (place, one) in budgets[0].contributions.iter().enumerate() {
         let cell =
             |row: usize| significant(budgets[row].contributions[place].standard_uncertainty(), 2);
         table.row(&[
             one.name.to_owned(),
-            match one.evaluation {
-                Evaluation::TypeA => "A".to_owned(),
-                Evaluation::TypeB => "B".to_owned(),
-            },
             match one.distribution {
                 Distribution::Normal => "normal".to_owned(),
                 Distribution::Rectangular => "rectangular".to_owned(),
@@ -99,8 +96,7 @@ fn contributions(budgets: &[Budget; 3]) -> String {
         ]);
     }
     let mut row = |name: &str, cell: &dyn Fn(usize) -> String| {
-        let nothing = String::new;
-        table.row(&[name.to_owned(), nothing(), nothing(), cell(0), cell(1), cell(2)]);
+        table.row(&[name.to_owned(), String::new(), cell(0), cell(1), cell(2)]);
     };
     row("combined standard uncertainty", &|row| significant(budgets[row].combined(), 2));
     row("expanded, $k = 2$", &|row| significant(budgets[row].expanded(COVERAGE_FACTOR), 2));
