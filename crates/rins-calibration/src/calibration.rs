@@ -351,7 +351,7 @@ fn parameters(filter: &SpinAxisFilter, sums: &SpinRateSums, setup: &Setup) -> Ve
     .into_iter()
     .enumerate()
     .map(|(row, (id, kind, partner))| Parameter {
-        id,
+        id: id.into(),
         kind,
         value: filter.estimate()[row],
         sigma: sigma[row],

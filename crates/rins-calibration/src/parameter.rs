@@ -41,7 +41,7 @@ impl ParameterKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partner {
     /// The other parameter's id.
-    pub id: &'static str,
+    pub id: String,
     /// How much of it is in the value: value = parameter + `share` × partner, SI units.
     pub share: f64,
     /// The other parameter's kind.
@@ -52,7 +52,7 @@ pub struct Partner {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its id, such as `gyro.misalignment.xz` (row, column of eq. (1)).
-    pub id: &'static str,
+    pub id: String,
     /// Its kind.
     pub kind: ParameterKind,
     /// The estimate: of the parameter, or of the combination with `partners`.

@@ -33,15 +33,10 @@ impl SpinRateSums {
     /// estimate by the regression of a constant on the spin rate, `Σω / Σω²`, which for one constant
     /// rate is `1/(ω + ω_ie,z)` and after an even reversal is nothing. It is told when a bias of
     /// the data sheet's size would move the estimate by more than its sigma.
-    pub(crate) fn partner(
-        &self,
-        spec: &TriadSpec,
-        sigma: f64,
-        id: &'static str,
-    ) -> Option<Partner> {
+    pub(crate) fn partner(&self, spec: &TriadSpec, sigma: f64, id: &str) -> Option<Partner> {
         let share = self.rate / self.square;
         (share.abs() * spec.bias_sigma > sigma).then_some(Partner {
-            id,
+            id: id.into(),
             share,
             kind: ParameterKind::GyroBias,
         })

@@ -106,6 +106,11 @@ pub enum DiagnosisError {
     /// The candidates cannot be tried.
     #[error("the effects of the catalogue cannot be tried on the run")]
     Screening(#[from] Indefinite),
+    /// The runs are about different axes of the IMU.
+    #[error(
+        "the runs turn about different axes of the IMU: only runs about one axis can be diagnosed together"
+    )]
+    SeveralAxes,
 }
 
 /// Finds what `model` leaves unexplained in `runs` of one IMU, one effect after the other.
@@ -114,7 +119,7 @@ pub enum DiagnosisError {
 /// the effect, it would have swallowed it. `progress` is told of every effect that is accepted.
 ///
 /// # Errors
-/// [`DiagnosisError`] if the model as given cannot be fitted.
+/// [`DiagnosisError`] if the model as given cannot be fitted, or the runs are about different axes.
 pub fn diagnose(
     runs: &[Run],
     model: &Model,
@@ -122,6 +127,9 @@ pub fn diagnose(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
+    if runs.iter().any(|run| run.axes != runs[0].axes) {
+        return Err(DiagnosisError::SeveralAxes);
+    }
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     let found = case.searched(&mut progress)?;
@@ -306,6 +314,9 @@ pub fn suppose(
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Diagnosis, DiagnosisError> {
+    if runs.iter().any(|run| run.axes != runs[0].axes) {
+        return Err(DiagnosisError::SeveralAxes);
+    }
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     let before = case.fit()?;

@@ -1,7 +1,7 @@
 //! Signals of no known cause, to say how large is what was found: of a frequency, or of an order of the table angle.
 
 use rins_terms::{
-    Action, Dual64, Moment, Owner, Parameter, Prior, Setting, Signals, Term, Unit, sin_cos,
+    Action, Dual64, Moment, Owner, Parameter, Parity, Prior, Setting, Signals, Term, Unit, sin_cos,
 };
 
 /// What a disturbance is called where only a name will do.
@@ -54,6 +54,7 @@ const fn disturbance(
         partners: &[],
         told_apart_by: "",
         owner: Owner::Run,
+        parity: Parity::Tensor,
         action: Action::Signal(act),
     }
 }

@@ -78,6 +78,9 @@ pub enum GainError {
         /// How many revolutions or pieces of a rest.
         blocks: usize,
     },
+    /// The runs are about different axes of the IMU.
+    #[error("the runs turn about different axes of the IMU")]
+    SeveralAxes,
     /// What was found at one rate cannot be tried at another.
     #[error("the table turns at one rate only")]
     OneRate,
@@ -160,6 +163,9 @@ impl Gain {
         imu: &ImuSpec,
         knowledge: NoiseKnowledge,
     ) -> Result<Self, GainError> {
+        if runs.iter().any(|run| run.axes != runs[0].axes) {
+            return Err(GainError::SeveralAxes);
+        }
         let blocks = held.iter().flatten().map(|held| held.blocks.len()).sum();
         if blocks < FEWEST_BLOCKS {
             return Err(GainError::TooLittle { blocks });

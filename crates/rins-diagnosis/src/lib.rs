@@ -30,6 +30,7 @@ mod levels;
 mod limits;
 mod lines;
 mod median;
+mod named;
 mod noise;
 mod noisier;
 mod periodic;

@@ -113,7 +113,7 @@ impl Survey {
             .map(|noise| {
                 let mut sum = Evidence::none(layout.sigmas.len());
                 for ((linear, noise), places) in linear.iter().zip(noise).zip(&layout.of_runs) {
-                    sum.add(&Evidence::of(linear, noise)?, places);
+                    sum.add(&Evidence::of(linear, noise)?, places, &vec![1.0; places.len()]);
                 }
                 Ok(Said::of(&sum, &layout.sigmas))
             })
@@ -331,14 +331,14 @@ impl Places {
             let beyond = second.places[run].iter().map(|place| known + place);
             first.places[run].iter().copied().chain(beyond).collect()
         };
-        let sigmas = |part: &[Free], layout: &Layout| -> Vec<f64> {
-            layout.all.iter().map(|&(index, _)| part[index].sigma).collect()
+        let sigmas = |layout: &Layout| -> Vec<f64> {
+            layout.all.iter().map(|(free, _)| free.sigma).collect()
         };
         Self {
             known,
             of_runs: (0..runs.len()).map(of_run).collect(),
             of_terms,
-            sigmas: [sigmas(model, &first), sigmas(candidates, &second)].concat(),
+            sigmas: [sigmas(&first), sigmas(&second)].concat(),
         }
     }
 }

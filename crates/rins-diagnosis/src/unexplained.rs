@@ -43,7 +43,7 @@ pub struct Unexplained {
     /// How large it is, in SI units, if it is a signal.
     pub amplitude: Option<(f64, Unit)>,
     /// By how much it may have put `M_xz`, `M_yz` and `S_z` off at worst, in SI units, of those that are estimated.
-    pub worst: Vec<(&'static str, f64)>,
+    pub worst: Vec<(String, f64)>,
 }
 
 impl Case<'_> {
@@ -274,8 +274,8 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 
 /// How far a disturbance of this square may have put off what is of interest: no estimate by more of its own sigmas
 /// than the disturbance has.
-pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(&'static str, f64)> {
-    let of = |id: &&'static str| Some((*id, after.parameter(id)?.sigma * statistic.sqrt()));
+pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(String, f64)> {
+    let of = |id: &&str| Some(((*id).to_owned(), after.parameter(id)?.sigma * statistic.sqrt()));
     OF_INTEREST.iter().filter_map(of).collect()
 }
 

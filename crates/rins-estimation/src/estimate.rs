@@ -1,6 +1,7 @@
 //! A finished estimate, and what is asked of it.
 
 use nalgebra::{DMatrix, DVector, SVector};
+use rins_motion::SignedAxes;
 use rins_terms::{Free, Model};
 
 use crate::evidence::innovations;
@@ -37,7 +38,8 @@ pub struct Iteration {
 /// A finished estimate.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// The parameters, in the order of the model, those of the IMU first, then those of each run.
+    /// The parameters, in the order of the model, those of the IMU first, then those of each run; [`Estimate::parameter`] has
+    /// the place in the model of the run that it belongs to, or of the first run that has it.
     pub parameters: Vec<Estimate>,
     /// Their covariance, in SI units; where the noise was found, its own uncertainty is in it.
     pub covariance: DMatrix<f64>,
@@ -45,8 +47,13 @@ pub struct Fit {
     pub evidence: Evidence,
     /// The logarithm of the probability of the data, the parameters integrated out, but for a constant.
     pub log_likelihood: f64,
-    /// Each run's model with the estimates in it.
+    /// Each run's model with the estimates in it, along the run's axes.
     pub models: Vec<Model>,
+    /// The axes along which the parameters are named, as they are picked from the sensors' own: the first run's, unless
+    /// [`Fit::along`] said otherwise.
+    pub axes: SignedAxes,
+    /// Each run's axes, as they are picked from the sensors' own.
+    pub run_axes: Vec<SignedAxes>,
     /// Each run's noise.
     pub noise: Vec<Noise>,
     /// Each run, made linear about the estimate.
@@ -98,6 +105,7 @@ impl Fit {
     pub fn identifiability(&self) -> Identifiability {
         let unknown = |estimate: &Estimate| Unknown {
             id: estimate.parameter.id.clone(),
+            model_id: self.models[0].id(estimate.parameter.term, estimate.parameter.parameter),
             run: estimate.run,
             unit: estimate.parameter.unit,
             sigma: estimate.parameter.sigma,

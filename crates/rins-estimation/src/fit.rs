@@ -9,7 +9,7 @@ use rins_terms::{Free, Model};
 use crate::estimate::{Estimate, Fit, Iteration};
 use crate::evidence::Indefinite;
 use crate::fit_error::FitError;
-use crate::layout::Layout;
+use crate::layout::{Joined, Layout};
 use crate::likely::likely_noise;
 use crate::linear::{Linear, Pieces, linearised};
 use crate::posterior::{Evidence, Posterior};
@@ -34,7 +34,7 @@ const MISJUDGED: f64 = 0.1;
 
 /// Estimates what `model` leaves free from `runs` of one IMU.
 ///
-/// What belongs to the sensors is shared; what belongs to a run is estimated for each, or for those together that were
+/// The model, and the ids of all parameters, are along the axes of the first run. What belongs to the sensors is shared; what belongs to a run is estimated for each, or for those together that were
 /// not switched off in between. The
 /// values that the model has are what is expected, within the priors' sigmas. `progress` is told of every
 /// iteration.
@@ -75,13 +75,13 @@ fn fitted(
     if runs.is_empty() {
         return Err(FitError::NoRun);
     }
-    let free = model.free(imu);
-    if free.is_empty() {
+    let joined = Joined::of(model, imu, runs);
+    if joined.layout.all.is_empty() {
         return Err(FitError::NothingFree);
     }
     let strengths = knowledge.sheet();
     let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
-    let mut problem = Problem::new((runs, near), model, free);
+    let mut problem = Problem::new((runs, near), joined);
     let sheet: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut noise = sheet.clone();
     let mut iterations = Vec::new();
@@ -147,11 +147,9 @@ fn calm(noise: &mut [Noise], evidence: &Evidence, posterior: &Posterior) {
 struct Problem<'a> {
     runs: &'a [Run],
     models: Vec<Model>,
-    free: Vec<Free>,
-    /// All parameters: which of `free`, and of which run.
-    all: Vec<(usize, Option<usize>)>,
-    /// For each run the place among all of each of `free`.
-    places: Vec<Vec<usize>>,
+    /// For each run, which of its model's parameters are free.
+    free: Vec<Vec<(usize, usize)>>,
+    layout: Layout,
     expected: Vec<f64>,
     values: Vec<f64>,
     /// Each run, linear about these values, and how finely.
@@ -163,14 +161,15 @@ struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    fn new((runs, near): (&'a [Run], Option<&Fit>), model: &Model, free: Vec<Free>) -> Self {
-        let Layout { all, places } = Layout::of(&free, runs);
-        let value = |&(index, _): &(usize, Option<usize>)| {
-            let Free { term, parameter, .. } = free[index];
-            model.terms[term].values[parameter]
-        };
-        let expected: Vec<f64> = all.iter().map(value).collect();
-        let models = vec![model.clone(); runs.len()];
+    fn new((runs, near): (&'a [Run], Option<&Fit>), joined: Joined) -> Self {
+        let Joined { models, free, layout } = joined;
+        let mut expected = vec![0.0; layout.all.len()];
+        for (run, model) in models.iter().enumerate() {
+            let places = layout.places[run].iter().zip(&layout.signs[run]);
+            for (&(term, parameter), (&place, sign)) in free[run].iter().zip(places) {
+                expected[place] = sign * model.terms[term].values[parameter];
+            }
+        }
         let values = expected.clone();
         let about = DMatrix::zeros(values.len(), values.len());
         let mut problem = Self {
@@ -179,8 +178,7 @@ impl<'a> Problem<'a> {
             values,
             expected,
             free,
-            all,
-            places,
+            layout,
             linear: Vec::new(),
             pieces: Pieces::Coarse,
             damping: Damping::none(),
@@ -195,13 +193,12 @@ impl<'a> Problem<'a> {
 
     /// Starts where another fit found what is estimated here too.
     fn start_near(&mut self, near: &Fit) {
-        for (place, &(index, run)) in self.all.iter().enumerate() {
-            let free = &self.free[index];
-            let chosen = &self.models[0].terms[free.term];
+        for (place, (free, run)) in self.layout.all.iter().enumerate() {
+            let chosen = &self.models[run.unwrap_or(0)].terms[free.term];
             let same = |found: &&Estimate| {
                 let other = &near.model().terms[found.parameter.term];
                 found.parameter.id == free.id
-                    && found.run == run
+                    && found.run == *run
                     && other.settings == chosen.settings
             };
             if let Some(found) = near.parameters.iter().find(same) {
@@ -212,24 +209,24 @@ impl<'a> Problem<'a> {
 
     /// Puts the values into the models, and makes the runs linear about them.
     fn take_values(&mut self, pieces: Pieces) {
-        for (model, places) in self.models.iter_mut().zip(&self.places) {
-            for (parameter, &place) in self.free.iter().zip(places) {
-                model.terms[parameter.term].values[parameter.parameter] = self.values[place];
+        for (run, model) in self.models.iter_mut().enumerate() {
+            let places = self.layout.places[run].iter().zip(&self.layout.signs[run]);
+            for (&(term, parameter), (&place, sign)) in self.free[run].iter().zip(places) {
+                model.terms[term].values[parameter] = sign * self.values[place];
             }
         }
-        let free: Vec<(usize, usize)> =
-            self.free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
         // A day's run would not fit into memory twice.
         self.linear.clear();
-        let runs = self.runs.iter().zip(&self.models);
-        self.linear = runs.map(|(run, model)| linearised(run, model, &free, pieces)).collect();
+        let runs = self.runs.iter().zip(&self.models).zip(&self.free);
+        self.linear =
+            runs.map(|((run, model), free)| linearised(run, model, free, pieces)).collect();
         self.pieces = pieces;
     }
 
     /// Whether the noise is as strong as what is left, where the parameters are estimated.
     fn fits(&self, evidence: &Evidence) -> bool {
         let figures = evidence.figures as f64;
-        let dof = figures - self.all.len() as f64;
+        let dof = figures - self.layout.all.len() as f64;
         (evidence.square - dof).abs() < MISJUDGED * figures
     }
 
@@ -237,9 +234,10 @@ impl<'a> Problem<'a> {
         let of_runs =
             linear.par_iter().zip(noise).map(|(linear, noise)| Evidence::of(linear, noise));
         let of_runs = of_runs.collect::<Result<Vec<_>, _>>()?;
-        let mut sum = Evidence::none(self.all.len());
-        for (of_run, places) in of_runs.iter().zip(&self.places) {
-            sum.add(of_run, places);
+        let Layout { all, places, signs } = &self.layout;
+        let mut sum = Evidence::none(all.len());
+        for (of_run, (places, signs)) in of_runs.iter().zip(places.iter().zip(signs)) {
+            sum.add(of_run, places, signs);
         }
         Ok(sum)
     }
@@ -251,7 +249,7 @@ impl<'a> Problem<'a> {
         iteration: usize,
     ) -> Result<(Evidence, Posterior), FitError> {
         let evidence = self.evidence(linear, noise)?;
-        let sigmas: Vec<f64> = self.all.iter().map(|&(index, _)| self.free[index].sigma).collect();
+        let sigmas: Vec<f64> = self.layout.all.iter().map(|(free, _)| free.sigma).collect();
         let posterior = evidence.posterior(&sigmas, &self.offsets());
         let finite = posterior.filter(|posterior| posterior.log_likelihood.is_finite());
         Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
@@ -313,10 +311,8 @@ impl<'a> Problem<'a> {
 
     /// The same in squares of what is expected of it.
     fn pull(&self) -> f64 {
-        let of = |(offset, &(index, _)): (f64, &(usize, Option<usize>))| {
-            (offset / self.free[index].sigma).powi(2)
-        };
-        self.offsets().into_iter().zip(&self.all).map(of).sum()
+        let of = |(offset, (free, _)): (f64, &(Free, Option<usize>))| (offset / free.sigma).powi(2);
+        self.offsets().into_iter().zip(&self.layout.all).map(of).sum()
     }
 
     /// Goes to the estimate.
@@ -331,9 +327,9 @@ impl<'a> Problem<'a> {
         for (value, step) in self.values.iter_mut().zip(&taken) {
             *value += step;
         }
-        for places in &self.places {
+        for (free, places) in self.free.iter().zip(&self.layout.places) {
             // Derivatives by an attitude are by what is turned on from it.
-            if let Some(attitude) = attitude_of(&self.free, places) {
+            if let Some(attitude) = attitude_of(&self.models[0], free, places) {
                 let turn = |of: &[f64]| {
                     Dcm::<Table, Table>::from_rotation_vector(
                         &attitude.map(|place| of[place]).into(),
@@ -371,19 +367,21 @@ impl<'a> Problem<'a> {
             covariance +=
                 (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
         }
-        let estimate = |(place, &(index, run)): (usize, &(usize, Option<usize>))| Estimate {
-            parameter: self.free[index].clone(),
-            run,
+        let estimate = |(place, (free, run)): (usize, &(Free, Option<usize>))| Estimate {
+            parameter: free.clone(),
+            run: *run,
             expected: self.expected[place],
             value: self.values[place],
             sigma: covariance[(place, place)].sqrt(),
         };
         Ok(Fit {
-            parameters: self.all.iter().enumerate().map(estimate).collect(),
+            parameters: self.layout.all.iter().enumerate().map(estimate).collect(),
             covariance,
             evidence,
             log_likelihood: posterior.log_likelihood,
             models: self.models,
+            axes: self.runs[0].axes,
+            run_axes: self.runs.iter().map(|run| run.axes).collect(),
             noise,
             linear: self.linear,
             iterations,
@@ -393,8 +391,8 @@ impl<'a> Problem<'a> {
 }
 
 /// Where the attitude of a run's axis stands among all parameters, if all three of its angles are free.
-fn attitude_of(free: &[Free], places: &[usize]) -> Option<[usize; 3]> {
-    let of = |id: &str| free.iter().position(|parameter| parameter.id == id);
+fn attitude_of(model: &Model, free: &[(usize, usize)], places: &[usize]) -> Option<[usize; 3]> {
+    let of = |id: &str| free.iter().position(|at| model.find(id).as_ref() == Some(at));
     let [x, y, z] = ["axis.attitude.x", "axis.attitude.y", "axis.attitude.z"].map(of);
     Some([places[x?], places[y?], places[z?]])
 }

@@ -1,50 +1,110 @@
 //! Where the parameters of several runs stand among all.
 
-use rins_terms::{Free, Owner};
+use rins_imu::ImuSpec;
+use rins_terms::{Free, Model, Owner};
 
 use crate::run::Run;
 
 /// All parameters of some runs of one IMU: those of the sensors are shared, and by runs that were not switched off in
 /// between the turn-on biases too; the others are each run's own.
+///
+/// Runs about different axes of the IMU share what is the same along the sensors' own axes. All ids are along the axes of the
+/// first run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// Which parameter of the model each one is, and of which run, the first of those that share it; of none if all share
-    /// it, or there is one run only.
-    pub all: Vec<(usize, Option<usize>)>,
-    /// For each run the place among all of each parameter of the model.
+    /// Each parameter, as the first run that has it has it, and of which run it is, the first of those that share it; of
+    /// none if all share it, or there is one run only.
+    pub all: Vec<(Free, Option<usize>)>,
+    /// For each run the place among all of each parameter of its model.
     pub places: Vec<Vec<usize>>,
+    /// For each run what each of its parameters is multiplied by to be that among all: 1 or -1.
+    pub signs: Vec<Vec<f64>>,
 }
 
 impl Layout {
-    /// Of these runs. One run has its parameters in the model's order; of several, those of the sensors come first.
+    /// Of these runs, each of which has the parameters `free`. One run has its parameters in the model's order; of several,
+    /// those of the sensors come first.
+    ///
+    /// # Panics
+    /// If the runs are about different axes.
     pub fn of(free: &[Free], runs: &[Run]) -> Self {
-        if runs.len() == 1 {
-            let all = (0..free.len()).map(|index| (index, None)).collect();
-            return Self { all, places: vec![(0..free.len()).collect()] };
+        assert!(runs.iter().all(|run| run.axes == runs[0].axes), "runs about one axis");
+        let signed = free.iter().map(|parameter| (parameter.clone(), 1.0)).collect();
+        Self::joined(&vec![signed; runs.len()], runs)
+    }
+
+    /// Of these runs, for each of which the parameters are given with their ids along the first run's axes, and what each is
+    /// multiplied by to be along these.
+    fn joined(free: &[Vec<(Free, f64)>], runs: &[Run]) -> Self {
+        let signs =
+            free.iter().map(|of_run| of_run.iter().map(|(_, sign)| *sign).collect()).collect();
+        if let [only] = free {
+            let all = only.iter().map(|(parameter, _)| (parameter.clone(), None)).collect();
+            return Self { all, places: vec![(0..only.len()).collect()], signs };
         }
         let never_off = runs.iter().all(|run| run.shares_turn_on(&runs[0]));
-        let mut all = Vec::new();
-        let mut places = vec![vec![0; free.len()]; runs.len()];
-        for (index, _) in free.iter().enumerate().filter(|(_, p)| p.owner == Owner::Sensor) {
-            for of_run in &mut places {
-                of_run[index] = all.len();
+        let mut all: Vec<(Free, Option<usize>)> = Vec::new();
+        let mut places: Vec<Vec<usize>> = free.iter().map(|of_run| vec![0; of_run.len()]).collect();
+        let of_sensors = |parameter: &Free| parameter.owner == Owner::Sensor;
+        for (of_run, places) in free.iter().zip(&mut places) {
+            let here =
+                of_run.iter().zip(places).filter(|((parameter, _), _)| of_sensors(parameter));
+            for ((parameter, _), place) in here {
+                let known = all.iter().position(|(other, _)| other.id == parameter.id);
+                *place = known.unwrap_or(all.len());
+                if known.is_none() {
+                    all.push((parameter.clone(), None));
+                }
             }
-            all.push((index, None));
         }
-        for (place, run) in runs.iter().enumerate() {
-            let before = runs[..place].iter().position(|other| other.shares_turn_on(run));
-            for (index, parameter) in free.iter().enumerate() {
-                places[place][index] = match (parameter.owner, before) {
+        for (number, run) in runs.iter().enumerate() {
+            let before = runs[..number].iter().position(|other| other.shares_turn_on(run));
+            for (index, (parameter, _)) in free[number].iter().enumerate() {
+                places[number][index] = match (parameter.owner, before) {
                     (Owner::Sensor, _) => continue,
+                    // Such runs are about one axis, and have the same parameters.
                     (Owner::Run, Some(before)) => places[before][index],
                     (owner, _) => {
                         let shared = owner == Owner::Run && never_off;
-                        all.push((index, (!shared).then_some(place)));
+                        all.push((parameter.clone(), (!shared).then_some(number)));
                         all.len() - 1
                     }
                 };
             }
         }
-        Self { all, places }
+        Self { all, places, signs }
+    }
+}
+
+/// Runs with a model for each, and where their parameters stand.
+pub(crate) struct Joined {
+    /// Each run's model, along its own axes.
+    pub(crate) models: Vec<Model>,
+    /// For each run, which of its model's parameters are free: their terms and their places there.
+    pub(crate) free: Vec<Vec<(usize, usize)>>,
+    /// Where they stand among all.
+    pub(crate) layout: Layout,
+}
+
+impl Joined {
+    /// Of these runs of one IMU, the model being along the axes of the first.
+    pub(crate) fn of(model: &Model, imu: &ImuSpec, runs: &[Run]) -> Self {
+        let models: Vec<Model> = runs
+            .iter()
+            .map(|run| model.carried(&run.axes.after(&runs[0].axes.inverse())))
+            .collect();
+        let signed = |(run, model): (&Run, &Model)| -> Vec<(Free, f64)> {
+            let axes = run.axes.after(&runs[0].axes.inverse());
+            let along_first = |free: Free| {
+                let (_, sign) = model.terms[free.term].own(free.parameter, &axes);
+                (Free { id: model.own_id(free.term, free.parameter, &axes), ..free }, sign)
+            };
+            model.free(imu).into_iter().map(along_first).collect()
+        };
+        let free: Vec<Vec<(Free, f64)>> = runs.iter().zip(&models).map(signed).collect();
+        let layout = Layout::joined(&free, runs);
+        let place = |(parameter, _): &(Free, f64)| (parameter.term, parameter.parameter);
+        let free = free.iter().map(|of_run| of_run.iter().map(place).collect()).collect();
+        Self { models, free, layout }
     }
 }

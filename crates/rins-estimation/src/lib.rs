@@ -46,6 +46,7 @@ mod filter;
 mod fit;
 mod fit_error;
 mod likely;
+mod named;
 
 mod identifiability;
 
@@ -62,6 +63,7 @@ pub use identifiability::{
 };
 pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
+pub use named::InRun;
 pub use posterior::{Evidence, Posterior, correlation};
 pub use rounding::AngleSteps;
 pub use run::{Reference, Rig, Run, RunError};

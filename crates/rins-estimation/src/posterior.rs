@@ -48,12 +48,14 @@ impl Evidence {
         }
     }
 
-    /// Adds what other data say; `places` says which parameter here each of theirs is.
-    pub fn add(&mut self, other: &Self, places: &[usize]) {
+    /// Adds what other data say; `places` says which parameter here each of theirs is, and `signs` what each of theirs is
+    /// multiplied by to be that: 1 or -1.
+    pub fn add(&mut self, other: &Self, places: &[usize], signs: &[f64]) {
         for (row, &to_row) in places.iter().enumerate() {
-            self.score[to_row] += other.score[row];
+            self.score[to_row] += signs[row] * other.score[row];
             for (column, &to_column) in places.iter().enumerate() {
-                self.information[(to_row, to_column)] += other.information[(row, column)];
+                let product = signs[row] * signs[column];
+                self.information[(to_row, to_column)] += product * other.information[(row, column)];
             }
         }
         self.square += other.square;

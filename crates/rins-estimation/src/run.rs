@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use rins_frames::{Dcm, Nav, Table};
-use rins_motion::{Recording, Station};
+use rins_motion::{Recording, SignedAxes, Station};
 
 use crate::linear::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
@@ -54,6 +54,8 @@ pub struct Run {
     pub left_out: Vec<Range<usize>>,
     /// Which of several switchings-on it belongs to, if not to one of its own.
     pub turn_on: Option<usize>,
+    /// Its axes, of which z is the axis of rotation, as they are picked from the sensors' own.
+    pub axes: SignedAxes,
     /// The steps of the encoder, if it is the reference and they are coarse beside its noise.
     pub angle_steps: Option<AngleSteps>,
 }
@@ -144,7 +146,14 @@ impl Run {
             }
             Reference::Rest => {}
         }
-        Ok(Self { rig, recording, left_out: Vec::new(), turn_on: None, angle_steps })
+        Ok(Self {
+            rig,
+            recording,
+            left_out: Vec::new(),
+            turn_on: None,
+            axes: SignedAxes::IDENTITY,
+            angle_steps,
+        })
     }
 
     /// The same with these samples left out of what is estimated from: apart and in order.
@@ -165,8 +174,15 @@ impl Run {
         self
     }
 
-    /// Whether the IMU was not switched off between this run and another.
+    /// The same about another of the sensors' axes: axis `i` of the run is `sign[i]` times the sensors' own axis `source[i]`.
+    #[must_use]
+    pub fn with_axes(mut self, axes: SignedAxes) -> Self {
+        self.axes = axes;
+        self
+    }
+
+    /// Whether the IMU was neither switched off nor mounted about another of its axes between this run and another.
     pub(crate) fn shares_turn_on(&self, other: &Self) -> bool {
-        self.turn_on.is_some() && self.turn_on == other.turn_on
+        self.turn_on.is_some() && self.turn_on == other.turn_on && self.axes == other.axes
     }
 }

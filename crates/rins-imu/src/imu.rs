@@ -1,5 +1,6 @@
 //! The deterministic errors of a whole IMU, and their inverse.
 
+use nalgebra::Matrix3;
 use rins_frames::Increments;
 
 use crate::axis::Triad;
@@ -15,6 +16,13 @@ pub struct ImuError {
 }
 
 impl ImuError {
+    /// The same sensors' errors along other axes, which `rotation` makes of those here: vectors along these become
+    /// `rotation · vector`.
+    #[must_use]
+    pub fn along(&self, rotation: &Matrix3<f64>) -> Self {
+        Self { gyro: self.gyro.along(rotation), accel: self.accel.along(rotation) }
+    }
+
     /// What an IMU with these errors delivers where `truth` happens.
     #[must_use]
     pub fn measure(&self, truth: &Increments) -> Increments {
@@ -90,7 +98,7 @@ mod tests {
         ) {
             let triad = |p: &[f64]| TriadError {
                 bias: nalgebra::Vector3::from_column_slice(&p[..3]),
-                matrix: nalgebra::Matrix3::from_column_slice(&p[3..]),
+                matrix: Matrix3::from_column_slice(&p[3..]),
             };
             let error = ImuError { gyro: triad(&parameters[..12]), accel: triad(&parameters[12..]) };
             let truth = Increments {

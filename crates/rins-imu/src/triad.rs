@@ -25,6 +25,13 @@ pub struct TriadError {
 }
 
 impl TriadError {
+    /// The same sensors' error along other axes, which `rotation` makes of those here: vectors along these become
+    /// `rotation · vector`.
+    #[must_use]
+    pub fn along(&self, rotation: &Matrix3<f64>) -> Self {
+        Self { bias: rotation * self.bias, matrix: rotation * self.matrix * rotation.transpose() }
+    }
+
     /// This error, with another bias: \[rad/s\] for gyros, \[m/s²\] for accelerometers.
     #[must_use]
     pub fn with_bias(mut self, axis: Axis, bias: f64) -> Self {

@@ -7,12 +7,14 @@ use std::path::{Path, PathBuf};
 
 pub use covariance::Covariance;
 use rins_imu::{Compensation, ImuError, TriadError};
-use rins_terms::Model;
+use rins_motion::SignedAxes;
+use rins_terms::{Chosen, Model};
 
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::output::{Overwrite, write_file};
 use crate::parameter::{self, LeftOut, Parameter, parameters};
+use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};
 
@@ -23,9 +25,12 @@ const SCHEMAS: [u64; 2] = [1, 2];
 /// The keys of the second version alone.
 const NEWER: [&str; 2] = ["term", "covariance"];
 
+/// What the axis of rotation may be.
+const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
+
 /// What every calibration file begins with.
 const MEANING: &str = "\
-# Errors of an inertial measurement unit, along body axes whose z is the spin axis.
+# Errors of an inertial measurement unit, along its own body axes x, y and z, whatever axis the table turns it about.
 #
 #   measured    = true + bias + [S, M] true
 #   compensated = (I + [S, M])^-1 (measured - bias)
@@ -72,26 +77,30 @@ const SIGMAS: &str = "
 pub struct Calibration {
     /// The file it comes from; empty if none.
     pub path: PathBuf,
-    /// The errors.
+    /// The errors, along the sensors' own axes.
     pub error: ImuError,
+    /// The axes of the run in which the calibration was made, picked from the sensors' own: the terms are along these.
+    pub spin: Axes,
     /// The standard deviations of those numbers that were estimated, by id and in the units of
-    /// [`parameters`](crate::parameters); of the others none is known.
+    /// [`parameters`](crate::parameters), along the sensors' own axes; of the others none is known.
     pub sigmas: Vec<Parameter>,
     /// What else a reader must know of the numbers: which of them are combinations, and where
     /// these hold.
     pub notes: Vec<String>,
-    /// The terms beyond bias, scale and misalignment, with the standard deviations of what was estimated.
+    /// The terms beyond bias, scale and misalignment, with the standard deviations of what was estimated, in a run with the
+    /// axes [`spin`](Self::spin); the file has them along the sensors' own axes.
     pub terms: Model,
-    /// The covariance of what was estimated.
+    /// The covariance of what was estimated, by ids along the sensors' own axes.
     pub covariance: Option<Covariance>,
 }
 
 impl Calibration {
-    /// A calibration without standard deviations and notes.
+    /// A calibration from a run about z, without standard deviations and notes.
     pub fn of(error: ImuError) -> Self {
         Self {
             path: PathBuf::new(),
             error,
+            spin: Axes::IDENTITY,
             sigmas: Vec::new(),
             notes: Vec::new(),
             terms: Model::default(),
@@ -118,7 +127,7 @@ impl Calibration {
     }
 
     fn from_document(document: &Document) -> Result<Self, IoError> {
-        let known = ["schema", "notes", "gyro", "accel", "sigma", NEWER[0], NEWER[1]];
+        let known = ["schema", "spin", "notes", "gyro", "accel", "sigma", NEWER[0], NEWER[1]];
         let root = Section::root(document, &known)?;
         match root.count("schema", "1 or 2")? {
             Some(schema) if !SCHEMAS.contains(&schema) => {
@@ -138,21 +147,50 @@ impl Calibration {
             Some(section) => parameter::read_sigmas(&section)?,
             None => Vec::new(),
         };
-        let terms = terms(&root)?;
+        let spin = match root.text("spin", SPINS)? {
+            Some(name) => Axes::spin(name).ok_or_else(|| root.not_allowed("spin", SPINS))?,
+            None => Axes::IDENTITY,
+        };
+        let terms = terms(&root, &spin.into())?;
         let ids = parameters(&error).into_iter().map(|parameter| parameter.id);
-        let known: Vec<String> = ids.chain(terms.ids()).collect();
+        let of_terms = own_places(&terms, &spin.into()).into_iter().map(|(id, _)| id);
+        let known: Vec<String> = ids.chain(of_terms).collect();
         let covariance = covariance::read(&root, &known)?;
         let path = document.path.clone();
-        let calibration = Self { path, error, sigmas, notes, terms, covariance };
+        let calibration = Self { path, error, spin, sigmas, notes, terms, covariance };
         calibration.compensation()?;
         Ok(calibration)
     }
 
-    /// All that the file holds as one model: bias, scale and misalignment, then the terms.
-    pub fn model(&self) -> Model {
-        let mut model = Model::from(&self.error);
-        model.terms.extend(self.terms.terms.iter().cloned());
-        model
+    /// What a run with these axes, picked from the sensors' own, shows of the errors: bias, scale and misalignment, and the
+    /// terms.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if a term has a parameter that only a run about the calibration's axis shows, as the asymmetry of one
+    /// gyro's scale, and this run is about another.
+    pub fn in_run(&self, axes: &Axes) -> Result<(ImuError, Model), IoError> {
+        let from_spin = SignedAxes::from(axes.after(&self.spin.inverse()));
+        for chosen in &self.terms.terms {
+            if let Some(name) = chosen.without_place(&from_spin).first() {
+                let place = chosen.term.parameters.iter().position(|p| p.name == *name);
+                let own = chosen.term.own_name(place.unwrap_or_default(), &self.spin.into());
+                let reason = format!(
+                    "{}.{own} was found in a run about {}: it has no meaning in one about {}",
+                    chosen.term.id,
+                    self.spin.spin_name(),
+                    axes.spin_name()
+                );
+                let (path, key) = (self.path.clone(), "[[term]]".to_string());
+                let problem = KeyProblem::Conflict { reason };
+                return Err(Box::new(KeyError { path, line: None, key, problem }).into());
+            }
+        }
+        Ok((self.error.along(&SignedAxes::from(*axes).matrix()), self.terms.carried(&from_spin)))
+    }
+
+    /// The ids of the terms' parameters along the sensors' own axes, with their places in [`terms`](Self::terms).
+    pub fn own_terms(&self) -> Vec<(String, (usize, usize))> {
+        own_places(&self.terms, &self.spin.into())
     }
 
     /// The inverse of bias, scale and misalignment; the terms are not in it
@@ -176,10 +214,13 @@ impl Calibration {
     pub fn to_toml(&self) -> String {
         let newer = !self.terms.terms.is_empty() || self.covariance.is_some();
         let mut text = format!("{MEANING}schema = {}\n", SCHEMAS[usize::from(newer)]);
+        if self.spin != Axes::IDENTITY {
+            // Writing to a string cannot fail, here and below.
+            let _ = writeln!(text, "spin = {:?}", self.spin.spin_name());
+        }
         if !self.notes.is_empty() {
             text.push_str("notes = [\n");
             for note in &self.notes {
-                // Writing to a string cannot fail, here and below.
                 let _ = writeln!(text, "    {},", quoted(note));
             }
             text.push_str("]\n");
@@ -205,7 +246,7 @@ impl Calibration {
             text.push_str(TERMS);
         }
         for chosen in &self.terms.terms {
-            text.push_str(&term::written(chosen, Use::Calibration));
+            text.push_str(&term::written(chosen, Use::Calibration, &self.spin.into()));
         }
         text
     }
@@ -231,10 +272,10 @@ fn both(section: &Section<'_>) -> Result<ImuError, IoError> {
 }
 
 /// The terms beyond bias, scale and misalignment.
-fn terms(root: &Section<'_>) -> Result<Model, IoError> {
+fn terms(root: &Section<'_>, axes: &SignedAxes) -> Result<Model, IoError> {
     let mut model = Model::default();
     for table in term::tables(root, "term")? {
-        let chosen = term::read(&table, Use::Calibration)?;
+        let chosen = term::read(&table, Use::Calibration, axes)?;
         term::refuse_triads(&table, &chosen, |sensor| format!("[{sensor}]"))?;
         if !chosen.term.is_signal() {
             return Err(table.conflict("id", format!("{} cannot be undone", chosen.term.id)));
@@ -242,6 +283,15 @@ fn terms(root: &Section<'_>) -> Result<Model, IoError> {
         model.terms.push(chosen);
     }
     Ok(model)
+}
+
+/// The ids along the sensors' own axes of all parameters of a run's terms, with their places.
+fn own_places(terms: &Model, axes: &SignedAxes) -> Vec<(String, (usize, usize))> {
+    let own = |(term, chosen): (usize, &Chosen)| {
+        let order = chosen.term.own_order(axes).into_iter();
+        order.map(move |place| (terms.own_id(term, place, axes), (term, place))).collect::<Vec<_>>()
+    };
+    terms.terms.iter().enumerate().flat_map(own).collect()
 }
 
 /// `text` as a basic string of TOML.

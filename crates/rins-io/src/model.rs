@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use rins_motion::SignedAxes;
 use rins_terms::{Chosen, Model};
 
 use crate::document::Document;
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
+use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};
 
@@ -42,8 +44,11 @@ const MEANING: &str = "\
 pub struct ModelFile {
     /// The file it comes from; empty if none.
     pub path: PathBuf,
-    /// Its terms: those of the base first.
+    /// Its terms, those of the base first, in a run with these axes.
     pub model: Model,
+    /// The axes of the run, picked from the sensors' own: the file's names and values are along these, and the bases are of
+    /// the axis of rotation.
+    pub axes: Axes,
 }
 
 type Preset = fn() -> Model;
@@ -53,18 +58,32 @@ const BASES: [(&str, Preset); 3] =
     [("full", Model::full), ("paper12", Model::paper12), ("none", Model::default)];
 
 impl ModelFile {
-    /// A model that is in no file yet.
+    /// A model that is in no file yet, of a run about z.
     pub fn of(model: Model) -> Self {
-        Self { path: PathBuf::new(), model }
+        Self { path: PathBuf::new(), model, axes: Axes::IDENTITY }
     }
 
-    /// Reads the model file at `path`.
+    /// The same of a run with these axes.
+    #[must_use]
+    pub fn with_axes(self, axes: Axes) -> Self {
+        Self { axes, ..self }
+    }
+
+    /// Reads the model file at `path` for a run about z.
     ///
     /// # Errors
     /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if a term, setting or parameter is not
     /// known, has another dimension or is out of range, or if a term is listed twice.
     pub fn read(path: &Path) -> Result<Self, IoError> {
-        Self::from_document(&Document::read(path)?)
+        Self::read_along(path, &Axes::IDENTITY)
+    }
+
+    /// Reads the model file at `path` for a run with these axes.
+    ///
+    /// # Errors
+    /// As [`ModelFile::read`]; a parameter that a run about this axis does not have is not known.
+    pub fn read_along(path: &Path, axes: &Axes) -> Result<Self, IoError> {
+        Self::from_document(&Document::read(path)?, axes)
     }
 
     /// The model that `text` holds, as if it stood in the file at `path`.
@@ -72,10 +91,10 @@ impl ModelFile {
     /// # Errors
     /// [`IoError::Key`], as [`ModelFile::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
-        Self::from_document(&Document::parse(text, path)?)
+        Self::from_document(&Document::parse(text, path)?, &Axes::IDENTITY)
     }
 
-    fn from_document(document: &Document) -> Result<Self, IoError> {
+    fn from_document(document: &Document, axes: &Axes) -> Result<Self, IoError> {
         let root = Section::root(document, &["schema", "base", "term"])?;
         match root.count("schema", "1")? {
             Some(SCHEMA) => {}
@@ -89,7 +108,7 @@ impl ModelFile {
         // The terms of the base that the file has not said anything of.
         let mut unsaid: Vec<bool> = vec![true; model.terms.len()];
         for table in term::tables(&root, "term")? {
-            let chosen = term::read(&table, Use::Model)?;
+            let chosen = term::read(&table, Use::Model, &SignedAxes::from(*axes))?;
             match model.terms.iter().position(|listed| same(listed, &chosen)) {
                 None => model.terms.push(chosen),
                 Some(place) if unsaid.get(place) == Some(&true) => {
@@ -102,7 +121,7 @@ impl ModelFile {
                 }
             }
         }
-        Ok(Self { path: document.path.clone(), model })
+        Ok(Self { path: document.path.clone(), model, axes: *axes })
     }
 
     /// The text of the model's file.
@@ -118,7 +137,7 @@ impl ModelFile {
         let mut text = format!("{MEANING}schema = {SCHEMA}\nbase = {name:?}\n");
         for (place, chosen) in terms.iter().enumerate() {
             if base.terms.get(place) != Some(chosen) {
-                text.push_str(&term::written(chosen, Use::Model));
+                text.push_str(&term::written(chosen, Use::Model, &SignedAxes::from(self.axes)));
             }
         }
         text

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use rins_frames::{Dcm, EulerAngles};
 use rins_imu::{ImuError, ImuNoise, NoiseModel, Quantisation, Seed, TriadError, TriadSpec};
+use rins_motion::SignedAxes;
 use rins_simulation::{Encoder, Scenario, TableRecord};
 use rins_terms::Model;
 
@@ -184,7 +185,7 @@ fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError
 fn effects(truth: &Section<'_>) -> Result<Model, IoError> {
     let mut effects = Model::default();
     for table in term::tables(truth, "effects")? {
-        let effect = term::read(&table, Use::Effect)?;
+        let effect = term::read(&table, Use::Effect, &SignedAxes::IDENTITY)?;
         term::refuse_triads(&table, &effect, |sensor| format!("[truth.{sensor}]"))?;
         effects.terms.push(effect);
     }

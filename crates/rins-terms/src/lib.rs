@@ -28,6 +28,7 @@ mod model;
 mod moment;
 mod page;
 mod senses;
+mod sensor_axes;
 mod signals;
 mod slope;
 mod term;
@@ -46,8 +47,9 @@ pub use moment::{Instant, Moment, Stretch, Surroundings};
 /// A number with its derivative, of which [`Signals`] are made.
 pub use num_dual::Dual64;
 pub use page::page;
+pub use sensor_axes::own_channel;
 pub use signals::{DualVector, Signals, derivatives, values};
-pub use term::{Action, Need, Noises, Owner, Parameter, Prior, Setting, Term};
+pub use term::{Action, Need, Noises, Owner, Parameter, Parity, Prior, Setting, Term};
 pub use track::{Moments, Track};
 pub use unit::Unit;
 pub use waves::sin_cos;

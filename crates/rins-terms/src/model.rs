@@ -197,11 +197,18 @@ impl Model {
     /// # Panics
     /// If there is no such term or parameter.
     pub fn id(&self, term: usize, parameter: usize) -> String {
-        let chosen = &self.terms[term];
-        let id = chosen.term.id;
+        format!("{}.{}", self.term_id(term), self.terms[term].term.parameters[parameter].name)
+    }
+
+    /// The id of a term, with `#2` where the model has it for the second time.
+    ///
+    /// # Panics
+    /// If there is no such term.
+    pub fn term_id(&self, term: usize) -> String {
+        let id = self.terms[term].term.id;
         let before = self.terms[..term].iter().filter(|other| other.term.id == id).count();
         let again = if before == 0 { String::new() } else { format!("#{}", before + 1) };
-        format!("{id}{again}.{}", chosen.term.parameters[parameter].name)
+        format!("{id}{again}")
     }
 
     /// The full ids of all its parameters, in order.

@@ -43,6 +43,8 @@ pub struct Term {
     pub told_apart_by: &'static str,
     /// Whom its parameters belong to.
     pub owner: Owner,
+    /// How its parameters change where the sensors' axes are named and directed otherwise.
+    pub parity: Parity,
     /// What it does.
     pub action: Action,
 }
@@ -148,6 +150,23 @@ pub enum Owner {
     Run,
     /// One way of standing: the attitude of the axis, another one after the IMU was turned over, switched off or not.
     Placement,
+}
+
+/// How the parameters of a term change where the sensors' axes are named and directed otherwise, as by another spin axis.
+///
+/// Axes are the tokens of a parameter's name that consist of x, y and z only: `r_x` is along x, `x_yz` along x, y and z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parity {
+    /// Not at all: they have no axes, or those of the table, whose z is the axis of rotation.
+    Unchanged,
+    /// They follow their axes, and keep their signs where these are reversed: a scale error.
+    Even,
+    /// They follow their axes, and change their signs with each of these that is reversed: a bias, a misalignment.
+    Tensor,
+    /// The same, but only the last of the axes counts for the sign: accelerometer x, force along x times force along y.
+    LastAxis,
+    /// They change their signs with the axis that a setting of the term names.
+    OfSetting,
 }
 
 /// What a term does, and to what.

@@ -19,6 +19,7 @@ mod no_room;
 mod observe;
 mod repairs;
 mod round_trip;
+mod spin_axes;
 mod statics;
 mod support;
 mod synthetic;

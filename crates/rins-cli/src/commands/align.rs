@@ -11,7 +11,7 @@ use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
 use rins_io::Loaded;
 use rins_motion::{
     AlignmentError, FineAlignment, FineAlignmentError, GyroFigures, MeanUncertainty, PlaceSeen,
-    RestMean, StaticIntervals, align_finely, level, place_seen, residual,
+    RestMean, SignedAxes, StaticIntervals, align_finely, level, place_seen, residual,
 };
 use serde_json::{Value, json};
 
@@ -285,10 +285,14 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
         return rows;
     }
     let bias_sigma = found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
+    // Biases are the sensors', along their own axes.
+    let own_axes = SignedAxes::from(loaded.rig.spin);
+    let bias = own_axes.undo(found.residual.angular_rate.components());
+    let bias_sigma = own_axes.undo(&Vector3::from(bias_sigma)).abs();
     for (axis, name) in ["gyro bias x", "gyro bias y", "gyro bias z"].into_iter().enumerate() {
         rows.push(row(
             name,
-            format!("{:.4} deg/h", found.residual.angular_rate.components()[axis] / DEG_PER_HOUR),
+            format!("{:.4} deg/h", bias[axis] / DEG_PER_HOUR),
             format!("{:.4} deg/h", bias_sigma[axis] / DEG_PER_HOUR),
             "less what lies along east, which the azimuth holds".into(),
         ));
@@ -301,7 +305,9 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path, statics: &StaticIntervals) -
     let (east, north, up) = found.sigma;
     let place = &found.place;
     let (rate_sigma, latitude_sigma) = found.seen_sigma();
-    let bias = found.residual.angular_rate.components() / DEG_PER_HOUR;
+    let own_axes = SignedAxes::from(loaded.rig.spin);
+    let bias = own_axes.undo(found.residual.angular_rate.components()) / DEG_PER_HOUR;
+    let accel = own_axes.undo(found.residual.specific_force.components()) / MICRO_G;
     let site = &loaded.station.site;
     json!({
         "schema": 1,
@@ -328,7 +334,7 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path, statics: &StaticIntervals) -
             "latitude_deg": site.latitude / DEG,
         },
         "gyro_bias_found_deg_h": up.map(|_| bias.as_slice()),
-        "accel_bias_found_ug": (found.residual.specific_force.components() / MICRO_G).as_slice(),
+        "accel_bias_found_ug": accel.as_slice(),
         "header_attitude_deg": loaded.psins_header.map(|header| euler_json(&header.attitude)),
     })
 }

@@ -7,7 +7,7 @@ use anyhow::Context;
 use rins_frames::{Increments, Rates};
 use rins_imu::{AllanPlan, Axis, CONFIDENCE, NoiseLaw, NoiseSeen, Strength, Triad, TriadSpec};
 use rins_io::{Gaps, Loaded, LogFormat};
-use rins_motion::{Recording, median};
+use rins_motion::{Recording, SignedAxes, median};
 use rins_terms::Unit;
 use serde_json::{Value, json};
 
@@ -161,12 +161,13 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
         "{log}: gaps leave at most {duration:.1} s of a static interval in one piece, and {SHORTEST_REST} s are needed"
     );
     let plan = AllanPlan::new(filled.samples.len(), interval).with_context(|| log.to_string())?;
+    let own_axes = SignedAxes::from(loaded.rig.spin);
     let mut channels = Vec::new();
     for triad in [Triad::Gyro, Triad::Accel] {
         for axis in Axis::ALL {
             let of = |sample: &Increments| match triad {
-                Triad::Gyro => sample.angle.components()[axis.index()],
-                Triad::Accel => sample.velocity.components()[axis.index()],
+                Triad::Gyro => own_axes.undo(sample.angle.components())[axis.index()],
+                Triad::Accel => own_axes.undo(sample.velocity.components())[axis.index()],
             };
             let lasting: f64 = filled.samples.iter().map(|sample| sample.interval).sum();
             let mean = filled.samples.iter().map(of).sum::<f64>() / lasting;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::Context;
 use rins_io::{Calibration, Loaded, LogFile, Overwrite, convert_changed};
-use rins_terms::{Surroundings, compensated};
+use rins_terms::{Model, Surroundings, compensated};
 use serde_json::json;
 
 use crate::args::Apply;
@@ -24,8 +24,9 @@ pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Out
         undo(&calibration, loaded).with_context(|| shown(file))?;
         anyhow::Ok(format!("Written by `rins apply` with the calibration {}.", shown(file)))
     })?;
-    let model = calibration.model();
-    let undone: Vec<&str> = model.terms.iter().map(|chosen| chosen.term.id).collect();
+    let triads = Model::from(&calibration.error);
+    let terms = triads.terms.iter().chain(&calibration.terms.terms);
+    let undone: Vec<&str> = terms.map(|chosen| chosen.term.id).collect();
     let mut text = format!(
         "Compensated {} by {}\n  {} samples to {} as {}, read by {}\n  undone: {}\n",
         shown(rig),
@@ -60,16 +61,18 @@ pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Out
 
 /// Takes what a calibration holds out of a run.
 fn undo(calibration: &Calibration, loaded: &mut Loaded) -> anyhow::Result<()> {
-    let model = calibration.model();
-    if calibration.terms.terms.is_empty() {
+    let (error, terms) = calibration.in_run(&loaded.rig.spin)?;
+    if terms.terms.is_empty() {
         // Eq. (1) is undone sample by sample, wherever the axis points.
-        let compensation = calibration.compensation()?;
+        let compensation = error.compensation()?;
         for sample in &mut loaded.recording.increments {
             *sample = compensation.compensate(sample);
         }
         return Ok(());
     }
     let around = Surroundings::new(loaded.station, axis_attitude(loaded)?);
+    let mut model = Model::from(&error);
+    model.terms.extend(terms.terms);
     loaded.recording = compensated(&model, around, &loaded.recording)?;
     Ok(())
 }

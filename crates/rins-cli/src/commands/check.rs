@@ -94,7 +94,8 @@ pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
         gyro: triad(rig.imu.map(|imu| imu.gyro), units.gyro),
         accel: triad(rig.imu.map(|imu| imu.accel), units.accel),
     };
-    inspect_with(&loaded.recording, &expected, static_intervals(loaded))
+    // Rig and readers know the sensors by their own axes.
+    inspect_with(&loaded.recording, &expected, static_intervals(loaded)).along_own(&rig.spin.into())
 }
 
 fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
@@ -111,7 +112,14 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         ),
         row("gaps", gaps(inspection, loaded)),
         row("rest", rest(inspection)),
-        row("turns", format!("{:.2} about body z, either way", inspection.turns)),
+        row(
+            "turns",
+            format!(
+                "{:.2} about body {}, either way",
+                inspection.turns,
+                loaded.rig.spin.spin_name()
+            ),
+        ),
     ];
     if let Some(rest) = longest(inspection) {
         let seen = rest.mean.rates.specific_force.norm();
@@ -143,7 +151,8 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
     }
     rows.push(row("table", table_in_words(loaded)));
     if let Some(ratio) = inspection.spin_ratio {
-        let value = format!("the z gyro counts {ratio:.6} of the table's turn");
+        let value =
+            format!("the gyro about the axis of rotation counts {ratio:.6} of the table's turn");
         rows.push(row("spin", value));
     }
     if let (Some(first), Some(last)) = (

@@ -95,17 +95,17 @@ fn estimated(calibration: &Calibration) -> Vec<Estimated> {
         let sigma = sigma_of(&parameter.id)?.value;
         Some(Estimated { id: parameter.id, unit: parameter.unit, value: parameter.value, sigma })
     });
-    let terms = &calibration.terms;
-    let others = terms.terms.iter().enumerate().flat_map(|(place, chosen)| {
-        chosen.term.parameters.iter().enumerate().filter_map(move |(which, parameter)| {
-            let Role::Within(sigma) = chosen.roles[which] else { return None };
-            let unit = parameter.unit;
-            Some(Estimated {
-                id: terms.id(place, which),
-                unit: unit.symbol,
-                value: chosen.values[which] / unit.factor,
-                sigma: sigma / unit.factor,
-            })
+    let own = calibration.own_terms();
+    let others = own.into_iter().filter_map(|(id, (place, which))| {
+        let chosen = &calibration.terms.terms[place];
+        let Role::Within(sigma) = chosen.roles[which] else { return None };
+        let unit = chosen.term.parameters[which].unit;
+        let (_, sign) = chosen.own(which, &calibration.spin.into());
+        Some(Estimated {
+            id,
+            unit: unit.symbol,
+            value: sign * chosen.values[which] / unit.factor,
+            sigma: sigma / unit.factor,
         })
     });
     triads.chain(others).collect()

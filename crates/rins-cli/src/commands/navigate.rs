@@ -10,7 +10,7 @@ use rins_frames::{Body, Dcm, EulerAngles, Nav, Table};
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_io::Loaded;
 use rins_motion::Recording;
-use rins_terms::{Surroundings, compensated};
+use rins_terms::{Model, Surroundings, compensated};
 use serde_json::{Value, json};
 
 use crate::args::Navigate;
@@ -125,13 +125,16 @@ fn undone(
     start: &Start,
     calibration: &rins_io::Calibration,
 ) -> anyhow::Result<FreeNavigation> {
-    if calibration.terms.terms.is_empty() {
-        return Ok(navigated(loaded, start, Some(&calibration.compensation()?)));
+    let (error, terms) = calibration.in_run(&loaded.rig.spin)?;
+    if terms.terms.is_empty() {
+        return Ok(navigated(loaded, start, Some(&error.compensation()?)));
     }
     // Terms may depend on how long the run has lasted, so that all of it is compensated.
     let around = Surroundings::new(loaded.station, start.nav_from_table);
-    let whole = compensated(&calibration.model(), around, &loaded.recording)
-        .with_context(|| shown(&calibration.path))?;
+    let mut model = Model::from(&error);
+    model.terms.extend(terms.terms);
+    let whole =
+        compensated(&model, around, &loaded.recording).with_context(|| shown(&calibration.path))?;
     let first = whole.len() - start.recording.len();
     let angles = table_angles(&whole, latency(loaded))
         .map_or_else(|| start.angles.clone(), |angles| angles[first..].to_vec());

@@ -34,7 +34,7 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
     }
     if summary.ramps > 0 {
         told.push(format!(
-            "over {} change(s) of rate the table's way is as the z gyro shows it, and as far as [table] profile says, which \
+            "over {} change(s) of rate the table's way is as the gyro about the axis of rotation shows it, and as far as [table] profile says, which \
              tells the ramps otherwise or not at all",
             summary.ramps
         ));

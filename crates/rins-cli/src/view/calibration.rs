@@ -33,9 +33,9 @@ pub(crate) fn meaning(parameter: &Parameter) -> String {
     let summand = |partner: &Partner| Summand {
         coefficient: partner.share * partner.kind.factor() / parameter.kind.factor(),
         unit: partner.kind.unit(),
-        name: partner.id.into(),
+        name: partner.id.clone(),
     };
-    sum_in_words(parameter.id, parameter.kind.unit(), parameter.partners.iter().map(summand))
+    sum_in_words(&parameter.id, parameter.kind.unit(), parameter.partners.iter().map(summand))
 }
 
 /// The summary for a terminal.
@@ -51,7 +51,7 @@ pub(crate) fn calibration_text(calibration: &Calibration, title: &str) -> String
     rows.extend(calibration.parameters.iter().map(|parameter| {
         let factor = parameter.kind.factor();
         vec![
-            parameter.id.into(),
+            parameter.id.clone(),
             format!("{:.4}", parameter.value / factor),
             format!("{:.4}", parameter.sigma / factor),
             parameter.kind.unit().into(),
@@ -125,7 +125,7 @@ fn parameters_section(calibration: &Calibration) -> Section {
             Cell::badge(Tone::Warning, "combination")
         };
         vec![
-            Cell::text(parameter.id),
+            Cell::text(&parameter.id),
             Cell::Estimate { value: parameter.value / factor, sigma: parameter.sigma / factor },
             Cell::text(parameter.kind.unit()),
             badge,
@@ -157,7 +157,7 @@ fn parameters_section(calibration: &Calibration) -> Section {
             Item::Note(Tone::Neutral, SYSTEMATIC_NOTE.into()),
             Item::Matrix(Matrix {
                 caption: "Correlation of the estimates".into(),
-                labels: calibration.parameters.iter().map(|p| p.id.to_owned()).collect(),
+                labels: calibration.parameters.iter().map(|p| p.id.clone()).collect(),
                 values: (0..3)
                     .map(|row| (0..3).map(|column| calibration.correlation[(row, column)]).collect())
                     .collect(),
@@ -195,7 +195,7 @@ fn history_section(calibration: &Calibration) -> Section {
             history.iter().map(of).collect::<Vec<f64>>()
         };
         Item::Plot(Plot {
-            title: parameter.id.into(),
+            title: parameter.id.clone(),
             x_label: "Time [s]".into(),
             y_label: format!("Estimate [{}]", parameter.kind.unit()),
             series: vec![Series {
@@ -223,7 +223,7 @@ fn history_section(calibration: &Calibration) -> Section {
             .iter()
             .enumerate()
             .map(|(row, parameter)| Series {
-                name: parameter.id.into(),
+                name: parameter.id.clone(),
                 x: calibration.history.iter().map(|point| point.time).collect(),
                 y: calibration
                     .history

@@ -6,7 +6,7 @@ use rins_terms::Model;
 
 use crate::evidence::Indefinite;
 use crate::identifiability::{Identifiability, Unknown, scaled};
-use crate::layout::Layout;
+use crate::layout::{Joined, Layout};
 use crate::linear::linearise;
 use crate::posterior::Evidence;
 use crate::run::Run;
@@ -17,8 +17,8 @@ use crate::strengths::{Noise, Strengths};
 pub struct Joint {
     /// The unknowns: those of the IMU first, then those of each run.
     pub unknowns: Vec<Unknown>,
-    /// Of each unknown, which parameter of the model it is.
-    pub parameters: Vec<usize>,
+    /// Of each unknown, the term of the model that it is of, and which of the term's parameters it is.
+    pub parameters: Vec<(usize, usize)>,
     /// What the runs say.
     pub evidence: Evidence,
 }
@@ -52,7 +52,8 @@ impl Joint {
 
 /// What `runs` of one IMU say of what `model` estimates, linear about the values that it has.
 ///
-/// What belongs to the sensors is shared; what belongs to a run is each run's own.
+/// What belongs to the sensors is shared; what belongs to a run is each run's own. The model, and all ids, are along the
+/// axes of the first run.
 ///
 /// # Errors
 /// [`JointError`] if the noise of a run makes no covariance.
@@ -62,25 +63,25 @@ pub fn joint(
     imu: &ImuSpec,
     strengths: &Strengths,
 ) -> Result<Joint, JointError> {
-    let free = model.free(imu);
-    let Layout { all, places } = Layout::of(&free, runs);
-    let columns: Vec<(usize, usize)> =
-        free.iter().map(|parameter| (parameter.term, parameter.parameter)).collect();
+    let Joined { models, free, layout } = Joined::of(model, imu, runs);
+    let Layout { all, places, signs } = layout;
     let mut evidence = Evidence::none(all.len());
-    for (number, (run, places)) in runs.iter().zip(&places).enumerate() {
-        let linear = linearise(run, model, &columns);
+    for (number, run) in runs.iter().enumerate() {
+        let linear = linearise(run, &models[number], &free[number]);
         let of_run = Evidence::of(&linear, &Noise::on(&run.rig, strengths))
             .map_err(|source| JointError::Indefinite { run: number + 1, source })?;
-        evidence.add(&of_run, places);
+        evidence.add(&of_run, &places[number], &signs[number]);
     }
     let unknowns = all
         .iter()
-        .map(|&(index, run)| Unknown {
-            id: free[index].id.clone(),
-            run,
-            unit: free[index].unit,
-            sigma: free[index].sigma,
+        .map(|(free, run)| Unknown {
+            id: free.id.clone(),
+            model_id: models[0].id(free.term, free.parameter),
+            run: *run,
+            unit: free.unit,
+            sigma: free.sigma,
         })
         .collect();
-    Ok(Joint { unknowns, parameters: all.iter().map(|&(index, _)| index).collect(), evidence })
+    let parameters = all.iter().map(|(free, _)| (free.term, free.parameter)).collect();
+    Ok(Joint { unknowns, parameters, evidence })
 }

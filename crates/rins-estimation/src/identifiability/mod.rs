@@ -23,6 +23,8 @@ pub use separation::{Direction, Separation, distance, separation};
 pub struct Unknown {
     /// Its full id, such as `gyro.misalignment.xz`.
     pub id: String,
+    /// Its id in its run's model, whose z is the axis of rotation, whatever axes `id` is along.
+    pub model_id: String,
     /// The run that it belongs to, counted from zero; none if to the IMU, or if there is one run only.
     pub run: Option<usize>,
     /// The unit in which it is shown.
@@ -84,7 +86,7 @@ pub struct Seen {
 /// use nalgebra::DMatrix;
 /// use rins_estimation::{Identifiability, Shown, Unknown};
 /// use rins_terms::Unit;
-/// let unknown = |id: &str| Unknown { id: id.into(), run: None, unit: Unit::ONE, sigma: 1.0 };
+/// let unknown = |id: &str| Unknown { id: id.into(), model_id: id.into(), run: None, unit: Unit::ONE, sigma: 1.0 };
 /// // A hundred readings of a + 2 b, each to 1σ of 1.
 /// let information = DMatrix::from_row_slice(2, 2, &[100.0, 200.0, 200.0, 400.0]);
 /// let told = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
@@ -184,9 +186,9 @@ impl Identifiability {
     /// Names what no schedule would tell, of what the data show at all.
     fn name_gauges(&mut self) {
         let shown = self.unknowns.iter().zip(&self.seen).filter(|(_, s)| s.shown != Shown::Nothing);
-        let shown: Vec<&str> = shown.map(|(unknown, _)| unknown.id.as_str()).collect();
+        let shown: Vec<&str> = shown.map(|(unknown, _)| unknown.model_id.as_str()).collect();
         for gauge in GAUGES.iter().filter(|gauge| gauge.is_open(&shown)) {
-            let of_gauge = |lost: &&Lost| gauge.holds(&self.unknowns[lost.unknown].id);
+            let of_gauge = |lost: &&Lost| gauge.holds(&self.unknowns[lost.unknown].model_id);
             for lost in self.rank.lost.iter().filter(of_gauge) {
                 self.seen[lost.unknown].gauge.get_or_insert(gauge);
             }

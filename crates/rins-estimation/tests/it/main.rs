@@ -5,6 +5,7 @@ mod batch_and_filter;
 mod colour;
 mod gravity;
 mod left_out;
+mod mountings;
 mod refusals;
 mod rests;
 mod rounding;

@@ -50,6 +50,12 @@ impl Axes {
         Some(Self { source, sign: [1.0, sign, sign] })
     }
 
+    /// The axis that has become z, as a rig file names it; [`Axes::spin`] gives these axes of it, if they are of a spin axis.
+    pub fn spin_name(&self) -> String {
+        let [_, _, spin] = self.names();
+        spin
+    }
+
     /// The vector's components along these axes.
     #[must_use]
     pub fn apply(&self, vector: &Vector3<f64>) -> Vector3<f64> {
@@ -80,6 +86,12 @@ impl Axes {
     pub fn after(&self, first: &Self) -> Self {
         let source = self.source.map(|index| first.source[index]);
         let sign = core::array::from_fn(|row| self.sign[row] * first.sign[self.source[row]]);
+        Self { source, sign }
+    }
+}
+
+impl From<Axes> for SignedAxes {
+    fn from(Axes { source, sign }: Axes) -> Self {
         Self { source, sign }
     }
 }
@@ -120,6 +132,7 @@ mod tests {
             for (name, vector) in [(name.to_string(), vector), (format!("-{name}"), -vector)] {
                 let axes = Axes::spin(&name).unwrap();
                 assert_eq!(axes.apply(&vector), Vector3::z(), "{name}");
+                assert_eq!(axes.spin_name(), name);
                 assert_close!(matrix(&axes).determinant(), 1.0, 1e-15);
             }
         }

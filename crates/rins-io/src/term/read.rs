@@ -1,6 +1,7 @@
 //! Terms read from files.
 
-use rins_terms::{Chosen, Parameter, Role, Term, Unit, catalogue};
+use rins_motion::SignedAxes;
+use rins_terms::{Chosen, Role, Term, Unit, catalogue};
 
 use crate::document::{Entry, Node};
 use crate::error::{IoError, KeyProblem};
@@ -40,16 +41,22 @@ pub(crate) fn refuse_triads(
     }
 }
 
-/// The term that a table describes.
-pub(crate) fn read(section: &Section<'_>, use_: Use) -> Result<Chosen, IoError> {
+/// The term that a table describes along the sensors' own axes, in a run with these axes.
+pub(crate) fn read(section: &Section<'_>, use_: Use, axes: &SignedAxes) -> Result<Chosen, IoError> {
     let term = named(section)?;
     // Noise and what happens to a log are no signals, and cannot be estimated.
     let estimated = use_ != Use::Effect && term.is_signal();
     let more: &[&str] = if estimated { &["id", "estimate", "sigma"] } else { &["id"] };
     let settings = term.settings.iter().map(|setting| setting.name);
-    let names: Vec<&str> = term.parameters.iter().map(|parameter| parameter.name).collect();
-    let known: Vec<&str> =
-        names.iter().copied().chain(settings).chain(more.iter().copied()).collect();
+    let own = term.own_names(axes);
+    let names: Vec<&str> = own.iter().map(String::as_str).collect();
+    let order = term.own_order(axes);
+    let known: Vec<&str> = order
+        .iter()
+        .map(|&place| names[place])
+        .chain(settings)
+        .chain(more.iter().copied())
+        .collect();
     if let Some(stray) = section.keys().find(|key| !known.contains(key)) {
         // All that there is in a term is little enough to be told.
         let problem = KeyProblem::Unknown { suggestion: None, known: known.join(", ") };
@@ -69,19 +76,21 @@ pub(crate) fn read(section: &Section<'_>, use_: Use) -> Result<Chosen, IoError> 
             *slot = value;
         }
     }
+    chosen.settings = term.own_settings(&chosen.settings, &axes.inverse());
     let mut given = 0;
-    for (parameter, slot) in term.parameters.iter().zip(&mut chosen.values) {
-        if let Some(value) = number(section, parameter.name, parameter.unit)? {
-            *slot = value;
+    for (place, name) in names.iter().enumerate() {
+        if let Some(value) = number(section, name, term.parameters[place].unit)? {
+            let (_, sign) = chosen.own(place, axes);
+            chosen.values[place] = sign * value;
             given += 1;
         }
     }
-    if let (Use::Effect, 0, Some(first)) = (use_, given, term.parameters.first()) {
+    if let (Use::Effect, 0, Some(&first)) = (use_, given, names.first()) {
         let expected = format!("at least one of {}", names.join(", "));
-        return Err(section.missing(first.name, expected));
+        return Err(section.missing(first, expected));
     }
     if estimated {
-        chosen.roles = roles(section, term, use_)?;
+        chosen.roles = roles(section, (term, &names), use_)?;
     }
     Ok(chosen)
 }
@@ -100,19 +109,21 @@ fn named(section: &Section<'_>) -> Result<&'static Term, IoError> {
 }
 
 /// Which parameters are estimated, and how well they are known before or after.
-fn roles(section: &Section<'_>, term: &Term, use_: Use) -> Result<Vec<Role>, IoError> {
-    let names: Vec<&str> = term.parameters.iter().map(|parameter| parameter.name).collect();
-    let sigma_table = section.inline("sigma", &names)?;
-    let sigma_of = |parameter: &Parameter| match &sigma_table {
-        Some(table) => sigma_of(table, parameter),
-        None => Ok(None),
-    };
-    let estimated = estimated(section, &names)?;
+fn roles(
+    section: &Section<'_>,
+    (term, names): (&Term, &[&str]),
+    use_: Use,
+) -> Result<Vec<Role>, IoError> {
+    let sigma_table = section.inline("sigma", names)?;
+    let estimated = estimated(section, names)?;
     let mut roles = Vec::with_capacity(names.len());
-    for parameter in term.parameters {
-        let sigma = sigma_of(parameter)?;
+    for (&name, parameter) in names.iter().zip(term.parameters) {
+        let sigma = match &sigma_table {
+            Some(table) => sigma_of(table, name, parameter.unit)?,
+            None => None,
+        };
         let free = match (&estimated, use_) {
-            (Some(estimated), _) => estimated.contains(&parameter.name),
+            (Some(estimated), _) => estimated.contains(&name),
             (None, Use::Calibration) => sigma.is_some(),
             (None, _) => true,
         };
@@ -122,7 +133,7 @@ fn roles(section: &Section<'_>, term: &Term, use_: Use) -> Result<Vec<Role>, IoE
             (false, None) => Role::Held,
             (false, Some(_)) => {
                 let table = sigma_table.as_ref().unwrap_or(section);
-                return Err(table.conflict(parameter.name, "is not estimated and has no sigma"));
+                return Err(table.conflict(name, "is not estimated and has no sigma"));
             }
         });
     }
@@ -152,9 +163,9 @@ fn estimated<'n>(
     texts.iter().map(known).collect::<Result<_, _>>().map(Some)
 }
 
-fn sigma_of(table: &Section<'_>, parameter: &Parameter) -> Result<Option<f64>, IoError> {
-    match number(table, parameter.name, parameter.unit)? {
-        Some(sigma) if sigma <= 0.0 => Err(table.not_allowed(parameter.name, "more than zero")),
+fn sigma_of(table: &Section<'_>, name: &str, unit: Unit) -> Result<Option<f64>, IoError> {
+    match number(table, name, unit)? {
+        Some(sigma) if sigma <= 0.0 => Err(table.not_allowed(name, "more than zero")),
         sigma => Ok(sigma),
     }
 }

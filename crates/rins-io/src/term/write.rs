@@ -2,22 +2,25 @@
 
 use std::fmt::Write as _;
 
+use rins_motion::SignedAxes;
 use rins_terms::{Chosen, Model, Role, Unit};
 
 use super::read::Use;
 use crate::parameter::Parameter;
 
-/// A term as a `[[term]]` of a file.
-pub(crate) fn written(chosen: &Chosen, use_: Use) -> String {
+/// A term of a run with these axes as a `[[term]]` of a file, along the sensors' own axes.
+pub(crate) fn written(chosen: &Chosen, use_: Use, axes: &SignedAxes) -> String {
     let term = chosen.term;
+    let (own, order) = (term.own_names(axes), term.own_order(axes));
+    let settings = term.own_settings(&chosen.settings, axes);
     let mut text = format!("\n[[term]]\nid = {:?}\n", term.id);
     // Writing to a string cannot fail, here and below.
-    for (setting, &value) in term.settings.iter().zip(&chosen.settings) {
+    for (setting, &value) in term.settings.iter().zip(&settings) {
         let _ = writeln!(text, "{} = {}", setting.name, quantity(value, setting.unit));
     }
     let names = |of: &dyn Fn(&Role) -> bool| -> Vec<&str> {
-        let pairs = term.parameters.iter().zip(&chosen.roles);
-        pairs.filter(|(_, role)| of(role)).map(|(parameter, _)| parameter.name).collect()
+        let places = order.iter().filter(|place| of(&chosen.roles[**place]));
+        places.map(|&place| own[place].as_str()).collect()
     };
     let held = names(&|role| *role == Role::Held);
     let estimate = if held.is_empty() {
@@ -30,14 +33,17 @@ pub(crate) fn written(chosen: &Chosen, use_: Use) -> String {
     if term.is_signal() {
         let _ = writeln!(text, "estimate = {estimate}");
     }
-    for (parameter, &value) in term.parameters.iter().zip(&chosen.values) {
+    for &place in &order {
+        let ((_, sign), value) = (chosen.own(place, axes), chosen.values[place]);
         if use_ == Use::Calibration || value != 0.0 {
-            let _ = writeln!(text, "{} = {}", parameter.name, quantity(value, parameter.unit));
+            // No zero is written as less than nothing.
+            let value = quantity(sign * value + 0.0, term.parameters[place].unit);
+            let _ = writeln!(text, "{} = {value}", own[place]);
         }
     }
-    let sigmas = term.parameters.iter().zip(&chosen.roles).filter_map(|(parameter, role)| {
-        let Role::Within(sigma) = role else { return None };
-        Some(format!("{} = {}", parameter.name, quantity(*sigma, parameter.unit)))
+    let sigmas = order.iter().filter_map(|&place| {
+        let Role::Within(sigma) = chosen.roles[place] else { return None };
+        Some(format!("{} = {}", own[place], quantity(sigma, term.parameters[place].unit)))
     });
     let sigmas: Vec<String> = sigmas.collect();
     if !sigmas.is_empty() {

@@ -1,10 +1,12 @@
 //! A log of one format turned into one of another, with the rig file that reads it.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
+use rins_frames::InFrame;
 use rins_frames::units::DEG;
 
 use super::compare::{Difference, differences};
@@ -15,7 +17,7 @@ use crate::document::{Document, Entry, Node};
 use crate::error::IoError;
 use crate::log::{Loaded, LogPolicy, LogSummary, read_log};
 use crate::output::{OutputProblem, Overwrite, write_files};
-use crate::rig::{LogFormat, Rig};
+use crate::rig::{Axes, LogFormat, Rig};
 
 /// What became of a conversion.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,8 +41,8 @@ pub struct Converted {
 /// Writes the log that the rig file at `rig` names anew, to `log` and in this format, and beside it,
 /// with the ending `toml`, the rig file that reads it.
 ///
-/// The axes of the new log are the body's, right, front and up, or what its format demands; its z is
-/// the spin axis. The new log is read before it is put in its place, and whatever is not the same to
+/// The axes of the new log are the sensors' own body axes, right, front and up, or what its format demands, whatever axis the
+/// table turns about: `[axis]` goes with them. The new log is read before it is put in its place, and whatever is not the same to
 /// the last bit is told.
 ///
 /// # Errors
@@ -82,7 +84,7 @@ pub fn convert_changed<E: From<IoError>>(
         let place = folder.join(&log_name);
         let file = File::create(&place).map_err(IoError::file("write", log))?;
         let mut out = BufWriter::with_capacity(1 << 16, file);
-        write_log(&loaded, format, log, &mut out)?;
+        write_log(&along_own_axes(&loaded), format, log, &mut out)?;
         out.into_inner().map_err(|error| IoError::file("write", log)(error.into_error()))?;
         let mut least: Option<(String, Vec<Difference>)> = None;
         for rate in description.rates() {
@@ -122,6 +124,20 @@ pub fn convert_changed<E: From<IoError>>(
         differences,
         time_origin,
     })
+}
+
+/// The run with its readings along the sensors' own axes: exactly, since axes are but exchanged and reversed.
+fn along_own_axes(loaded: &Loaded) -> Cow<'_, Loaded> {
+    if loaded.rig.spin == Axes::IDENTITY {
+        return Cow::Borrowed(loaded);
+    }
+    let back = loaded.rig.spin.inverse();
+    let mut own = loaded.clone();
+    for sample in &mut own.recording.increments {
+        sample.angle = InFrame::from_components(back.apply(sample.angle.components()));
+        sample.velocity = InFrame::from_components(back.apply(sample.velocity.components()));
+    }
+    Cow::Owned(own)
 }
 
 /// Refuses to write over what is read.
@@ -202,8 +218,6 @@ impl Description<'_> {
             loaded.summary.redivided.is_some_and(|redivided| redivided.late > 0.0);
         for Entry { key, value, .. } in &document.root {
             match (key.as_str(), &value.node) {
-                // The new log's z is the spin axis.
-                ("axis", _) => {}
                 ("log", Node::Table(entries)) => {
                     let angle = entries.iter().find(|entry| entry.key == "table_angle");
                     let angle = angle.map_or_else(String::new, |entry| figures(&entry.value));

@@ -118,17 +118,16 @@ fn columns_of(format: LogFile, name: &str) -> Vec<Vec<f64>> {
     text.lines().filter(|line| !line.starts_with(['#', '%'])).map(numbers).collect()
 }
 
-/// A sample of [`run`] along right, front and up with up along the spin axis, from its text.
+/// A sample of [`run`] along right, front and up, the sensors' own body axes, from its text.
 ///
-/// The rig file has body x = −y, y = x, z = z of the accelerometers, and of that body x is the spin
-/// axis: right is then the body's y, front its z, up its x.
+/// The rig file has body x = −y, y = x, z = z of the accelerometers; that body x is the axis of rotation changes nothing.
 fn expected(sample: usize) -> ([f64; 3], [f64; 3]) {
     let text = log(40);
     let row: Vec<f64> =
         text.lines().nth(sample + 1).unwrap().split(',').map(|n| n.parse().unwrap()).collect();
     let [_, gx, gy, gz, ax, ay, az, ..] = row[..] else { panic!("a row") };
     let (bx, by, bz) = (-ay, ax, az);
-    ([gy, gz, gx], [by, bz, bx])
+    ([gx, gy, gz], [bx, by, bz])
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Single mistakes of axes, signs and attitude, and what data look like without them.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use rins_frames::EulerAngles;
 
 /// Three axes picked from three others, each once, with signs.
@@ -50,6 +50,33 @@ impl SignedAxes {
         Vector3::from_fn(|row, _| self.sign[row] * vector[self.source[row]])
     }
 
+    /// The matrix that makes components along these axes.
+    #[must_use]
+    pub fn matrix(&self) -> Matrix3<f64> {
+        Matrix3::from_columns(
+            &[Vector3::x(), Vector3::y(), Vector3::z()].map(|unit| self.apply(&unit)),
+        )
+    }
+
+    /// The axes by which what these have mixed up is as it was.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let mut inverse = *self;
+        for row in 0..3 {
+            inverse.source[self.source[row]] = row;
+            inverse.sign[self.source[row]] = self.sign[row];
+        }
+        inverse
+    }
+
+    /// These axes picked from those that `first` picks.
+    #[must_use]
+    pub fn after(&self, first: &Self) -> Self {
+        let source = self.source.map(|index| first.source[index]);
+        let sign = std::array::from_fn(|row| self.sign[row] * first.sign[self.source[row]]);
+        Self { source, sign }
+    }
+
     /// How many of the axes' signs are changed.
     pub fn flips(&self) -> usize {
         self.sign.iter().filter(|sign| **sign < 0.0).count()
@@ -61,7 +88,7 @@ impl SignedAxes {
     }
 
     /// All 48.
-    fn all() -> impl Iterator<Item = Self> {
+    pub(super) fn all() -> impl Iterator<Item = Self> {
         const ORDERS: [[usize; 3]; 6] =
             [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
         ORDERS.into_iter().flat_map(|source| {

@@ -5,6 +5,7 @@ mod correction;
 mod exchange;
 mod lag;
 mod orientation;
+mod own_axes;
 mod spin;
 mod suspicion;
 mod timing;

@@ -4,7 +4,7 @@ use rins_frames::units::DEG_PER_SECOND;
 
 use crate::catalogue::parameters::{TIME, TIME_CONSTANT, per_axis, usual};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Setting, Term};
 use crate::unit::Unit;
 
 /// Accelerometer biases that jump.
@@ -21,6 +21,7 @@ pub static ACCEL_BIAS_STEP: Term = Term {
     partners: &["base_tilt_step", "accel_warmup"],
     told_apart_by: "turn the table: a bias stays with the body, a tilt with the table",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.accel, p, moment.share_after(settings[0]));
     }),
@@ -43,6 +44,7 @@ pub static ACCEL_BIAS_RAMP: Term = Term {
     partners: &["accel_thermal_bias", "accel_warmup", "base_tilt_ramp"],
     told_apart_by: "turn the table; vary the temperature up and down",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.accel, p, moment.mean.time)),
 };
 
@@ -60,6 +62,7 @@ pub static ACCEL_WARMUP: Term = Term {
     partners: &["accel_thermal_bias", "accel_bias_ramp"],
     told_apart_by: "repeat the run warm, then cold",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.accel, p, (-moment.mean.time / settings[0]).exp());
     }),
@@ -82,6 +85,7 @@ pub static ACCEL_THERMAL_BIAS: Term = Term {
     partners: &["accel_bias_ramp", "accel_warmup"],
     told_apart_by: "vary the temperature up and down",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_constant(&mut out.accel, p, moment.mean.warming);
     }),
@@ -110,6 +114,7 @@ pub static ACCEL_VIBRATION_RECTIFICATION: Term = Term {
     partners: &["accel_lever_arm", "accel.bias"],
     told_apart_by: "accelerometer z, which no lever arm reaches; rests and several rates; ramps",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         let level = (moment.mean.rate.abs() / REFERENCE_RATE).powf(settings[0]);
         add_constant(&mut out.accel, p, level);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{named, per_axis, usual};
 use crate::signals::add_scaled;
-use crate::term::{Action, Need, Owner, Term};
+use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
 /// Accelerometers that see the square of force.
@@ -21,6 +21,7 @@ pub static ACCEL_QUADRATIC: Term = Term {
     partners: &["accel_asymmetry", "accel_lever_arm", "accel_cross_coupling", "accel.bias"],
     told_apart_by: "tilt the axis by 45 deg and more",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_scaled(&mut out.accel, p, &moment.force.map(|f| f * f));
     }),
@@ -40,6 +41,7 @@ pub static ACCEL_CUBIC: Term = Term {
     partners: &["accel.scale"],
     told_apart_by: "tilt the axis by 45 to 90 deg",
     owner: Owner::Sensor,
+    parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         add_scaled(&mut out.accel, p, &moment.force.map(|f| f * f * f));
     }),
@@ -59,6 +61,7 @@ pub static ACCEL_ASYMMETRY: Term = Term {
     partners: &["accel_quadratic", "accel.bias"],
     told_apart_by: "rest every 45 deg of a tilted table; tilt the axis by 45 deg and more",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_scaled(&mut out.accel, p, &moment.force.abs());
     }),
@@ -82,6 +85,7 @@ pub static ACCEL_CROSS_COUPLING: Term = Term {
     partners: &["accel_quadratic", "accel.scale", "accel.misalignment"],
     told_apart_by: "tilt the axis otherwise",
     owner: Owner::Sensor,
+    parity: Parity::LastAxis,
     action: Action::Signal(|p, _, moment, out| {
         let f = moment.force;
         let first = Vector3::new(f.x * f.y, f.y * f.x, f.z * f.x);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{named, usual};
 use crate::moment::Moment;
-use crate::term::{Action, Owner, Prior, Term};
+use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
 /// What is felt a metre off the axis along `place`, beyond what is felt on it \[1/s²\].
@@ -39,6 +39,7 @@ pub static ACCEL_LEVER_ARM: Term = Term {
     partners: &["accel_size_effect", "accel.bias", "accel_vibration_rectification"],
     told_apart_by: "turn at two rates; ramp hard; shift the IMU on the table",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         out.add_accel(p[0], &felt_at(moment, &Vector3::x()));
         out.add_accel(p[1], &felt_at(moment, &Vector3::y()));
@@ -65,6 +66,7 @@ pub static ACCEL_SIZE_EFFECT: Term = Term {
     partners: &["accel_lever_arm", "accel.bias"],
     told_apart_by: "ramps, which both axes must feel alike if there is one place; two rates",
     owner: Owner::Sensor,
+    parity: Parity::LastAxis,
     action: Action::Signal(|p, _, moment, out| {
         for (column, place) in [Vector3::x(), Vector3::y()].iter().enumerate() {
             let felt = felt_at(moment, place);

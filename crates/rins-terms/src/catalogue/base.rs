@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -26,6 +26,7 @@ pub static AXIS_ATTITUDE: Term = Term {
     partners: &["encoder.zero", "accel.scale", "wrong_latitude"],
     told_apart_by: "z and the encoder's zero are one number; x and y: tilt the axis otherwise",
     owner: Owner::Placement,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, _, out| add_constant(&mut out.tilt, p, 1.0)),
 };
 
@@ -43,6 +44,7 @@ pub static MOUNTING: Term = Term {
     partners: &["gyro.misalignment", "accel.misalignment"],
     told_apart_by: "never: it is a choice of body axes; hold the misalignments xz and yz of one triad instead",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         let (sin, cos) = sin_cos(moment.end.angle);
         out.add_tilt(p[0], &Vector3::new(cos, sin, 0.0));
@@ -64,5 +66,6 @@ pub static ENCODER_ZERO: Term = Term {
     partners: &["axis.attitude"],
     told_apart_by: "never: hold one of both",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, _, out| out.angle += p[0]),
 };

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rins_frames::{Body, InFrame};
 
 use crate::catalogue::parameters::parameter;
-use crate::term::{Action, Owner, Prior, Setting, Term};
+use crate::term::{Action, Owner, Parity, Prior, Setting, Term};
 use crate::unit::Unit;
 
 /// Degrees that are radians, and the like.
@@ -25,6 +25,7 @@ pub static UNIT_ERROR: Term = Term {
     partners: &["gyro.scale", "accel.scale"],
     told_apart_by: "gravity at rest, and the gyros against the table: factors of 57, 3600 or 9.8 name themselves",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         let [gyro, accel, angle] = [0, 1, 2].map(|k| if p[k] == 0.0 { 1.0 } else { p[k] });
         for increments in &mut recording.increments {
@@ -61,6 +62,7 @@ pub static AXIS_CONVENTION: Term = Term {
     partners: &["table_sense", "mounting"],
     told_apart_by: "a regression of both triads on gravity and the table's rate",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, settings, _, recording| {
         let read = |vector: &InFrame<Body>| {
             let v = vector.components();
@@ -99,6 +101,7 @@ pub static TABLE_SENSE: Term = Term {
     partners: &["axis_convention"],
     told_apart_by: "gyro z and gravity against the table's angle",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         if p[0] != 0.0 {
             let tables = [&mut recording.table_angle, &mut recording.table_rate];

@@ -1,7 +1,7 @@
 //! What an encoder reads wrong.
 
 use crate::catalogue::parameters::{TIME, cos_sin, parameter};
-use crate::term::{Action, Need, Owner, Prior, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Prior, Setting, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -19,6 +19,7 @@ pub static ENCODER_ECCENTRICITY: Term = Term {
     partners: &["gyro_g_sensitivity", "gyro.misalignment", "gyro_magnetic"],
     told_apart_by: "turn the table both ways",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let (sin, cos) = sin_cos(moment.end.angle);
         out.angle += p[0] * cos + p[1] * sin;
@@ -45,6 +46,7 @@ pub static ENCODER_HARMONIC: Term = Term {
     partners: &["gyro_g2_sensitivity", "interference_line"],
     told_apart_by: "turn the table both ways, and at two rates",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(settings[0] * moment.end.angle);
         out.angle += p[0] * cos + p[1] * sin;
@@ -65,6 +67,7 @@ pub static ENCODER_BACKLASH: Term = Term {
     partners: &["encoder_latency", "encoder_slip"],
     told_apart_by: "turn both ways at two rates",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.angle += p[0] * moment.end.sense),
 };
 
@@ -82,6 +85,7 @@ pub static ENCODER_SLIP: Term = Term {
     partners: &["dropped_samples", "encoder_backlash"],
     told_apart_by: "turn the other way, or at another rate, after it happened",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         if moment.end.time >= settings[0] {
             out.angle += p[0];

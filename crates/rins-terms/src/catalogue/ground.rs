@@ -2,7 +2,7 @@
 
 use crate::catalogue::parameters::{DURATION, FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
-use crate::term::{Action, Owner, Prior, Term};
+use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -20,6 +20,7 @@ pub static BASE_TILT_RAMP: Term = Term {
     partners: &["cable_torque_tilt", "clock_drift", "base_rotation", "accel_bias_ramp"],
     told_apart_by: "turn the table both ways",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.tilt, p, moment.end.time)),
 };
 
@@ -37,6 +38,7 @@ pub static BASE_TILT_STEP: Term = Term {
     partners: &["accel_bias_step", "gyro_bias_step"],
     told_apart_by: "it shows in gyros and accelerometers at once",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (since, duration) = (moment.end.time - settings[0], settings[1]);
         let part = if since.abs() < 0.5 * duration {
@@ -68,6 +70,7 @@ pub static BASE_SWAY: Term = Term {
     partners: &["interference_line", "table_wobble"],
     told_apart_by: "turn at another rate: it keeps its frequency, and shows in gyros and accelerometers at once",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(std::f64::consts::TAU * settings[0] * moment.end.time);
         for axis in 0..3 {
@@ -95,6 +98,7 @@ pub static BASE_ROTATION: Term = Term {
     partners: &["gyro.bias", "base_tilt_ramp", "wrong_latitude"],
     told_apart_by: "turn a tilted table: the rate stays with the base, a bias with the body",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let up = moment.surroundings.specific_force.normalize();
         out.add_tilt(p[0] * moment.end.time, &up);

@@ -2,7 +2,7 @@
 
 use crate::catalogue::parameters::{TIME, TIME_CONSTANT, named, per_axis, usual};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Setting, Term};
 use crate::unit::Unit;
 
 /// Gyro biases that jump.
@@ -19,6 +19,7 @@ pub static GYRO_BIAS_STEP: Term = Term {
     partners: &["base_tilt_ramp", "gyro_bias_instability", "gyro_warmup"],
     told_apart_by: "repeat the run: a step of the sensor comes at another time or not at all",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.gyro, p, moment.share_after(settings[0]));
     }),
@@ -41,6 +42,7 @@ pub static GYRO_BIAS_RAMP: Term = Term {
     partners: &["gyro_scale_ramp", "gyro_thermal_bias", "gyro_warmup", "gyro_rate_random_walk"],
     told_apart_by: "turn the table both ways; run for longer; vary the temperature up and down",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.gyro, p, moment.mean.time)),
 };
 
@@ -58,6 +60,7 @@ pub static GYRO_WARMUP: Term = Term {
     partners: &["gyro_thermal_bias", "gyro_shupe", "gyro_bias_ramp"],
     told_apart_by: "repeat the run warm, then cold",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.gyro, p, (-moment.mean.time / settings[0]).exp());
     }),
@@ -80,6 +83,7 @@ pub static GYRO_THERMAL_BIAS: Term = Term {
     partners: &["gyro_bias_ramp", "gyro_warmup", "gyro_thermal_scale"],
     told_apart_by: "vary the temperature up and down, and turn the table both ways",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.gyro, p, moment.mean.warming)),
 };
 
@@ -100,6 +104,7 @@ pub static GYRO_SHUPE: Term = Term {
     partners: &["gyro_warmup", "gyro_thermal_bias"],
     told_apart_by: "heat in steps: it is gone when the temperature holds",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_constant(&mut out.gyro, p, moment.mean.warming_rate);
     }),
@@ -133,6 +138,7 @@ pub static GYRO_RATE_DEPENDENT_BIAS: Term = Term {
     partners: &["gyro_scale_asymmetry", "gyro.bias", "gyro.misalignment"],
     told_apart_by: "turn at three rates of both signs, with rests",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         let w = moment.mean.rate;
         add_constant(&mut out.gyro, &p[..3], w * w);
@@ -158,6 +164,7 @@ pub static THERMAL_ONE_PER_TURN: Term = Term {
     partners: &["gyro_g_sensitivity", "gyro_magnetic", "gyro_warmup"],
     told_apart_by: "turn at two rates: gravity and the field do not fade with the rate",
     owner: Owner::Run,
+    parity: Parity::Tensor,
     action: Action::Following(|p, followed, out| {
         add_constant(&mut out.gyro, &[p[0], p[2], p[4]], followed.re);
         add_constant(&mut out.gyro, &[p[1], p[3], p[5]], followed.im);

@@ -4,7 +4,7 @@ use num_dual::Dual64;
 
 use crate::catalogue::parameters::{matrix, named, usual};
 use crate::signals::add_matrix;
-use crate::term::{Action, Need, Owner, Term};
+use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
 /// Gyros that see force.
@@ -27,6 +27,7 @@ pub static GYRO_G_SENSITIVITY: Term = Term {
     ],
     told_apart_by: "turn the table both ways; tilt the axis otherwise; for the field, a third direction",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_matrix(&mut out.gyro, p, &moment.force)),
 };
 
@@ -51,6 +52,7 @@ pub static GYRO_G2_SENSITIVITY: Term = Term {
     partners: &["table_wobble", "encoder_harmonic", "gyro_g_sensitivity"],
     told_apart_by: "turn the table both ways; tilt the axis otherwise",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         let f = moment.force;
         let products = [f.x * f.x, f.x * f.y, f.x * f.z, f.y * f.y, f.y * f.z, f.z * f.z];
@@ -78,6 +80,7 @@ pub static GYRO_MAGNETIC: Term = Term {
     partners: &["gyro_g_sensitivity", "wrong_latitude", "gyro.scale", "accel_latency"],
     told_apart_by: "three directions of the axis, or a magnet, or a shield",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_matrix(&mut out.gyro, p, &moment.magnetic_field());
     }),

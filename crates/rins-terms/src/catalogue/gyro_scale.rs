@@ -5,7 +5,7 @@
 use num_dual::Dual64;
 
 use crate::catalogue::parameters::{parameter, per_axis, usual};
-use crate::term::{Action, Need, Owner, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Setting, Term};
 use crate::unit::Unit;
 
 /// A scale error that changes sign with the rate.
@@ -22,6 +22,7 @@ pub static GYRO_SCALE_ASYMMETRY: Term = Term {
     partners: &["gyro.bias", "encoder_latency", "gyro_rate_dependent_bias", "gyro_hysteresis"],
     told_apart_by: "turn both ways at three rates, with rests",
     owner: Owner::Sensor,
+    parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.rate.z.abs()),
 };
 
@@ -50,6 +51,7 @@ pub static GYRO_SCALE_NONLINEARITY: Term = Term {
     partners: &["gyro.scale"],
     told_apart_by: "turn at four rates, the largest ten times the smallest",
     owner: Owner::Sensor,
+    parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         let w = moment.rate.z;
         out.gyro[2] += p[0] * (w * w.abs()) + p[1] * (w * w * w);
@@ -74,6 +76,7 @@ pub static GYRO_THERMAL_SCALE: Term = Term {
     partners: &["gyro_thermal_bias", "gyro_scale_ramp"],
     told_apart_by: "turn both ways while the temperature changes",
     owner: Owner::Sensor,
+    parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         out.gyro[2] += p[0] * (moment.mean.warming * moment.rate.z);
     }),
@@ -97,6 +100,7 @@ pub static GYRO_SCALE_RAMP: Term = Term {
     partners: &["gyro_bias_ramp", "gyro_thermal_scale", "clock_drift"],
     told_apart_by: "turn the table both ways",
     owner: Owner::Run,
+    parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         out.gyro[2] += p[0] * (moment.mean.time * moment.rate.z);
     }),
@@ -120,6 +124,7 @@ pub static GYRO_HYSTERESIS: Term = Term {
     partners: &["gyro_scale_asymmetry", "gyro_bias_step"],
     told_apart_by: "go up and down a ladder of rates",
     owner: Owner::Sensor,
+    parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.mean.rate_change),
 };
 
@@ -149,6 +154,7 @@ pub static GYRO_DEAD_ZONE: Term = Term {
     partners: &["gyro_quantisation", "gyro_g2_sensitivity"],
     told_apart_by: "turn slowly enough for the rate about the gyro's own axis to cross zero in x and y",
     owner: Owner::Sensor,
+    parity: Parity::Even,
     action: Action::Sensed(|p, settings, moment, sensed, out| {
         let of_body = settings[0] != 0.0;
         for (axis, &width) in p.iter().enumerate() {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::catalogue::parameters::{FREQUENCY, parameter, usual};
-use crate::term::{Action, Owner, Prior, Setting, Term};
+use crate::catalogue::parameters::{AXIS, FREQUENCY, parameter, usual};
+use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -28,20 +28,12 @@ pub static INTERFERENCE_LINE: Term = Term {
         parameter("accel_cos", Unit::MICRO_G, ACCEL),
         parameter("accel_sin", Unit::MICRO_G, ACCEL),
     ],
-    settings: &[
-        FREQUENCY,
-        Setting {
-            name: "axis",
-            meaning: "the axis on which it is: 1, 2, 3 for x, y, z",
-            unit: Unit::ONE,
-            default: 3.0,
-            within: (1.0, 3.0),
-        },
-    ],
+    settings: &[FREQUENCY, AXIS],
     needs: &[],
     partners: &["encoder_harmonic", "base_sway", "table_wobble"],
     told_apart_by: "turn at another rate: a line keeps its frequency, a harmonic its order",
     owner: Owner::Run,
+    parity: Parity::OfSetting,
     action: Action::Signal(|p, settings, moment, out| {
         let (frequency, axis) = (settings[0], settings[1]);
         let half_turn = PI * frequency * moment.interval;

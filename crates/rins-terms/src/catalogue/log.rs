@@ -6,7 +6,7 @@ use rins_frames::{Body, InFrame};
 use rins_imu::{NormalStream, Seed, Sensor};
 
 use crate::catalogue::parameters::{parameter, usual};
-use crate::term::{Action, Need, Owner, Parameter, Prior, Setting, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Setting, Term};
 use crate::unit::Unit;
 
 /// Random numbers that no sensor's noise has.
@@ -44,6 +44,7 @@ pub static STUCK_SAMPLES: Term = Term {
     partners: &["accel_quantisation", "gyro_quantisation"],
     told_apart_by: "runs of equal samples",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, settings, seed, recording| {
         let mut random = random(seed);
         let mut left = 0.0;
@@ -78,6 +79,7 @@ pub static OUTLIERS: Term = Term {
     partners: &["gyro_noise_level", "accel_noise_level"],
     told_apart_by: "the largest residual and the kurtosis",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, _, seed, recording| {
         let mut random = random(seed);
         for increments in &mut recording.increments {
@@ -108,6 +110,7 @@ pub static TIMESTAMP_JITTER: Term = Term {
     partners: &["gyro_noise_level"],
     told_apart_by: "two rates: the scatter grows with the rate",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, _, seed, recording| {
         let times = &recording.times;
         let Some(angles) = &mut recording.table_angle else { return };
@@ -137,6 +140,7 @@ pub static GYRO_SATURATION: Term = Term {
     partners: &["gyro_scale_nonlinearity", "outliers"],
     told_apart_by: "a histogram of the readings: it ends in a wall",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         for increments in &mut recording.increments {
             increments.angle = clipped(&increments.angle, p[0] * increments.interval);
@@ -158,6 +162,7 @@ pub static ACCEL_SATURATION: Term = Term {
     partners: &["accel_cubic", "outliers"],
     told_apart_by: "a histogram of the readings: it ends in a wall",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         for increments in &mut recording.increments {
             increments.velocity = clipped(&increments.velocity, p[0] * increments.interval);

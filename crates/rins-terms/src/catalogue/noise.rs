@@ -3,7 +3,7 @@
 use rins_imu::{NoiseModel, Quantisation};
 
 use crate::catalogue::parameters::{parameter, usual};
-use crate::term::{Action, Owner, Parameter, Prior, Term};
+use crate::term::{Action, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
 
 const EXCESS: [Parameter; 1] = [parameter("excess", Unit::ONE, Prior::Anywhere(0.1, 2.0))];
@@ -24,6 +24,7 @@ pub static GYRO_NOISE_LEVEL: Term = Term {
     partners: &["gyro_quantisation", "timestamp_jitter"],
     told_apart_by: "the Allan deviation of a long rest",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| noises.imu.gyro.white_density *= 1.0 + p[0]),
 };
 
@@ -41,6 +42,7 @@ pub static ACCEL_NOISE_LEVEL: Term = Term {
     partners: &["accel_quantisation"],
     told_apart_by: "the Allan deviation of a long rest",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| noises.imu.accel.white_density *= 1.0 + p[0]),
 };
 
@@ -62,6 +64,7 @@ pub static GYRO_BIAS_INSTABILITY: Term = Term {
     partners: &["gyro_bias_step", "gyro_bias_ramp", "gyro_rate_random_walk"],
     told_apart_by: "a rest of more than an hour",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_flicker(&mut noises.imu.gyro, p[0])),
 };
 
@@ -83,6 +86,7 @@ pub static ACCEL_BIAS_INSTABILITY: Term = Term {
     partners: &["accel_bias_step", "accel_bias_ramp", "accel_rate_random_walk"],
     told_apart_by: "a rest of more than an hour",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_flicker(&mut noises.imu.accel, p[0])),
 };
 
@@ -104,6 +108,7 @@ pub static GYRO_RATE_RANDOM_WALK: Term = Term {
     partners: &["gyro_bias_ramp", "gyro_thermal_bias", "gyro_bias_instability"],
     told_apart_by: "a rest of more than an hour at a constant temperature",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_walk(&mut noises.imu.gyro, p[0])),
 };
 
@@ -125,6 +130,7 @@ pub static ACCEL_RATE_RANDOM_WALK: Term = Term {
     partners: &["accel_bias_ramp", "accel_thermal_bias", "accel_bias_instability"],
     told_apart_by: "a rest of more than an hour at a constant temperature",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_walk(&mut noises.imu.accel, p[0])),
 };
 
@@ -145,6 +151,7 @@ pub static GYRO_QUANTISATION: Term = Term {
     partners: &["gyro_noise_level", "gyro_dead_zone"],
     told_apart_by: "a histogram of the readings: they stand in a comb",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| quantise(&mut noises.imu.gyro, p)),
 };
 
@@ -169,6 +176,7 @@ pub static ACCEL_QUANTISATION: Term = Term {
     partners: &["accel_noise_level", "stuck_samples"],
     told_apart_by: "a histogram of the readings: they stand in a comb",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| quantise(&mut noises.imu.accel, p)),
 };
 

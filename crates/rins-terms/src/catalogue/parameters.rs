@@ -1,5 +1,6 @@
 //! Parameters and settings as the catalogue's files write them.
 
+use crate::sensor_axes::SENSOR_AXIS;
 use crate::term::{Parameter, Prior, Setting};
 use crate::unit::Unit;
 
@@ -78,4 +79,13 @@ pub(super) const FREQUENCY: Setting = Setting {
     unit: Unit::HERTZ,
     default: 1.0,
     within: (1e-4, 1e4),
+};
+
+/// On which of the sensors' axes something is.
+pub(super) const AXIS: Setting = Setting {
+    name: SENSOR_AXIS,
+    meaning: "the axis on which it is: 1, 2, 3 for x, y, z",
+    unit: Unit::ONE,
+    default: 3.0,
+    within: (1.0, 3.0),
 };

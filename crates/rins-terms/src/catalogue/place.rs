@@ -7,7 +7,7 @@ use num_dual::DualNum;
 use rins_frames::{EARTH_RATE, InFrame};
 
 use crate::catalogue::parameters::parameter;
-use crate::term::{Action, Need, Owner, Prior, Term};
+use crate::term::{Action, Need, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
 /// A latitude that is wrong.
@@ -26,6 +26,7 @@ pub static WRONG_LATITUDE: Term = Term {
     partners: &["axis.attitude", "gyro.scale", "gyro_magnetic", "base_rotation"],
     told_apart_by: "look it up; or three directions of the axis",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let around = &moment.surroundings;
         let (sin, cos) = around.station.site.latitude.sin_cos();
@@ -52,5 +53,6 @@ pub static WRONG_GRAVITY: Term = Term {
     partners: &["accel.scale"],
     told_apart_by: "never from one IMU: it is a common scale error; survey gravity",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.add_accel(p[0], &moment.force)),
 };

@@ -9,7 +9,7 @@ use num_dual::{Dual64, DualNum};
 use crate::catalogue::parameters::{TIME, parameter, usual};
 use crate::moment::{Instant, Moment, Stretch};
 use crate::signals::DualVector;
-use crate::term::{Action, Need, Owner, Parameter, Prior, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
 
 const fn delay(prior: Prior) -> Parameter {
@@ -66,6 +66,7 @@ pub static GYRO_LAG: Term = Term {
     told_apart_by: "ramps show the gyros against the encoder; only two of the three delays exist, but for \
                     what the Earth's rate shows of the third",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
         // The rate over as long a time before: both its ends are late.
@@ -90,6 +91,7 @@ pub static ACCEL_LATENCY: Term = Term {
     partners: &["gyro_lag", "encoder.zero", "axis.attitude", "gyro_magnetic"],
     told_apart_by: "turn the table both ways",
     owner: Owner::Sensor,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.accel, &moment.force, turned_to_middle(p[0], moment));
     }),
@@ -117,6 +119,7 @@ pub static ENCODER_LATENCY: Term = Term {
     ],
     told_apart_by: "turn both ways at two rates, with several reversals",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.angle -= turned_to_end(p[0], moment)),
 };
 
@@ -134,6 +137,7 @@ pub static CLOCK_DRIFT: Term = Term {
     partners: &["encoder_latency", "base_tilt_ramp", "gyro_scale_ramp", "gyro.scale"],
     told_apart_by: "several reversals, spread over the run",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         out.angle -= turned_to_end(p[0] * moment.end.time, moment);
     }),
@@ -155,6 +159,7 @@ pub static DROPPED_SAMPLES: Term = Term {
     partners: &["encoder_slip", "encoder_latency"],
     told_apart_by: "turn the other way, or at another rate, after it happened",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         if moment.end.time >= settings[0] {
             out.angle -= turned_to_end(-p[0], moment);

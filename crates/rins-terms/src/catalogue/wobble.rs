@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{cos_sin, named};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Prior, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Prior, Setting, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -28,6 +28,7 @@ pub static TABLE_WOBBLE: Term = Term {
     partners: &["mounting", "gyro_g_sensitivity", "gyro_g2_sensitivity", "gyro_magnetic"],
     told_apart_by: "turn the table both ways; order 1 never: it is the mounting",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(settings[0] * moment.end.angle);
         out.add_tilt(p[0], &Vector3::new(cos, sin, 0.0));
@@ -58,6 +59,7 @@ pub static TABLE_RATE_RIPPLE: Term = Term {
     partners: &["gyro_lag", "encoder_latency", "accel_latency"],
     told_apart_by: "it leaves no residual; a commanded rate shows it, an encoder does not",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let order = settings[0];
         let (sin, cos) = sin_cos(order * moment.end.angle);
@@ -81,6 +83,7 @@ pub static CABLE_TORQUE_TILT: Term = Term {
     partners: &["base_tilt_ramp"],
     told_apart_by: "turn the table both ways",
     owner: Owner::Run,
+    parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_constant(&mut out.tilt, p, moment.end.angle);
     }),

@@ -1,5 +1,7 @@
 //! Runs of one IMU, and the model that is to be estimated from them.
 
+use std::collections::BTreeSet;
+
 use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths};
 use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Role, catalogue};
@@ -35,6 +37,16 @@ impl Case {
                 .flat_map(|run| run.remarks.iter().map(|told| format!("{}: {told}", run.name)))
                 .collect(),
         };
+        let spins: BTreeSet<String> =
+            runs.iter().map(|run| run.loaded.rig.spin.spin_name()).collect();
+        if spins.len() > 1 {
+            let spins: Vec<String> = spins.into_iter().collect();
+            remarks.push(format!(
+                "The runs turn about different axes of the IMU ({}): errors of its sensors are estimated along the sensors' own \
+                 axes from all runs together.",
+                spins.join(", ")
+            ));
+        }
         let preset = named.name == "full";
         let model = on_these_runs(named.model, &runs, preset, &mut remarks);
         let case = Self { runs, name: named.name, model, noise, remarks };

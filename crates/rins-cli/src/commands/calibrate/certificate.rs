@@ -5,10 +5,10 @@ use std::sync::Arc;
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Fit, Identifiability, Run, fit};
+use rins_estimation::{Fit, Identifiability, InRun, Run, fit};
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
-use rins_motion::Recording;
+use rins_motion::{Recording, SignedAxes};
 use rins_terms::{Chosen, Model, NotUndone, Owner, Surroundings, compensated};
 
 use crate::args::NoiseChoice;
@@ -27,7 +27,7 @@ pub(crate) struct Certificate {
     pub(crate) model: String,
     /// The runs, in the order in which they were given.
     pub(crate) runs: Vec<CertifiedRun>,
-    /// The estimates.
+    /// The estimates, along the sensors' own axes.
     pub(crate) fit: Fit,
     /// What the data tell of each.
     pub(crate) told: Identifiability,
@@ -84,6 +84,7 @@ impl Certificate {
             let many = log.is_some_and(|log| given[log].len() > 1);
             estimate.parameter.owner == Owner::Placement && many
         });
+        let fit = fit.along(SignedAxes::IDENTITY);
         let told = fit.identifiability();
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
@@ -121,8 +122,8 @@ impl Certificate {
         let several = self.runs.len() > 1;
         let mut model = files::model(&self.fit);
         model.terms.extend(self.besides.iter().cloned());
-        let mut delivered =
-            vec![("model.toml".into(), ModelFile::of(model).to_toml().into_bytes())];
+        let model = ModelFile::of(model).with_axes(self.fit.run_axes[0].into());
+        let mut delivered = vec![("model.toml".into(), model.to_toml().into_bytes())];
         for run in 0..self.runs.len() {
             let name = match (several, run) {
                 (true, 1..) => format!("calibration-{}.toml", run + 1),
@@ -178,22 +179,21 @@ impl CertifiedRun {
         let (before, after) = (navigate(recorded), navigate(&undone));
         let innovations: Vec<_> = given.iter().flat_map(|&run| fit.innovations(run)).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
-        let of_run = |place: &usize| fit.parameters[*place].run.is_none_or(|of| of == run);
-        let places: Vec<usize> = (0..fit.parameters.len()).filter(of_run).collect();
+        let in_run = |place: usize| Some((place, fit.in_run(&fit.parameters[place], run)?));
+        let (places, here): (Vec<usize>, Vec<InRun>) =
+            (0..fit.parameters.len()).filter_map(in_run).unzip();
         let asked: Vec<Asked<'_>> = places
             .iter()
-            .map(|&place| {
-                let estimate = &fit.parameters[place];
-                Asked {
-                    chosen: &model.terms[estimate.parameter.term],
-                    parameter: estimate.parameter.parameter,
-                    value: estimate.value,
-                    sigma: estimate.sigma,
-                }
+            .zip(&here)
+            .map(|(&place, here)| Asked {
+                chosen: &model.terms[here.term],
+                parameter: here.parameter,
+                value: here.sign * fit.parameters[place].value,
+                sigma: fit.parameters[place].sigma,
             })
             .collect();
         let covariance = DMatrix::from_fn(places.len(), places.len(), |row, column| {
-            fit.covariance[(places[row], places[column])]
+            here[row].sign * here[column].sign * fit.covariance[(places[row], places[column])]
         });
         let truth = Truth { station, nav_from_table, recording: &undone, track };
         let budget = Budget::of(&truth, &asked, &covariance);

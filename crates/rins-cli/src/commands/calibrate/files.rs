@@ -1,7 +1,7 @@
 //! What a calibration leaves for other programs: the errors to undo, the model, and how to undo them.
 
 use nalgebra::DMatrix;
-use rins_estimation::{Estimate, Fit, Identifiability};
+use rins_estimation::{Fit, Identifiability};
 use rins_io::{Covariance, Parameter};
 use rins_terms::{Model, Role, catalogue};
 
@@ -12,7 +12,7 @@ pub(crate) const EQUATION: &str = "true = measured − (bias + [S, M] true + ter
 
 /// The compensation, step by step.
 pub(crate) const STEPS: [&str; 5] = [
-    "1. Turn the sensors' axes into body axes as the rig file says, z along the spin axis. Divide increments by their \
+    "1. Turn the sensors' axes into body axes as the rig file's axes say. Divide increments by their \
      interval: what is measured is a mean rate and a mean specific force.",
     "2. Take what was measured for the first guess of what was true, for gyros and accelerometers both.",
     "3. From that guess compute for each triad bias + [S, M] true, and what each further term of the file adds (its \
@@ -28,22 +28,22 @@ fn of_run_alone(id: &str) -> bool {
     id == "axis.attitude" || catalogue::term(id).is_none()
 }
 
-/// The calibration file of one run: what its sensors and its encoder get wrong.
+/// The calibration file of one run: what its sensors and its encoder get wrong, along the sensors' own axes.
 pub(super) fn calibration(fit: &Fit, told: &Identifiability, run: usize) -> rins_io::Calibration {
+    let axes = fit.run_axes[run];
     let (error, mut terms) = fit.models[run].split();
     terms.terms.retain(|chosen| !of_run_alone(chosen.term.id));
     let places: Vec<usize> = (0..fit.parameters.len())
         .filter(|&place| {
-            let estimate = &fit.parameters[place];
-            let term = fit.models[run].terms[estimate.parameter.term].term;
-            estimate.run.is_none_or(|of| of == run) && !of_run_alone(term.id)
+            let here = fit.in_run(&fit.parameters[place], run);
+            here.is_some_and(|here| !of_run_alone(fit.models[run].terms[here.term].term.id))
         })
         .collect();
     let mut sigmas = Vec::new();
     for &place in &places {
         let estimate = &fit.parameters[place];
         let unit = estimate.parameter.unit;
-        match terms.find(&estimate.parameter.id) {
+        match terms.find_own(&estimate.parameter.id, &axes) {
             Some((term, parameter)) => {
                 terms.terms[term].roles[parameter] = Role::Within(estimate.sigma);
             }
@@ -66,8 +66,9 @@ pub(super) fn calibration(fit: &Fit, told: &Identifiability, run: usize) -> rins
         sigmas,
         notes: notes(told, &places),
         terms,
+        spin: axes.into(),
         covariance: covariance(fit, &places),
-        ..rins_io::Calibration::of(error)
+        ..rins_io::Calibration::of(error.along(&axes.inverse().matrix()))
     }
 }
 
@@ -88,13 +89,13 @@ fn notes(told: &Identifiability, places: &[usize]) -> Vec<String> {
     unseen.map(|&place| format!("{}: {}", told.unknowns[place].id, meaning(told, place))).collect()
 }
 
-/// The model with the estimates in it, the sigma of each as what is known of it now.
+/// The first run's model with the estimates in it, the sigma of each as what is known of it now.
 pub(super) fn model(fit: &Fit) -> Model {
     let mut model = fit.model().clone();
-    let first = |estimate: &&Estimate| estimate.run.is_none_or(|run| run == 0);
-    for estimate in fit.parameters.iter().filter(first) {
-        let parameter = &estimate.parameter;
-        model.terms[parameter.term].roles[parameter.parameter] = Role::Within(estimate.sigma);
+    for estimate in &fit.parameters {
+        if let Some(here) = fit.in_run(estimate, 0) {
+            model.terms[here.term].roles[here.parameter] = Role::Within(estimate.sigma);
+        }
     }
     // What was found without a name is no model of another run.
     model.terms.retain(|chosen| catalogue::term(chosen.term.id).is_some());

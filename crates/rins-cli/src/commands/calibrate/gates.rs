@@ -23,7 +23,7 @@ pub(super) fn refuse_standing(loaded: &Loaded) -> anyhow::Result<()> {
     };
     anyhow::ensure!(
         turned > LEAST_TURN,
-        "{}: the table turns by {:.3} deg in all, the z gyro by {:.2}: gyro errors along the spin axis do not show",
+        "{}: the table turns by {:.3} deg in all, the gyro about the axis of rotation by {:.2}: gyro errors along that axis cannot be observed",
         loaded.rig.log.path.display(),
         turned / DEG,
         inspected(loaded).turns * 360.0

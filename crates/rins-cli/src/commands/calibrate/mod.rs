@@ -10,7 +10,7 @@ mod paper;
 mod prepared;
 mod rests;
 
-use rins_io::ModelFile;
+use rins_io::{Axes, ModelFile};
 use rins_terms::Model;
 
 pub(crate) use self::budget::{Budget, Drift};
@@ -31,12 +31,14 @@ pub(crate) struct NamedModel {
 }
 
 impl NamedModel {
-    /// The model that was chosen, read if it is a file.
-    pub(crate) fn of(choice: &ModelChoice) -> anyhow::Result<Self> {
+    /// The model that was chosen, read if it is a file, in a run with these axes.
+    pub(crate) fn of(choice: &ModelChoice, axes: &Axes) -> anyhow::Result<Self> {
         let (name, model) = match choice {
             ModelChoice::Paper12 => ("paper12".into(), Model::paper12()),
             ModelChoice::Full => ("full".into(), Model::full()),
-            ModelChoice::File(path) => (path.display().to_string(), ModelFile::read(path)?.model),
+            ModelChoice::File(path) => {
+                (path.display().to_string(), ModelFile::read_along(path, axes)?.model)
+            }
         };
         Ok(Self { name, model })
     }
@@ -57,7 +59,7 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
             let outcome = outcome(&calibration, &loaded[0], &arguments.rigs[0])?;
             return Ok(outcome.of_log(&loaded[0]));
         }
-        choice => NamedModel::of(choice)?,
+        choice => NamedModel::of(choice, &loaded[0].rig.spin)?,
     };
     let runs = arguments.rigs.iter().zip(loaded);
     let runs = runs

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use anyhow::Context;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use rins_calibration::{
     Calibration, MEASUREMENTS, Parameter, calibrate, likely_wobble, table_angles,
 };
 use rins_frames::units::DEG;
 use rins_io::{Covariance, Loaded, ModelFile};
+use rins_motion::SignedAxes;
 use rins_terms::{Model, Role, Surroundings, Track};
 use serde_json::{Value, json};
 
@@ -50,6 +51,10 @@ pub(crate) fn outcome(
     loaded: &Loaded,
     rig: &Path,
 ) -> anyhow::Result<Outcome> {
+    let axes = SignedAxes::from(loaded.rig.spin);
+    let model = model(calibration);
+    let budget = budget(calibration, &model, loaded)?;
+    let calibration = &along_own(calibration, &model, &axes);
     let title = format!("Calibration of {}", shown(rig));
     let span = &calibration.span;
     let subtitle = format!(
@@ -63,11 +68,11 @@ pub(crate) fn outcome(
         sigmas: calibration.parameters.iter().map(sigma).collect(),
         notes: calibration.parameters.iter().filter_map(combination_note).collect(),
         covariance: Some(covariance(calibration)),
+        spin: loaded.rig.spin,
         ..rins_io::Calibration::of(calibration.imu_error)
     };
-    let model = model(calibration);
-    let budget = budget(calibration, &model, loaded)?;
-    let ids: Vec<&str> = calibration.parameters.iter().map(|parameter| parameter.id).collect();
+    let ids: Vec<&str> =
+        calibration.parameters.iter().map(|parameter| parameter.id.as_str()).collect();
     let mut report = calibration_report(calibration, &title, &subtitle);
     report.sections.push(compensation_section(&model));
     report.sections.push(budget_section("Error budget", &ids, &budget));
@@ -86,18 +91,57 @@ pub(crate) fn outcome(
         report: Some(report),
         files: vec![
             ("calibration.toml".into(), file.to_toml().into_bytes()),
-            ("model.toml".into(), ModelFile::of(model).to_toml().into_bytes()),
+            (
+                "model.toml".into(),
+                ModelFile::of(model).with_axes(loaded.rig.spin).to_toml().into_bytes(),
+            ),
         ],
         ..Outcome::default()
     })
+}
+
+/// A calibration of a run with these axes along the sensors' own axes; `model` is the run's.
+fn along_own(calibration: &Calibration, model: &Model, axes: &SignedAxes) -> Calibration {
+    let full = Model::full();
+    let own = |id: &str| -> (String, f64) {
+        let place = |of: &Model| of.find(id).map(|at| (of.terms[at.0].clone(), at));
+        let found = place(model).or_else(|| place(&full));
+        found.map_or_else(
+            || (id.to_owned(), 1.0),
+            |(chosen, (_, parameter))| {
+                let (name, sign) = chosen.own(parameter, axes);
+                (format!("{}.{name}", chosen.term.id), sign)
+            },
+        )
+    };
+    let mut along = calibration.clone();
+    let mut signs = Vector3::repeat(1.0);
+    for (parameter, of) in along.parameters.iter_mut().zip(signs.iter_mut()) {
+        let (id, sign) = own(&parameter.id);
+        (parameter.id, *of) = (id, sign);
+        parameter.value *= sign;
+        for partner in &mut parameter.partners {
+            let (id, of_partner) = own(&partner.id);
+            partner.id = id;
+            partner.share *= sign * of_partner;
+        }
+    }
+    along.correlation = Matrix3::from_fn(|row, column| {
+        signs[row] * signs[column] * calibration.correlation[(row, column)]
+    });
+    for point in &mut along.history {
+        point.estimate.component_mul_assign(&signs);
+    }
+    along.imu_error = calibration.imu_error.along(&axes.inverse().matrix());
+    along
 }
 
 /// The paper's model with the estimates in it.
 fn model(calibration: &Calibration) -> Model {
     calibration.parameters.iter().fold(Model::paper12(), |model, parameter| {
         model
-            .with_value(parameter.id, parameter.value)
-            .with_role(parameter.id, Role::Within(parameter.sigma))
+            .with_value(&parameter.id, parameter.value)
+            .with_role(&parameter.id, Role::Within(parameter.sigma))
     })
 }
 
@@ -106,7 +150,7 @@ fn covariance(calibration: &Calibration) -> Covariance {
     let parameters = &calibration.parameters;
     let sigma = |place: usize| parameters[place].sigma / parameters[place].kind.factor();
     Covariance {
-        ids: parameters.iter().map(|parameter| parameter.id.to_owned()).collect(),
+        ids: parameters.iter().map(|parameter| parameter.id.clone()).collect(),
         matrix: DMatrix::from_fn(parameters.len(), parameters.len(), |row, column| {
             calibration.correlation[(row, column)] * sigma(row) * sigma(column)
         }),
@@ -134,7 +178,7 @@ fn budget(calibration: &Calibration, model: &Model, loaded: &Loaded) -> anyhow::
         .parameters
         .iter()
         .filter_map(|estimate| {
-            let (term, parameter) = model.find(estimate.id)?;
+            let (term, parameter) = model.find(&estimate.id)?;
             let (value, sigma) = (estimate.value, estimate.sigma);
             Some(Asked { chosen: &model.terms[term], parameter, value, sigma })
         })
@@ -154,7 +198,7 @@ fn budget(calibration: &Calibration, model: &Model, loaded: &Loaded) -> anyhow::
 /// A parameter's sigma as a calibration file holds it.
 fn sigma(parameter: &Parameter) -> rins_io::Parameter {
     let (value, unit) = (parameter.sigma / parameter.kind.factor(), parameter.kind.unit());
-    rins_io::Parameter { id: parameter.id.into(), value, unit }
+    rins_io::Parameter { id: parameter.id.clone(), value, unit }
 }
 
 /// What a calibration file says of a parameter that is estimated together with a bias.
@@ -221,7 +265,7 @@ fn parameter_json(parameter: &Parameter) -> Value {
         "unit": parameter.kind.unit(),
         "identifiable": parameter.identifiable(),
         "shown": if parameter.identifiable() { "alone" } else { "combination" },
-        "aliases": parameter.partners.iter().map(|partner| partner.id).collect::<Vec<_>>(),
+        "aliases": parameter.partners.iter().map(|partner| partner.id.as_str()).collect::<Vec<_>>(),
         "alias_coefficients": coefficients,
         "combination": combination,
         "meaning": meaning(parameter),
@@ -231,7 +275,7 @@ fn parameter_json(parameter: &Parameter) -> Value {
 fn identifiability_json(parameters: &[Parameter]) -> Value {
     let ids = |alone: bool| -> Vec<&str> {
         let chosen = parameters.iter().filter(|parameter| parameter.identifiable() == alone);
-        chosen.map(|parameter| parameter.id).collect()
+        chosen.map(|parameter| parameter.id.as_str()).collect()
     };
     json!({
         "unknowns": parameters.len(),

@@ -142,10 +142,12 @@ impl Prepared {
             recording.table_angle = Some(angles);
         }
         let repeats = recording.take_out_repeats();
-        let mut run = Run::new(rig, recording).with_context(log)?;
+        let axes = loaded.rig.spin.into();
+        let mut run = Run::new(rig, recording).with_context(log)?.with_axes(axes);
         run.angle_steps = steps.or(run.angle_steps);
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
-            Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)
+            let run = Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)?;
+            anyhow::Ok(run.with_axes(axes))
         });
         let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
         let (attitude, mut remarks, imu) = (axis.attitude, axis.remarks, setup.imu);

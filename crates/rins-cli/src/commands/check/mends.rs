@@ -27,7 +27,7 @@ enum Place {
     Profile,
 }
 
-/// The ratios of the z gyro's turn to the table's that tell of nothing but its sense.
+/// The ratios of the turn of the gyro about the axis of rotation to the table's that tell of nothing but its sense.
 const REVERSED: std::ops::Range<f64> = -1.4..-0.7;
 
 /// The changes of which one is right; none if nothing is wrong, or something else is.
@@ -47,11 +47,7 @@ pub(crate) fn mends(inspection: &Inspection, rig: &Rig) -> Vec<Mend> {
 }
 
 fn mend(correction: &Correction, rig: &Rig) -> Option<Mend> {
-    // The correction is of axes with z along the spin axis, the rig file's are those before.
-    let changed = |axes: &SignedAxes, now: &Axes| {
-        let corrected = Axes::from(*axes).after(&rig.spin.after(now));
-        Some(rig.spin.inverse().after(&corrected))
-    };
+    let changed = |axes: &SignedAxes, now: &Axes| Some(Axes::from(*axes).after(now));
     let gyro = |axes: &SignedAxes| changed(axes, &rig.log.gyro_axes);
     let accel = |axes: &SignedAxes| changed(axes, &rig.log.accel_axes);
     let (gyro, accel, table) = match correction {

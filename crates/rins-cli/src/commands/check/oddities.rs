@@ -9,7 +9,7 @@ use crate::commands::repairs::repairs;
 /// How far gravity may be off before it is odd: a calibrated accelerometer is better by far.
 const LARGEST_GRAVITY_ERROR: f64 = 0.005;
 
-/// How far the gyro z's turn may be off the table's before it is odd.
+/// How far the turn of the gyro about the axis of rotation may be off the table's before it is odd.
 const LARGEST_SPIN_ERROR: f64 = 0.01;
 
 /// What is odd, each in a sentence: suspected mistakes first.
@@ -35,7 +35,7 @@ pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> 
         && (ratio - 1.0).abs() > LARGEST_SPIN_ERROR
     {
         found.push(format!(
-            "the z gyro's turn is {:+.1} % off the table's: its scale, or the table's unit or profile, is wrong",
+            "the turn of the gyro about the axis of rotation is {:+.1} % off the table's: its scale, or the table's unit or profile, is wrong",
             (ratio - 1.0) * 100.0
         ));
     }

@@ -55,7 +55,7 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     found
 }
 
-/// The steady rates about body z other than zero, each once \[rad/s\].
+/// The steady rates about the axis of rotation other than zero, each once \[rad/s\].
 fn steady_rates(loaded: &Loaded) -> Vec<f64> {
     let mut rates: Vec<f64> = Vec::new();
     let mut halves = [(0.0, 0.0); 2];

@@ -221,14 +221,14 @@ fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         inspection,
         "table's motion",
         |s| matches!(s, Suspicion::SpinProfile { .. }),
-        "the z gyro and the table turn at the same times",
+        "the gyro about the axis of rotation and the table turn at the same times",
     )];
     let ratio = inspection.table_lag.map_or(ratio, |lag| lag.ratio);
     all.push(verdict(
         "clock ratio",
         Tone::Neutral,
         format!(
-            "the z gyro counts {ratio:.7} of the table's turn: its scale and the ratio of their clocks, which nothing \
+            "the gyro about the axis of rotation counts {ratio:.7} of the table's turn: its scale and the ratio of their clocks, which nothing \
              tells apart"
         ),
     ));

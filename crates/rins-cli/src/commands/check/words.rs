@@ -22,7 +22,10 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
             because(cause)
         ),
         Suspicion::SpinScale { ratio, cause } => {
-            format!("the z gyro counts {ratio:.5} of the table's turn: {}", because(cause))
+            format!(
+                "the gyro about the axis of rotation counts {ratio:.5} of the table's turn: {}",
+                because(cause)
+            )
         }
         Suspicion::Triads { gyro, accel } => format!(
             "an accelerometer follows the table's rate (correlation {accel:.3}) and no gyro does ({gyro:.3} at most): \
@@ -35,11 +38,11 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
             accel * 100.0
         ),
         Suspicion::SpinAxis { channel, ratio } => format!(
-            "{channel} counts {ratio:.4} of the table's turn and gyro.z does not: the axes are exchanged; set `axes` \
+            "{channel} counts {ratio:.4} of the table's turn and the gyro about [axis] spin does not: the axes are exchanged; set `axes` \
              under [log] gyro, or [axis] spin"
         ),
         Suspicion::SpinProfile { apart, time } => format!(
-            "the z gyro's turn and the table's come apart by {:.2} deg within the ten seconds before {time:.1} s: the \
+            "the turn of the gyro about the axis of rotation and the table's come apart by {:.2} deg within the ten seconds before {time:.1} s: the \
              table moved otherwise or at another time than is said; check the profile's start, its acceleration, or \
              the encoder",
             apart / DEG

@@ -149,7 +149,7 @@ impl Found {
         let gain = Measured::of(&case, asked.held_out.as_ref(), fits);
         let transfer = asked.transfer.then(|| Measured::at_the_fastest_rate(&case, fits));
         spinner.finish_and_clear();
-        let imu = *case.imu();
+        let (imu, axes) = (*case.imu(), diagnosis.after.axes);
         let causes: Vec<Named> = diagnosis
             .causes
             .into_iter()
@@ -161,7 +161,9 @@ impl Found {
                     }
                     None => None,
                 };
-                Ok(Named::of(cause, &diagnosis.after, &imu, next_test))
+                let mut named = Named::of(cause, &diagnosis.after, &imu, next_test);
+                named.cause = named.cause.along_own(&axes);
+                Ok(named)
             })
             .collect::<anyhow::Result<_>>()?;
         let verdict = if !diagnosis.unexplained.is_empty() {
@@ -174,7 +176,7 @@ impl Found {
         } else {
             Verdict::Ambiguous
         };
-        let shifts = shifts(&diagnosis.before, &diagnosis.after);
+        let shifts = shifts([&diagnosis.before, &diagnosis.after]);
         let untestable = untestable(&runs, &case.model, &diagnosis.not_testable);
         let limits = limits(&runs, &diagnosis.after, &imu).with_context(|| case.names())?;
         let by_chance = asked.bootstrap.map(|draws| {
@@ -189,7 +191,7 @@ impl Found {
         let mut certificate = Certificate::with(case, diagnosis.after)?;
         certificate.besides = causes.iter().filter_map(|named| no_signal(&named.cause)).collect();
         let seconds = started.elapsed().as_secs_f64();
-        let unexplained = diagnosis.unexplained;
+        let unexplained = diagnosis.unexplained.iter().map(|one| one.along_own(&axes)).collect();
         Ok(Self {
             verdict,
             causes,
@@ -276,16 +278,22 @@ fn same(a: &Estimate, b: &Estimate) -> bool {
     a.parameter.id == b.parameter.id && a.run == b.run
 }
 
-/// The estimates that were wrong, most of their sigmas first.
-fn shifts(before: &Fit, after: &Fit) -> Vec<Shift> {
-    let mut shifts: Vec<Shift> = before
+/// The estimates that were wrong, along the sensors' own axes, most of their sigmas first.
+fn shifts(of: [&Fit; 2]) -> Vec<Shift> {
+    let mut shifts: Vec<Shift> = of[0]
         .parameters
         .iter()
         .filter_map(|before| {
-            let after = after.parameters.iter().find(|after| same(before, after))?;
-            Some(Shift { before: before.clone(), after: after.clone() })
+            let after = of[1].parameters.iter().find(|after| same(before, after))?;
+            let shift = Shift { before: before.clone(), after: after.clone() };
+            shift.counts().then(|| {
+                let own = |estimate: &Estimate, fit: &Fit| {
+                    let chosen = &fit.model().terms[estimate.parameter.term];
+                    estimate.along_own(chosen, &fit.axes)
+                };
+                Shift { before: own(before, of[0]), after: own(after, of[1]) }
+            })
         })
-        .filter(Shift::counts)
         .collect();
     shifts.sort_by(|a, b| b.sigmas().abs().total_cmp(&a.sigmas().abs()));
     shifts

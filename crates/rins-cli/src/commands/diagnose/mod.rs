@@ -21,11 +21,11 @@ use crate::outcome::Outcome;
 pub(crate) fn diagnosed(rig: &Path, loaded: Loaded) -> anyhow::Result<Found> {
     let noise = NoiseChoice::Likely;
     let run = Prepared::of(rig, loaded, noise)?.of_longest_rest();
-    Found::of(Case::of(vec![run], NamedModel::of(&ModelChoice::Full)?, noise)?, &Asked::default())
+    let named = NamedModel::of(&ModelChoice::Full, &run.loaded.rig.spin)?;
+    Found::of(Case::of(vec![run], named, noise)?, &Asked::default())
 }
 
 pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
-    let named = NamedModel::of(&arguments.model)?;
     let prepared = |rig: &Path| -> anyhow::Result<Prepared> {
         Ok(Prepared::of(rig, load(rig)?, arguments.noise)?.of_longest_rest())
     };
@@ -33,6 +33,7 @@ pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
     let other = arguments.held_out.as_deref();
     let other = other.map(prepared).transpose()?;
+    let named = NamedModel::of(&arguments.model, &runs[0].loaded.rig.spin)?;
     let case = Case::of(runs, named, arguments.noise)?;
     if let Some(other) = &other {
         case.ensure_same_imu(other)?;
@@ -54,7 +55,7 @@ pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
 
 /// The effects of a model file beyond a case's model.
 fn supposed(file: &Path, case: &Case) -> anyhow::Result<Vec<Chosen>> {
-    let mut terms = ModelFile::read(file)?.model.terms;
+    let mut terms = ModelFile::read_along(file, &case.runs[0].loaded.rig.spin)?.model.terms;
     terms.retain(|chosen| !case.model.terms.iter().any(|own| own.term.id == chosen.term.id));
     let silent = terms.iter().find(|chosen| !chosen.term.is_signal());
     if let Some(chosen) = silent {

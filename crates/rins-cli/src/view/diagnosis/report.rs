@@ -185,7 +185,7 @@ fn limits(found: &Found) -> Section {
         let (low, high) = parameter.range(&found.certificate.runs[0].prepared.imu);
         let shown = |value: f64| Cell::text(figure(value / unit.factor, 3));
         vec![
-            Cell::text(format!("{}.{}", limit.term.id, parameter.name)),
+            Cell::text(limit.own_id(&found.certificate.fit.run_axes[0])),
             shown(limit.sigma),
             shown(limit.detectable),
             Cell::text(unit.symbol),
