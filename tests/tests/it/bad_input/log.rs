@@ -202,13 +202,15 @@ const READINGS: &[Row] = &[
         "a table that never turns",
         CALIBRATE,
         Column("table_angle", "0"),
-        &["run.csv: the table turns by 0.000 deg in all, the z gyro by 300."],
+        &[
+            "run.csv: the table turns by 0.000 deg in all, the gyro about the axis of rotation by 300.",
+        ],
     ),
     (
         "a run that never turns",
         CALIBRATE,
         Lines(LOG, 250),
-        &["run.csv: the table turns by 0.000 deg in all", "do not show"],
+        &["run.csv: the table turns by 0.000 deg in all", "cannot be observed"],
     ),
     (
         "a run that hardly turns",
@@ -268,7 +270,7 @@ const READINGS: &[Row] = &[
         CALIBRATE,
         Replace("rig.toml", "\"table_angle\", unit = \"rad\"", "\"table_angle\", unit = \"deg\""),
         &[
-            "rig.toml: the z gyro counts 57.",
+            "rig.toml: the gyro about the axis of rotation counts 57.",
             "of the table's turn",
             "the table's angle in rad were declared as deg",
         ],
@@ -277,7 +279,10 @@ const READINGS: &[Row] = &[
         "a gyro triad upside down that is calibrated",
         CALIBRATE,
         Replace("rig.toml", "unit = \"rad\"", "unit = \"rad\", axes = [\"x\", \"-y\", \"-z\"]"),
-        &["rig.toml: the z gyro counts -1.0", "the table's sense is opposite to the gyro's"],
+        &[
+            "rig.toml: the gyro about the axis of rotation counts -1.0",
+            "the table's sense is opposite to the gyro's",
+        ],
     ),
 ];
 
