@@ -47,6 +47,7 @@ mod fit;
 mod fit_error;
 mod likely;
 mod named;
+mod unobservable;
 
 mod identifiability;
 

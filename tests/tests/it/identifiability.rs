@@ -314,11 +314,11 @@ it is named. A calibration says the same of its run in the same words, from the 
 
 With `--json`, `schedules` holds for each `rank`, `rank_loss`, the ids that are told `alone`, `in_combination` and
 `not_shown`, `gauges`, and its `parameters`: `prior_sigma`, `data_sigma` (of the sum, if one is told; null if the data
-alone tell nothing), `sigma` with both, `identifiable`, `shown` (`alone`, `combination`, `part` of another's, `nothing`), its
+alone tell nothing), `sigma` with both, `identifiable`, `observability`, `shown` (`alone`, `combination`, `part` of another's, `nothing`), its
 `aliases`, the `combination` with coefficients, and its `gauge`; `separation` has `kappa` and `told_sigma` of a pair each way; `proposal` the
 schedule to run next, its `profile`, `attitude_deg` and what it is predicted to reach.
 
-## How many combinations are exactly invisible
+## Dimension of the null space
 
 `baseline` holds biases, attitude, mounting and the gyro errors tied to the spin axis, `full` all of eq. (1) and the
 attitude.

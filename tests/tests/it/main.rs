@@ -24,5 +24,6 @@ mod statics;
 mod support;
 mod synthetic;
 mod turned_over;
+mod unobservable;
 mod unread;
 mod verdicts;

@@ -30,7 +30,7 @@ fn one_rate_is_said_to_tell_combinations() {
     let ratio = number(misalignment, "/data_sigma") / number(bias, "/data_sigma");
     assert!((ratio / number(misalignment, "/combination/0/coefficient") - 1.0).abs() < 1e-6);
     let finished = rins_in(&schedules(), "observe i-constant-rate.toml");
-    let sentence = "only gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x";
+    let sentence = "observable only in the combination gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x";
     assert!(finished.out.contains(sentence), "{}", finished.out);
 }
 

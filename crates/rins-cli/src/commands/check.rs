@@ -23,6 +23,7 @@ use self::mends::{mends, mends_in_words};
 use self::oddities::oddities;
 use self::readings::readings;
 pub(crate) use self::refusal::refuse_mistaken;
+pub(crate) use self::shows::steady_rates;
 use self::units::said_units;
 use self::verdicts::{Verdict, verdicts};
 use self::words::suspicion_in_words;

@@ -14,28 +14,34 @@ use crate::report::{
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::table::aligned;
-use crate::view::told::{ITSELF, Summand, sum_in_words};
+use crate::view::told::{OBSERVABLE, Summand, only_in, sum_in_words};
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
 pub(crate) const SYSTEMATIC_NOTE: &str = "Zero velocity also sees accelerometer biases, which this \
 model does not have. Of a bias of 200 ug about 0.03 arcsec and 0.1 ppm may be in the estimates \
 beyond sigma, of a larger one more.";
 
+/// In place of the value of a parameter that has none of its own.
+const NONE: &str = "–";
+
 /// What the rows of the innovation are.
 const CHANNELS: [&str; MEASUREMENTS] =
     ["velocity east", "velocity north", "velocity up", "table x", "table y", "table z"];
 
-/// What the data tell of a parameter, as a person reads it.
+/// The observability of a parameter, as a person reads it, and what its combination was found to be if it is in one.
 pub(crate) fn meaning(parameter: &Parameter) -> String {
     if parameter.identifiable() {
-        return ITSELF.into();
+        return OBSERVABLE.into();
     }
+    let factor = parameter.kind.factor();
+    let found = (parameter.value / factor, parameter.sigma / factor, parameter.kind.unit());
     let summand = |partner: &Partner| Summand {
         coefficient: partner.share * partner.kind.factor() / parameter.kind.factor(),
         unit: partner.kind.unit(),
         name: partner.id.clone(),
     };
-    sum_in_words(&parameter.id, parameter.kind.unit(), parameter.partners.iter().map(summand))
+    let summands = parameter.partners.iter().map(summand);
+    only_in(&sum_in_words(&parameter.id, parameter.kind.unit(), summands), Some(found))
 }
 
 /// The summary for a terminal.
@@ -45,15 +51,18 @@ pub(crate) fn calibration_text(calibration: &Calibration, title: &str) -> String
         let _ = writeln!(text, "  {sentence}");
     }
     text.push('\n');
-    let mut rows = vec![
-        ["parameter", "value", "sigma", "unit", "what the data tell"].map(String::from).to_vec(),
-    ];
+    let mut rows =
+        vec![["parameter", "value", "sigma", "unit", "observability"].map(String::from).to_vec()];
     rows.extend(calibration.parameters.iter().map(|parameter| {
         let factor = parameter.kind.factor();
+        // The value is the combination's, and stands with it.
+        let own = |value: f64| {
+            if parameter.identifiable() { format!("{:.4}", value / factor) } else { NONE.into() }
+        };
         vec![
             parameter.id.clone(),
-            format!("{:.4}", parameter.value / factor),
-            format!("{:.4}", parameter.sigma / factor),
+            own(parameter.value),
+            own(parameter.sigma),
             parameter.kind.unit().into(),
             meaning(parameter),
         ]
@@ -119,14 +128,15 @@ pub(crate) fn calibration_report(calibration: &Calibration, title: &str, subtitl
 fn parameters_section(calibration: &Calibration) -> Section {
     let rows = calibration.parameters.iter().map(|parameter| {
         let factor = parameter.kind.factor();
-        let badge = if parameter.identifiable() {
-            Cell::badge(Tone::Good, "identifiable")
+        let (estimate, badge) = if parameter.identifiable() {
+            let (value, sigma) = (parameter.value / factor, parameter.sigma / factor);
+            (Cell::Estimate { value, sigma }, Cell::badge(Tone::Good, OBSERVABLE))
         } else {
-            Cell::badge(Tone::Warning, "combination")
+            (Cell::text(NONE), Cell::badge(Tone::Warning, "combination"))
         };
         vec![
             Cell::text(&parameter.id),
-            Cell::Estimate { value: parameter.value / factor, sigma: parameter.sigma / factor },
+            estimate,
             Cell::text(parameter.kind.unit()),
             badge,
             Cell::text(meaning(parameter)),
@@ -150,7 +160,7 @@ fn parameters_section(calibration: &Calibration) -> Section {
                     Column::number("estimate"),
                     Column::text("unit"),
                     Column::text("under this schedule"),
-                    Column::text("what the data tell"),
+                    Column::text("observability"),
                 ],
                 rows: rows.collect(),
             }),

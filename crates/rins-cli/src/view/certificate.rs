@@ -13,7 +13,7 @@ use crate::view::consistency::{Residuals, consistency_section, consistency_sente
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::noise::{noise_section, noise_sentence};
 use crate::view::table::aligned;
-use crate::view::told::{badge, gauge_sentences, meaning, rank_sentence};
+use crate::view::told::{badge, gauge_sentences, observability, rank_sentence};
 use crate::view::worth::{budget_section, compensation_section};
 
 /// What the rows of an innovation are.
@@ -36,20 +36,17 @@ pub(crate) fn certificate_text(certificate: &Certificate) -> String {
     text.push('\n');
     let several = certificate.runs.len() > 1;
     let mut rows = vec![
-        ["parameter", "run", "value", "sigma", "unit", "what the data tell"]
-            .map(String::from)
-            .to_vec(),
+        ["parameter", "run", "value", "sigma", "unit", "observability"].map(String::from).to_vec(),
     ];
     for (place, estimate) in certificate.fit.parameters.iter().enumerate() {
         let unit = estimate.parameter.unit;
-        let (value, sigma) = certificate.value(place);
         rows.push(vec![
             estimate.parameter.id.clone(),
             run_name(estimate.run),
-            figure(value / unit.factor, 4),
-            figure(sigma / unit.factor, 4),
+            figure(estimate.value / unit.factor, 4),
+            figure(estimate.sigma / unit.factor, 4),
             unit.symbol.into(),
-            meaning_and_alone(certificate, place),
+            observability(&certificate.told, place, Some(certificate.value(place))),
         ]);
     }
     if !several {
@@ -62,23 +59,6 @@ pub(crate) fn certificate_text(certificate: &Certificate) -> String {
         let _ = writeln!(text, "  {sentence}");
     }
     text
-}
-
-/// What the data tell of a parameter; and where that is a sum, what is known of the parameter itself.
-fn meaning_and_alone(certificate: &Certificate, place: usize) -> String {
-    let meaning = meaning(&certificate.told, place);
-    if certificate.told.seen[place].aliases.is_empty() {
-        return meaning;
-    }
-    let estimate = &certificate.fit.parameters[place];
-    let unit = estimate.parameter.unit;
-    let shown = |value: f64| figure(value / unit.factor, 4);
-    format!(
-        "{meaning}; alone {} ± {} {}",
-        shown(estimate.value),
-        shown(estimate.sigma),
-        unit.symbol
-    )
 }
 
 fn run_name(run: Option<usize>) -> String {
@@ -151,13 +131,14 @@ fn parameters_section(certificate: &Certificate) -> Section {
     let several = certificate.runs.len() > 1;
     let rows = certificate.fit.parameters.iter().enumerate().map(|(place, estimate)| {
         let unit = estimate.parameter.unit;
-        let (value, sigma) = certificate.value(place);
-        // Of a sum the bar would mean nothing: it is the parameter's own.
         let wide = 3.0 * estimate.parameter.sigma;
         let mut row = vec![
             Cell::text(&estimate.parameter.id),
             Cell::text(run_name(estimate.run)),
-            Cell::Estimate { value: value / unit.factor, sigma: sigma / unit.factor },
+            Cell::Estimate {
+                value: estimate.value / unit.factor,
+                sigma: estimate.sigma / unit.factor,
+            },
             Cell::text(unit.symbol),
             Cell::Bar {
                 value: (estimate.value - estimate.expected) / wide,
@@ -167,7 +148,7 @@ fn parameters_section(certificate: &Certificate) -> Section {
             Cell::text(if told.seen[place].identifiable {
                 String::new()
             } else {
-                meaning_and_alone(certificate, place)
+                observability(told, place, Some(certificate.value(place)))
             }),
         ];
         if !several {
@@ -182,7 +163,7 @@ fn parameters_section(certificate: &Certificate) -> Section {
         Column::text("unit"),
         Column::text("within ±3 prior σ"),
         Column::text("under this schedule"),
-        Column::text("what the data tell"),
+        Column::text("observability"),
     ];
     if !several {
         columns.remove(1);
@@ -213,8 +194,10 @@ fn parameters_section(certificate: &Certificate) -> Section {
     items.splice(1..1, gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: "Parameters".into(),
-        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. A combination \
-                has the value and the sigma of the whole. A run's number stands where a parameter is that run's own."
+        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. A parameter \
+                that is observable only in a combination has its own value and sigma, by what was known before; the \
+                combination's stand with it. An unobservable parameter is not estimated: it keeps the value that was \
+                expected. A run's number stands where a parameter is that run's own."
             .into(),
         items,
     }

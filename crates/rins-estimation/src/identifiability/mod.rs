@@ -10,7 +10,7 @@ mod separation;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 use rins_terms::Unit;
 
 pub use gauge::{GAUGES, Gauge, gauge_of};
@@ -127,19 +127,20 @@ impl Identifiability {
         let sigmas: Vec<f64> = unknowns.iter().map(|unknown| unknown.sigma).collect();
         let scaled = scaled(information, &sigmas);
         let rank = Rank::of(&scaled);
-        let own = with_prior(&scaled);
-        let nothing = |(own, sigma): (&f64, &f64)| Seen {
+        let posterior = with_prior(&scaled);
+        let nothing = |(variance, sigma): (&f64, &f64)| Seen {
             shown: Shown::Nothing,
             aliases: Vec::new(),
             data_sigma: f64::INFINITY,
-            sigma: own * sigma,
+            sigma: variance.sqrt() * sigma,
             gauge: None,
             identifiable: false,
         };
-        let mut told =
-            Self { seen: own.iter().zip(&sigmas).map(nothing).collect(), unknowns, rank };
+        let seen = posterior.diagonal().iter().zip(&sigmas).map(nothing).collect();
+        let mut told = Self { unknowns, seen, rank };
         (0..told.rank.kept.len()).for_each(|place| told.see_kept(place));
         (0..told.rank.lost.len()).for_each(|place| told.see_lost(place));
+        told.see_together(&posterior);
         told.name_gauges();
         told
     }
@@ -230,6 +231,58 @@ impl Identifiability {
         (seen.aliases, seen.data_sigma) = (aliases, data_sigma);
         seen.shown = Shown::Part { of, exactly };
     }
+
+    /// Of unknowns that are not observable by themselves: the sums of several that are.
+    ///
+    /// `posterior` is the covariance with the priors, in units of their sigmas.
+    fn see_together(&mut self, posterior: &DMatrix<f64>) {
+        loop {
+            let left = self.unobservable();
+            if left.len() < 2 {
+                return;
+            }
+            let own = DMatrix::from_fn(left.len(), left.len(), |row, column| {
+                posterior[(left[row], left[column])]
+            });
+            let own = SymmetricEigen::new(own);
+            let best = own.eigenvalues.imin();
+            let variance = own.eigenvalues[best];
+            if variance.is_nan() || variance >= SEEN * SEEN {
+                return;
+            }
+            let shares = own.eigenvectors.column(best);
+            let largest = shares.amax();
+            let members: Vec<usize> =
+                (0..left.len()).filter(|&row| shares[row].abs() > SLIGHT * largest).collect();
+            // An unknown that is not observable has no such variance alone.
+            if members.len() < 2 {
+                return;
+            }
+            // Known beforehand to 1 in these units: the data add the rest.
+            let data_sigma = (variance / (1.0 - variance)).max(0.0).sqrt();
+            let leading = left[shares.icamax()];
+            for &row in &members {
+                let (unknown, unit) = (left[row], self.unknowns[left[row]].sigma);
+                let share = |row: usize| shares[row] / self.unknowns[left[row]].sigma;
+                let others = members.iter().filter(|&&other| other != row);
+                let aliases = others
+                    .map(|&other| Alias {
+                        unknown: left[other],
+                        coefficient: share(other) / share(row),
+                        exactly: false,
+                    })
+                    .collect();
+                let seen = &mut self.seen[unknown];
+                seen.aliases = aliases;
+                seen.data_sigma = data_sigma * unit / shares[row].abs();
+                seen.shown = if unknown == leading {
+                    Shown::Combination
+                } else {
+                    Shown::Part { of: vec![leading], exactly: false }
+                };
+            }
+        }
+    }
 }
 
 /// Information in units of the priors' sigmas.
@@ -240,12 +293,9 @@ fn scaled(information: &DMatrix<f64>, sigmas: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// Each parameter's 1σ, data and prior together, in units of the prior's.
-fn with_prior(scaled: &DMatrix<f64>) -> Vec<f64> {
-    let sum = scaled + DMatrix::identity(scaled.nrows(), scaled.ncols());
-    match Cholesky::new(sum) {
-        Some(factor) => factor.inverse().diagonal().iter().map(|x| x.sqrt()).collect(),
-        // Rounding made it indefinite: nothing is claimed.
-        None => vec![1.0; scaled.nrows()],
-    }
+/// The covariance of the parameters, data and priors together, in units of the priors' sigmas.
+fn with_prior(scaled: &DMatrix<f64>) -> DMatrix<f64> {
+    let identity = DMatrix::identity(scaled.nrows(), scaled.ncols());
+    // Where rounding made it indefinite nothing is claimed.
+    Cholesky::new(scaled + &identity).map_or(identity, |factor| factor.inverse())
 }

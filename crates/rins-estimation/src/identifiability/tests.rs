@@ -163,7 +163,7 @@ fn gauges_are_null_directions() {
         let information = &joint.evidence.information;
         let size = information.diagonal().map(f64::sqrt);
         let unit = information.component_div(&(&size * size.transpose()));
-        let least = nalgebra::SymmetricEigen::new(unit).eigenvalues.min();
+        let least = SymmetricEigen::new(unit).eigenvalues.min();
         // What a delay does is a derivative, and that of a rate is taken by differences.
         let within = if gauge.name == "the origin of time" { 1e-7 } else { EXACT };
         assert!(least < within, "{}: {least}", gauge.name);

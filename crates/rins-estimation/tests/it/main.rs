@@ -14,3 +14,4 @@ mod shortcuts;
 mod support;
 mod sway;
 mod terms;
+mod unobservable;

@@ -22,7 +22,7 @@ fn mountings() -> [SignedAxes; 6] {
 }
 
 /// An IMU from a population of this sheet.
-fn drawn(seed: u64) -> ImuError {
+pub(crate) fn drawn(seed: u64) -> ImuError {
     let mut random = Seed::new(seed).stream(Sensor::Encoder);
     let mut triad = |spec: &TriadSpec| {
         let mut error = TriadError::default();
@@ -65,7 +65,7 @@ fn fitted_as(imu: &ImuSpec, runs: &[Run], model: &Model) -> Fit {
 }
 
 /// What a parameter truly is along the axes of the first run.
-fn truth(error: &ImuError, id: &str) -> Option<f64> {
+pub(crate) fn truth(error: &ImuError, id: &str) -> Option<f64> {
     let place = |letter: char| "xyz".find(letter);
     let mut parts = id.split('.');
     let triad = if parts.next()? == "gyro" { error.gyro } else { error.accel };
@@ -102,7 +102,7 @@ fn squares(imus: Range<u64>, askew: bool) -> f64 {
     }
     let one = |seed: u64| {
         let error = drawn(seed);
-        let from = seed as usize;
+        let from = usize::try_from(seed).unwrap();
         // Three different axes, each up or down.
         let of = |k: usize| mountings()[(from + k) % 3 + 3 * ((from >> k) & 1)];
         let ways = [(2.0, 0.0), (40.0, 70.0), (75.0, 200.0)];

@@ -5,21 +5,26 @@ use std::sync::Arc;
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Fit, Identifiability, InRun, Run, fit};
+use rins_estimation::{Fit, Identifiability, InRun, Lost, Run, fit};
+use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
 use rins_motion::{Recording, SignedAxes};
-use rins_terms::{Chosen, Model, NotUndone, Owner, Surroundings, compensated};
+use rins_terms::{Chosen, Model, NotUndone, Owner, Role, Surroundings, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
 use crate::commands::calibrate::{Case, Prepared, files, json};
+use crate::commands::check::steady_rates;
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::{certificate_report, certificate_text};
 
 /// A mean NIS above this is no matter of a sensor error more or less.
 const ABSURD_NIS: f64 = 100.0;
+
+/// At most so many rates of a run are told one by one.
+const MOST_RATES: usize = 7;
 
 /// The estimates from one run or several, and what they are worth.
 pub(crate) struct Certificate {
@@ -31,6 +36,8 @@ pub(crate) struct Certificate {
     pub(crate) fit: Fit,
     /// What the data tell of each.
     pub(crate) told: Identifiability,
+    /// The parameters that keep the values that were expected of them.
+    pub(crate) held: Vec<usize>,
     /// Whether the innovations of all runs are what the model says.
     pub(crate) consistency: Consistency,
     /// Whether the noise was found, or given.
@@ -58,6 +65,8 @@ pub(crate) struct CertifiedRun {
     pub(crate) budget: Budget,
     /// The place of each of these among all parameters.
     pub(crate) places: Vec<usize>,
+    /// How it moved, in words.
+    pub(crate) motion: String,
 }
 
 impl Certificate {
@@ -86,6 +95,8 @@ impl Certificate {
         });
         let fit = fit.along(SignedAxes::IDENTITY);
         let told = fit.identifiability();
+        let held = held(&fit, &told);
+        let fit = fit.with_prior_values_at(&held);
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
             let undone = undone(&prepared.run, &fit.models[place]);
@@ -102,7 +113,7 @@ impl Certificate {
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
         let Case { name: model, noise, remarks, .. } = case;
         let besides = Vec::new();
-        Ok(Self { model, runs: certified, fit, told, consistency, noise, besides, remarks })
+        Ok(Self { model, runs: certified, fit, told, held, consistency, noise, besides, remarks })
     }
 
     /// What the command delivers.
@@ -120,7 +131,7 @@ impl Certificate {
     /// The model with the estimates in it, and a calibration file for each run.
     pub(crate) fn files(&self) -> Vec<(String, Vec<u8>)> {
         let several = self.runs.len() > 1;
-        let mut model = files::model(&self.fit);
+        let mut model = files::model(self);
         model.terms.extend(self.besides.iter().cloned());
         let model = ModelFile::of(model).with_axes(self.fit.run_axes[0].into());
         let mut delivered = vec![("model.toml".into(), model.to_toml().into_bytes())];
@@ -129,7 +140,7 @@ impl Certificate {
                 (true, 1..) => format!("calibration-{}.toml", run + 1),
                 _ => "calibration.toml".into(),
             };
-            let file = files::calibration(&self.fit, &self.told, run);
+            let file = files::calibration(self, run);
             delivered.push((name, file.to_toml().into_bytes()));
         }
         delivered
@@ -197,6 +208,7 @@ impl CertifiedRun {
         });
         let truth = Truth { station, nav_from_table, recording: &undone, track };
         let budget = Budget::of(&truth, &asked, &covariance);
+        let motion = motion(&prepared, &nav_from_table, given.len());
         let times = given.iter().flat_map(|&rest| fit.linear[rest].ends()).collect();
         Ok(Self {
             prepared,
@@ -208,8 +220,48 @@ impl CertifiedRun {
             after,
             budget,
             places,
+            motion,
         })
     }
+}
+
+/// The parameters that are left at the values that were expected of them: those of which the data would tell nothing
+/// if all else were known, and those that they hardly tell better than a data sheet. What an earlier calibration said of a parameter is an estimate as good as this one.
+fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
+    let is_held = |&place: &usize| {
+        let role = |run: usize| {
+            let here = fit.in_run(&fit.parameters[place], run)?;
+            Some(fit.models[run].terms[here.term].roles[here.parameter])
+        };
+        let role = (0..fit.models.len()).find_map(role);
+        let visible = |lost: &Lost| lost.unknown != place || lost.visible;
+        role == Some(Role::Free) || !told.rank.lost.iter().all(visible)
+    };
+    told.unobservable().into_iter().filter(is_held).collect()
+}
+
+/// How a run moved that consists of so many rests, or turns.
+fn motion(prepared: &Prepared, nav_from_table: &Dcm<Nav, Table>, rests: usize) -> String {
+    if rests > 1 {
+        return format!("{rests} rests");
+    }
+    let rates = steady_rates(&prepared.run.recording);
+    let tilt = nav_from_table.matrix()[(2, 2)].clamp(-1.0, 1.0).acos() / DEG;
+    let rate = |rate: &f64| format!("{:.2}", rate / DEG);
+    let at = match rates.as_slice() {
+        [] => "no steady table rate".into(),
+        [only] => format!("a table rate of {} deg/s", rate(only)),
+        [rates @ .., last] if rates.len() < MOST_RATES => {
+            let rates: Vec<String> = rates.iter().map(rate).collect();
+            format!("table rates of {} and {} deg/s", rates.join(", "), rate(last))
+        }
+        many => {
+            let extreme = |pick: fn(f64, f64) -> f64| many.iter().copied().reduce(pick);
+            let [least, most] = [f64::min, f64::max].map(|pick| extreme(pick).unwrap_or_default());
+            format!("{} table rates from {} to {} deg/s", many.len(), rate(&least), rate(&most))
+        }
+    };
+    format!("{at}, axis of rotation {tilt:.1} deg off the vertical")
 }
 
 /// A run's readings with the errors of a model undone.

@@ -1,11 +1,12 @@
 //! What a calibration leaves for other programs: the errors to undo, the model, and how to undo them.
 
 use nalgebra::DMatrix;
-use rins_estimation::{Fit, Identifiability};
+use rins_estimation::Fit;
 use rins_io::{Covariance, Parameter};
 use rins_terms::{Model, Role, catalogue};
 
-use crate::view::told::meaning;
+use crate::commands::calibrate::Certificate;
+use crate::view::told::observability;
 
 /// The compensation, in one line.
 pub(crate) const EQUATION: &str = "true = measured − (bias + [S, M] true + terms(true)); with no terms, true = (I + [S, M])⁻¹ (measured − bias)";
@@ -29,7 +30,11 @@ fn of_run_alone(id: &str) -> bool {
 }
 
 /// The calibration file of one run: what its sensors and its encoder get wrong, along the sensors' own axes.
-pub(super) fn calibration(fit: &Fit, told: &Identifiability, run: usize) -> rins_io::Calibration {
+///
+/// Of what is not observable the file has the value that was expected; a combination stands there as its parts, and a note says
+/// under which motion they are that combination.
+pub(super) fn calibration(certificate: &Certificate, run: usize) -> rins_io::Calibration {
+    let fit = &certificate.fit;
     let axes = fit.run_axes[run];
     let (error, mut terms) = fit.models[run].split();
     terms.terms.retain(|chosen| !of_run_alone(chosen.term.id));
@@ -64,7 +69,7 @@ pub(super) fn calibration(fit: &Fit, told: &Identifiability, run: usize) -> rins
     }
     rins_io::Calibration {
         sigmas,
-        notes: notes(told, &places),
+        notes: notes(certificate, run, &places),
         terms,
         spin: axes.into(),
         covariance: covariance(fit, &places),
@@ -84,16 +89,47 @@ fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {
     })
 }
 
-fn notes(told: &Identifiability, places: &[usize]) -> Vec<String> {
+fn notes(certificate: &Certificate, run: usize, places: &[usize]) -> Vec<String> {
+    let Certificate { fit, told, .. } = certificate;
+    let note = |&place: &usize| {
+        let mut note = format!(
+            "{}: {}",
+            told.unknowns[place].id,
+            observability(told, place, Some(certificate.value(place)))
+        );
+        if certificate.held.contains(&place) {
+            note += if fit.parameters[place].expected == 0.0 {
+                "; not compensated"
+            } else {
+                "; compensated by the value that was expected"
+            };
+        }
+        note
+    };
     let unseen = places.iter().filter(|&&place| !told.seen[place].identifiable);
-    unseen.map(|&place| format!("{}: {}", told.unknowns[place].id, meaning(told, place))).collect()
+    let mut notes: Vec<String> = unseen.map(note).collect();
+    if places.iter().any(|&place| !told.seen[place].aliases.is_empty()) {
+        let shared = places.iter().any(|&place| fit.parameters[place].run.is_none());
+        let of_all = certificate.runs.iter().filter(|_| shared);
+        let alone = certificate.runs[run..=run].iter().filter(|_| !shared);
+        let motions: Vec<&str> = of_all.chain(alone).map(|run| run.motion.as_str()).collect();
+        notes.push(format!(
+            "A combination is compensated by the values of its parts, which make that combination under the motion that \
+             was calibrated and under no other: {}.",
+            motions.join("; ")
+        ));
+    }
+    notes
 }
 
 /// The first run's model with the estimates in it, the sigma of each as what is known of it now.
-pub(super) fn model(fit: &Fit) -> Model {
+///
+/// What keeps its expected value is as free as it was.
+pub(super) fn model(certificate: &Certificate) -> Model {
+    let fit = &certificate.fit;
     let mut model = fit.model().clone();
-    for estimate in &fit.parameters {
-        if let Some(here) = fit.in_run(estimate, 0) {
+    for (place, estimate) in fit.parameters.iter().enumerate() {
+        if let Some(here) = fit.in_run(estimate, 0).filter(|_| !certificate.held.contains(&place)) {
             model.terms[here.term].roles[here.parameter] = Role::Within(estimate.sigma);
         }
     }

@@ -22,6 +22,7 @@ use crate::commands::setup::{setup, shown};
 use crate::commands::statics::{static_intervals, statics_json};
 use crate::outcome::Outcome;
 use crate::progress;
+use crate::view::told::OBSERVABLE;
 use crate::view::{
     SYSTEMATIC_NOTE, budget_section, calibration_report, calibration_text, compensation_section,
     euler_json, meaning,
@@ -264,6 +265,7 @@ fn parameter_json(parameter: &Parameter) -> Value {
         "sigma": parameter.sigma / factor,
         "unit": parameter.kind.unit(),
         "identifiable": parameter.identifiable(),
+        "observability": if parameter.identifiable() { OBSERVABLE } else { "combination" },
         "shown": if parameter.identifiable() { "alone" } else { "combination" },
         "aliases": parameter.partners.iter().map(|partner| partner.id.as_str()).collect::<Vec<_>>(),
         "alias_coefficients": coefficients,

@@ -2,7 +2,7 @@
 
 use rins_frames::units::DEG;
 use rins_io::Loaded;
-use rins_motion::Inspection;
+use rins_motion::{Inspection, Recording};
 
 use super::longest;
 
@@ -30,7 +30,7 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     }
     let recording = &loaded.recording;
     if recording.table_angle.is_some() || recording.table_rate.is_some() {
-        let rates = steady_rates(loaded);
+        let rates = steady_rates(recording);
         let words: Vec<String> = rates.iter().map(|rate| format!("{:.2}", rate / DEG)).collect();
         let at = words.join(", ");
         match rates.len() {
@@ -56,10 +56,10 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
 }
 
 /// The steady rates about the axis of rotation other than zero, each once \[rad/s\].
-fn steady_rates(loaded: &Loaded) -> Vec<f64> {
+pub(crate) fn steady_rates(recording: &Recording) -> Vec<f64> {
     let mut rates: Vec<f64> = Vec::new();
     let mut halves = [(0.0, 0.0); 2];
-    for sample in &loaded.recording.increments {
+    for sample in &recording.increments {
         let half = &mut halves[usize::from(halves[0].1 >= STRETCH / 2.0)];
         half.0 += sample.angle.components().z;
         half.1 += sample.interval;

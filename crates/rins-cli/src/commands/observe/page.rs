@@ -25,7 +25,7 @@ pub(super) fn report(found: &Found) -> Report {
     }
     sections.extend(found.observed.iter().map(schedule_section));
     Report {
-        title: format!("What {} tells", list(&names)),
+        title: format!("Observability under {}", list(&names)),
         subtitle: format!("rins observe, model {}", found.model),
         summary,
         sections,
@@ -42,7 +42,7 @@ fn comparison_section(found: &Found) -> Section {
     let rows = rows.map(|row| row.into_iter().map(Cell::text).collect()).collect();
     Section {
         heading: "Side by side".into(),
-        intro: "1σ of each parameter with what is known beforehand; a star marks what the data do not tell by itself."
+        intro: "1σ of each parameter with what is known beforehand; a star marks what is not observable by itself."
             .into(),
         items: vec![Item::Table(Table { caption: "Schedules".into(), columns, rows })],
     }
@@ -71,7 +71,7 @@ fn schedule_section(observed: &Observed) -> Section {
             Column::number("with both"),
             Column::text("unit"),
             Column::text("under this schedule"),
-            Column::text("what the data tell"),
+            Column::text("observability"),
         ],
         rows: rows.collect(),
     })];
@@ -80,7 +80,7 @@ fn schedule_section(observed: &Observed) -> Section {
     Section {
         heading: observed.schedule.name.clone(),
         intro: format!(
-            "{:.0} s. {} The least that is told has {:.0e} of its information for itself, what is invisible {:.0e}.",
+            "{:.0} s. {} Of its information the least observable combination has {:.0e} for itself, the null space {:.0e}.",
             observed.schedule.duration(),
             rank_sentence(told),
             told.rank.least_told,

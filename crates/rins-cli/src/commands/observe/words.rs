@@ -136,7 +136,7 @@ pub(super) fn text(found: &Found) -> String {
         observed.schedule.duration()
     );
     let _ = writeln!(text, "  {}\n", rank_sentence(told));
-    let heading = ["parameter", "unit", "known", "data alone", "with both", "what the data tell"];
+    let heading = ["parameter", "unit", "known", "data alone", "with both", "observability"];
     let mut rows = vec![heading.map(String::from).to_vec()];
     rows.extend((0..told.unknowns.len()).map(|place| row(told, place).to_vec()));
     text.push_str(&aligned(&rows));
@@ -183,7 +183,7 @@ pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
     let mut rows = vec![
         line("schedule", &|observed| observed.schedule.name.clone()),
         line("duration [s]", &|observed| format!("{:.0}", observed.schedule.duration())),
-        line("exactly invisible", &|observed| {
+        line("null space", &|observed| {
             (observed.told.unknowns.len() - observed.told.rank.rank()).to_string()
         }),
     ];
@@ -217,6 +217,6 @@ pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
             })
         }));
     }
-    rows.push(line("* not told by itself", &|_| String::new()));
+    rows.push(line("* not observable by itself", &|_| String::new()));
     rows
 }

@@ -3,14 +3,14 @@
 use rins_estimation::{Identifiability, Shown};
 use serde_json::{Value, json};
 
-use super::{Sorted, coefficient, gauges};
+use super::{OBSERVABLE, Sorted, coefficient, gauges};
 
 /// What is told of all parameters together, and how each is told.
 pub(crate) fn identifiability_json(told: &Identifiability) -> Value {
     let ids = |places: &[usize]| -> Vec<&str> {
         places.iter().map(|&place| told.unknowns[place].id.as_str()).collect()
     };
-    let Sorted { alone, in_combination, not_shown } = Sorted::of(told);
+    let Sorted { observable, in_combination, unobservable } = Sorted::of(told);
     let gauges: Vec<Value> = gauges(told)
         .into_iter()
         .map(|gauge| {
@@ -26,9 +26,9 @@ pub(crate) fn identifiability_json(told: &Identifiability) -> Value {
         "told_better_than_known": told.rank.kept.len(),
         "least_told": told.rank.least_told,
         "most_null": told.rank.most_null,
-        "alone": ids(&alone),
+        "alone": ids(&observable),
         "in_combination": ids(&in_combination),
-        "not_shown": ids(&not_shown),
+        "not_shown": ids(&unobservable),
         "gauges": gauges,
     })
 }
@@ -66,6 +66,11 @@ pub(crate) fn parameter_json(told: &Identifiability, place: usize) -> Value {
         "data_sigma": seen.data_sigma.is_finite().then_some(seen.data_sigma / factor),
         "sigma": seen.sigma / factor,
         "identifiable": seen.identifiable,
+        "observability": match seen.shown {
+            _ if seen.identifiable => OBSERVABLE,
+            Shown::Combination | Shown::Part { .. } => "combination",
+            Shown::Alone | Shown::Nothing => "prior_dominated",
+        },
         "shown": shown,
         "exactly": seen.aliases.iter().any(|alias| alias.exactly),
         "aliases": aliases,

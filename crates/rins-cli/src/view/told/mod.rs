@@ -10,10 +10,10 @@ pub(crate) use self::json::{identifiability_json, parameter_json};
 use crate::number::figure;
 use crate::report::{Cell, Tone};
 
-/// How many of those of which nothing is told are named in a sentence.
+/// How many of those that are unobservable are named in a sentence.
 const MOST_NAMED: usize = 12;
 
-/// What stands beside a parameter in a sum.
+/// What stands beside a parameter in a combination.
 pub(crate) struct Summand<'a> {
     /// How much one of its unit counts, in the parameter's unit.
     pub(crate) coefficient: f64,
@@ -23,13 +23,13 @@ pub(crate) struct Summand<'a> {
     pub(crate) name: String,
 }
 
-/// A sum as a person reads it, such as `only gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`.
+/// A combination as a person reads it, such as `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`.
 pub(crate) fn sum_in_words<'a>(
     name: &str,
     unit: &str,
     others: impl IntoIterator<Item = Summand<'a>>,
 ) -> String {
-    let mut sum = format!("only {name}");
+    let mut sum = name.to_owned();
     for other in others {
         let sign = if other.coefficient < 0.0 { '-' } else { '+' };
         let size = figure(other.coefficient.abs(), 3);
@@ -45,8 +45,16 @@ pub(crate) fn sum_in_words<'a>(
     sum
 }
 
-/// What is told of a parameter alone.
-pub(crate) const ITSELF: &str = "itself";
+/// The observability of a parameter that the data show by itself.
+pub(crate) const OBSERVABLE: &str = "observable";
+
+/// The observability of a parameter that only this combination shows, and what the combination was found to be.
+pub(crate) fn only_in(combination: &str, found: Option<(f64, f64, &str)>) -> String {
+    let found = found.map(|(value, sigma, unit)| {
+        format!(" = {} ± {} {unit} (1σ)", figure(value, 4), figure(sigma, 2))
+    });
+    format!("observable only in the combination {combination}{}", found.unwrap_or_default())
+}
 
 /// The name of an unknown, with its run if there are several.
 pub(crate) fn name(told: &Identifiability, place: usize) -> String {
@@ -57,13 +65,22 @@ pub(crate) fn name(told: &Identifiability, place: usize) -> String {
     }
 }
 
-/// What of an unknown is told, as a person reads it.
+/// The observability of an unknown, as a person reads it.
 pub(crate) fn meaning(told: &Identifiability, place: usize) -> String {
+    observability(told, place, None)
+}
+
+/// The same with what the combination was found to be, if one is what is observable: value and 1σ in SI units.
+pub(crate) fn observability(
+    told: &Identifiability,
+    place: usize,
+    found: Option<(f64, f64)>,
+) -> String {
     let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
     match seen.shown {
-        Shown::Alone if seen.identifiable => ITSELF.into(),
-        Shown::Alone => "itself, hardly better than it was known".into(),
-        Shown::Nothing => "nothing that was not known before".into(),
+        _ if seen.identifiable => OBSERVABLE.into(),
+        Shown::Alone => "prior-dominated, hardly better known than before".into(),
+        Shown::Nothing => "unobservable (prior-dominated)".into(),
         Shown::Combination | Shown::Part { .. } => {
             let summand = |alias: &Alias| Summand {
                 coefficient: coefficient(told, place, alias),
@@ -72,8 +89,11 @@ pub(crate) fn meaning(told: &Identifiability, place: usize) -> String {
             };
             let others = seen.aliases.iter().map(summand);
             let sum = sum_in_words(&name(told, place), unknown.unit.symbol, others);
+            let unit = unknown.unit;
+            let found =
+                found.map(|(value, sigma)| (value / unit.factor, sigma / unit.factor, unit.symbol));
             let gauge = seen.gauge.map(|gauge| format!("; a choice of {}", gauge.name));
-            sum + &gauge.unwrap_or_default()
+            only_in(&sum, found) + &gauge.unwrap_or_default()
         }
     }
 }
@@ -84,55 +104,56 @@ pub(crate) fn coefficient(told: &Identifiability, place: usize, alias: &Alias) -
     alias.coefficient * factor(alias.unknown) / factor(place)
 }
 
-/// The same as a badge.
+/// The observability as a badge.
 pub(crate) fn badge(told: &Identifiability, place: usize) -> Cell {
     let seen = &told.seen[place];
     match seen.shown {
-        _ if seen.identifiable => Cell::badge(Tone::Good, "identifiable"),
+        _ if seen.identifiable => Cell::badge(Tone::Good, OBSERVABLE),
         Shown::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
         Shown::Combination | Shown::Part { .. } => Cell::badge(Tone::Warning, "combination"),
-        Shown::Alone | Shown::Nothing => Cell::badge(Tone::Neutral, "not shown"),
+        Shown::Alone | Shown::Nothing => Cell::badge(Tone::Neutral, "unobservable"),
     }
 }
 
-/// Which unknowns are told alone, which only in sums, and which not at all.
+/// Which unknowns are observable, which only in combinations, and which not.
 struct Sorted {
-    alone: Vec<usize>,
+    observable: Vec<usize>,
     in_combination: Vec<usize>,
-    not_shown: Vec<usize>,
+    unobservable: Vec<usize>,
 }
 
 impl Sorted {
     fn of(told: &Identifiability) -> Self {
-        let (alone, others): (Vec<usize>, Vec<usize>) =
+        let (observable, others): (Vec<usize>, Vec<usize>) =
             (0..told.seen.len()).partition(|&place| told.seen[place].identifiable);
-        let (not_shown, in_combination) =
-            others.into_iter().partition(|&place| told.seen[place].aliases.is_empty());
-        Self { alone, in_combination, not_shown }
+        let in_combination =
+            others.into_iter().filter(|&place| !told.seen[place].aliases.is_empty()).collect();
+        Self { observable, in_combination, unobservable: told.unobservable() }
     }
 }
 
 /// How many are told how, in a sentence or two.
 pub(crate) fn rank_sentence(told: &Identifiability) -> String {
-    let Sorted { alone, in_combination, not_shown } = Sorted::of(told);
+    let Sorted { observable, in_combination, unobservable } = Sorted::of(told);
     let (n, rank) = (told.unknowns.len(), told.rank.rank());
     let mut text = format!(
-        "Of {n} parameters the data tell {} by themselves and {} only in combinations",
-        alone.len(),
+        "Of {n} parameters {} are observable and {} only in combinations",
+        observable.len(),
         in_combination.len()
     );
-    if !not_shown.is_empty() {
+    if !unobservable.is_empty() {
         let mut names: Vec<String> =
-            not_shown.iter().take(MOST_NAMED).map(|&place| name(told, place)).collect();
-        if not_shown.len() > MOST_NAMED {
-            names.push(format!("{} others", not_shown.len() - MOST_NAMED));
+            unobservable.iter().take(MOST_NAMED).map(|&place| name(told, place)).collect();
+        if unobservable.len() > MOST_NAMED {
+            names.push(format!("{} others", unobservable.len() - MOST_NAMED));
         }
-        let _ = write!(text, ", and nothing of {}", list(&names));
+        let verb = if unobservable.len() == 1 { "is" } else { "are" };
+        let _ = write!(text, "; {} {verb} unobservable", list(&names));
     }
     let lost = match n - rank {
-        0 => "no combination is invisible altogether".to_string(),
-        1 => "one combination is exactly invisible".to_string(),
-        lost => format!("{lost} combinations are exactly invisible"),
+        0 => "there is no null space".to_string(),
+        1 => "the null space has one dimension".to_string(),
+        lost => format!("the null space has {lost} dimensions"),
     };
     format!("{text}; {lost}.")
 }
