@@ -189,6 +189,9 @@ pub(crate) struct Navigate {
     /// Compensate the readings with this calibration first
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: Option<PathBuf>,
+    /// Compensate at temperatures far outside those that were calibrated too
+    #[arg(long, requires = "calibration")]
+    pub(crate) extrapolate: bool,
 }
 
 #[derive(Debug, Args)]
@@ -360,6 +363,9 @@ pub(crate) struct Apply {
     /// How to write it; by default .csv, .parquet, .mat, .imu (psins) and .bin (psins-bin) tell
     #[arg(long, value_enum)]
     pub(crate) format: Option<Format>,
+    /// Compensate at temperatures far outside those that were calibrated too
+    #[arg(long)]
+    pub(crate) extrapolate: bool,
 }
 
 #[derive(Debug, Args)]

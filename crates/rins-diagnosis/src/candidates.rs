@@ -57,8 +57,9 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
         .iter()
         .copied()
         .filter(|term| term.is_signal() && !GAUGES.contains(&term.id))
-        .filter(|term| term.needs.iter().all(|need| runs.iter().any(|run| offers(run, *need))))
+        .filter(|term| term.needs.iter().all(|need| offer(runs, *need)))
         .flat_map(|term| shapes(duration(runs), term))
+        .map(|candidate| candidate.about(runs))
         .filter(|candidate| has_room(model, &candidate.chosen, duration(runs)))
         .filter(|candidate| !is_latency(runs, &candidate.chosen))
         .collect()
@@ -105,13 +106,17 @@ pub(crate) fn duration(runs: &[Run]) -> f64 {
     runs.iter().map(of).fold(0.0, f64::max)
 }
 
-fn offers(run: &Run, need: Need) -> bool {
+fn offer(runs: &[Run], need: Need) -> bool {
     match need {
-        Need::Temperature => run.recording.temperature.as_ref().is_some_and(|list| {
-            let most = list.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            most - list.iter().copied().fold(f64::INFINITY, f64::min) > LEAST_WARMING
-        }),
-        Need::TableAngle => matches!(run.rig.reference, Reference::Encoder { .. }),
+        // From run to run is a change too.
+        Need::Temperature => {
+            let all = || runs.iter().filter_map(|run| run.recording.temperature.as_ref()).flatten();
+            let most = all().copied().fold(f64::NEG_INFINITY, f64::max);
+            most - all().copied().fold(f64::INFINITY, f64::min) > LEAST_WARMING
+        }
+        Need::TableAngle => {
+            runs.iter().any(|run| matches!(run.rig.reference, Reference::Encoder { .. }))
+        }
         // Where rates, tilts or senses are too few, the information says so by itself.
         _ => true,
     }
@@ -163,6 +168,17 @@ fn allows(setting: &Setting, value: f64) -> bool {
 }
 
 impl Candidate {
+    /// The same about the temperature at which the runs begin, if it depends on temperature: what the sheet says of a bias is
+    /// true of the runs, whatever its coefficient.
+    fn about(mut self, runs: &[Run]) -> Self {
+        let first = |run: &Run| run.recording.temperature.as_ref()?.first().copied();
+        let place = self.chosen.term.setting(catalogue::REFERENCE_TEMPERATURE.name);
+        if let Some((place, start)) = place.zip(runs.iter().find_map(first)) {
+            self.chosen.settings[place] = start;
+        }
+        self
+    }
+
     /// An effect that was found, of no size yet, with one of its settings moved by so much.
     pub(crate) fn beside(found: &Chosen, setting: usize, by: f64) -> Self {
         let mut chosen = found.clone().with_values(&vec![0.0; found.values.len()]);

@@ -6,14 +6,18 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 pub use covariance::Covariance;
+use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_motion::SignedAxes;
+use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Chosen, Model};
 
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
+use crate::model::REFERENCE;
 use crate::output::{Overwrite, write_file};
 use crate::parameter::{self, LeftOut, Parameter, parameters};
+use crate::quantity::kinds;
 use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};
@@ -23,7 +27,7 @@ use crate::term::{self, Use};
 const SCHEMAS: [u64; 2] = [1, 2];
 
 /// The keys of the second version alone.
-const NEWER: [&str; 2] = ["term", "covariance"];
+const NEWER: [&str; 4] = ["term", "covariance", REFERENCE, "range"];
 
 /// What the axis of rotation may be.
 const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
@@ -43,6 +47,12 @@ const MEANING: &str = "\
 const TERMS: &str = "
 # What else is off. Each term adds to a reading what its equation makes of the true rate and force, and all are
 # undone together: true = measured - (bias + [S, M] true + terms(true)), repeated until nothing changes.
+";
+
+/// What stands above the range.
+const RANGE: &str = "
+# What the runs covered from which the calibration was made; rate is about the axis of rotation.
+[range]
 ";
 
 /// What stands above the standard deviations.
@@ -92,6 +102,19 @@ pub struct Calibration {
     pub terms: Model,
     /// The covariance of what was estimated, by ids along the sensors' own axes.
     pub covariance: Option<Covariance>,
+    /// The temperature at which the values are given, if terms depend on temperature \[°C\].
+    pub reference_temperature: f64,
+    /// What the runs covered from which it was made.
+    pub range: CalibratedRange,
+}
+
+/// What was covered by the runs from which a calibration was made: least and largest of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CalibratedRange {
+    /// The temperature \[°C\].
+    pub temperature: Option<[f64; 2]>,
+    /// The rate about the axis of rotation, in the sense of the sensor's own axis \[rad/s\].
+    pub rate: Option<[f64; 2]>,
 }
 
 impl Calibration {
@@ -105,6 +128,8 @@ impl Calibration {
             notes: Vec::new(),
             terms: Model::default(),
             covariance: None,
+            reference_temperature: REFERENCE_TEMPERATURE.default,
+            range: CalibratedRange::default(),
         }
     }
 
@@ -127,7 +152,8 @@ impl Calibration {
     }
 
     fn from_document(document: &Document) -> Result<Self, IoError> {
-        let known = ["schema", "spin", "notes", "gyro", "accel", "sigma", NEWER[0], NEWER[1]];
+        let older = ["schema", "spin", "notes", "gyro", "accel", "sigma"];
+        let known: Vec<&str> = older.into_iter().chain(NEWER).collect();
         let root = Section::root(document, &known)?;
         match root.count("schema", "1 or 2")? {
             Some(schema) if !SCHEMAS.contains(&schema) => {
@@ -151,13 +177,31 @@ impl Calibration {
             Some(name) => Axes::spin(name).ok_or_else(|| root.not_allowed("spin", SPINS))?,
             None => Axes::IDENTITY,
         };
-        let terms = terms(&root, &spin.into())?;
+        let reference = root.celsius(REFERENCE)?;
+        let terms = terms(&root, &spin.into(), reference)?;
         let ids = parameters(&error).into_iter().map(|parameter| parameter.id);
         let of_terms = own_places(&terms, &spin.into()).into_iter().map(|(id, _)| id);
         let known: Vec<String> = ids.chain(of_terms).collect();
         let covariance = covariance::read(&root, &known)?;
         let path = document.path.clone();
-        let calibration = Self { path, error, spin, sigmas, notes, terms, covariance };
+        let range = match root.section("range", &["temperature", "rate"])? {
+            Some(section) => CalibratedRange {
+                temperature: section.celsius_range("temperature")?,
+                rate: section.quantity_range("rate", &kinds::TABLE_RATE)?,
+            },
+            None => CalibratedRange::default(),
+        };
+        let calibration = Self {
+            path,
+            error,
+            spin,
+            sigmas,
+            notes,
+            terms,
+            covariance,
+            reference_temperature: reference.unwrap_or(REFERENCE_TEMPERATURE.default),
+            range,
+        };
         calibration.compensation()?;
         Ok(calibration)
     }
@@ -212,11 +256,15 @@ impl Calibration {
 
     /// The text of the calibration's file.
     pub fn to_toml(&self) -> String {
-        let newer = !self.terms.terms.is_empty() || self.covariance.is_some();
+        let ranged = self.range != CalibratedRange::default();
+        let newer = !self.terms.terms.is_empty() || self.covariance.is_some() || ranged;
         let mut text = format!("{MEANING}schema = {}\n", SCHEMAS[usize::from(newer)]);
         if self.spin != Axes::IDENTITY {
             // Writing to a string cannot fail, here and below.
             let _ = writeln!(text, "spin = {:?}", self.spin.spin_name());
+        }
+        if newer {
+            let _ = writeln!(text, "{REFERENCE} = \"{} degC\"", self.reference_temperature);
         }
         if !self.notes.is_empty() {
             text.push_str("notes = [\n");
@@ -224,6 +272,16 @@ impl Calibration {
                 let _ = writeln!(text, "    {},", quoted(note));
             }
             text.push_str("]\n");
+        }
+        let CalibratedRange { temperature, rate } = self.range;
+        if ranged {
+            text.push_str(RANGE);
+        }
+        if let Some([low, high]) = temperature {
+            let _ = writeln!(text, "temperature = [\"{low} degC\", \"{high} degC\"]");
+        }
+        if let Some([low, high]) = rate.map(|range| range.map(|rate| rate / DEG)) {
+            let _ = writeln!(text, "rate = [\"{low} deg/s\", \"{high} deg/s\"]");
         }
         let mut push = |header: &str, triad: &TriadError, keys| {
             text.push_str("\n[");
@@ -272,10 +330,10 @@ fn both(section: &Section<'_>) -> Result<ImuError, IoError> {
 }
 
 /// The terms beyond bias, scale and misalignment.
-fn terms(root: &Section<'_>, axes: &SignedAxes) -> Result<Model, IoError> {
+fn terms(root: &Section<'_>, axes: &SignedAxes, reference: Option<f64>) -> Result<Model, IoError> {
     let mut model = Model::default();
     for table in term::tables(root, "term")? {
-        let chosen = term::read(&table, Use::Calibration, axes)?;
+        let chosen = term::read_about(&table, Use::Calibration, axes, reference)?;
         term::refuse_triads(&table, &chosen, |sensor| format!("[{sensor}]"))?;
         if !chosen.term.is_signal() {
             return Err(table.conflict("id", format!("{} cannot be undone", chosen.term.id)));

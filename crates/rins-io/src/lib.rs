@@ -39,7 +39,7 @@ mod term;
 mod unfinished;
 mod write;
 
-pub use calibration::{Calibration, Covariance};
+pub use calibration::{CalibratedRange, Calibration, Covariance};
 pub use campaign::{
     GridCell, Heading, Identity, Journal, PartRuns, Record, Row, RunRows, ScenarioGrid, write_part,
 };

@@ -1,8 +1,10 @@
 //! Model files: which terms are estimated, from where they start, and what is known of them beforehand.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rins_motion::SignedAxes;
+use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Chosen, Model};
 
 use crate::document::Document;
@@ -14,6 +16,9 @@ use crate::term::{self, Use};
 
 /// The version of the format.
 const SCHEMA: u64 = 1;
+
+/// The key of the temperature about which coefficients of temperature are, where a term says nothing else.
+pub(crate) const REFERENCE: &str = REFERENCE_TEMPERATURE.name;
 
 /// What every model file begins with.
 const MEANING: &str = "\
@@ -95,7 +100,7 @@ impl ModelFile {
     }
 
     fn from_document(document: &Document, axes: &Axes) -> Result<Self, IoError> {
-        let root = Section::root(document, &["schema", "base", "term"])?;
+        let root = Section::root(document, &["schema", "base", REFERENCE, "term"])?;
         match root.count("schema", "1")? {
             Some(SCHEMA) => {}
             Some(_) => return Err(root.not_allowed("schema", "1")),
@@ -105,10 +110,11 @@ impl ModelFile {
             return Err(root.missing("base", r#"one of "full", "paper12", "none""#));
         };
         let mut model = base();
+        let reference = root.celsius(REFERENCE)?;
         // The terms of the base that the file has not said anything of.
         let mut unsaid: Vec<bool> = vec![true; model.terms.len()];
         for table in term::tables(&root, "term")? {
-            let chosen = term::read(&table, Use::Model, &SignedAxes::from(*axes))?;
+            let chosen = term::read_about(&table, Use::Model, &SignedAxes::from(*axes), reference)?;
             match model.terms.iter().position(|listed| same(listed, &chosen)) {
                 None => model.terms.push(chosen),
                 Some(place) if unsaid.get(place) == Some(&true) => {
@@ -135,6 +141,10 @@ impl ModelFile {
         let (name, base) =
             bases.find(|(_, base)| opens(base)).unwrap_or(("none", Model::default()));
         let mut text = format!("{MEANING}schema = {SCHEMA}\nbase = {name:?}\n");
+        if let Some(reference) = self.model.reference_temperature() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{REFERENCE} = \"{reference} degC\"");
+        }
         for (place, chosen) in terms.iter().enumerate() {
             if base.terms.get(place) != Some(chosen) {
                 text.push_str(&term::written(chosen, Use::Model, &SignedAxes::from(self.axes)));

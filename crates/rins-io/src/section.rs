@@ -2,8 +2,11 @@
 
 use crate::document::{Document, Entry, Node, Value};
 use crate::error::{IoError, KeyError, KeyProblem};
-use crate::quantity::Kind;
+use crate::quantity::{Dimension, Kind, Quantity};
 use crate::suggestion::nearest;
+
+/// What a temperature should be, in words.
+pub(crate) const CELSIUS: &str = r#"a temperature such as "20 degC""#;
 
 /// A table of a file: a `[header]`, or an inline table behind a key.
 #[derive(Clone, Debug)]
@@ -120,6 +123,58 @@ impl<'d> Section<'d> {
     pub(crate) fn quantity(&self, key: &str, kind: &Kind) -> Result<Option<f64>, IoError> {
         let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };
         self.quantity_of(key, value, kind).map(Some)
+    }
+
+    /// The temperature behind `key` \[°C\]. In kelvin it would be read as a difference.
+    pub(crate) fn celsius(&self, key: &str) -> Result<Option<f64>, IoError> {
+        let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };
+        self.celsius_of(key, value).map(Some)
+    }
+
+    /// The range of temperatures behind `key` \[°C\].
+    pub(crate) fn celsius_range(&self, key: &str) -> Result<Option<[f64; 2]>, IoError> {
+        let expected = r#"two temperatures such as ["18 degC", "25 degC"], the lower one first"#;
+        self.range(key, expected, |value| self.celsius_of(key, value))
+    }
+
+    /// The range of quantities behind `key`, in SI units and radians.
+    pub(crate) fn quantity_range(
+        &self,
+        key: &str,
+        kind: &Kind,
+    ) -> Result<Option<[f64; 2]>, IoError> {
+        let expected =
+            format!("two quantities such as [{0:?}, {0:?}], the lower one first", kind.example);
+        self.range(key, &expected, |value| self.quantity_of(key, value, kind))
+    }
+
+    fn range(
+        &self,
+        key: &str,
+        expected: &str,
+        read: impl Fn(&Value) -> Result<f64, IoError>,
+    ) -> Result<Option<[f64; 2]>, IoError> {
+        let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };
+        let Node::List(items) = &value.node else {
+            return Err(self.wrong_type(key, value, expected.into()));
+        };
+        let [low, high] = items.as_slice() else {
+            return Err(self.wrong_type(key, value, expected.into()));
+        };
+        let range = [read(low)?, read(high)?];
+        if range[0] <= range[1] { Ok(Some(range)) } else { Err(self.not_allowed(key, expected)) }
+    }
+
+    fn celsius_of(&self, key: &str, value: &Value) -> Result<f64, IoError> {
+        let Node::Text(text) = &value.node else {
+            return Err(self.wrong_type(key, value, CELSIUS.into()));
+        };
+        let is_celsius = ["degC", "°C"].iter().any(|unit| text.trim_end().ends_with(unit));
+        match (Quantity::parse(text), is_celsius) {
+            (Ok(Quantity { value, dimension: Dimension::TEMPERATURE }), true) => Ok(value),
+            (Err(error), _) => Err(self.error_at(key, Some(value.line), error.into())),
+            _ => Err(self.not_allowed(key, CELSIUS)),
+        }
     }
 
     /// The quantity behind `key`, which must be there.

@@ -5,7 +5,7 @@ use rins_imu::{ImuSpec, Seed};
 use rins_motion::Recording;
 
 use crate::acting::Acting;
-use crate::catalogue;
+use crate::catalogue::{self, REFERENCE_TEMPERATURE};
 use crate::moment::Moment;
 use crate::signals::Signals;
 use crate::term::{Action, Noises, Owner, Term};
@@ -65,6 +65,11 @@ impl Chosen {
             }
         }
         self
+    }
+
+    /// The temperature at which it is zero \[°C\], if it depends on temperature.
+    pub fn reference_temperature(&self) -> Option<f64> {
+        self.term.setting(REFERENCE_TEMPERATURE.name).map(|place| self.settings[place])
     }
 
     /// The same with these parameters, in SI units.
@@ -159,6 +164,24 @@ impl Model {
             &catalogue::AXIS_ATTITUDE,
         ];
         Self { terms: terms.map(|term| Chosen::new(term).estimated()).to_vec() }
+    }
+
+    /// The same with its coefficients of temperature about this temperature \[°C\].
+    ///
+    /// Biases and scale errors are then those at this temperature; values stay as they are.
+    #[must_use]
+    pub fn about_temperature(mut self, reference: f64) -> Self {
+        for chosen in &mut self.terms {
+            if let Some(place) = chosen.term.setting(REFERENCE_TEMPERATURE.name) {
+                chosen.settings[place] = reference;
+            }
+        }
+        self
+    }
+
+    /// The reference temperature of its first coefficient of temperature \[°C\], if it has one.
+    pub fn reference_temperature(&self) -> Option<f64> {
+        self.terms.iter().find_map(Chosen::reference_temperature)
     }
 
     /// The same with one term more.

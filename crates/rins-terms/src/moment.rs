@@ -67,10 +67,17 @@ pub struct Instant {
     pub sense: f64,
     /// The way its rate changed last: 1, -1, or 0 before it ever changed.
     pub rate_change: f64,
-    /// Its temperature above that at the start \[K\]; zero where none is known.
-    pub warming: f64,
+    /// Its temperature \[°C\], if it is known.
+    pub temperature: Option<f64>,
     /// How fast that changes, over five seconds on either side \[K/s\].
     pub warming_rate: f64,
+}
+
+impl Instant {
+    /// How far the temperature is above `reference`, both in °C \[K\]; zero where it is not known.
+    pub fn above(&self, reference: f64) -> f64 {
+        self.temperature.map_or(0.0, |temperature| temperature - reference)
+    }
 }
 
 /// How the table turned over a sample.

@@ -15,7 +15,8 @@ which `cargo run -p rins-terms --example catalogue_page` writes this page.
 Whatever is read is **read minus true**: an entry says what it adds to the rate `ω` that the gyros read, to the force `f`
 that the accelerometers read, to the angle `ζ` that the encoder reads, or by which rotation vector `θ` of the axis frame
 the table is truly tilted, which gyros and accelerometers feel. `H` is a step from 0 to 1, `t` the time since the run
-began, `T` a temperature. Where an entry speaks of x, y and z, it has a parameter for each.
+began, `T` a temperature and `T_ref` the reference temperature of the model, 20 °C where it says no other. Where an entry
+speaks of x, y and z, it has a parameter for each.
 
 Usual magnitudes are those of IMUs with **fibre-optic gyros / laser gyros / MEMS**; of accelerometers, pendulous /
 vibrating beam / MEMS; or of any table and place. \"Sheet\" is the 1σ of the IMU's data sheet. Effects marked † share an

@@ -241,8 +241,8 @@ impl Track {
         f64::from(self.senses[sample])
     }
 
-    fn warming(&self, sample: usize) -> f64 {
-        self.temperature.as_ref().map_or(0.0, |list| list[sample] - list[0])
+    fn temperature(&self, sample: usize) -> Option<f64> {
+        self.temperature.as_ref().map(|list| list[sample])
     }
 }
 
@@ -267,8 +267,8 @@ impl Moments<'_> {
         let [before, Stretch { rate, acceleration, .. }, after] = self.around;
         self.pass();
         let interval = track.intervals[sample];
-        let warming_before = track.warming(sample.saturating_sub(1));
-        let warming = track.warming(sample);
+        let temperature_before = track.temperature(sample.saturating_sub(1));
+        let temperature = track.temperature(sample);
         // A table that speeds up is behind the middle of its way for most of the time.
         let behind = 0.5 * rate * interval + acceleration * interval * interval / 12.0;
         let mean = Instant {
@@ -278,7 +278,7 @@ impl Moments<'_> {
             acceleration,
             sense: 0.5 * (track.sense(sample.saturating_sub(1)) + track.sense(sample)),
             rate_change: f64::from(track.rate_changes[sample]),
-            warming: 0.5 * (warming + warming_before),
+            temperature: temperature.zip(temperature_before).map(|(t, before)| t.midpoint(before)),
             warming_rate: track.warming_rates.as_ref().map_or(0.0, |list| list[sample]),
         };
         // The mean of a vector that turns at a constant rate is shorter than the vector.
@@ -304,7 +304,7 @@ impl Moments<'_> {
             angle: track.angles[sample + 1],
             rate: track.edges[sample + 1],
             sense: track.sense(sample),
-            warming,
+            temperature,
             ..mean
         };
         moment.mean = mean;

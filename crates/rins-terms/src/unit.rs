@@ -64,6 +64,8 @@ impl Unit {
     /// Minutes of arc \[rad\].
     pub const ARCMIN: Self = Self::new("arcmin", 60.0 * ARCSEC);
 
+    /// Degrees Celsius.
+    pub const CELSIUS: Self = Self::new("degC", 1.0);
     /// Seconds.
     pub const SECOND: Self = Self::new("s", 1.0);
     /// Hertz.

@@ -23,6 +23,7 @@ mod spin_axes;
 mod statics;
 mod support;
 mod synthetic;
+mod temperature;
 mod turned_over;
 mod unobservable;
 mod unread;

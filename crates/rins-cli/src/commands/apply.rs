@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use anyhow::Context;
+use rins_imu::ImuError;
 use rins_io::{Calibration, Loaded, LogFile, Overwrite, convert_changed};
 use rins_terms::{Model, Surroundings, compensated};
 use serde_json::json;
@@ -11,17 +12,21 @@ use crate::args::Apply;
 use crate::commands::check::refuse_mistaken;
 use crate::commands::convert::{format_of, remarks};
 use crate::commands::navigate::axis_attitude;
+use crate::commands::range::{Beyond, beyond};
 use crate::commands::repairs::repairs;
 use crate::commands::setup::shown;
 use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Outcome> {
-    let Apply { rig, calibration: file, output, format } = arguments;
+    let Apply { rig, calibration: file, output, format, extrapolate } = arguments;
     let format: LogFile = format_of(output, *format)?;
     let calibration = Calibration::read(file)?;
+    let mut found = Beyond::default();
     let converted = convert_changed(rig, output, format, overwrite, |loaded| {
         refuse_mistaken(loaded)?;
-        undo(&calibration, loaded).with_context(|| shown(file))?;
+        let run = calibration.in_run(&loaded.rig.spin)?;
+        found = beyond(&calibration, &run.1, loaded, *extrapolate)?;
+        undo(run, loaded).with_context(|| shown(file))?;
         anyhow::Ok(format!("Written by `rins apply` with the calibration {}.", shown(file)))
     })?;
     let triads = Model::from(&calibration.error);
@@ -37,7 +42,7 @@ pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Out
         shown(&converted.rig),
         undone.join(", ")
     );
-    for line in remarks(&converted) {
+    for line in found.notes.iter().cloned().chain(remarks(&converted)) {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {line}");
     }
@@ -51,6 +56,8 @@ pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Out
         "format": format.name(),
         "samples": converted.samples,
         "undone": undone,
+        "outside_calibrated_range": found.json,
+        "notes": found.notes,
         "exact": converted.differences.is_empty(),
         "left_out": converted.left_out,
         "time_origin_s": converted.time_origin,
@@ -60,8 +67,7 @@ pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Out
 }
 
 /// Takes what a calibration holds out of a run.
-fn undo(calibration: &Calibration, loaded: &mut Loaded) -> anyhow::Result<()> {
-    let (error, terms) = calibration.in_run(&loaded.rig.spin)?;
+fn undo((error, terms): (ImuError, Model), loaded: &mut Loaded) -> anyhow::Result<()> {
     if terms.terms.is_empty() {
         // Eq. (1) is undone sample by sample, wherever the axis points.
         let compensation = error.compensation()?;

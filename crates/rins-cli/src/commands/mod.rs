@@ -16,6 +16,7 @@ pub(crate) mod merge;
 pub(crate) mod monte_carlo;
 pub(crate) mod navigate;
 pub(crate) mod observe;
+pub(crate) mod range;
 pub(crate) mod repairs;
 mod setup;
 pub(crate) mod simulate;

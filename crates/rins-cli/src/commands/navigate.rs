@@ -17,6 +17,7 @@ use crate::args::Navigate;
 use crate::commands::align::{found, table};
 use crate::commands::calibrate::navigation_json;
 use crate::commands::check::refuse_mistaken;
+use crate::commands::range::{Beyond, beyond};
 use crate::commands::setup::{load, shown};
 use crate::outcome::Outcome;
 use crate::report::{Item, Report, Section};
@@ -33,9 +34,13 @@ pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
         let compensation = bias.compensation()?;
         runs.push(("gyro bias removed", navigated(&loaded, &start, Some(&compensation))));
     }
+    let mut found = Beyond::default();
     if let Some(file) = &arguments.calibration {
         let calibration = rins_io::Calibration::read(file)?;
-        runs.push(("compensated", undone(&loaded, &start, &calibration)?));
+        let (error, terms) = calibration.in_run(&loaded.rig.spin)?;
+        found = beyond(&calibration, &terms, &loaded, arguments.extrapolate)?;
+        let undone = undone(&loaded, &start, (error, terms)).with_context(|| shown(file))?;
+        runs.push(("compensated", undone));
     }
     for (name, run) in &runs {
         let EulerAngles { roll, pitch, yaw } = run.attitude_error;
@@ -46,7 +51,7 @@ pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
             shown(rig)
         );
     }
-    Ok(outcome(&runs, &start, &loaded, rig).of_log(&loaded))
+    Ok(outcome(&runs, &start, (&loaded, rig), &found).of_log(&loaded))
 }
 
 /// Where navigation starts.
@@ -123,9 +128,8 @@ fn navigated(
 fn undone(
     loaded: &Loaded,
     start: &Start,
-    calibration: &rins_io::Calibration,
+    (error, terms): (ImuError, Model),
 ) -> anyhow::Result<FreeNavigation> {
-    let (error, terms) = calibration.in_run(&loaded.rig.spin)?;
     if terms.terms.is_empty() {
         return Ok(navigated(loaded, start, Some(&error.compensation()?)));
     }
@@ -133,8 +137,7 @@ fn undone(
     let around = Surroundings::new(loaded.station, start.nav_from_table);
     let mut model = Model::from(&error);
     model.terms.extend(terms.terms);
-    let whole =
-        compensated(&model, around, &loaded.recording).with_context(|| shown(&calibration.path))?;
+    let whole = compensated(&model, around, &loaded.recording)?;
     let first = whole.len() - start.recording.len();
     let angles = table_angles(&whole, latency(loaded))
         .map_or_else(|| start.angles.clone(), |angles| angles[first..].to_vec());
@@ -151,8 +154,8 @@ fn latency(loaded: &Loaded) -> f64 {
 fn outcome(
     runs: &[(&'static str, FreeNavigation)],
     start: &Start,
-    loaded: &Loaded,
-    rig: &Path,
+    (loaded, rig): (&Loaded, &Path),
+    beyond: &Beyond,
 ) -> Outcome {
     let recording = &start.recording;
     let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
@@ -192,6 +195,7 @@ fn outcome(
             run.position_error.norm()
         )
     }))
+    .chain(beyond.notes.iter().cloned())
     .collect();
     let mut text = format!("{title}\n");
     for sentence in &summary {
@@ -221,12 +225,10 @@ fn outcome(
             ],
         }],
     };
-    Outcome {
-        json: json(runs, start, duration, rig),
-        text,
-        report: Some(report),
-        ..Outcome::default()
-    }
+    let mut json = json(runs, start, duration, rig);
+    json["outside_calibrated_range"] = beyond.json.clone();
+    json["notes"] = json!(beyond.notes);
+    Outcome { json, text, report: Some(report), ..Outcome::default() }
 }
 
 fn json(

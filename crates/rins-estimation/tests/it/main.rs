@@ -13,5 +13,6 @@ mod several_runs;
 mod shortcuts;
 mod support;
 mod sway;
+mod temperatures;
 mod terms;
 mod unobservable;

@@ -4,21 +4,19 @@ use rins_simulation::Temperature;
 
 use crate::document::{Entry, Node};
 use crate::error::IoError;
-use crate::quantity::{Dimension, Quantity, kinds};
-use crate::section::Section;
-
-const EXPECTED: &str = r#"a temperature such as "20 degC""#;
+use crate::quantity::kinds;
+use crate::section::{CELSIUS, Section};
 
 /// Reads a temperature such as `"20 degC"`, or a table that says how it goes.
 pub(super) fn read(truth: &Section<'_>) -> Result<Option<Temperature>, IoError> {
     let Some(Entry { value, .. }) = truth.get("temperature") else { return Ok(None) };
     if !matches!(value.node, Node::Table(_)) {
-        return Ok(celsius(truth, "temperature")?.map(Temperature::Constant));
+        return Ok(truth.celsius("temperature")?.map(Temperature::Constant));
     }
     let known = ["start", "ramp", "rise", "time_constant", "amplitude", "period"];
     let Some(table) = truth.inline("temperature", &known)? else { return Ok(None) };
-    let Some(start) = celsius(&table, "start")? else {
-        return Err(table.missing("start", EXPECTED));
+    let Some(start) = table.celsius("start")? else {
+        return Err(table.missing("start", CELSIUS));
     };
     let kinds = [
         ("ramp", &["ramp"][..]),
@@ -51,14 +49,4 @@ pub(super) fn read(truth: &Section<'_>) -> Result<Option<Temperature>, IoError> 
             period: table.require_quantity("period", &kinds::DURATION)?,
         },
     }))
-}
-
-/// The temperature behind `key` \[°C\]. In kelvin it would be read as a difference.
-fn celsius(section: &Section<'_>, key: &str) -> Result<Option<f64>, IoError> {
-    let Some(text) = section.text(key, EXPECTED)? else { return Ok(None) };
-    match (Quantity::parse(text), text.trim_end().ends_with("degC")) {
-        (Ok(Quantity { value, dimension: Dimension::TEMPERATURE }), true) => Ok(Some(value)),
-        (Err(error), _) => Err(section.error(key, error.into())),
-        _ => Err(section.not_allowed(key, EXPECTED)),
-    }
 }

@@ -3,5 +3,5 @@
 mod read;
 mod write;
 
-pub(crate) use read::{Use, read, refuse_triads, tables};
+pub(crate) use read::{Use, read, read_about, refuse_triads, tables};
 pub(crate) use write::{parameters, written};

@@ -95,6 +95,19 @@ pub(crate) fn read(section: &Section<'_>, use_: Use, axes: &SignedAxes) -> Resul
     Ok(chosen)
 }
 
+/// The same about another temperature \[°C\], where the table itself says nothing of it.
+pub(crate) fn read_about(
+    section: &Section<'_>,
+    use_: Use,
+    axes: &SignedAxes,
+    reference: Option<f64>,
+) -> Result<Chosen, IoError> {
+    let name = catalogue::REFERENCE_TEMPERATURE.name;
+    let chosen = read(section, use_, axes)?;
+    let reference = reference.filter(|_| !section.has(name));
+    Ok(reference.map_or(chosen.clone(), |reference| chosen.with_setting(name, reference)))
+}
+
 /// The term whose id a section gives.
 fn named(section: &Section<'_>) -> Result<&'static Term, IoError> {
     let expected = r#"the id of a term such as "encoder.zero""#;
@@ -173,6 +186,9 @@ fn sigma_of(table: &Section<'_>, name: &str, unit: Unit) -> Result<Option<f64>, 
 /// The number behind `key` in SI units: a quantity of the dimension of `unit`, or a bare number where
 /// that is none.
 fn number(section: &Section<'_>, key: &str, unit: Unit) -> Result<Option<f64>, IoError> {
+    if unit == Unit::CELSIUS {
+        return section.celsius(key);
+    }
     let Some(Entry { value, .. }) = section.get(key) else { return Ok(None) };
     let plain = unit == Unit::ONE;
     let dimension = quantity::Unit::parse(unit.symbol)

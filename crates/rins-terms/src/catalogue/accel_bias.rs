@@ -2,7 +2,7 @@
 
 use rins_frames::units::DEG_PER_SECOND;
 
-use crate::catalogue::parameters::{TIME, TIME_CONSTANT, per_axis, usual};
+use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, TIME, TIME_CONSTANT, per_axis, usual};
 use crate::signals::add_constant;
 use crate::term::{Action, Need, Owner, Parity, Setting, Term};
 use crate::unit::Unit;
@@ -74,20 +74,20 @@ pub static ACCEL_THERMAL_BIAS: Term = Term {
     also: &[],
     name: "temperature coefficient of the accelerometer bias",
     cause: "an accelerometer's bias depends on its temperature",
-    equation: "accel += k (T - T0), T0 at the run's start",
+    equation: "accel += k (T - T_ref)",
     source: "the first term of a bias's series in temperature",
     parameters: &per_axis(
         Unit::MICRO_G_PER_KELVIN,
         usual((1.0, 50.0), (1.0, 20.0), (50.0, 2000.0)),
     ),
-    settings: &[],
+    settings: &[REFERENCE_TEMPERATURE],
     needs: &[Need::Temperature],
     partners: &["accel_bias_ramp", "accel_warmup"],
     told_apart_by: "vary the temperature up and down",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
-    action: Action::Signal(|p, _, moment, out| {
-        add_constant(&mut out.accel, p, moment.mean.warming);
+    action: Action::Signal(|p, settings, moment, out| {
+        add_constant(&mut out.accel, p, moment.mean.above(settings[0]));
     }),
 };
 

@@ -1,6 +1,8 @@
 //! Gyro biases that do not stay what they were: with time, temperature and the table's rate.
 
-use crate::catalogue::parameters::{TIME, TIME_CONSTANT, named, per_axis, usual};
+use crate::catalogue::parameters::{
+    REFERENCE_TEMPERATURE, TIME, TIME_CONSTANT, named, per_axis, usual,
+};
 use crate::signals::add_constant;
 use crate::term::{Action, Need, Owner, Parity, Setting, Term};
 use crate::unit::Unit;
@@ -72,19 +74,21 @@ pub static GYRO_THERMAL_BIAS: Term = Term {
     also: &[],
     name: "temperature coefficient of the gyro bias",
     cause: "a gyro's bias depends on its temperature",
-    equation: "gyro += k (T - T0), T0 at the run's start",
+    equation: "gyro += k (T - T_ref)",
     source: "the first term of a bias's series in temperature",
     parameters: &per_axis(
         Unit::DEG_PER_HOUR_PER_KELVIN,
         usual((0.005, 0.1), (5e-4, 0.01), (0.3, 30.0)),
     ),
-    settings: &[],
+    settings: &[REFERENCE_TEMPERATURE],
     needs: &[Need::Temperature],
     partners: &["gyro_bias_ramp", "gyro_warmup", "gyro_thermal_scale"],
     told_apart_by: "vary the temperature up and down, and turn the table both ways",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
-    action: Action::Signal(|p, _, moment, out| add_constant(&mut out.gyro, p, moment.mean.warming)),
+    action: Action::Signal(|p, settings, moment, out| {
+        add_constant(&mut out.gyro, p, moment.mean.above(settings[0]));
+    }),
 };
 
 /// Gyro biases that follow the change of temperature.

@@ -4,7 +4,7 @@
 
 use num_dual::Dual64;
 
-use crate::catalogue::parameters::{parameter, per_axis, usual};
+use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, parameter, per_axis, usual};
 use crate::term::{Action, Need, Owner, Parity, Setting, Term};
 use crate::unit::Unit;
 
@@ -64,21 +64,21 @@ pub static GYRO_THERMAL_SCALE: Term = Term {
     also: &[],
     name: "temperature coefficient of the gyro scale",
     cause: "a gyro's scale factor depends on its temperature",
-    equation: "gyro_z += k (T - T0) ω_z, T0 at the run's start",
+    equation: "gyro_z += k (T - T_ref) ω_z",
     source: "the first term of a scale factor's series in temperature",
     parameters: &[parameter(
         "z",
         Unit::PPM_PER_KELVIN,
         usual((1.0, 100.0), (0.01, 0.1), (20.0, 200.0)),
     )],
-    settings: &[],
+    settings: &[REFERENCE_TEMPERATURE],
     needs: &[Need::Temperature, Need::Reversal],
     partners: &["gyro_thermal_bias", "gyro_scale_ramp"],
     told_apart_by: "turn both ways while the temperature changes",
     owner: Owner::Sensor,
     parity: Parity::Even,
-    action: Action::Signal(|p, _, moment, out| {
-        out.gyro[2] += p[0] * (moment.mean.warming * moment.rate.z);
+    action: Action::Signal(|p, settings, moment, out| {
+        out.gyro[2] += p[0] * (moment.mean.above(settings[0]) * moment.rate.z);
     }),
 };
 

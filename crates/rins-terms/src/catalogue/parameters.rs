@@ -89,3 +89,12 @@ pub(super) const AXIS: Setting = Setting {
     default: 3.0,
     within: (1.0, 3.0),
 };
+
+/// The temperature at which what depends on temperature is zero, and at which biases and scale errors beside it are given.
+pub const REFERENCE_TEMPERATURE: Setting = Setting {
+    name: "reference_temperature",
+    meaning: "temperature T_ref at which the effect is zero",
+    unit: Unit::CELSIUS,
+    default: 20.0,
+    within: (-273.15, 1000.0),
+};

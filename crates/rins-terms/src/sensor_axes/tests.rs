@@ -31,7 +31,8 @@ fn rotations() -> Vec<SignedAxes> {
 fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> Moment {
     let site = Site { latitude: 0.6, longitude: 0.0, height: 0.0 };
     let attitude = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 0.0 };
-    let still = Instant { time: 3.0, warming: 5.0, warming_rate: 0.1, ..Instant::default() };
+    let still =
+        Instant { time: 3.0, temperature: Some(25.0), warming_rate: 0.1, ..Instant::default() };
     Moment {
         sample: 0,
         interval: 0.01,

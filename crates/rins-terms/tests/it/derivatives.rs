@@ -23,7 +23,7 @@ fn any_moment() -> impl Strategy<Value = Moment> {
             let surroundings =
                 Surroundings::new(Station::with_normal_gravity(site), attitude.dcm());
             let interval = 0.01;
-            let (warming, warming_rate) = heat;
+            let (temperature, warming_rate) = heat;
             let sense = rate.signum();
             let mean = Instant {
                 time,
@@ -32,7 +32,7 @@ fn any_moment() -> impl Strategy<Value = Moment> {
                 acceleration,
                 sense,
                 rate_change: sense,
-                warming,
+                temperature: Some(temperature),
                 warming_rate,
             };
             let end = Instant {

@@ -11,13 +11,13 @@ use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
 
-/// A moment of a run, at 10 deg/s, with a force of (0.5, -0.2, 0.8) g and a warming of 3 K.
+/// A moment of a run, at 10 deg/s, with a force of (0.5, -0.2, 0.8) g and a temperature of 23 °C.
 fn moment() -> Moment {
     let mut moment = run().track.moments().nth(1200).unwrap();
     moment.mean.rate = 10.0 * DEG_PER_SECOND;
     moment.rate = Vector3::new(0.0, 0.0, 10.0 * DEG_PER_SECOND);
     moment.force = Vector3::new(0.5, -0.2, 0.8) * STANDARD_GRAVITY;
-    moment.mean.warming = 3.0;
+    moment.mean.temperature = Some(23.0);
     moment.mean.warming_rate = 0.5 / 60.0;
     moment
 }

@@ -51,7 +51,8 @@ fn predicted(effect: Chosen, experiment: &Experiment, plain: &Log) -> [Vec<Vecto
     let is_misalignment = |chosen: &&Chosen| chosen.term.id == catalogue::GYRO_MISALIGNMENT.id;
     let without =
         Model { terms: stand.model.terms.iter().filter(is_misalignment).cloned().collect() };
-    let with = without.clone().with(effect);
+    // The generator's coefficients are about the temperature at the start.
+    let with = without.clone().with(effect).about_temperature(plain.temperature[0]);
     let mut made = [Making::new(&with, &track), Making::new(&without, &track)];
     let mut signals = [Vec::new(), Vec::new(), Vec::new()];
     for moment in track.moments() {

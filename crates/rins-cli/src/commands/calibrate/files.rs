@@ -3,9 +3,11 @@
 use nalgebra::DMatrix;
 use rins_estimation::Fit;
 use rins_io::{Covariance, Parameter};
+use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Model, Role, catalogue};
 
 use crate::commands::calibrate::Certificate;
+use crate::commands::range::covered;
 use crate::view::told::observability;
 
 /// The compensation, in one line.
@@ -72,6 +74,12 @@ pub(super) fn calibration(certificate: &Certificate, run: usize) -> rins_io::Cal
         notes: notes(certificate, run, &places),
         terms,
         spin: axes.into(),
+        reference_temperature: fit.models[run]
+            .reference_temperature()
+            .unwrap_or(REFERENCE_TEMPERATURE.default),
+        range: covered(
+            certificate.runs.iter().flat_map(|run| run.prepared.rests()).map(|run| &*run.recording),
+        ),
         covariance: covariance(fit, &places),
         ..rins_io::Calibration::of(error.along(&axes.inverse().matrix()))
     }

@@ -18,6 +18,7 @@ use crate::commands::calibrate::gates::refuse_standing;
 use crate::commands::calibrate::json::{budget_json, consistency_json};
 use crate::commands::calibrate::{Budget, EQUATION, navigation_json};
 use crate::commands::check::refuse_mistaken;
+use crate::commands::range::covered;
 use crate::commands::setup::{setup, shown};
 use crate::commands::statics::{static_intervals, statics_json};
 use crate::outcome::Outcome;
@@ -70,6 +71,7 @@ pub(crate) fn outcome(
         notes: calibration.parameters.iter().filter_map(combination_note).collect(),
         covariance: Some(covariance(calibration)),
         spin: loaded.rig.spin,
+        range: covered([&loaded.recording.slice(span.start, span.end)]),
         ..rins_io::Calibration::of(calibration.imu_error)
     };
     let ids: Vec<&str> =
