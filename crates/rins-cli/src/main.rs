@@ -6,11 +6,13 @@ use std::process::ExitCode;
 use anyhow::Context;
 
 use crate::args::{Arguments, Command};
+use crate::line::one_line;
 use crate::outcome::Outcome;
 
 mod args;
 mod commands;
 mod interrupt;
+mod line;
 mod number;
 mod outcome;
 mod progress;
@@ -19,6 +21,7 @@ mod view;
 
 fn main() -> ExitCode {
     let arguments = Arguments::read();
+    let _inputs = rins_io::protect_inputs();
     let delivered = interrupt::listen()
         .and_then(|()| run(&arguments))
         .and_then(|outcome| deliver(&arguments, &outcome));
@@ -26,7 +29,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // Where nobody can be told, the exit code tells.
-            let _ = writeln!(io::stderr(), "rins: {error:#}");
+            let _ = writeln!(io::stderr(), "rins: {}", one_line(&format!("{error:#}")));
             ExitCode::FAILURE
         }
     }

@@ -7,6 +7,7 @@ use rins_io::{IoError, Loaded, Overwrite, write_file, write_folder};
 use serde_json::Value;
 
 use crate::commands::repairs::repairs;
+use crate::line::shown;
 use crate::report::{Report, render};
 
 /// Writes further files into the folder that it is given.
@@ -68,7 +69,7 @@ impl Outcome {
                     IoError::File { action: "write", path, source }
                 })
             })?;
-            return Ok(Some(format!("Written: {}", destination.display())));
+            return Ok(Some(format!("Written: {}", shown(destination))));
         }
         let json = serde_json::to_string_pretty(&self.json)?;
         let page = self.report.as_ref().map(render);
@@ -89,8 +90,8 @@ impl Outcome {
             self.fill.as_ref().map_or(Ok(()), |fill| fill(folder))
         })?;
         let shown = match self.report {
-            Some(_) => format!("Report: {}", destination.join("report.html").display()),
-            None => format!("Written: {}", destination.display()),
+            Some(_) => format!("Report: {}", shown(&destination.join("report.html"))),
+            None => format!("Written: {}", shown(destination)),
         };
         Ok(Some(shown))
     }

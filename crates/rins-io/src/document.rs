@@ -1,6 +1,5 @@
 //! A file of keys: TOML as a tree in which every key and value knows its line.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{IoError, KeyError, KeyProblem};
+use crate::inputs;
 
 /// The largest file of keys that is read \[bytes\].
 const LARGEST: u64 = 1 << 20;
@@ -71,7 +71,7 @@ impl Document {
     pub(crate) fn text(path: &Path) -> Result<String, IoError> {
         let failed = || IoError::file("read", path);
         let mut bytes = Vec::new();
-        let file = File::open(path).map_err(failed())?;
+        let file = inputs::open(path).map_err(failed())?;
         file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(failed())?;
         let refuse = |problem| {
             Box::new(KeyError { path: path.into(), line: None, key: String::new(), problem })

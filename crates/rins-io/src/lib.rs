@@ -23,6 +23,7 @@ mod campaign;
 mod document;
 mod draft;
 mod error;
+mod inputs;
 mod log;
 mod model;
 mod output;
@@ -45,12 +46,15 @@ pub use campaign::{
 };
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError};
+pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
     PsinsHeader, Redivided, Rounded, peek, read, read_log,
 };
 pub use model::ModelFile;
-pub use output::{OutputProblem, Overwrite, write_file, write_files, write_folder};
+pub use output::{
+    OutputProblem, Overwrite, ensure_replaceable, write_file, write_files, write_folder,
+};
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{

@@ -8,6 +8,7 @@ use std::path::Path;
 use tempfile::{Builder, TempDir};
 
 use crate::error::IoError;
+use crate::inputs;
 use crate::unfinished::{Unfinished, undisturbed};
 
 /// Whether something that is there may be replaced.
@@ -15,7 +16,8 @@ use crate::unfinished::{Unfinished, undisturbed};
 pub enum Overwrite {
     /// No.
     Refuse,
-    /// Yes, if it is a file, or a folder that holds only results of ours.
+    /// Yes, if it is a regular file, or a folder that holds only results of ours; and no input that is protected
+    /// ([`protect_inputs`](crate::protect_inputs)).
     Force,
 }
 
@@ -44,8 +46,16 @@ pub enum OutputProblem {
         expected: &'static str,
     },
     /// It is one of the files that are read.
-    #[error("is read by the conversion itself; choose another name")]
+    #[error("is an input of the same command and is not replaced; choose another name")]
     IsInput,
+    /// A folder of ours holds one of the files that are read.
+    #[error(
+        "is not replaced, as it holds {entry:?}, an input of the same command; choose another name"
+    )]
+    HoldsInput {
+        /// The input.
+        entry: String,
+    },
     /// The path does not end in a name.
     #[error("does not end in the name of a file or folder")]
     NoName,
@@ -83,7 +93,7 @@ pub fn write_file(
     write: impl FnOnce(&mut (dyn Write + Send)) -> Result<(), IoError>,
 ) -> Result<(), IoError> {
     let (parent, name) = split(path)?;
-    refuse_existing(path, overwrite)?;
+    ensure_replaceable(path, overwrite)?;
     let failed = || IoError::file("write", path);
     let (_unfinished, temporary) =
         Unfinished::make(|| builder(&hidden(name), 0o666).tempfile_in(parent)).map_err(failed())?;
@@ -119,7 +129,7 @@ pub fn write_files(
     let Some((first, _)) = paths.split_first() else { return Ok(()) };
     let (parent, name) = split(first)?;
     for path in paths {
-        refuse_existing(path, overwrite)?;
+        ensure_replaceable(path, overwrite)?;
     }
     let failed = |path: &Path| IoError::file("write", path);
     let (_unfinished, staging) =
@@ -130,7 +140,7 @@ pub fn write_files(
     undisturbed(|| {
         paths.iter().try_for_each(|path| {
             // Whatever has come in between is not replaced either.
-            refuse_existing(path, overwrite)?;
+            ensure_replaceable(path, overwrite)?;
             let staged = staging.path().join(split(path)?.1);
             fs::rename(staged, path).map_err(failed(path))
         })
@@ -138,15 +148,26 @@ pub fn write_files(
     synchronise(parent).map_err(failed(first))
 }
 
-/// Refuses to put a file where something is that must not be replaced.
-fn refuse_existing(path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
+/// Refuses to put a file where something is that must not be replaced: for work that is long, before it.
+///
+/// # Errors
+/// [`IoError::Output`] if something is there that must not be replaced.
+pub fn ensure_replaceable(path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_dir() => {
             let (found, expected) = ("a folder", "a file");
             Err(refuse(path, OutputProblem::WrongType { found, expected }))
         }
         Ok(_) if overwrite == Overwrite::Refuse => Err(refuse(path, OutputProblem::Exists)),
-        _ => Ok(()),
+        Ok(found) => match inputs::special(found.file_type()) {
+            Some(found) => {
+                let expected = "a regular file";
+                Err(refuse(path, OutputProblem::WrongType { found, expected }))
+            }
+            None if inputs::is_input(path) => Err(refuse(path, OutputProblem::IsInput)),
+            None => Ok(()),
+        },
+        Err(_) => Ok(()),
     }
 }
 
@@ -207,7 +228,7 @@ fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
         Err(error) => return Err(IoError::file("write", path)(error)),
     };
     if !found.is_dir() {
-        let found = if found.is_symlink() { "a link" } else { "a file" };
+        let found = inputs::special(found.file_type()).unwrap_or("a file");
         return Err(refuse(path, OutputProblem::WrongType { found, expected: "a folder" }));
     }
     let mut names = Vec::new();
@@ -225,6 +246,12 @@ fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
     }
     if !names.iter().any(|(name, is_file)| *is_file && MARKS.contains(&name.as_str())) {
         return Err(refuse(path, OutputProblem::NotOurs));
+    }
+    for entry in fs::read_dir(path).map_err(IoError::file("read", path))?.flatten() {
+        if inputs::is_input(&entry.path()) {
+            let entry = entry.file_name().to_string_lossy().into_owned();
+            return Err(refuse(path, OutputProblem::HoldsInput { entry }));
+        }
     }
     match names.into_iter().find(|(name, is_file)| !is_file || !NAMES.contains(&name.as_str())) {
         Some((entry, _)) => Err(refuse(path, OutputProblem::HoldsMore { entry })),

@@ -14,12 +14,14 @@ mod disk {
     use std::io;
     use std::path::Path;
 
+    use crate::inputs;
+
     /// What is read from the first byte on.
     pub(crate) type Source = File;
 
     /// The bytes from the first on.
     pub(crate) fn open(path: &Path) -> io::Result<Source> {
-        File::open(path)
+        inputs::open(path)
     }
 
     /// What is read in any order.
@@ -27,7 +29,7 @@ mod disk {
 
     /// The bytes in any order.
     pub(crate) fn chunks(path: &Path) -> io::Result<Chunks> {
-        File::open(path)
+        inputs::open(path)
     }
 
     /// How many there are.

@@ -191,6 +191,21 @@ fn what_a_command_had_begun_that_is_told_to_end_is_removed() {
     ended_by("-TERM", 143);
 }
 
+/// A terminal that hangs up is such a signal, where nothing has it ignored.
+#[test]
+fn what_a_command_had_begun_whose_terminal_hangs_up_is_removed() {
+    ended_by("-HUP", 129);
+}
+
+/// The command with signals as a terminal has them, whatever the tests were started with.
+fn listening(folder: &Path, arguments: &str) -> Command {
+    let rins = command(folder, arguments);
+    let mut command = Command::new("env");
+    command.arg("--default-signal=HUP,INT,TERM").arg(rins.get_program()).args(rins.get_args());
+    command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
 fn ended_by(signal: &str, expected: i32) {
     let mut at_work = 0;
     for (arguments, results) in [
@@ -209,7 +224,7 @@ fn ended_by(signal: &str, expected: i32) {
         after.sort();
         for part in parts() {
             let folder = copy(ready.path());
-            let mut child = command(folder.path(), arguments).spawn().unwrap();
+            let mut child = listening(folder.path(), arguments).spawn().unwrap();
             std::thread::sleep(lasting.mul_f64(part));
             let interrupt = [signal, &child.id().to_string()];
             let _ = Command::new("kill").args(interrupt).stderr(Stdio::null()).status().unwrap();

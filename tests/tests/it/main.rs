@@ -18,6 +18,7 @@ mod monte_carlo;
 mod no_room;
 mod observe;
 mod repairs;
+mod replaced;
 mod round_trip;
 mod spin_axes;
 mod statics;

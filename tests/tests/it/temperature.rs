@@ -179,5 +179,5 @@ fn scale_error_that_differs_between_soaks_is_named_as_its_temperature_coefficien
     let coefficient = &list(cause, "/parameters")[0];
     let (value, sigma) = (number(coefficient, "/value"), number(coefficient, "/sigma"));
     assert!((value - 2.0).abs() < 4.0 * sigma, "{coefficient}");
-    assert_eq!(number(cause, "/settings/reference_temperature/value"), 20.0, "{cause}");
+    assert_eq!(cause["settings"]["reference_temperature"]["value"], 20.0, "{cause}");
 }

@@ -16,10 +16,11 @@ use rins_motion::{
 use serde_json::{Value, json};
 
 use crate::commands::check::refuse_mistaken;
-use crate::commands::setup::{load, shown};
+use crate::commands::setup::load;
 use crate::commands::statics::{
     longest, none_found, only, static_intervals, statics_in_words, statics_json,
 };
+use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::report::{Cell, Column, Item, Report, Section, Table};
 use crate::view::euler_json;

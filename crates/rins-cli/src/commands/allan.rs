@@ -12,10 +12,11 @@ use rins_terms::Unit;
 use serde_json::{Value, json};
 
 use crate::commands::check::refuse_mistaken;
-use crate::commands::setup::{load, shown};
+use crate::commands::setup::load;
 use crate::commands::statics::{
     longest, none_found, static_intervals, statics_in_words, statics_json,
 };
+use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::view::{allan_report, allan_text};
 
@@ -109,7 +110,7 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     Ok(Outcome {
         json: json(&rest, rig),
         text: allan_text(&rest, &title),
-        report: Some(allan_report(&rest, title, &log.display().to_string())),
+        report: Some(allan_report(&rest, title, &shown(log))),
         ..Outcome::default()
     }
     .of_log(&loaded))
@@ -118,7 +119,7 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
 /// The noise over the longest static interval, lost samples filled in.
 fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     let recording = &loaded.recording;
-    let log = loaded.rig.log.path.display();
+    let log = shown(&loaded.rig.log.path);
     let still = longest(loaded, SHORTEST_REST).ok_or_else(|| {
         let none = none_found(loaded, SHORTEST_REST);
         anyhow::anyhow!("{log}: {none}, and what it reads on the move is no noise")
@@ -160,7 +161,7 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
         duration >= SHORTEST_REST * (1.0 - 1e-9),
         "{log}: gaps leave at most {duration:.1} s of a static interval in one piece, and {SHORTEST_REST} s are needed"
     );
-    let plan = AllanPlan::new(filled.samples.len(), interval).with_context(|| log.to_string())?;
+    let plan = AllanPlan::new(filled.samples.len(), interval).with_context(|| log.clone())?;
     let own_axes = SignedAxes::from(loaded.rig.spin);
     let mut channels = Vec::new();
     for triad in [Triad::Gyro, Triad::Accel] {

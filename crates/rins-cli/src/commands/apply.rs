@@ -14,7 +14,7 @@ use crate::commands::convert::{format_of, remarks};
 use crate::commands::navigate::axis_attitude;
 use crate::commands::range::{Beyond, beyond};
 use crate::commands::repairs::repairs;
-use crate::commands::setup::shown;
+use crate::line::shown;
 use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Outcome> {

@@ -29,8 +29,9 @@ use self::verdicts::{Verdict, verdicts};
 use self::words::suspicion_in_words;
 use crate::commands::align::table;
 use crate::commands::repairs::repairs;
-use crate::commands::setup::{load, shown};
+use crate::commands::setup::load;
 use crate::commands::statics::{static_intervals, statics_in_words, statics_json};
+use crate::line::shown;
 use crate::number::figure;
 use crate::outcome::Outcome;
 use crate::report::{Item, Report, Section, Tone};
@@ -105,7 +106,7 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
     let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
     let timing = &inspection.timing;
     let mut rows = vec![
-        row("log", loaded.rig.log.path.display().to_string()),
+        row("log", shown(&loaded.rig.log.path)),
         row("samples", format!("{} over {duration:.2} s", recording.len())),
         row(
             "rate",

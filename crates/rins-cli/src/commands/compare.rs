@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::args::Compare;
-use crate::commands::setup::shown;
+use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::view::{comparison_report, comparison_text};
 

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::args::{Convert, Format};
 use crate::commands::repairs::repairs;
-use crate::commands::setup::shown;
+use crate::line::shown;
 use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Convert, overwrite: Overwrite) -> anyhow::Result<Outcome> {
@@ -38,7 +38,7 @@ pub(crate) fn format_of(output: &Path, said: Option<Format>) -> anyhow::Result<L
         let names: Vec<&str> = LogFile::ALL.iter().map(|format| format.name()).collect();
         anyhow::anyhow!(
             "{}: the name does not tell a format; say --format, one of {}",
-            output.display(),
+            shown(output),
             names.join(", ")
         )
     })

@@ -7,7 +7,7 @@ use rins_io::{Draft, draft_rig};
 use serde_json::{Value, json};
 
 use crate::args::Init;
-use crate::commands::setup::shown;
+use crate::line::shown;
 use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Init) -> anyhow::Result<Outcome> {

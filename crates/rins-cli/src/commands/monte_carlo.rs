@@ -9,14 +9,17 @@ use anyhow::Context;
 use rayon::prelude::*;
 use rins_campaign::{Campaign, Cell, Chunk, Prepared};
 use rins_imu::Seed;
-use rins_io::{Heading, Identity, IoError, Journal, Overwrite, Rig, ScenarioGrid};
+use rins_io::{
+    Heading, Identity, IoError, Journal, Overwrite, Rig, ScenarioGrid, ensure_replaceable,
+};
 use rins_simulation::{Scenario, simulate};
 
 use crate::args::MonteCarlo;
 use crate::commands::campaign_runs::Run;
 use crate::commands::campaign_size::refuse_too_large;
-use crate::commands::setup::{setup_at, shown};
+use crate::commands::setup::setup_at;
 use crate::interrupt;
+use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::campaign::deliver;
@@ -46,12 +49,9 @@ pub(crate) fn run(arguments: &MonteCarlo, overwrite: Overwrite) -> anyhow::Resul
         .map(|(cell, one)| cell.prepare().with_context(|| place(scenario, &grid, &one.values)))
         .collect::<anyhow::Result<_>>()?;
     let identity = Identity { scenario: grid.text.clone(), runs: *runs, seed, shard };
-    anyhow::ensure!(
-        overwrite == Overwrite::Force || !output.exists(),
-        "{}: exists already; choose another name, or --force to replace it",
-        output.display()
-    );
-    let mut journal = open(arguments, &identity)?;
+    // Not only after all runs.
+    ensure_replaceable(output, overwrite)?;
+    let mut journal = open(arguments, &identity, overwrite)?;
     let chunks: Vec<Chunk> =
         campaign.chunks().filter(|chunk| chunk.index % shard.1 == shard.0 - 1).collect();
     finish(&chunks, &prepared, &mut journal, arguments.threads)?;
@@ -111,7 +111,11 @@ fn of_chunk(
 }
 
 /// The journal beside the results.
-fn open(arguments: &MonteCarlo, identity: &Identity) -> anyhow::Result<Journal> {
+fn open(
+    arguments: &MonteCarlo,
+    identity: &Identity,
+    overwrite: Overwrite,
+) -> anyhow::Result<Journal> {
     let path = journal_path(&arguments.output);
     let there = path.exists();
     if there && arguments.resume {
@@ -120,11 +124,11 @@ fn open(arguments: &MonteCarlo, identity: &Identity) -> anyhow::Result<Journal> 
         });
     }
     anyhow::ensure!(
-        !there,
-        "{}: an unfinished campaign; continue it with --resume, or remove it",
+        !there || overwrite == Overwrite::Force,
+        "{}: an unfinished campaign; continue it with --resume, or --force to begin anew",
         path.display()
     );
-    Ok(Journal::create(&path, identity)?)
+    Ok(Journal::create(&path, identity, overwrite)?)
 }
 
 fn journal_path(output: &Path) -> PathBuf {

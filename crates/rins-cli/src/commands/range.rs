@@ -6,7 +6,7 @@ use rins_motion::Recording;
 use rins_terms::{Chosen, Model, Need, Role};
 use serde_json::{Value, json};
 
-use crate::commands::setup::shown;
+use crate::line::shown;
 use crate::number::figure;
 
 /// A rate is the mean over this time \[s\], so that noise does not widen what was covered.

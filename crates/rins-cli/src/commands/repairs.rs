@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::line::shown;
 use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig};
 
 /// Time stamps that jitter by less than this share of an interval are told by no more than a figure.
@@ -56,7 +57,7 @@ fn left_out(summary: &LogSummary, folder: Option<&Path>) -> Vec<String> {
     let told = summary.left_out.chunk_by(alike).map(|lines| {
         let (first, count) = (&lines[0], lines.len());
         let path = folder.and_then(|folder| first.path.strip_prefix(folder).ok());
-        let path = path.unwrap_or(&first.path).display();
+        let path = shown(path.unwrap_or(&first.path));
         match first.reason {
             Omission::Repeated => format!(
                 "{path}: {count} line(s), from {} on, repeat the line before and are left out",

@@ -43,8 +43,3 @@ pub(crate) fn setup_at(rig: &Rig, station: Station) -> anyhow::Result<Setup> {
         velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
     })
 }
-
-/// The name of a rig in titles: its path.
-pub(crate) fn shown(rig: &Path) -> String {
-    rig.display().to_string()
-}

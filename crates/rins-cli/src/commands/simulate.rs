@@ -7,7 +7,7 @@ use rins_simulation::simulate;
 use serde_json::json;
 
 use crate::args::Simulate;
-use crate::commands::setup::shown;
+use crate::line::shown;
 use crate::outcome::Outcome;
 
 pub(crate) fn run(arguments: &Simulate) -> anyhow::Result<Outcome> {

@@ -10,6 +10,7 @@ use rins_io::{Heading, IoError, Overwrite, write_files, write_part};
 use serde_json::{Value, json};
 
 use crate::commands::campaign_runs::{Run, UNITS};
+use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::report::{
     Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render,
@@ -67,7 +68,7 @@ pub(crate) fn deliver(
         "cells": scored.iter().map(|cell| cell_json(&heading.keys, cell)).collect::<Vec<_>>(),
     });
     let text = text(heading, &scored, &title)
-        + &format!("\nResults: {}\nReport: {}\n", output.display(), page.display());
+        + &format!("\nResults: {}\nReport: {}\n", shown(output), shown(&page));
     Ok(Outcome { json, text, ..Outcome::default() })
 }
 

@@ -6,6 +6,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use flate2::Crc;
 use rins_calibration::Estimate;
 use rins_campaign::{RunFailure, RunResult};
 
@@ -16,7 +17,8 @@ use crate::output::{Overwrite, write_file};
 /// A campaign's journal, which outlives an interruption.
 ///
 /// The first line says which campaign it is. A chunk is a line that names it, a line for each run with
-/// the bits of its numbers, and a line that ends it; a chunk without its end does not count. The runs
+/// the bits of its numbers, and a line that ends it with the CRC-32 of the others; a chunk without its end, or with another
+/// checksum, does not count. The runs
 /// stay on the disk; memory has the chunks' places only.
 #[derive(Debug)]
 pub struct Journal {
@@ -40,16 +42,14 @@ const LONGEST_LINE: u64 = 1 << 16;
 const NUMBERS: usize = 13;
 
 impl Journal {
-    /// A new journal at `path`, where there must be no other.
+    /// A new journal at `path`, in the place of one that is there if that may be replaced.
     ///
     /// # Errors
-    /// [`IoError::Output`] if there is one, [`IoError::File`] if the system refuses; there is then none
+    /// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the system refuses; there is then none
     /// of this campaign.
-    pub fn create(path: &Path, identity: &Identity) -> Result<Self, IoError> {
+    pub fn create(path: &Path, identity: &Identity, overwrite: Overwrite) -> Result<Self, IoError> {
         let failed = || IoError::file("write", path);
-        write_file(path, Overwrite::Refuse, |out| {
-            writeln!(out, "{}", identity.line()).map_err(failed())
-        })?;
+        write_file(path, overwrite, |out| writeln!(out, "{}", identity.line()).map_err(failed()))?;
         let file = OpenOptions::new().read(true).append(true).open(path).map_err(failed())?;
         let end = file.metadata().map_err(failed())?.len();
         Ok(Self { path: path.into(), file, chunks: Places::new(), end })
@@ -115,7 +115,8 @@ impl Journal {
                 }
             }
         }
-        text += "end\n";
+        let sum = checksum(&text);
+        let _ = writeln!(text, "end {sum:08x}");
         let failed = IoError::file("write", &self.path);
         self.file.write_all(text.as_bytes()).map_err(failed)?;
         self.chunks.insert(chunk, (self.end, runs.len() as u64));
@@ -189,14 +190,25 @@ fn next_chunk(lines: &mut Lines<impl BufRead>) -> io::Result<Option<(u64, Vec<Ru
         return Ok(None);
     };
     let mut runs = Vec::new();
+    let mut sum = Crc::new();
+    sum.update(heading.as_bytes());
     for _ in 0..count {
-        match run(&lines.next(LONGEST_LINE)?) {
+        let line = lines.next(LONGEST_LINE)?;
+        sum.update(line.as_bytes());
+        match run(&line) {
             Some(run) => runs.push(run),
             None => return Ok(None),
         }
     }
-    let whole = lines.next(LONGEST_LINE)? == "end\n";
+    let whole = lines.next(LONGEST_LINE)? == format!("end {:08x}\n", sum.sum());
     Ok(whole.then_some((index, runs)))
+}
+
+/// The CRC-32 of a chunk's lines.
+fn checksum(lines: &str) -> u32 {
+    let mut sum = Crc::new();
+    sum.update(lines.as_bytes());
+    sum.sum()
 }
 
 fn run(line: &str) -> Option<RunResult> {

@@ -194,7 +194,7 @@ fn a_journal_gives_back_what_was_added_in_any_order() {
         }
         assert!(journal.runs(4).is_err());
     };
-    let mut made = Journal::create(&path, &identity()).unwrap();
+    let mut made = Journal::create(&path, &identity(), Overwrite::Refuse).unwrap();
     for (chunk, runs) in &chunks {
         made.add(*chunk, runs).unwrap();
     }
@@ -217,7 +217,7 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("results.parquet.part");
     let reason = "a sigma of 3 µg/√Hz".to_owned();
-    let mut made = Journal::create(&path, &identity()).unwrap();
+    let mut made = Journal::create(&path, &identity(), Overwrite::Refuse).unwrap();
     for chunk in [4, 7] {
         made.add(chunk, &[Err(RunFailure { reason: reason.clone() })]).unwrap();
     }
@@ -237,14 +237,56 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
         assert!(left.is_empty() || whole.starts_with(&left) && left.ends_with(b"\n"), "{length}");
     }
     // A second one is never put in the place of the first.
-    assert!(Journal::create(&path, &identity()).is_err());
+    assert!(Journal::create(&path, &identity(), Overwrite::Refuse).is_err());
+}
+
+/// Whatever bit is flipped, no run comes back as another one: a portion is as it was, or it is made again.
+#[test]
+fn a_journal_with_a_flipped_bit_gives_back_no_other_run() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("results.parquet.part");
+    let run = |number: f64| {
+        Ok(Estimate {
+            value: Vector3::new(number, 2.0 * number, 3.0),
+            covariance: Matrix3::from_diagonal_element(number),
+            nis_ratio: 1.0,
+        })
+    };
+    let failed = || Err(RunFailure { reason: "not aligned".into() });
+    let chunks = [(1, vec![run(0.1), failed()]), (2, vec![run(0.2)]), (6, vec![run(0.3)])];
+    let mut made = Journal::create(&path, &identity(), Overwrite::Refuse).unwrap();
+    for (chunk, runs) in &chunks {
+        made.add(*chunk, runs).unwrap();
+    }
+    drop(made);
+    let whole = fs::read(&path).unwrap();
+    let first = whole.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+    let mut again = 0;
+    for place in first..whole.len() {
+        for bit in 0..8 {
+            let mut flipped = whole.clone();
+            flipped[place] ^= 1 << bit;
+            fs::write(&path, &flipped).unwrap();
+            let mut journal = Journal::resume(&path, &identity()).unwrap().unwrap();
+            let mut left = 0;
+            for chunk in 0..200 {
+                if journal.len_of(chunk).is_some() {
+                    let (_, runs) = chunks.iter().find(|(index, _)| *index == chunk).unwrap();
+                    assert_eq!(&journal.runs(chunk).unwrap(), runs, "{place}, bit {bit}");
+                    left += 1;
+                }
+            }
+            again += chunks.len() - left;
+        }
+    }
+    assert!(again >= 8 * (whole.len() - first), "a flip is never without effect");
 }
 
 #[test]
 fn a_journal_of_one_long_line_is_not_read_into_memory() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("results.parquet.part");
-    drop(Journal::create(&path, &identity()).unwrap());
+    drop(Journal::create(&path, &identity(), Overwrite::Refuse).unwrap());
     let file = fs::OpenOptions::new().write(true).open(&path).unwrap();
     let first = file.metadata().unwrap().len();
     file.set_len(1 << 40).unwrap();

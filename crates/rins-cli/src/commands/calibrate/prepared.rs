@@ -19,8 +19,9 @@ use crate::args::NoiseChoice;
 use crate::commands::align::{ANY_AZIMUTH, Found, found};
 use crate::commands::calibrate::rests::{self, Rests};
 use crate::commands::check::refuse_mistaken;
-use crate::commands::setup::{setup, shown};
+use crate::commands::setup::setup;
 use crate::commands::statics::{lasting, only, static_intervals, statics_in_words, statics_json};
+use crate::line::shown;
 
 /// An attitude that was found in the same data is counted again by a hundredth of its information.
 const FOUND_HERE: f64 = 10.0;
@@ -101,7 +102,7 @@ impl Prepared {
     pub(crate) fn of(path: &Path, mut loaded: Loaded, noise: NoiseChoice) -> anyhow::Result<Self> {
         let mut setup = setup(&loaded)?;
         refuse_mistaken(&loaded)?;
-        let name = loaded.rig.log.path.display().to_string();
+        let name = shown(&loaded.rig.log.path);
         let log = || name.clone();
         let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
         let axis = axis(&loaded, &setup).with_context(log)?;

@@ -1,0 +1,96 @@
+//! Files that are read: regular ones only, and never written over while they are protected.
+
+use std::fs::{self, File, FileType, Metadata};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What has been read since inputs are protected, if they are.
+static INPUTS: Mutex<Option<Vec<PathBuf>>> = Mutex::new(None);
+
+fn inputs() -> MutexGuard<'static, Option<Vec<PathBuf>>> {
+    // A list of paths is whole whatever happened to who held it.
+    INPUTS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Protects every file that is read from now on: what would write over it, or replace the folder that holds it, is refused.
+///
+/// For a program that reads, works and writes once. Inputs are protected as long as the returned value lives.
+pub fn protect_inputs() -> ProtectedInputs {
+    inputs().get_or_insert_default();
+    ProtectedInputs(())
+}
+
+/// As long as it lives inputs are protected; see [`protect_inputs`].
+#[derive(Debug)]
+#[must_use = "inputs are protected as long as this lives"]
+pub struct ProtectedInputs(());
+
+impl Drop for ProtectedInputs {
+    fn drop(&mut self) {
+        *inputs() = None;
+    }
+}
+
+/// Opens a file to be read.
+///
+/// # Errors
+/// What the system refuses, and anything but a regular file: a pipe without a writer would be waited for without end.
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    if let Some(kind) = special(fs::metadata(path)?.file_type()) {
+        let problem = format!("is {kind}, expected a regular file");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));
+    }
+    let file = File::open(path)?;
+    if let Some(read) = inputs().as_mut() {
+        read.push(path.canonicalize()?);
+    }
+    Ok(file)
+}
+
+/// What a file is that is neither a regular one nor a folder.
+pub(crate) fn special(kind: FileType) -> Option<&'static str> {
+    if kind.is_file() || kind.is_dir() {
+        return None;
+    }
+    if kind.is_symlink() {
+        return Some("a symbolic link");
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if kind.is_fifo() {
+            return Some("a pipe");
+        }
+        if kind.is_socket() {
+            return Some("a socket");
+        }
+        if kind.is_block_device() || kind.is_char_device() {
+            return Some("a device");
+        }
+    }
+    Some("no regular file")
+}
+
+/// Whether this is a file that has been read, under whatever name.
+pub(crate) fn is_input(path: &Path) -> bool {
+    let inputs = inputs();
+    let Some(read) = inputs.as_ref().filter(|read| !read.is_empty()) else { return false };
+    let own = path.canonicalize().ok();
+    let same = |other: &PathBuf| own.as_ref() == Some(other) || is_linked(path, other);
+    read.iter().any(same)
+}
+
+/// Whether both are names of one file.
+#[cfg(unix)]
+fn is_linked(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let of = |data: Metadata| (data.dev(), data.ino());
+    fs::metadata(one).map(of).ok().is_some_and(|one| fs::metadata(other).map(of).ok() == Some(one))
+}
+
+/// Whether both are names of one file, which cannot be said here.
+#[cfg(not(unix))]
+fn is_linked(_: &Path, _: &Path) -> bool {
+    false
+}
