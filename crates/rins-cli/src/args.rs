@@ -236,8 +236,8 @@ pub(crate) struct Diagnose {
     /// Whether the data sheet's noise is found anew from the data or trusted
     #[arg(long, value_enum, default_value_t = NoiseChoice::Likely)]
     pub(crate) noise: NoiseChoice,
-    /// Draw so many runs that hold nothing beyond the extended model, and say in how many of them something would have
-    /// been named
+    /// Draw the score of all effects of the catalogue so often under the extended model, and say in how many draws the
+    /// first search would have named one; the search is not repeated on simulated runs
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) bootstrap: Option<u32>,
 }

@@ -24,8 +24,8 @@ pub(crate) fn run(demo: &Demo) -> anyhow::Result<Outcome> {
     };
     write("rig.toml", RIG)?;
     write("run.csv", LOG)?;
-    let loaded = rins_io::read(&rig)?;
-    let calibration = calibrated(&loaded)?;
+    let mut loaded = rins_io::read(&rig)?;
+    let calibration = calibrated(&mut loaded)?;
     let mut outcome = outcome(&calibration, &loaded, Path::new("the embedded demo run"))?;
     outcome.json["command"] = "demo".into();
     // There is more in the run than the paper's filter has states for.

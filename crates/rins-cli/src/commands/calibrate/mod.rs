@@ -45,7 +45,8 @@ impl NamedModel {
 }
 
 pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
-    let loaded = arguments.rigs.iter().map(|rig| load(rig)).collect::<anyhow::Result<Vec<_>>>()?;
+    let mut loaded =
+        arguments.rigs.iter().map(|rig| load(rig)).collect::<anyhow::Result<Vec<_>>>()?;
     let read = |of: &rins_io::Loaded| {
         of.recording.table_angle.is_some() || of.recording.table_rate.is_some()
     };
@@ -55,7 +56,7 @@ pub(crate) fn run(arguments: &Calibrate) -> anyhow::Result<Outcome> {
     };
     let named = match arguments.model.as_ref().unwrap_or(&by_default) {
         ModelChoice::Paper12 => {
-            let calibration = calibrated(&loaded[0])?;
+            let calibration = calibrated(&mut loaded[0])?;
             let outcome = outcome(&calibration, &loaded[0], &arguments.rigs[0])?;
             return Ok(outcome.of_log(&loaded[0]));
         }

@@ -1,5 +1,6 @@
 //! The paper's model: one run, three gyro errors, the filter of twelve states.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Context;
@@ -16,6 +17,7 @@ use serde_json::{Value, json};
 use crate::commands::calibrate::budget::{Asked, Truth};
 use crate::commands::calibrate::gates::refuse_standing;
 use crate::commands::calibrate::json::{budget_json, consistency_json};
+use crate::commands::calibrate::prepared::repeats_in_words;
 use crate::commands::calibrate::{Budget, EQUATION, navigation_json};
 use crate::commands::check::refuse_mistaken;
 use crate::commands::range::covered;
@@ -33,11 +35,17 @@ use crate::view::{
 /// A mean NIS above this is no matter of a sensor error more or less.
 const ABSURD_NIS: f64 = 100.0;
 
-/// Calibrates a run, with progress shown.
-pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
+/// Calibrates a run, with progress shown; what repeats in it is taken out first, and told in words.
+pub(crate) fn calibrated(loaded: &mut Loaded) -> anyhow::Result<(Calibration, Option<String>)> {
     let mut setup = setup(loaded)?;
     refuse_mistaken(loaded)?;
     refuse_standing(loaded)?;
+    let repeats = loaded.recording.take_out_repeats().map(|repeats| {
+        format!(
+            "{} The paper's filter takes the rate over them for constant; --model full weighs what is not known of it.",
+            repeats_in_words(repeats)
+        )
+    });
     if loaded.rig.table.as_ref().is_none_or(|table| table.wobble.is_none()) {
         setup.table.wobble = likely_wobble(&loaded.recording, &setup)
             .with_context(|| loaded.rig.log.path.display().to_string())?;
@@ -45,12 +53,13 @@ pub(crate) fn calibrated(loaded: &Loaded) -> anyhow::Result<Calibration> {
     let bar = progress::bar(loaded.recording.len(), "calibrating");
     let calibration = calibrate(&loaded.recording, &setup, |done| bar.set_position(done as u64));
     bar.finish_and_clear();
-    calibration.with_context(|| loaded.rig.log.path.display().to_string())
+    let calibration = calibration.with_context(|| loaded.rig.log.path.display().to_string())?;
+    Ok((calibration, repeats))
 }
 
 /// A calibration as JSON, text, report and calibration file.
 pub(crate) fn outcome(
-    calibration: &Calibration,
+    (calibration, remark): &(Calibration, Option<String>),
     loaded: &Loaded,
     rig: &Path,
 ) -> anyhow::Result<Outcome> {
@@ -81,6 +90,13 @@ pub(crate) fn outcome(
     report.sections.push(compensation_section(&model));
     report.sections.push(budget_section("Error budget", &ids, &budget));
     let mut result = json(calibration, rig);
+    let mut text = calibration_text(calibration, &title);
+    if let Some(remark) = remark {
+        result["notes"] = json!([SYSTEMATIC_NOTE, remark]);
+        report.summary.push(remark.clone());
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {remark}");
+    }
     result["error_budget"] = budget_json(&ids, &budget);
     result["compensation"] = EQUATION.into();
     result["static_intervals"] = statics_json(&static_intervals(loaded), |interval| {
@@ -90,7 +106,7 @@ pub(crate) fn outcome(
     });
     Ok(Outcome {
         json: result,
-        text: calibration_text(calibration, &title),
+        text,
         failure: absurd(calibration),
         report: Some(report),
         files: vec![

@@ -205,7 +205,8 @@ fn statics_of(found: &StaticIntervals, shortest: Option<f64>) -> Value {
     }
 }
 
-fn repeats_in_words(Repeats { samples, rows, alone, .. }: Repeats) -> String {
+/// What was taken out of a log, in words.
+pub(super) fn repeats_in_words(Repeats { samples, rows, alone, .. }: Repeats) -> String {
     let alone = CHANNELS.into_iter().zip(alone).filter(|(_, alone)| *alone);
     let channels: Vec<&str> = alone.map(|(name, _)| name).collect();
     let which = match channels[..] {

@@ -49,8 +49,8 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     }
     if let Some(ByChance { draws, share }) = found.by_chance {
         sentences.push(format!(
-            "Of {draws} runs drawn that hold nothing beyond the extended model, something would have been named in {} %; \
-             1 % is allowed.",
+            "Of {draws} draws of the score of all effects of the catalogue under the extended model, the first search would \
+             have named one in {} %; 1 % is allowed.",
             figure(100.0 * share, 2)
         ));
     }
