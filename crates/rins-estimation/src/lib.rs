@@ -47,6 +47,7 @@ mod fit;
 mod fit_error;
 mod likely;
 mod named;
+mod prior_consistency;
 mod unobservable;
 
 mod identifiability;
@@ -66,6 +67,7 @@ pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use named::InRun;
 pub use posterior::{Evidence, Posterior, correlation};
+pub use prior_consistency::{Departure, Quantity};
 pub use rounding::AngleSteps;
 pub use run::{Reference, Rig, Run, RunError};
 pub use strengths::{Noise, NoiseKnowledge, Strengths, TriadStrengths};

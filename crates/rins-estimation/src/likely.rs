@@ -9,7 +9,7 @@ use crate::run::Reference;
 use crate::strengths::Noise;
 
 /// How far, in logarithms, a data sheet's white noise may be off, 1σ.
-const WHITE: f64 = 1.0;
+pub(crate) const WHITE: f64 = 1.0;
 
 /// The same for strengths of which nothing is known.
 const UNKNOWN: f64 = 3.0;

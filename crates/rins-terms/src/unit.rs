@@ -66,6 +66,10 @@ impl Unit {
 
     /// Degrees Celsius.
     pub const CELSIUS: Self = Self::new("degC", 1.0);
+    /// Degrees an hour per root hertz, as a noise density \[rad/s/√Hz\].
+    pub const DEG_PER_HOUR_PER_ROOT_HERTZ: Self = Self::new("deg/h/sqrt(Hz)", DEG_PER_HOUR);
+    /// Millionths of standard gravity per root hertz, as a noise density \[m/s²/√Hz\].
+    pub const MICRO_G_PER_ROOT_HERTZ: Self = Self::new("ug/sqrt(Hz)", MICRO_G);
     /// Seconds.
     pub const SECOND: Self = Self::new("s", 1.0);
     /// Hertz.

@@ -17,6 +17,7 @@ mod mistakes;
 mod monte_carlo;
 mod no_room;
 mod observe;
+mod prior_consistency;
 mod repairs;
 mod replaced;
 mod round_trip;

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use rins_calibration::MEASUREMENTS;
-use rins_estimation::correlation;
+use rins_estimation::{Departure, Quantity, correlation};
 use rins_frames::units::DEG;
+use rins_terms::Unit;
 
 use crate::commands::calibrate::{Certificate, CertifiedRun};
 use crate::number::figure;
@@ -13,7 +14,7 @@ use crate::view::consistency::{Residuals, consistency_section, consistency_sente
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::noise::{noise_section, noise_sentence};
 use crate::view::table::aligned;
-use crate::view::told::{badge, gauge_sentences, observability, rank_sentence};
+use crate::view::told::{badge, gauge_sentences, name, observability, rank_sentence};
 use crate::view::worth::{budget_section, compensation_section};
 
 /// What the rows of an innovation are.
@@ -65,16 +66,47 @@ fn run_name(run: Option<usize>) -> String {
     run.map_or_else(String::new, |run| (run + 1).to_string())
 }
 
+/// What a departure is of: its id and unit.
+pub(crate) fn quantity(certificate: &Certificate, of: Quantity) -> (String, Unit) {
+    match of {
+        Quantity::Parameter(place) => {
+            (name(&certificate.told, place), certificate.fit.parameters[place].parameter.unit)
+        }
+        Quantity::GyroNoise => ("gyro.noise".into(), Unit::DEG_PER_HOUR_PER_ROOT_HERTZ),
+        Quantity::AccelNoise => ("accel.noise".into(), Unit::MICRO_G_PER_ROOT_HERTZ),
+    }
+}
+
+/// What is far from what was stated beforehand.
+pub(crate) fn departure_in_words(certificate: &Certificate, departure: &Departure) -> String {
+    let (id, unit) = quantity(certificate, departure.of);
+    let figures = [departure.value, departure.expected, departure.sigma]
+        .map(|figure| crate::number::figure(figure / unit.factor, 4));
+    let [value, expected, sigma] = figures;
+    let aliases = match departure.of {
+        Quantity::Parameter(place) => !certificate.told.seen[place].aliases.is_empty(),
+        _ => false,
+    };
+    let what = if aliases { format!("The combination that {id} leads") } else { id };
+    format!(
+        "{what} is {value} {} where {expected} ± {sigma} was stated beforehand, {:.1} sigma off",
+        unit.symbol,
+        departure.sigmas.abs()
+    )
+}
+
 /// The result in plain words.
 fn summary(certificate: &Certificate) -> Vec<String> {
     let mut sentences: Vec<String> = certificate
-        .runs
-        .iter()
-        .map(|run| {
-            let gain = gain_sentence("what was estimated", &run.before, &run.after);
-            if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
-        })
+        .departed()
+        .into_iter()
+        .map(|of| departure_in_words(certificate, of) + ".")
         .collect();
+    let gains = certificate.runs.iter().map(|run| {
+        let gain = gain_sentence("what was estimated", &run.before, &run.after);
+        if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
+    });
+    sentences.extend(gains);
     sentences.push(consistency_sentence(&certificate.consistency));
     sentences.push(rank_sentence(&certificate.told));
     sentences.push(noise_sentence(certificate));

@@ -15,7 +15,7 @@ mod worth;
 
 pub(crate) use allan::{allan_report, allan_text};
 pub(crate) use calibration::{SYSTEMATIC_NOTE, calibration_report, calibration_text, meaning};
-pub(crate) use certificate::{certificate_report, certificate_text};
+pub(crate) use certificate::{certificate_report, certificate_text, departure_in_words, quantity};
 pub(crate) use comparison::{comparison_report, comparison_text};
 pub(crate) use diagnosis::{diagnosis_report, diagnosis_text, size_in_words, structure_in_words};
 pub(crate) use navigation::{attitude_plot, position_plot, velocity_plot};

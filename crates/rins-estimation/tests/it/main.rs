@@ -6,6 +6,7 @@ mod colour;
 mod gravity;
 mod left_out;
 mod mountings;
+mod prior_consistency;
 mod refusals;
 mod rests;
 mod rounding;

@@ -10,10 +10,10 @@ use crate::mountings::{drawn, truth};
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
 /// IMUs, each drawn from its data sheet.
-const IMUS: u64 = 200;
+pub(crate) const IMUS: u64 = 200;
 
 /// One of four schedules, on an axis that is tilted by 3 to 60 deg.
-fn turned(error: &ImuError, seed: u64) -> Run {
+pub(crate) fn turned(error: &ImuError, seed: u64) -> Run {
     let rate = 5.0 + (seed % 7) as f64 * 4.0;
     let schedule = match seed % 4 {
         0 => vec![(rate, 60.0)],
@@ -26,7 +26,7 @@ fn turned(error: &ImuError, seed: u64) -> Run {
     run(&scenario(stand, profile(&schedule), (*error, Model::default()), noise, seed))
 }
 
-fn fitted(run: &Run) -> Fit {
+pub(crate) fn fitted(run: &Run) -> Fit {
     let imu = fibre();
     let known = NoiseKnowledge::Given(Strengths::of(&imu));
     fit(std::slice::from_ref(run), &Model::full(), &imu, known, |_| ()).unwrap()

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Fit, Identifiability, InRun, Lost, Run, fit};
+use rins_estimation::{Departure, Fit, Identifiability, InRun, Lost, Run, Strengths, fit};
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
@@ -18,10 +18,16 @@ use crate::commands::calibrate::{Case, Prepared, files, json};
 use crate::commands::check::steady_rates;
 use crate::outcome::Outcome;
 use crate::progress;
-use crate::view::{certificate_report, certificate_text};
+use crate::view::{certificate_report, certificate_text, departure_in_words};
 
 /// A mean NIS above this is no matter of a sensor error more or less.
 const ABSURD_NIS: f64 = 100.0;
+
+/// An estimate that is off by more standard deviations of what was stated beforehand is told first.
+const DEPARTED: f64 = 4.0;
+
+/// One that is off by more is no result.
+const ABSURD: f64 = 10.0;
 
 /// At most so many rates of a run are told one by one.
 const MOST_RATES: usize = 7;
@@ -38,6 +44,8 @@ pub(crate) struct Certificate {
     pub(crate) told: Identifiability,
     /// The parameters that keep the values that were expected of them.
     pub(crate) held: Vec<usize>,
+    /// What was found, against the data sheet and what else was stated beforehand.
+    pub(crate) departures: Vec<Departure>,
     /// Whether the innovations of all runs are what the model says.
     pub(crate) consistency: Consistency,
     /// Whether the noise was found, or given.
@@ -95,6 +103,7 @@ impl Certificate {
         });
         let fit = fit.along(SignedAxes::IDENTITY);
         let told = fit.identifiability();
+        let departures = fit.prior_departures(&told, &Strengths::of(case.imu()));
         let held = held(&fit, &told);
         let fit = fit.with_prior_values_at(&held);
         let mut certified = Vec::with_capacity(case.runs.len());
@@ -113,7 +122,18 @@ impl Certificate {
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
         let Case { name: model, noise, remarks, .. } = case;
         let besides = Vec::new();
-        Ok(Self { model, runs: certified, fit, told, held, consistency, noise, besides, remarks })
+        Ok(Self {
+            model,
+            runs: certified,
+            fit,
+            told,
+            held,
+            departures,
+            consistency,
+            noise,
+            besides,
+            remarks,
+        })
     }
 
     /// What the command delivers.
@@ -157,16 +177,33 @@ impl Certificate {
         format!("Calibration of {}", names.join(", "))
     }
 
-    /// Why estimates mean nothing, if the innovations are beyond what any sensor error explains.
+    /// What is further from what was stated beforehand than such figures are, the furthest first.
+    pub(crate) fn departed(&self) -> Vec<&Departure> {
+        let mut departed: Vec<&Departure> =
+            self.departures.iter().filter(|of| of.sigmas.abs() > DEPARTED).collect();
+        departed.sort_by(|a, b| b.sigmas.abs().total_cmp(&a.sigmas.abs()));
+        departed
+    }
+
+    /// Why estimates mean nothing: the innovations are beyond what any sensor error explains, or an estimate beyond what the
+    /// data sheet does.
     pub(crate) fn absurd(&self) -> Option<String> {
         let nis = self.consistency.nis_mean;
-        (nis > ABSURD_NIS).then(|| {
+        let departed = self.departed().into_iter().next().filter(|of| of.sigmas.abs() > ABSURD);
+        let departed = departed.map(|of| {
+            format!(
+                "{}: more than {ABSURD} are no error of such a sensor; the data sheet, a unit, a scale, gravity or the attitude \
+                 is wrong",
+                departure_in_words(self, of)
+            )
+        });
+        departed.or_else(|| (nis > ABSURD_NIS).then(|| {
             format!(
                 "the innovations are {:.0} times larger than the noise that was found allows: units, axes, signs, \
                  attitude or table profile are wrong, and so are the estimates",
                 (nis / self.consistency.nis_dof as f64).sqrt()
             )
-        })
+        }))
     }
 }
 

@@ -2,15 +2,15 @@
 
 use nalgebra::{DMatrix, Vector3};
 use rins_calibration::{Consistency, FreeNavigation, Verdict};
-use rins_estimation::{Reference, correlation};
+use rins_estimation::{Departure, Reference, correlation};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use serde_json::{Value, json};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::prepared::across_axis;
 use crate::commands::calibrate::{Budget, Certificate, CertifiedRun, Drift, EQUATION};
-use crate::view::euler_json;
 use crate::view::told::{self, coefficient, identifiability_json, meaning};
+use crate::view::{euler_json, quantity};
 
 /// Free inertial navigation as JSON: what it ended with.
 pub(crate) fn navigation_json(navigation: &FreeNavigation) -> Value {
@@ -70,6 +70,7 @@ pub(super) fn certificate(certificate: &Certificate) -> Value {
             "after": navigation_json(&first.after),
         },
         "consistency": consistency_json(&certificate.consistency),
+        "prior_consistency": prior_consistency(certificate),
         "iterations": iterations,
         "log_likelihood": fit.log_likelihood,
         "noise": noise_json(certificate),
@@ -104,6 +105,22 @@ fn ids<'c>(certificate: &'c Certificate, run: &CertifiedRun) -> Vec<&'c str> {
 
 pub(super) fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+/// What lies further off than was stated beforehand, the furthest first.
+fn prior_consistency(certificate: &Certificate) -> Vec<Value> {
+    let one = |of: &Departure| {
+        let (id, unit) = quantity(certificate, of.of);
+        json!({
+            "id": id,
+            "value": of.value / unit.factor,
+            "expected": of.expected / unit.factor,
+            "sigma": of.sigma / unit.factor,
+            "sigmas": of.sigmas,
+            "unit": unit.symbol,
+        })
+    };
+    certificate.departed().into_iter().map(one).collect()
 }
 
 fn parameter_json(certificate: &Certificate, place: usize) -> Value {

@@ -1,0 +1,76 @@
+//! Estimates against what was stated of them: quiet for sensors that are as stated, loud for others.
+
+use rayon::prelude::*;
+use rins_estimation::{Departure, Quantity, Strengths};
+use rins_imu::ImuError;
+
+use crate::mountings::drawn;
+use crate::support::fibre;
+use crate::unobservable::{IMUS, fitted, turned};
+
+fn departures(error: &ImuError, seed: u64) -> Vec<(String, Departure)> {
+    let fit = fitted(&turned(error, seed));
+    let told = fit.identifiability();
+    let named = |departure: Departure| match departure.of {
+        Quantity::Parameter(place) => (told.unknowns[place].id.clone(), departure),
+        of => (format!("{of:?}"), departure),
+    };
+    fit.prior_departures(&told, &Strengths::of(&fibre())).into_iter().map(named).collect()
+}
+
+#[test]
+fn sensors_as_their_sheet_says_depart_as_often_as_chance_has_it() {
+    let all: Vec<f64> = (0..IMUS)
+        .into_par_iter()
+        .flat_map_iter(|seed| departures(&drawn(seed), seed))
+        .filter(|(_, departure)| matches!(departure.of, Quantity::Parameter(_)))
+        .map(|(_, departure)| departure.sigmas)
+        .collect();
+    let mean = all.iter().map(|sigmas| sigmas * sigmas).sum::<f64>() / all.len() as f64;
+    // Combinations share parts, so that not all are independent: a fifth of them is taken to be.
+    let scatter = (2.0 / (0.2 * all.len() as f64)).sqrt();
+    assert!((mean - 1.0).abs() < 4.0 * scatter, "mean square {mean} of {}", all.len());
+    // Of some thousand normal figures one is beyond four in fifteen thousand.
+    let far = all.iter().filter(|sigmas| sigmas.abs() > 4.0).count();
+    assert!(far <= 3 && all.len() > 2000, "{far} of {}", all.len());
+}
+
+/// An error of eight stated sigmas is found where the schedule shows it, alone or in the combination that it is in.
+#[test]
+fn errors_far_beyond_the_sheet_are_found() {
+    let found: Vec<bool> = (0..IMUS)
+        .into_par_iter()
+        .map(|seed| {
+            let mut error = drawn(seed);
+            let (sheet, sign) = (fibre(), if seed % 2 == 0 { 8.0 } else { -8.0 });
+            let wrong = match seed % 5 {
+                0 => {
+                    error.gyro.matrix[(2, 2)] = sign * sheet.gyro.scale_sigma;
+                    "gyro.scale.z"
+                }
+                1 => {
+                    error.gyro.matrix[(0, 2)] = sign * sheet.gyro.misalignment_sigma;
+                    "gyro.misalignment.xz"
+                }
+                2 => {
+                    error.gyro.matrix[(1, 2)] = sign * sheet.gyro.misalignment_sigma;
+                    "gyro.misalignment.yz"
+                }
+                3 => {
+                    error.accel.matrix[(2, 2)] = 3.0 * sign * sheet.accel.scale_sigma;
+                    "accel."
+                }
+                _ => {
+                    error.accel.bias[0] = 3.0 * sign * sheet.accel.bias_sigma;
+                    "accel."
+                }
+            };
+            let departed = |(id, departure): &(String, Departure)| {
+                id.starts_with(wrong) && departure.sigmas.abs() > 4.0
+            };
+            departures(&error, seed).iter().any(departed)
+        })
+        .collect();
+    let missed = found.iter().filter(|found| !**found).count();
+    assert_eq!(missed, 0, "of {IMUS}");
+}
