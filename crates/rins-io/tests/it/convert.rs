@@ -236,7 +236,9 @@ fn nothing_that_is_there_is_replaced_unasked() {
     for name in ["run.csv", "rig.csv"] {
         let refused = again(&path(name), Overwrite::Force).unwrap_err().to_string();
         assert!(
-            refused.ends_with("is read by the conversion itself; choose another name"),
+            refused.ends_with(
+                "is an input of the same command and is not replaced; choose another name"
+            ),
             "{refused}"
         );
     }

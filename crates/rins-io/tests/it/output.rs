@@ -191,6 +191,6 @@ fn a_link_is_not_followed() {
     std::os::unix::fs::symlink(&real, &link).unwrap();
     assert_eq!(
         said(fill(&link, Overwrite::Force, &["result.json"]), &folder),
-        "link: is a link, expected a folder"
+        "link: is a symbolic link, expected a folder"
     );
 }
