@@ -5,7 +5,7 @@ use std::ops::Range;
 use rins_frames::Increments;
 
 use crate::recording::Recording;
-use crate::sticking::Sticking;
+use crate::sticking::{Sticking, at_ends, is_noisy};
 
 /// Readings are the same if they differ by no more than rounding, relative to the larger.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -82,21 +82,35 @@ impl Recording {
         Some(Repeats { samples, rows: rows.len(), by_chance, alone })
     }
 
-    /// Where each channel sticks for longer than a driver's hiccup lasts, the longest row first.
+    /// Where each channel sticks for longer than a driver's hiccup lasts, alone or with all others, the longest row first.
     pub(crate) fn stuck_for_long(&self) -> [Vec<Range<usize>>; 6] {
         let together = self.repeats();
         std::array::from_fn(|channel| {
             let mut rows = self.sticking(channel, &together).rows;
+            if together.contains(&true) && is_noisy(&self.of_channel(channel)) {
+                rows.extend(rows_of(&together));
+            }
             rows.retain(|row| row.len() > LONGEST);
             rows.sort_by_key(|row| std::cmp::Reverse(row.len()));
             rows
         })
     }
 
+    /// Where a channel repeats its largest or least reading for as long, the longest row first: it sticks there, or is cut off.
+    pub(crate) fn stuck_at_ends(&self, channel: usize) -> Vec<Range<usize>> {
+        let readings = self.of_channel(channel);
+        let mut rows = if is_noisy(&readings) { at_ends(&readings) } else { Vec::new() };
+        rows.retain(|row| row.len() > LONGEST && row.len() + 1 < readings.len());
+        rows.sort_by_key(|row| std::cmp::Reverse(row.len()));
+        rows
+    }
+
     fn sticking(&self, channel: usize, together: &[bool]) -> Sticking {
-        let of_channel: Vec<f64> =
-            self.increments.iter().map(|sample| readings(sample)[channel]).collect();
-        Sticking::of(&of_channel, together)
+        Sticking::of(&self.of_channel(channel), together)
+    }
+
+    fn of_channel(&self, channel: usize) -> Vec<f64> {
+        self.increments.iter().map(|sample| readings(sample)[channel]).collect()
     }
 
     /// Which samples are those before them.

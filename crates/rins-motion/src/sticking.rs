@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::comb::comb;
 use crate::median::median;
-use crate::repeats::{BEYOND_CHANCE, MOST, alike, rows_of};
+use crate::repeats::{BEYOND_CHANCE, LONGEST, MOST, alike, rows_of};
 
 /// Readings whose noise is less than so many teeth of their comb, or than this part of the largest, say the same for long while
 /// nothing happens.
@@ -35,9 +35,14 @@ impl Sticking {
             !passed[*sample] && !is_end
         };
         let sticks = |sample: usize| counts(&sample) && repeats(sample, 1);
-        let rows = rows_of(&(0..readings.len()).map(sticks).collect::<Vec<bool>>());
-        let samples = rows.iter().map(Range::len).sum::<usize>() as f64;
-        if samples == 0.0 || samples > MOST * readings.len() as f64 {
+        let mut rows = rows_of(&(0..readings.len()).map(sticks).collect::<Vec<bool>>());
+        let total = |rows: &[Range<usize>]| rows.iter().map(Range::len).sum::<usize>() as f64;
+        if total(&rows) > MOST * readings.len() as f64 {
+            // A sensor that has new readings more slowly than the log repeats most of them; for long it does so only if it sticks.
+            rows.retain(|row| row.len() > LONGEST);
+        }
+        let samples = total(&rows);
+        if samples == 0.0 {
             return none;
         }
         // By chance a reading is that before the last one as often. One more: that none was seen does not say that there is none.
@@ -47,13 +52,28 @@ impl Sticking {
             return none;
         }
         // Without noise a row of equal readings may be what there was.
-        let most = ends.0.abs().max(ends.1.abs());
-        let step = comb(readings).map_or(0.0, |comb| comb.step);
-        if noise(readings) < (TEETH * step).max(ROUNDING * most) {
-            return none;
-        }
-        Self { rows, by_chance }
+        if is_noisy(readings) { Self { rows, by_chance } } else { none }
     }
+}
+
+/// The rows of repeated readings that are the largest or the least of all.
+pub(crate) fn at_ends(readings: &[f64]) -> Vec<Range<usize>> {
+    let least = readings.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let repeats = |sample: usize| {
+        sample > 0
+            && alike(readings[sample - 1], readings[sample])
+            && [least, most].iter().any(|end| alike(*end, readings[sample]))
+    };
+    rows_of(&(0..readings.len()).map(repeats).collect::<Vec<bool>>())
+}
+
+/// Whether readings have so much noise that equal ones are no reading of what there was.
+pub(crate) fn is_noisy(readings: &[f64]) -> bool {
+    let most = readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let step = comb(readings).map_or(0.0, |comb| comb.step);
+    let noise = noise(readings);
+    noise > 0.0 && noise >= (TEETH * step).max(ROUNDING * most)
 }
 
 /// From each reading to the next.

@@ -7,7 +7,7 @@ use rins_tests::outside_data;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{list, object, result_in, rins_in};
+use crate::support::{Finished, list, object, result_in, rins_in};
 
 const ITEMS: [&str; 19] = [
     "rate and jitter",
@@ -146,7 +146,30 @@ fn each_fault_shows_where_it_belongs() {
         let (found, says) = verdict(&check, item);
         assert_eq!(found, word, "{item}: {says}");
         assert!(says.contains(words), "{item}: {says}");
+        assert_conclusion(folder.path(), item, word);
     }
+}
+
+/// Fails unless the last line of a check names the item with its word, and the exit code follows from it.
+fn assert_conclusion(folder: &Path, item: &str, word: &str) {
+    let Finished { code, out, .. } = rins_in(folder, "check rig.toml");
+    let last = out.trim_end().lines().last().unwrap();
+    let named = last.contains(item) && last.contains(&format!("{word}: "));
+    assert!(named || word == "fact", "{item}: {last}");
+    assert_eq!(last.contains("bad: "), code == Some(1), "{item}: {last}");
+}
+
+/// A latency of ten seconds is said of a table that is read at once.
+#[test]
+fn last_line_follows_from_the_verdicts() {
+    let folder =
+        run(["unit = \"rad\", noise", "unit = \"rad\", latency = \"10 s\", noise"], |lines| lines);
+    assert_conclusion(folder.path(), "latency", "odd");
+    let good = rins_in(run(SAME, |lines| lines).path(), "check rig.toml");
+    assert_eq!(
+        (good.code, good.out.trim_end().lines().last()),
+        (Some(0), Some("  no anomaly found"))
+    );
 }
 
 #[test]

@@ -60,17 +60,30 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     if let Some(mend) = mends_in_words(&mends(&inspection, &loaded.rig)) {
         let _ = writeln!(text, "  > {mend}");
     }
-    if oddities.is_empty() {
-        text.push_str("  nothing odd\n");
-    }
+    let verdicts = verdicts(&inspection, &loaded);
+    let of_tone = |tone: Tone| -> Vec<&str> {
+        verdicts.iter().filter(|verdict| verdict.tone == tone).map(|verdict| verdict.item).collect()
+    };
+    let (odd, bad) = (of_tone(Tone::Warning), of_tone(Tone::Bad));
+    let conclusion = match (&odd[..], &bad[..]) {
+        ([], []) if oddities.is_empty() => "no anomaly found".to_owned(),
+        ([], []) => "no verdict is odd or bad; see the remarks above".to_owned(),
+        (odd, []) => format!("odd: {}", odd.join(", ")),
+        ([], bad) => format!("bad: {}", bad.join(", ")),
+        (odd, bad) => format!("bad: {}; odd: {}", bad.join(", "), odd.join(", ")),
+    };
+    let _ = writeln!(text, "  {conclusion}");
     let suspected = inspection.suspicions.len();
+    let failure = match bad.len() {
+        _ if suspected > 0 => Some(format!("{suspected} suspected mistake(s), see above")),
+        0 => None,
+        _ => Some(format!("bad: {}", bad.join(", "))),
+    };
     Ok(Outcome {
         json: json(&inspection, &oddities, &loaded, rig),
         text,
         report: Some(report(&title, &inspection, &oddities, &loaded)),
-        failure: (suspected > 0).then(|| {
-            format!("{}: {suspected} suspected mistake(s), see above", loaded.rig.path.display())
-        }),
+        failure: failure.map(|why| format!("{}: {why}", shown(&loaded.rig.path))),
         ..Outcome::default()
     })
 }

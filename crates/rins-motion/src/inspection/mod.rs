@@ -184,13 +184,23 @@ pub fn inspect_with(
         .filter(|&channel| recording.len() > 1 && longest_repeat[channel] == recording.len())
         .map(|channel| Suspicion::StuckChannel { channel: CHANNELS[channel] })
         .collect();
-    let stuck = CHANNELS.into_iter().zip(recording.stuck_for_long());
-    suspicions.extend(stuck.filter_map(|(channel, rows)| {
+    let of_channels = channel::suspicions(recording, expected, &stands);
+    let is_cut = |name: &str| {
+        of_channels.iter().any(|of| {
+            matches!(of, Suspicion::Saturated { channel, .. } | Suspicion::FlatTop { channel, .. }
+                if *channel == name)
+        })
+    };
+    let stuck = CHANNELS.into_iter().zip(recording.stuck_for_long()).enumerate();
+    suspicions.extend(stuck.filter_map(|(place, (channel, mut rows))| {
+        if rows.is_empty() && !is_cut(channel) {
+            rows = recording.stuck_at_ends(place);
+        }
         let longest = rows.first()?;
         let (count, time) = (longest.len(), recording.times[longest.start]);
         Some(Suspicion::Sticks { channel, rows: rows.len(), count, time })
     }));
-    suspicions.extend(channel::suspicions(recording, expected, &stands));
+    suspicions.extend(of_channels);
     let timing = Timing::of(recording);
     let longest = rests.iter().max_by(|a, b| a.mean.duration.total_cmp(&b.mean.duration));
     let table_angle = table_angle(recording);

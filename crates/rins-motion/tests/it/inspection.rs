@@ -1,7 +1,7 @@
 //! What a look through a recording finds in its channels and in the table's turn.
 
 use nalgebra::Vector3;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal, StudentT};
 use rand_pcg::Pcg64;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND};
@@ -330,6 +330,44 @@ fn channel_that_sticks_for_long_is_suspected() {
         };
         assert!(found.contains(&sticks), "{found:?}");
     }
+}
+
+/// Whatever share of a log it is, from less than a percent to all but the first ninth: one channel, or all six, at the reading before or
+/// at zero.
+#[test]
+fn channels_that_stick_for_any_share_of_a_log_are_suspected() {
+    let mut missed = Vec::new();
+    for draw in 0..200_u64 {
+        let mut random = Pcg64::seed_from_u64(draw);
+        let grade = if draw % 3 == 0 { CHIP } else { NAVIGATION };
+        let mut recording = record(usual(), grade, 100 + draw);
+        let samples = recording.len();
+        let length = (samples / random.random_range(1..150)).clamp(60, samples * 8 / 9);
+        let first = random.random_range(samples / 10..samples - length + 1);
+        let (channel, zero) = (random.random_range(0..7_usize), random.random_range(0..2) == 0);
+        let held = recording.increments[first - 1];
+        for sample in &mut recording.increments[first..first + length] {
+            let mut readings = [*sample.angle.components(), *sample.velocity.components()];
+            for of in (0..6).filter(|of| channel == 6 || *of == channel) {
+                let before = [held.angle.components(), held.velocity.components()];
+                let reading = if zero { 0.0 } else { before[of / 3][of % 3] };
+                readings[of / 3][of % 3] = reading;
+            }
+            sample.angle = InFrame::from_components(readings[0]);
+            sample.velocity = InFrame::from_components(readings[1]);
+        }
+        let found = inspect(&recording, &expected(grade)).suspicions;
+        let stuck = |suspicion: &Suspicion| match suspicion {
+            Suspicion::Sticks { channel: of, .. } | Suspicion::FlatTop { channel: of, .. } => {
+                channel == 6 || *of == CHANNELS[channel]
+            }
+            _ => false,
+        };
+        if !found.iter().any(stuck) {
+            missed.push((draw, channel, zero, length, first));
+        }
+    }
+    assert!(missed.is_empty(), "{} of 200: {missed:?}", missed.len());
 }
 
 #[test]
