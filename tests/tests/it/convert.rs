@@ -59,7 +59,7 @@ fn a_name_that_tells_no_format_is_refused() {
     assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
     assert!(refused.err.starts_with("rins: a.txt: the name does not tell a format; say --format"));
     let refused = rins_in(folder.path(), "convert rig.toml -o run.csv --force");
-    assert!(refused.err.contains("run.csv: is read by the conversion itself"), "{}", refused.err);
+    assert!(refused.err.contains("run.csv: is an input of the same command"), "{}", refused.err);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 
