@@ -231,11 +231,15 @@ fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
         let found = inputs::special(found.file_type()).unwrap_or("a file");
         return Err(refuse(path, OutputProblem::WrongType { found, expected: "a folder" }));
     }
-    let mut names = Vec::new();
+    let (mut names, mut input) = (Vec::new(), None);
     for entry in fs::read_dir(path).map_err(IoError::file("read", path))? {
         let entry = entry.map_err(IoError::file("read", path))?;
         let ours = entry.file_type().is_ok_and(|kind| kind.is_file());
-        names.push((entry.file_name().to_string_lossy().into_owned(), ours));
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if inputs::is_input(&entry.path()) {
+            input = Some(name.clone());
+        }
+        names.push((name, ours));
     }
     names.sort();
     if names.is_empty() {
@@ -247,11 +251,8 @@ fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
     if !names.iter().any(|(name, is_file)| *is_file && MARKS.contains(&name.as_str())) {
         return Err(refuse(path, OutputProblem::NotOurs));
     }
-    for entry in fs::read_dir(path).map_err(IoError::file("read", path))?.flatten() {
-        if inputs::is_input(&entry.path()) {
-            let entry = entry.file_name().to_string_lossy().into_owned();
-            return Err(refuse(path, OutputProblem::HoldsInput { entry }));
-        }
+    if let Some(entry) = input {
+        return Err(refuse(path, OutputProblem::HoldsInput { entry }));
     }
     match names.into_iter().find(|(name, is_file)| !is_file || !NAMES.contains(&name.as_str())) {
         Some((entry, _)) => Err(refuse(path, OutputProblem::HoldsMore { entry })),

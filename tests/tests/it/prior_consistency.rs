@@ -27,20 +27,12 @@ roll = "30 deg"
 pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.05 deg"
-[imu.gyro]
-noise = "0.02 deg/h/sqrt(Hz)"
-bias_sigma = "0.1 deg/h"
-scale_sigma = "500 ppm"
-misalignment_sigma = "120 arcsec"
-[imu.accel]
-noise = "30 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "300 ppm"
-misalignment_sigma = "60 arcsec"
+{data_sheets}
 [truth]
 seed = 4
 accel = {{ bias = ["0 ug", "0 ug", "0 ug"], scale = ["{scale} ppm", "{scale} ppm", "{scale} ppm"] }}
-"#
+"#,
+        data_sheets = rins_testing::data_sheets!()
     );
     fs::write(folder.join("scenario.toml"), scenario).unwrap();
     let simulated = rins_in(folder, "simulate scenario.toml -o run --force");

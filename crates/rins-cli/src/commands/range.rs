@@ -69,12 +69,7 @@ pub(crate) fn beyond(
 ) -> anyhow::Result<Beyond> {
     let (log, file) = (loaded.rig.log.path.display().to_string(), shown(&calibration.path));
     let here = covered([&loaded.recording]);
-    if let Some(term) = needs_temperature(terms).filter(|_| here.temperature.is_none()) {
-        anyhow::bail!(
-            "{log}: {file} holds {term}, which depends on temperature, and the log has none: declare its column as [log] \
-             temperature"
-        );
-    }
+    ensure_temperature(&log, &file, terms, &loaded.recording)?;
     let mut beyond = Beyond::default();
     let (temperature, rate) = (calibration.range.temperature, calibration.range.rate);
     let mut outside = json!({});
@@ -123,10 +118,23 @@ pub(crate) fn beyond(
     Ok(beyond)
 }
 
-/// The first term that needs a temperature.
-pub(crate) fn needs_temperature(model: &Model) -> Option<&'static str> {
+/// Refuses a model, of which `holder` tells, that depends on a temperature which a log does not have.
+pub(crate) fn ensure_temperature(
+    log: &str,
+    holder: &str,
+    model: &Model,
+    recording: &Recording,
+) -> anyhow::Result<()> {
     let needs = |chosen: &&Chosen| chosen.term.needs.contains(&Need::Temperature);
-    model.terms.iter().find(needs).map(|chosen| chosen.term.id)
+    let needing = model.terms.iter().find(needs).filter(|_| recording.temperature.is_none());
+    if let Some(Chosen { term, .. }) = needing {
+        anyhow::bail!(
+            "{log}: {holder} holds {}, which depends on temperature, and the log has none: declare its column as [log] \
+             temperature",
+            term.id
+        );
+    }
+    Ok(())
 }
 
 /// What coefficients of temperature leave uncertain so many kelvin outside, the largest of each term.

@@ -8,7 +8,7 @@ use rins_terms::{Chosen, Model, Role, catalogue};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::{NamedModel, Prepared};
-use crate::commands::range::needs_temperature;
+use crate::commands::range::ensure_temperature;
 
 /// What is estimated, from what, and what is known beforehand.
 pub(crate) struct Case {
@@ -52,21 +52,11 @@ impl Case {
         let model = on_these_runs(named.model, &runs, preset, &mut remarks);
         let case = Self { runs, name: named.name, model, noise, remarks };
         case.runs.iter().try_for_each(|run| case.ensure_same_imu(run))?;
-        case.ensure_temperatures()?;
+        let has_temperature = |run: &Prepared| {
+            ensure_temperature(&run.name, "the model", &case.model, &run.run.recording)
+        };
+        case.runs.iter().try_for_each(has_temperature)?;
         Ok(case)
-    }
-
-    /// Refuses a model that depends on a temperature which a run does not have.
-    fn ensure_temperatures(&self) -> anyhow::Result<()> {
-        let without = self.runs.iter().find(|run| run.run.recording.temperature.is_none());
-        if let Some((term, run)) = needs_temperature(&self.model).zip(without) {
-            anyhow::bail!(
-                "{}: the model holds {term}, which depends on temperature, and the log has none: declare its column as [log] \
-                 temperature",
-                run.name
-            );
-        }
-        Ok(())
     }
 
     /// Refuses a run of another IMU.

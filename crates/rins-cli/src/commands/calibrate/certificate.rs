@@ -263,7 +263,8 @@ impl CertifiedRun {
 }
 
 /// The parameters that are left at the values that were expected of them: those of which the data would tell nothing
-/// if all else were known, and those that they hardly tell better than a data sheet. What an earlier calibration said of a parameter is an estimate as good as this one.
+/// if all else were known, and those that they hardly tell better than a data sheet. What an earlier calibration said of a
+/// parameter is an estimate as good as this one.
 fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
     let is_held = |&place: &usize| {
         let role = |run: usize| {
