@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use rins_io::{LogFile, Overwrite};
+use rins_io::{LogFile, Overwrite, shown};
 
 mod observe;
 
-pub(crate) use self::observe::Observe;
+pub(crate) use self::observe::{Observe, Want};
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
 ///
@@ -302,7 +302,7 @@ fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, Stri
     let mut seen = Vec::new();
     for rig in rigs {
         if seen.contains(&rig) {
-            return Some((ErrorKind::ValueValidation, format!("{} is given twice", rig.display())));
+            return Some((ErrorKind::ValueValidation, format!("{} is given twice", shown(rig))));
         }
         seen.push(rig);
     }

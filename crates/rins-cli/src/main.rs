@@ -6,13 +6,12 @@ use std::process::ExitCode;
 use anyhow::Context;
 
 use crate::args::{Arguments, Command};
-use crate::line::one_line;
 use crate::outcome::Outcome;
+use rins_io::one_line;
 
 mod args;
 mod commands;
 mod interrupt;
-mod line;
 mod number;
 mod outcome;
 mod progress;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::log::LogProblem;
 use crate::output::OutputProblem;
 use crate::quantity::{QuantityError, did_you_mean};
+use crate::shown::shown;
 use crate::write::WriteProblem;
 
 /// Why a file could not be read or written.
@@ -16,7 +17,7 @@ use crate::write::WriteProblem;
 #[non_exhaustive]
 pub enum IoError {
     /// The operating system refused.
-    #[error("cannot {action} {}", .path.display())]
+    #[error("cannot {action} {}", shown(.path))]
     File {
         /// What was tried: "read", "write", …
         action: &'static str,
@@ -32,7 +33,7 @@ pub enum IoError {
     #[error(transparent)]
     Log(#[from] Box<LogError>),
     /// A recording cannot be written in a format.
-    #[error("{}: {problem}", .path.display())]
+    #[error("{}: {problem}", shown(.path))]
     Write {
         /// The log that was to be written.
         path: PathBuf,
@@ -40,7 +41,7 @@ pub enum IoError {
         problem: WriteProblem,
     },
     /// A result cannot be put where it should go.
-    #[error("{}: {problem}", .path.display())]
+    #[error("{}: {problem}", shown(.path))]
     Output {
         /// The file or folder that was to be written.
         path: PathBuf,
@@ -75,7 +76,7 @@ pub struct KeyError {
 
 impl fmt::Display for KeyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.path.display())?;
+        write!(f, "{}:", shown(&self.path))?;
         if let Some(line) = self.line {
             write!(f, "{line}:")?;
         }
@@ -176,8 +177,8 @@ pub struct LogError {
 impl fmt::Display for LogError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.line {
-            Some(line) => write!(f, "{}:{line}: {}", self.path.display(), self.problem),
-            None => write!(f, "{}: {}", self.path.display(), self.problem),
+            Some(line) => write!(f, "{}:{line}: {}", shown(&self.path), self.problem),
+            None => write!(f, "{}: {}", shown(&self.path), self.problem),
         }
     }
 }

@@ -33,6 +33,7 @@ mod rig;
 mod run;
 mod scenario;
 mod section;
+mod shown;
 mod sound_parquet;
 mod source;
 mod suggestion;
@@ -64,6 +65,7 @@ pub use rig::{
 };
 pub use run::truth_json;
 pub use scenario::ScenarioFile;
+pub use shown::{one_line, shown};
 pub use suggestion::nearest;
 pub use unfinished::{Abandoned, abandon};
 pub use write::{

@@ -59,6 +59,9 @@ pub enum OutputProblem {
     /// The path does not end in a name.
     #[error("does not end in the name of a file or folder")]
     NoName,
+    /// A rig file has to name it, and cannot.
+    #[error("its name is not UTF-8, so that no rig file can tell it; choose another")]
+    NotText,
 }
 
 /// Any of these marks a folder as a result of ours.

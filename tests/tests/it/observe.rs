@@ -106,14 +106,16 @@ fn what_is_never_told_is_said_to_be_a_choice() {
 #[test]
 fn what_cannot_be_meant_is_refused_with_a_hint() {
     let scenario = "observe ii-reversal.toml";
-    let cases: [(&str, i32, &str); 9] = [
+    let cases: [(&str, i32, &str); 11] = [
         ("--separate gyro_g_sensitivty,encoder_slip", 1, "did you mean \"gyro_g_sensitivity\"?"),
         ("--separate gyro.bias,gyro.bias.x", 1, "both hold gyro.bias.x"),
         ("--separate gyro.bias", 2, "expected two ids"),
         ("--separate outliers,encoder_slip", 1, "adds nothing to any signal"),
         ("--want gyro.scale.z=0.1deg", 1, "expected a quantity such as \"1 ppm\""),
         ("--want gyro.scale=1ppm", 1, "gyro.scale.x, gyro.scale.y, gyro.scale.z"),
-        ("--want gyro.scale.z", 1, "ID=SIGMA"),
+        ("--want gyro.scale.z", 2, "ID=SIGMA"),
+        ("--want gyro.scale.z=-1ppm", 2, "a sigma is more than zero"),
+        ("--want gyro.scale.z=x", 2, "does not begin with a number"),
         ("--model fulll", 1, "did you mean \"full\"?"),
         ("--max-rate 3s", 2, "expected an angular rate"),
     ];

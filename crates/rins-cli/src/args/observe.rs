@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use rins_io::Quantity;
 use rins_io::quantity::kinds;
 
 #[derive(Debug, Args)]
@@ -21,8 +22,8 @@ pub(crate) struct Observe {
     #[arg(long, value_name = "A,B", value_parser = pair)]
     pub(crate) separate: Option<[String; 2]>,
     /// A parameter and the 1σ wanted of it, such as gyro.scale.z=0.1ppm, and the shortest schedule
-    #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate")]
-    pub(crate) want: Option<String>,
+    #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate", value_parser = want)]
+    pub(crate) want: Option<Want>,
     /// The table's fastest rate; by default the scenario's fastest, or 10 deg/s if it rests
     #[arg(long, value_name = "RATE", value_parser = table_rate)]
     pub(crate) max_rate: Option<f64>,
@@ -38,6 +39,32 @@ pub(crate) struct Observe {
     /// Folder for result.json, report.html and the proposed scenarios, next-1.toml and on
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+}
+
+/// A parameter and the 1σ that is wanted of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Want {
+    /// The parameter's id, as it was typed.
+    pub(crate) id: String,
+    /// More than zero.
+    pub(crate) sigma: Quantity,
+    /// As it was typed.
+    pub(crate) typed: String,
+}
+
+fn want(text: &str) -> Result<Want, String> {
+    let form = "expected ID=SIGMA, such as gyro.scale.z=0.1ppm";
+    let (id, typed) = text.split_once('=').ok_or(form)?;
+    let (id, typed) = (id.trim().to_owned(), typed.trim().to_owned());
+    if id.is_empty() {
+        return Err(form.into());
+    }
+    let sigma = Quantity::parse(&typed).map_err(|error| error.to_string())?;
+    if sigma.value > 0.0 {
+        Ok(Want { id, sigma, typed })
+    } else {
+        Err("a sigma is more than zero".into())
+    }
 }
 
 fn pair(text: &str) -> Result<[String; 2], String> {

@@ -20,11 +20,11 @@ use crate::commands::setup::load;
 use crate::commands::statics::{
     longest, none_found, only, static_intervals, statics_in_words, statics_json,
 };
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::report::{Cell, Column, Item, Report, Section, Table};
 use crate::view::euler_json;
 use crate::view::table::aligned;
+use rins_io::shown;
 
 /// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
 pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
@@ -154,7 +154,7 @@ fn accel_sigma(loaded: &Loaded) -> f64 {
 pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     let loaded = load(rig)?;
     refuse_mistaken(&loaded)?;
-    let found = found(&loaded).with_context(|| loaded.rig.log.path.display().to_string())?;
+    let found = found(&loaded).with_context(|| shown(&loaded.rig.log.path))?;
     let rows = rows(&found, &loaded);
     let title = format!("Alignment of {}", shown(rig));
     let statics = static_intervals(&loaded);
@@ -168,7 +168,7 @@ pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     text.push_str(&aligned(&rows));
     let report = Report {
         title,
-        subtitle: format!("rins align: {}", loaded.rig.log.path.display()),
+        subtitle: format!("rins align: {}", shown(&loaded.rig.log.path)),
         summary: sentences,
         sections: vec![Section {
             heading: "What was found".into(),

@@ -16,9 +16,9 @@ use crate::commands::setup::load;
 use crate::commands::statics::{
     longest, none_found, static_intervals, statics_in_words, statics_json,
 };
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::view::{allan_report, allan_text};
+use rins_io::shown;
 
 /// The shortest rest whose noise is looked at \[s\].
 const SHORTEST_REST: f64 = 10.0;

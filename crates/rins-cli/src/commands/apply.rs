@@ -14,8 +14,8 @@ use crate::commands::convert::{format_of, remarks};
 use crate::commands::navigate::axis_attitude;
 use crate::commands::range::{Beyond, beyond};
 use crate::commands::repairs::repairs;
-use crate::line::shown;
 use crate::outcome::Outcome;
+use rins_io::shown;
 
 pub(crate) fn run(arguments: &Apply, overwrite: Overwrite) -> anyhow::Result<Outcome> {
     let Apply { rig, calibration: file, output, format, extrapolate } = arguments;

@@ -31,11 +31,11 @@ use crate::commands::align::table;
 use crate::commands::repairs::repairs;
 use crate::commands::setup::load;
 use crate::commands::statics::{static_intervals, statics_in_words, statics_json};
-use crate::line::shown;
 use crate::number::figure;
 use crate::outcome::Outcome;
 use crate::report::{Item, Report, Section, Tone};
 use crate::view::table::aligned;
+use rins_io::shown;
 
 /// How many gaps and rests are listed one by one.
 const LISTED: usize = 12;
@@ -306,7 +306,7 @@ fn report(title: &str, inspection: &Inspection, oddities: &[String], loaded: &Lo
     }
     Report {
         title: title.into(),
-        subtitle: format!("rins check: {}", loaded.rig.log.path.display()),
+        subtitle: format!("rins check: {}", shown(&loaded.rig.log.path)),
         summary,
         sections: vec![
             Section { heading: "What is in it".into(), intro: String::new(), items },

@@ -9,9 +9,9 @@ use serde_json::{Value, json};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::args::Compare;
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::view::{comparison_report, comparison_text};
+use rins_io::shown;
 
 /// What one parameter did.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 
 use crate::args::{Convert, Format};
 use crate::commands::repairs::repairs;
-use crate::line::shown;
 use crate::outcome::Outcome;
+use rins_io::shown;
 
 pub(crate) fn run(arguments: &Convert, overwrite: Overwrite) -> anyhow::Result<Outcome> {
     let Convert { rig, output, format } = arguments;

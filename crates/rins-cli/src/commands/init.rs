@@ -7,8 +7,8 @@ use rins_io::{Draft, draft_rig};
 use serde_json::{Value, json};
 
 use crate::args::Init;
-use crate::line::shown;
 use crate::outcome::Outcome;
+use rins_io::shown;
 
 pub(crate) fn run(arguments: &Init) -> anyhow::Result<Outcome> {
     let Init { log, output } = arguments;
@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &Init) -> anyhow::Result<Outcome> {
         && let (Ok(rig), Ok(log)) = (output.canonicalize(), log.canonicalize())
         && rig == log
     {
-        anyhow::bail!("{}: is the log itself; choose another name for the rig", output.display());
+        anyhow::bail!("{}: is the log itself; choose another name for the rig", shown(output));
     }
     let draft = draft_rig(log, folder)?;
     let json = json(&draft, output.as_deref());

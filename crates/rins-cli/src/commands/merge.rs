@@ -3,7 +3,7 @@
 use std::iter::Peekable;
 use std::path::{Path, PathBuf};
 
-use rins_io::{Heading, IoError, Overwrite, PartRuns, RunRows};
+use rins_io::{Heading, IoError, Overwrite, PartRuns, RunRows, shown};
 
 use crate::args::Merge;
 use crate::commands::campaign_runs::Run;
@@ -24,8 +24,7 @@ pub(crate) fn run(arguments: &Merge, overwrite: Overwrite) -> anyhow::Result<Out
         .map(|path| Ok(PartRuns::open(path)?.peekable()))
         .collect::<Result<_, IoError>>()?;
     let runs = InOrder { parts }.map(|rows| rows.map(|rows| Run::read(&rows)));
-    let names: Vec<String> =
-        arguments.parts.iter().map(|path| path.display().to_string()).collect();
+    let names: Vec<String> = arguments.parts.iter().map(|path| shown(path)).collect();
     let source = (&*names.join(", "), "merge");
     deliver(&heading, runs, &arguments.output, source, overwrite)
 }
@@ -72,13 +71,13 @@ fn joined(mut parts: Vec<(PathBuf, Heading)>) -> anyhow::Result<Heading> {
                 && part.identity.shard.1 == of
                 && part.keys == first.keys,
             "{}: not of the campaign of {}",
-            path.display(),
-            first_path.display()
+            shown(path),
+            shown(first_path)
         );
         anyhow::ensure!(
             part.identity.shard.0 == expected,
             "{}: shard {} of {of}; expected shard {expected}, which is missing or given twice",
-            path.display(),
+            shown(path),
             part.identity.shard.0
         );
     }

@@ -19,10 +19,10 @@ use crate::commands::campaign_runs::Run;
 use crate::commands::campaign_size::refuse_too_large;
 use crate::commands::setup::setup_at;
 use crate::interrupt;
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::campaign::deliver;
+use rins_io::shown;
 
 /// How often the journal is made sure of.
 const SYNCHRONISED_EVERY: Duration = Duration::from_secs(1);
@@ -120,13 +120,13 @@ fn open(
     let there = path.exists();
     if there && arguments.resume {
         return Journal::resume(&path, identity)?.with_context(|| {
-            format!("{}: another campaign's; remove it, or choose another name", path.display())
+            format!("{}: another campaign's; remove it, or choose another name", shown(&path))
         });
     }
     anyhow::ensure!(
         !there || overwrite == Overwrite::Force,
         "{}: an unfinished campaign; continue it with --resume, or --force to begin anew",
-        path.display()
+        shown(&path)
     );
     Ok(Journal::create(&path, identity, overwrite)?)
 }

@@ -19,11 +19,11 @@ use crate::commands::calibrate::navigation_json;
 use crate::commands::check::refuse_mistaken;
 use crate::commands::range::{Beyond, beyond};
 use crate::commands::setup::load;
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::report::{Item, Report, Section};
 use crate::view::table::aligned;
 use crate::view::{attitude_plot, position_plot, velocity_plot};
+use rins_io::shown;
 
 pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
     let rig = &arguments.input.rig;
@@ -81,7 +81,7 @@ fn start(loaded: &Loaded) -> anyhow::Result<Start> {
             angles,
         });
     }
-    let found = found(loaded).with_context(|| loaded.rig.log.path.display().to_string())?;
+    let found = found(loaded).with_context(|| shown(&loaded.rig.log.path))?;
     let first = if has_table(recording) { 0 } else { found.span.start };
     let angle = angles[found.span.start];
     let table_from_body = Dcm::<Table, Body>::about_z(angle);
@@ -213,7 +213,7 @@ fn outcome(
     let named: Vec<(&str, &FreeNavigation)> = runs.iter().map(|(name, run)| (*name, run)).collect();
     let report = Report {
         title,
-        subtitle: format!("rins navigate: {}", loaded.rig.log.path.display()),
+        subtitle: format!("rins navigate: {}", shown(&loaded.rig.log.path)),
         summary,
         sections: vec![Section {
             heading: "Errors".into(),

@@ -6,8 +6,8 @@ use rins_motion::Recording;
 use rins_terms::{Chosen, Model, Need, Role};
 use serde_json::{Value, json};
 
-use crate::line::shown;
 use crate::number::figure;
+use rins_io::shown;
 
 /// A rate is the mean over this time \[s\], so that noise does not widen what was covered.
 const MEAN_OVER: f64 = 1.0;
@@ -67,7 +67,7 @@ pub(crate) fn beyond(
     loaded: &Loaded,
     extrapolate: bool,
 ) -> anyhow::Result<Beyond> {
-    let (log, file) = (loaded.rig.log.path.display().to_string(), shown(&calibration.path));
+    let (log, file) = (shown(&loaded.rig.log.path), shown(&calibration.path));
     let here = covered([&loaded.recording]);
     ensure_temperature(&log, &file, terms, &loaded.recording)?;
     let mut beyond = Beyond::default();

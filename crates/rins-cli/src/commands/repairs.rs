@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::line::shown;
+use rins_io::shown;
 use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig};
 
 /// Time stamps that jitter by less than this share of an interval are told by no more than a figure.

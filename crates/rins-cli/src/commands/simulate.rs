@@ -7,8 +7,8 @@ use rins_simulation::simulate;
 use serde_json::json;
 
 use crate::args::Simulate;
-use crate::line::shown;
 use crate::outcome::Outcome;
+use rins_io::shown;
 
 pub(crate) fn run(arguments: &Simulate) -> anyhow::Result<Outcome> {
     let mut file = ScenarioFile::read(&arguments.scenario)?;

@@ -10,11 +10,11 @@ use rins_io::{Heading, IoError, Overwrite, write_files, write_part};
 use serde_json::{Value, json};
 
 use crate::commands::campaign_runs::{Run, UNITS};
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::report::{
     Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render,
 };
+use rins_io::shown;
 
 /// The most runs that a plot shows of each scenario, and of all of them.
 const SHOWN: [usize; 2] = [2000, 50_000];
@@ -43,7 +43,7 @@ pub(crate) fn deliver(
 ) -> anyhow::Result<Outcome> {
     let title = format!("Campaign of {source}");
     let page = output.with_extension("html");
-    anyhow::ensure!(page != output, "{}: the report would go here", output.display());
+    anyhow::ensure!(page != output, "{}: the report would go here", shown(output));
     let mut scored = Vec::new();
     write_files(&[output, &page], overwrite, |folder| {
         let in_folder = |path: &Path| folder.join(path.file_name().unwrap_or_default());

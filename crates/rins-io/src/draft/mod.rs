@@ -64,8 +64,9 @@ const HOW_TO_GO_ON: [&str; 3] = [
 /// ```
 pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
     let mut page = Page::default();
-    let shown = log.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
-    page.remark(&format!("The rig of {shown}, drafted by `rins init`."));
+    let name =
+        log.file_name().map_or_else(String::new, |name| crate::shown::shown(Path::new(name)));
+    page.remark(&format!("The rig of {name}, drafted by `rins init`."));
     for line in HOW_TO_GO_ON {
         page.remark(line);
     }

@@ -134,8 +134,9 @@ impl Rows {
     /// Adds a row, unless it has another number of fields than the first line.
     fn push(&mut self, text: &str) -> Result<(), LogProblem> {
         let expected = self.columns.len();
-        let fields: Vec<&str> = Fields::of(text, self.delimiter).take(expected + 2).collect();
-        let trailing = fields.len() == expected + 1 && fields.last() == Some(&"");
+        let fields: Vec<_> = Fields::of(text, self.delimiter).take(expected + 2).collect();
+        let trailing =
+            fields.len() == expected + 1 && fields.last().is_some_and(|last| last.is_empty());
         if fields.len() != expected && !trailing {
             let got = Fields::of(text, self.delimiter).count();
             return Err(LogProblem::FieldCount { got, expected });

@@ -19,6 +19,7 @@ use crate::error::{IoError, LogError};
 use crate::rig::{
     Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn, TriadColumns,
 };
+use crate::shown::shown;
 
 /// How many of its own intervals a temperature may be held before its first and after its last.
 const HELD_TEMPERATURES: f64 = 2.0;
@@ -54,7 +55,7 @@ pub(super) fn read(
         Some(own) => {
             let (kept, velocities) = redivide(&own, &accel.increments(&own, spec.gaps)?, &clock);
             if kept.len() < 2 {
-                let other = spec.accel.path.display().to_string();
+                let other = shown(&spec.accel.path);
                 return Err(LogError::of(&files.main().path, LogProblem::NoOverlap { other }));
             }
             let left_out = clock.ends.len() - kept.len();

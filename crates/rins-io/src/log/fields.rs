@@ -1,5 +1,7 @@
 //! The fields of a line, between delimiters that are found out from the first lines.
 
+use std::borrow::Cow;
+
 /// What stands between two fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
@@ -67,7 +69,8 @@ impl Delimiter {
     }
 }
 
-/// The fields of a line, without the blanks and quotation marks around them.
+/// The fields of a line, without the blanks and quotation marks around them; a doubled quotation mark inside
+/// stands for one (RFC 4180).
 #[derive(Clone, Debug)]
 pub(crate) struct Fields<'l> {
     rest: Option<&'l str>,
@@ -87,9 +90,9 @@ impl<'l> Fields<'l> {
 }
 
 impl<'l> Iterator for Fields<'l> {
-    type Item = &'l str;
+    type Item = Cow<'l, str>;
 
-    fn next(&mut self) -> Option<&'l str> {
+    fn next(&mut self) -> Option<Cow<'l, str>> {
         let rest = self.rest?;
         let blanks = self.delimiter == Delimiter::Blanks;
         if blanks && rest.trim_start().is_empty() {
@@ -106,11 +109,19 @@ impl<'l> Iterator for Fields<'l> {
             self.open_quote |= end.is_none();
             let (inside, after) = quoted.split_at(end.unwrap_or(quoted.len()));
             self.rest = self.delimiter.cut(after).1;
-            return Some(inside);
+            return Some(undoubled(inside));
         }
         let (field, rest) = self.delimiter.cut(if blanks { start } else { rest });
         self.rest = rest;
-        Some(field.trim())
+        Some(Cow::Borrowed(field.trim()))
+    }
+}
+
+fn undoubled(inside: &str) -> Cow<'_, str> {
+    if inside.contains('"') {
+        Cow::Owned(inside.replace("\"\"", "\""))
+    } else {
+        Cow::Borrowed(inside)
     }
 }
 
@@ -152,6 +163,7 @@ mod tests {
     fn quotation_marks_and_blanks_are_taken_off() {
         let fields = |line, delimiter| Fields::of(line, delimiter).collect::<Vec<_>>();
         assert_eq!(fields(r#" "a, b" ,c , "" "#, Delimiter::Comma), ["a, b", "c", ""]);
+        assert_eq!(fields(r#""gyro ""x""","a""#, Delimiter::Comma), ["gyro \"x\"", "a"]);
         assert_eq!(fields("1,,3,", Delimiter::Comma), ["1", "", "3", ""]);
         assert_eq!(fields(" 1 2\t 3  ", Delimiter::Blanks), ["1", "2", "3"]);
         assert_eq!(fields("a\t\tb", Delimiter::Tab), ["a", "", "b"]);
@@ -165,7 +177,7 @@ mod tests {
             given in prop::collection::vec("[a-z0-9.+-]{0,6}", 1..9)
         ) {
             let line = given.join(",");
-            let fields: Vec<&str> = Fields::of(&line, Delimiter::Comma).collect();
+            let fields: Vec<_> = Fields::of(&line, Delimiter::Comma).collect();
             prop_assert_eq!(fields, given);
         }
 

@@ -11,6 +11,7 @@ use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted};
 use crate::error::{IoError, LogError};
 use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, TimeUnit, TriadColumns};
+use crate::shown::shown;
 
 /// How far the times of two files may be apart, in intervals.
 const TOGETHER_WITHIN: f64 = 0.1;
@@ -217,7 +218,7 @@ impl Files {
     pub(super) fn compare(&self, interval: f64) -> Result<(), IoError> {
         let (main, others) = (self.main(), &self.together[1..]);
         for file in others {
-            let other = || main.path.display().to_string();
+            let other = || shown(&main.path);
             let (samples, expected) = (file.columns.lines.len(), main.columns.lines.len());
             if samples != expected {
                 let problem = LogProblem::UnequalLength { samples, other: other(), expected };

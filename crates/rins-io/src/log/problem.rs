@@ -268,6 +268,18 @@ pub enum LogProblem {
         /// What is wrong.
         message: String,
     },
+    /// Pages are compressed with a codec that is not read.
+    #[error("compressed with {codec}; write it uncompressed, or with snappy or gzip")]
+    Codec {
+        /// The codec.
+        codec: String,
+    },
+    /// The same row over and over, as where a file has a hole or a logger hangs.
+    #[error("the same as the row before, as are {times} rows after it; has the file a hole?")]
+    SameRow {
+        /// How many more there are, at least.
+        times: u64,
+    },
     /// A column holds no numbers, or not one a row.
     #[error("column {column:?} is {found}, expected one number a row")]
     WrongColumn {

@@ -13,7 +13,7 @@ use super::files::BEYOND_REASON;
 use super::lines::Lines;
 use super::problem::LogProblem;
 use super::summary::{LeftOut, LogSummary, Omission};
-use super::table::RowLines;
+use super::table::{MOST_ROWS, RowLines};
 use crate::error::{IoError, LogError};
 use crate::quantity::kinds;
 use crate::rig::{Rig, Stamp};
@@ -104,6 +104,9 @@ pub(super) fn read_from<R: BufRead>(
             interval: header.interval,
         });
         numbers_of_lines.push(lines.number());
+        if numbers_of_lines.len() as u64 > MOST_ROWS {
+            return Err(LogError::of(&path, LogProblem::ManyRows { most: MOST_ROWS }));
+        }
     }
     let stuck = moved[..3].iter().position(|moved| !moved);
     if let (Some(axis), Some(first)) = (stuck.filter(|_| recording.increments.len() >= 10), first) {

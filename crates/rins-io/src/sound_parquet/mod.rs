@@ -6,6 +6,7 @@ mod whole;
 
 use std::path::{Path, PathBuf};
 
+use parquet::basic::Compression;
 use parquet::column::reader::{ColumnReader, get_column_reader};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::{ColumnChunkMetaData, KeyValue};
@@ -98,6 +99,11 @@ impl SoundParquet {
             self.reader.metadata().row_group(group).columns().get(place).ok_or_else(|| {
                 damaged(ParquetError::General("a row group lacks a column".into()))
             })?;
+        if !is_readable(part.compression()) {
+            let named = part.compression().to_string();
+            let codec = named.split('(').next().unwrap_or_default().to_lowercase();
+            return Err(LogError::of(&self.path, LogProblem::Codec { codec }));
+        }
         refuse_unsound(part, self.length).map_err(|problem| LogError::of(&self.path, problem))?;
         let group = self.reader.get_row_group(group).map_err(damaged)?;
         let pages = group.get_column_page_reader(place).map_err(damaged)?;
@@ -110,6 +116,11 @@ impl SoundParquet {
     pub(crate) fn damaged(&self, error: &ParquetError) -> IoError {
         LogError::of(&self.path, damage(error))
     }
+}
+
+/// Whether the parser is built with the codec of these pages.
+fn is_readable(compression: Compression) -> bool {
+    matches!(compression, Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::GZIP(_))
 }
 
 /// What the parser says, as one line.

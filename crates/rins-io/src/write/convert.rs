@@ -74,21 +74,24 @@ pub fn convert_changed<E: From<IoError>>(
     let mut loaded = read_log(Rig::read(rig)?, LogPolicy::default())?;
     let opening = change(&mut loaded)?;
     let new_rig = log.with_extension("toml");
+    let Some(log_name) = log.file_name().unwrap_or_default().to_str() else {
+        let problem = OutputProblem::NotText;
+        return Err(IoError::Output { path: log.into(), problem }.into());
+    };
     refuse_inputs(&loaded, &[log, &new_rig])?;
     let (loaded, commanded) = without_commanded(loaded);
     let description = Description { document: &document, loaded: &loaded, format, opening };
     let mut least_differences = Vec::new();
     write_files(&[log, &new_rig], overwrite, |folder| {
-        let name = |path: &Path| PathBuf::from(path.file_name().unwrap_or_default());
-        let (log_name, staged) = (name(log), folder.join(name(&new_rig)));
-        let place = folder.join(&log_name);
+        let place = folder.join(log_name);
+        let staged = place.with_extension("toml");
         let file = File::create(&place).map_err(IoError::file("write", log))?;
         let mut out = BufWriter::with_capacity(1 << 16, file);
         write_log(&along_own_axes(&loaded), format, log, &mut out)?;
         out.into_inner().map_err(|error| IoError::file("write", log)(error.into_error()))?;
         let mut least: Option<(String, Vec<Difference>)> = None;
         for rate in description.rates() {
-            let text = description.rig_toml(&log_name.to_string_lossy(), rate);
+            let text = description.rig_toml(log_name, rate);
             fs::write(&staged, &text).map_err(IoError::file("write", &new_rig))?;
             let again = Rig::read(&staged).and_then(|rig| read_log(rig, LogPolicy::default()));
             let again = match (again, &least) {

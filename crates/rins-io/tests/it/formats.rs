@@ -76,6 +76,27 @@ fn doubles_that_are_not_seven_a_row_are_refused() {
 }
 
 #[test]
+fn file_with_a_hole_is_refused_where_the_hole_begins() {
+    let bytes = data("psins.bin");
+    for rows in [0, 5, 24] {
+        let folder = folder(&[
+            (
+                "rig.toml",
+                format!("{SITE}[log]\npath = \"run.bin\"\nformat = \"psins-bin\"\n").as_bytes(),
+            ),
+            ("run.bin", &bytes[..rows * 56]),
+        ]);
+        // A terabyte, of which nothing is on the disk.
+        let file = fs::OpenOptions::new().write(true).open(folder.path().join("run.bin")).unwrap();
+        file.set_len((rows * 56) as u64 + (1 << 40)).unwrap();
+        let refused = read(&folder.path().join("rig.toml")).unwrap_err();
+        let refused = without(&refused, folder.path());
+        let expected = format!("run.bin:{}: the same as the row before, as are 10", rows + 2);
+        assert!(refused.starts_with(&expected), "{refused}");
+    }
+}
+
+#[test]
 fn kf_gins_text_is_read() {
     is_the_run(&load("format = \"kf-gins\"\n", "kf_gins.txt").unwrap(), ROUNDING);
 }
@@ -208,7 +229,10 @@ fn parquet_columns_that_are_no_numbers_are_refused() {
     let missing = refused("\"gy\"", "\"gyy\"");
     assert!(missing.contains("no column \"gyy\"; the columns are \"t\", \"gx\""), "{missing}");
     let packed = load(PARQUET, "zstd.parquet").unwrap_err();
-    assert!(packed.starts_with("zstd.parquet: not a Parquet file, or a damaged one"), "{packed}");
+    assert_eq!(
+        packed,
+        "zstd.parquet: compressed with zstd; write it uncompressed, or with snappy or gzip"
+    );
     let bytes = data("snappy.parquet");
     for length in [0, 3, 100, bytes.len() / 2, bytes.len() - 1] {
         let cut = load_bytes(PARQUET, "snappy.parquet", &bytes[..length]).unwrap_err();

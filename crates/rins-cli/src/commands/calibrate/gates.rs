@@ -1,7 +1,7 @@
 //! Runs from which no estimate would mean anything.
 
 use rins_frames::units::DEG;
-use rins_io::Loaded;
+use rins_io::{Loaded, shown};
 
 use crate::commands::check::inspected;
 
@@ -24,7 +24,7 @@ pub(super) fn refuse_standing(loaded: &Loaded) -> anyhow::Result<()> {
     anyhow::ensure!(
         turned > LEAST_TURN,
         "{}: the table turns by {:.3} deg in all, the gyro about the axis of rotation by {:.2}: gyro errors along that axis cannot be observed",
-        loaded.rig.log.path.display(),
+        shown(&loaded.rig.log.path),
         turned / DEG,
         inspected(loaded).turns * 360.0
     );

@@ -10,7 +10,7 @@ mod paper;
 mod prepared;
 mod rests;
 
-use rins_io::{Axes, ModelFile};
+use rins_io::{Axes, ModelFile, shown};
 use rins_terms::Model;
 
 pub(crate) use self::budget::{Budget, Drift};
@@ -36,9 +36,7 @@ impl NamedModel {
         let (name, model) = match choice {
             ModelChoice::Paper12 => ("paper12".into(), Model::paper12()),
             ModelChoice::Full => ("full".into(), Model::full()),
-            ModelChoice::File(path) => {
-                (path.display().to_string(), ModelFile::read_along(path, axes)?.model)
-            }
+            ModelChoice::File(path) => (shown(path), ModelFile::read_along(path, axes)?.model),
         };
         Ok(Self { name, model })
     }

@@ -23,7 +23,6 @@ use crate::commands::check::refuse_mistaken;
 use crate::commands::range::covered;
 use crate::commands::setup::setup;
 use crate::commands::statics::{static_intervals, statics_json};
-use crate::line::shown;
 use crate::outcome::Outcome;
 use crate::progress;
 use crate::view::told::OBSERVABLE;
@@ -31,6 +30,7 @@ use crate::view::{
     SYSTEMATIC_NOTE, budget_section, calibration_report, calibration_text, compensation_section,
     euler_json, meaning,
 };
+use rins_io::shown;
 
 /// A mean NIS above this is no matter of a sensor error more or less.
 const ABSURD_NIS: f64 = 100.0;
@@ -48,12 +48,12 @@ pub(crate) fn calibrated(loaded: &mut Loaded) -> anyhow::Result<(Calibration, Op
     });
     if loaded.rig.table.as_ref().is_none_or(|table| table.wobble.is_none()) {
         setup.table.wobble = likely_wobble(&loaded.recording, &setup)
-            .with_context(|| loaded.rig.log.path.display().to_string())?;
+            .with_context(|| shown(&loaded.rig.log.path))?;
     }
     let bar = progress::bar(loaded.recording.len(), "calibrating");
     let calibration = calibrate(&loaded.recording, &setup, |done| bar.set_position(done as u64));
     bar.finish_and_clear();
-    let calibration = calibration.with_context(|| loaded.rig.log.path.display().to_string())?;
+    let calibration = calibration.with_context(|| shown(&loaded.rig.log.path))?;
     Ok((calibration, repeats))
 }
 
@@ -74,7 +74,7 @@ pub(crate) fn outcome(
         span.len(),
         loaded.recording.times[span.start],
         loaded.recording.times[span.end - 1],
-        loaded.rig.log.path.file_name().map_or_else(String::new, |name| name.display().to_string()),
+        loaded.rig.log.path.file_name().map_or_else(String::new, |name| shown(Path::new(name))),
     );
     let file = rins_io::Calibration {
         sigmas: calibration.parameters.iter().map(sigma).collect(),

@@ -21,7 +21,7 @@ use crate::commands::calibrate::rests::{self, Rests};
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::setup;
 use crate::commands::statics::{lasting, only, static_intervals, statics_in_words, statics_json};
-use crate::line::shown;
+use rins_io::shown;
 
 /// An attitude that was found in the same data is counted again by a hundredth of its information.
 const FOUND_HERE: f64 = 10.0;

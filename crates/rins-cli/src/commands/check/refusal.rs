@@ -1,6 +1,6 @@
 //! Runs of which nothing that is computed would mean anything.
 
-use rins_io::Loaded;
+use rins_io::{Loaded, shown};
 use rins_motion::Suspicion;
 
 use super::{inspected, mends, mends_in_words, suspicion_in_words};
@@ -19,7 +19,7 @@ pub(crate) fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
     anyhow::ensure!(
         mistaken.is_empty(),
         "{}: {}",
-        loaded.rig.path.display(),
+        shown(&loaded.rig.path),
         mistaken.join("; and ")
     );
     Ok(())

@@ -7,7 +7,7 @@ mod testable;
 
 use std::path::Path;
 
-use rins_io::{Loaded, ModelFile};
+use rins_io::{Loaded, ModelFile, shown};
 use rins_terms::Chosen;
 
 pub(crate) use self::found::{Asked, ByChance, Found, Named, Verdict};
@@ -61,14 +61,14 @@ fn supposed(file: &Path, case: &Case) -> anyhow::Result<Vec<Chosen>> {
     if let Some(chosen) = silent {
         anyhow::bail!(
             "{}: {} adds nothing to any signal: what noise there is, is found beside every model",
-            file.display(),
+            shown(file),
             chosen.term.id
         );
     }
     anyhow::ensure!(
         !terms.is_empty(),
         "{}: there is nothing to suppose: it holds no term that the model has not",
-        file.display()
+        shown(file)
     );
     Ok(terms)
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::args::Want;
 use rins_imu::ImuSpec;
 use rins_io::{ModelFile, Quantity, nearest};
 use rins_terms::{Chosen, Model, Role, Term, catalogue};
@@ -122,12 +123,10 @@ pub(super) fn with(mut model: Model, effect: &Effect) -> Model {
     model
 }
 
-/// A parameter and the 1σ that is wanted of it, in SI units, from `ID=SIGMA`.
-pub(super) fn wanted(text: &str) -> anyhow::Result<(Effect, f64)> {
-    let Some((id, sigma)) = text.split_once('=') else {
-        anyhow::bail!("{text:?} is not of the form ID=SIGMA, such as \"gyro.scale.z=0.1 ppm\"");
-    };
-    let effect = effect(id.trim())?;
+/// A parameter and the 1σ that is wanted of it, in SI units.
+pub(super) fn wanted(want: &Want) -> anyhow::Result<(Effect, f64)> {
+    let Want { id, sigma, typed } = want;
+    let effect = effect(id)?;
     anyhow::ensure!(
         effect.ids.len() == 1,
         "{} has several parameters, of which one is meant: {}",
@@ -138,16 +137,12 @@ pub(super) fn wanted(text: &str) -> anyhow::Result<(Effect, f64)> {
     let parameter = effect.term.parameters.iter().find(|parameter| parameter.name == name);
     let unit = parameter.expect("an effect's ids are of its parameters").unit;
     let one = Quantity::parse(&format!("1 {}", unit.symbol)).ok().map(|one| one.dimension);
-    let quantity =
-        Quantity::parse(sigma.trim()).map_err(|error| anyhow::anyhow!("{id}: {error}"))?;
     anyhow::ensure!(
-        one.is_none_or(|dimension| dimension == quantity.dimension),
-        "{id}={}: expected a quantity such as \"1 {}\"",
-        sigma.trim(),
+        one.is_none_or(|dimension| dimension == sigma.dimension),
+        "{id}={typed}: expected a quantity such as \"1 {}\"",
         unit.symbol
     );
-    anyhow::ensure!(quantity.value > 0.0, "{id}: a sigma is more than zero");
-    Ok((effect, quantity.value))
+    Ok((effect, sigma.value))
 }
 
 fn suggestion<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> String {

@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Observe) -> anyhow::Result<Outcome> {
             shared.map_or("", String::as_str)
         );
     }
-    let wanted = arguments.want.as_deref().map(chosen::wanted).transpose()?;
+    let wanted = arguments.want.as_ref().map(chosen::wanted).transpose()?;
     let usual = if effects.is_some() { "baseline" } else { "full" };
     let name = arguments.model.as_deref().unwrap_or(usual);
     let mut model = chosen::model(name)?;

@@ -1,5 +1,6 @@
 //! The next test: the shortest schedule that tells two effects apart, or a parameter well enough.
 
+use rins_io::shown;
 use std::path::Path;
 
 use anyhow::Context;
@@ -165,8 +166,8 @@ pub(super) fn propose(
 impl Proposal {
     /// Its scenario files, made from that of the schedule at `path`.
     pub(super) fn scenarios(&self, path: &Path, limits: &Limits) -> anyhow::Result<Vec<String>> {
-        let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
-        let given: Table = text.parse().with_context(|| path.display().to_string())?;
+        let text = std::fs::read_to_string(path).with_context(|| shown(path))?;
+        let given: Table = text.parse().with_context(|| shown(path))?;
         let runs = self.candidate.runs.iter().enumerate();
         runs.map(|(place, run)| {
             let mut scenario = given.clone();

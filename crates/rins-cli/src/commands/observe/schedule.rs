@@ -7,7 +7,7 @@ use rins_calibration::{Setup, TableSpec};
 use rins_estimation::{Joint, Noise, Reference, Rig, Run, Strengths, joint};
 use rins_frames::{Dcm, Nav, Table};
 use rins_imu::{ImuError, ImuSpec};
-use rins_io::ScenarioFile;
+use rins_io::{ScenarioFile, shown};
 use rins_motion::Profile;
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
 use rins_terms::Model;
@@ -36,7 +36,7 @@ impl Planned {
         }
         // What the data sheets say stands in the rig file of a run that is made from the scenario.
         let run = simulate(&Scenario { profile: short(&scenario)?, ..scenario.clone() })
-            .with_context(|| path.display().to_string())?;
+            .with_context(|| shown(path))?;
         let rig = rins_io::Rig::parse(&file.rig_toml(&run.recording), path)?;
         let imu = *rig.require_imu().context("what a schedule shows depends on the IMU's noise")?;
         let encoder = rig.log.table_angle();
@@ -103,8 +103,7 @@ impl Planned {
     /// The run that it makes.
     fn run(&self) -> anyhow::Result<Run> {
         let scenario = &self.scenario;
-        let recording =
-            simulate(scenario).with_context(|| self.path.display().to_string())?.recording;
+        let recording = simulate(scenario).with_context(|| shown(&self.path))?.recording;
         let up = scenario.nav_from_table.matrix()[(2, 2)];
         let reference = match scenario.table {
             TableRecord::Angle(_) => Reference::Encoder { noise: self.noise },
@@ -114,7 +113,7 @@ impl Planned {
                 anyhow::ensure!(
                     up.abs() < 0.9998,
                     "{}: the log holds neither a table angle nor a rate, and the axis is upright: nothing tells the table's angle",
-                    self.path.display()
+                    shown(&self.path)
                 );
                 Reference::Gravity
             }
@@ -126,7 +125,7 @@ impl Planned {
             wobble: self.wobble,
             velocity: Setup::FIXED_TABLE_VELOCITY_NOISE,
         };
-        Run::new(rig, recording).with_context(|| self.path.display().to_string())
+        Run::new(rig, recording).with_context(|| shown(&self.path))
     }
 }
 
@@ -159,8 +158,8 @@ impl Schedule {
             anyhow::ensure!(
                 run.imu == runs[0].imu,
                 "{} and {} are runs of one IMU, and have different figures in [imu]",
-                runs[0].path.display(),
-                run.path.display()
+                shown(&runs[0].path),
+                shown(&run.path)
             );
         }
         let stem = |run: &Planned| {

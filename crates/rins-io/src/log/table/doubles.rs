@@ -3,7 +3,7 @@
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use super::{Columns, MOST_ROWS, Wanted, typed};
+use super::{Columns, MOST_ROWS, Repeated, Wanted, typed};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::source;
@@ -22,6 +22,8 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
     let mut numbers = vec![Vec::new(); names.len()];
     let mut stamps = Vec::new();
     let mut row = vec![0; count * size_of::<f64>()];
+    let mut before = Vec::new();
+    let mut repeated = Repeated::default();
     let mut rows = 0_u64;
     while fill(&mut reader, &mut row)
         .map_err(failed())?
@@ -36,6 +38,10 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
         }
         stamps.extend(time_place.map(number));
         rows += 1;
+        repeated
+            .count(rows, row == before)
+            .map_err(|(row, problem)| LogError::at(path, row, problem))?;
+        before.clone_from(&row);
         if rows > MOST_ROWS {
             return Err(LogError::of(path, LogProblem::ManyRows { most: MOST_ROWS }));
         }

@@ -28,7 +28,10 @@ use crate::suggestion::nearest;
 pub(crate) const MOST_COLUMNS: usize = 4096;
 
 /// The most rows that are read: 93 hours at 200 Hz, which fill some ten gigabytes of memory.
-const MOST_ROWS: u64 = 1 << 26;
+pub(super) const MOST_ROWS: u64 = 1 << 26;
+
+/// A row that is repeated so often in a row is no sample that a logger wrote twice.
+const MOST_REPEATED: u64 = 1 << 20;
 
 /// No clock shows more seconds than this: 300 centuries.
 const LATEST: f64 = 1e12;
@@ -79,6 +82,32 @@ pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Colu
         return Err(LogError::at(path, columns.lines.of(row), problem));
     }
     Ok(columns)
+}
+
+/// Rows that are the same as the one before.
+#[derive(Clone, Copy, Debug, Default)]
+struct Repeated {
+    times: u64,
+    /// The line of the first of them.
+    from: u64,
+}
+
+impl Repeated {
+    /// Counts a row.
+    ///
+    /// # Errors
+    /// The line of the first of them, once there are more than any logger repeats.
+    fn count(&mut self, line: u64, is_same: bool) -> Result<(), (u64, LogProblem)> {
+        match (is_same, self.times) {
+            (false, _) => self.times = 0,
+            (true, 0) => (self.times, self.from) = (1, line),
+            (true, times) if times > MOST_REPEATED => {
+                return Err((self.from, LogProblem::SameRow { times }));
+            }
+            (true, times) => self.times = times + 1,
+        }
+        Ok(())
+    }
 }
 
 /// The place of the only one of `names` that is `wanted`.

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::{Columns, MOST_ROWS, Wanted, place};
+use super::{Columns, MOST_ROWS, Repeated, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
@@ -38,11 +38,16 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     let mut columns = Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() };
     let mut any = false;
     let mut before = String::new();
+    let mut repeated = Repeated::default();
     while let Some((line, text)) = lines.next()? {
         any = true;
         let refuse = |problem| LogError::at(path, line, problem);
         let Some(message) = Message::of(text.trim_end()).map_err(refuse)? else { continue };
-        if message.body == before {
+        let is_same = message.body == before;
+        repeated
+            .count(line, is_same)
+            .map_err(|(line, problem)| LogError::at(path, line, problem))?;
+        if is_same {
             columns.left_out.push((line, Omission::Repeated));
             continue;
         }

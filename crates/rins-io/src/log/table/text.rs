@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::{Columns, MOST_COLUMNS, MOST_ROWS, Wanted, listed, place};
+use super::{Columns, MOST_COLUMNS, MOST_ROWS, Repeated, Wanted, listed, place};
 use crate::error::{IoError, LogError};
 use crate::log::fields::{Delimiter, Fields};
 use crate::log::lines::Lines;
@@ -45,10 +45,15 @@ fn read_from<R: BufRead>(
     let mut columns = Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() };
     let path = lines.path().to_path_buf();
     let mut before = String::new();
+    let mut repeated = Repeated::default();
     let mut row = |number: u64, line: &str| -> Result<(), IoError> {
         // Some loggers write a sample twice; without a time stamp it may well be two samples.
         if time.is_some() {
-            if line == before {
+            let is_same = line == before;
+            repeated
+                .count(number, is_same)
+                .map_err(|(line, problem)| LogError::at(&path, line, problem))?;
+            if is_same {
                 columns.left_out.push((number, Omission::Repeated));
                 return Ok(());
             }
@@ -59,27 +64,27 @@ fn read_from<R: BufRead>(
         let mut places = places.iter().copied().peekable();
         let mut fields = Fields::of(line, head.delimiter);
         let mut count = 0;
-        let mut last = "";
+        let mut ends_empty = false;
         for field in fields.by_ref() {
             while let Some((_, index)) = places.next_if(|(place, _)| *place == count) {
                 let (name, value) = match (index, &mut time) {
-                    (None, Some((name, instants))) => (*name, instants.seconds(field)),
+                    (None, Some((name, instants))) => (*name, instants.seconds(&field)),
                     (index, _) => (names[index.unwrap_or_default()], field.parse().ok()),
                 };
-                let value = number_of(name, field, value).map_err(refuse)?;
+                let value = number_of(name, &field, value).map_err(refuse)?;
                 match index {
                     Some(index) => columns.numbers[index].push(value),
                     None => columns.time.push(value),
                 }
             }
             count += 1;
-            last = field;
+            ends_empty = field.is_empty();
         }
         if fields.has_open_quote() {
             return Err(refuse(LogProblem::OpenQuote));
         }
         // Some loggers end each line of numbers, but not the header, with a delimiter.
-        let trailing = count == head.count + 1 && last.is_empty();
+        let trailing = count == head.count + 1 && ends_empty;
         if count != head.count && !trailing {
             return Err(refuse(LogProblem::FieldCount { got: count, expected: head.count }));
         }
@@ -135,7 +140,7 @@ pub struct LogHead {
 /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is empty or not text.
 pub fn peek(path: &Path) -> Result<LogHead, IoError> {
     let Head { delimiter, names, rows, .. } = Head::read(&mut Lines::open(path)?)?;
-    let fields = |(_, row): &(u64, String)| Fields::of(row, delimiter).map(Into::into).collect();
+    let fields = |(_, row): &(u64, String)| Fields::of(row, delimiter).map(String::from).collect();
     Ok(LogHead { delimiter, names, rows: rows.iter().map(fields).collect() })
 }
 
@@ -167,9 +172,8 @@ impl Head {
         let delimiter = stated.unwrap_or_else(|| {
             Delimiter::sniff(&first, second.as_ref().map(|(_, text)| text.as_str()))
         });
-        let fields = |text: &str| -> Vec<String> {
-            Fields::of(text, delimiter).map(str::to_string).collect()
-        };
+        let fields =
+            |text: &str| -> Vec<String> { Fields::of(text, delimiter).map(String::from).collect() };
         let opening = fields(&first);
         let count = opening.len();
         if count > MOST_COLUMNS {
