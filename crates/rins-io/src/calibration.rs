@@ -10,7 +10,7 @@ use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_motion::SignedAxes;
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
-use rins_terms::{Chosen, Model};
+use rins_terms::{Chosen, Model, Role};
 
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
@@ -182,7 +182,18 @@ impl Calibration {
         let ids = parameters(&error).into_iter().map(|parameter| parameter.id);
         let of_terms = own_places(&terms, &spin.into()).into_iter().map(|(id, _)| id);
         let known: Vec<String> = ids.chain(of_terms).collect();
-        let covariance = covariance::read(&root, &known)?;
+        let of_terms = own_places(&terms, &spin.into()).into_iter();
+        let stated: Vec<(String, f64)> = of_terms
+            .filter_map(|(id, (term, place))| match terms.terms[term].roles[place] {
+                Role::Within(sigma) => {
+                    let unit = terms.terms[term].term.parameters[place].unit;
+                    Some((id, sigma / unit.factor))
+                }
+                _ => None,
+            })
+            .chain(sigmas.iter().map(|sigma| (sigma.id.clone(), sigma.value)))
+            .collect();
+        let covariance = covariance::read(&root, &known, &stated)?;
         let path = document.path.clone();
         let range = match root.section("range", &["temperature", "rate"])? {
             Some(section) => CalibratedRange {

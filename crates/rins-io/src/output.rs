@@ -28,6 +28,9 @@ pub enum OutputProblem {
     /// Something is there.
     #[error("exists already; choose another name, or --force to replace it")]
     Exists,
+    /// Another program has put something there, or taken it away, since the work began.
+    #[error("was written by another program in the meantime; choose another name, or try again")]
+    Overtaken,
     /// A folder should be replaced that does not look like one of ours.
     #[error("is not replaced, as it does not hold a result of rins; choose another name")]
     NotOurs,
@@ -200,13 +203,25 @@ pub fn write_folder(
         let (_replaced, aside) =
             Unfinished::make(|| builder(&hidden(name), 0o777).tempdir_in(parent))
                 .map_err(failed())?;
-        undisturbed(|| exchange(staging.path(), path, aside)).map_err(failed())?;
+        undisturbed(|| exchange(staging.path(), path, aside))
+            .map_err(|error| overtaken(path, error))?;
     } else {
-        undisturbed(|| fs::rename(staging.path(), path)).map_err(failed())?;
+        undisturbed(|| fs::rename(staging.path(), path)).map_err(|error| overtaken(path, error))?;
     }
     // It has been renamed, so there is nothing left to remove.
     let _renamed = staging.keep();
     synchronise(parent).map_err(failed())
+}
+
+/// Why a folder that was looked at before could not be renamed after all.
+fn overtaken(path: &Path, error: io::Error) -> IoError {
+    match error.kind() {
+        io::ErrorKind::DirectoryNotEmpty
+        | io::ErrorKind::AlreadyExists
+        | io::ErrorKind::NotADirectory
+        | io::ErrorKind::NotFound => refuse(path, OutputProblem::Overtaken),
+        _ => IoError::file("write", path)(error),
+    }
 }
 
 /// Puts a new folder in the place of an old one, which is put aside; its remains go with the returned folder.

@@ -12,6 +12,9 @@ use crate::section::{Section, quoted};
 /// How much two numbers that are perfectly correlated may seem to be more than that: rounding.
 const MOST_CORRELATION: f64 = 1.0 + 1e-6;
 
+/// How far a stated sigma may be from the covariance's, relative: it may have been rounded to two digits, or to one.
+const SIGMA_WITHIN: f64 = 0.1;
+
 /// The covariance of the numbers that a calibration estimated, in their units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covariance {
@@ -21,8 +24,13 @@ pub struct Covariance {
     pub matrix: DMatrix<f64>,
 }
 
-/// Reads `[covariance]`, whose ids are among `known`.
-pub(super) fn read(root: &Section<'_>, known: &[String]) -> Result<Option<Covariance>, IoError> {
+/// Reads `[covariance]`, whose ids are among `known`, and which has to agree with the sigmas that are `stated` beside it in the
+/// same units.
+pub(super) fn read(
+    root: &Section<'_>,
+    known: &[String],
+    stated: &[(String, f64)],
+) -> Result<Option<Covariance>, IoError> {
     let Some(section) = root.section("covariance", &["ids", "rows"])? else { return Ok(None) };
     let ids = section.list_of_texts("ids", "a list of ids of parameters")?;
     if ids.is_empty() {
@@ -62,14 +70,20 @@ pub(super) fn read(root: &Section<'_>, known: &[String]) -> Result<Option<Covari
             matrix[(column, row)] = number;
         }
     }
-    match first_impossible(&matrix) {
-        None => Ok(Some(Covariance { ids, matrix })),
-        Some((row, column)) => {
-            let pair = quoted([ids[row].as_str(), ids[column].as_str()]);
-            let reason = format!("holds {} for {pair}, which cannot be", matrix[(row, column)]);
-            Err(section.conflict("rows", reason))
+    if let Some((row, column)) = first_impossible(&matrix) {
+        let pair = quoted([ids[row].as_str(), ids[column].as_str()]);
+        let reason = format!("holds {} for {pair}, which cannot be", matrix[(row, column)]);
+        return Err(section.conflict("rows", reason));
+    }
+    for (row, id) in ids.iter().enumerate() {
+        let sigma = matrix[(row, row)].sqrt();
+        let other = stated.iter().find(|(stated, _)| stated == id).map(|(_, sigma)| *sigma);
+        if let Some(other) = other.filter(|other| (other / sigma - 1.0).abs() > SIGMA_WITHIN) {
+            let reason = format!("holds a sigma of {sigma} for {id}, which is {other} beside it");
+            return Err(section.conflict("rows", reason));
         }
     }
+    Ok(Some(Covariance { ids, matrix }))
 }
 
 /// The first place at which a variance is not positive, or a covariance larger than the variances allow.

@@ -229,6 +229,7 @@ const BEYOND_CASES: &[(&str, &str, &str)] = &[
     ("[[0.04], ", "[", "[covariance] rows: has 2 rows for 3 ids"),
     ("[-1e-3, 0.25]", "[0.25]", "[covariance] rows: has 1 numbers in row 2"),
     ("[-1e-3, 0.25]", "[\"a\", 0.25]", "[covariance] rows: \"a\" is a text, expected a list of rows of numbers"),
+    ("0.25]", "0.36]", "[covariance] rows: holds a sigma of 0.6 for accel_lever_arm.r_x, which is 0.5 beside it"),
     ("-1e-3", "-1.0", "[covariance] rows: holds -1 for \"accel_lever_arm.r_x\", \"gyro.scale.z\", which cannot be"),
     ("0.25", "0.0", "which cannot be"),
 ];

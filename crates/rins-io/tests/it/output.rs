@@ -96,6 +96,34 @@ fn a_folder_appears_with_all_its_files() {
     assert_eq!(names(folder.path()), ["run"]);
 }
 
+/// Two programs write one folder: what the other has put there, or taken away, while this one works.
+#[test]
+fn a_folder_that_another_program_writes_is_not_replaced() {
+    let overtaken =
+        "out: was written by another program in the meantime; choose another name, or try again";
+    for overwrite in [Overwrite::Refuse, Overwrite::Force] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out");
+        let result = write_folder(&path, overwrite, |staging| {
+            put(&staging.join("result.json"), Overwrite::Refuse, "ours")?;
+            fill(&path, Overwrite::Refuse, &["result.json"])
+        });
+        assert_eq!(said(result, &folder), overtaken);
+        assert_eq!(fs::read_to_string(path.join("result.json")).unwrap(), "result.json");
+        assert_eq!(names(folder.path()), ["out"]);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out");
+    fill(&path, Overwrite::Refuse, &["result.json"]).unwrap();
+    let result = write_folder(&path, Overwrite::Force, |staging| {
+        put(&staging.join("result.json"), Overwrite::Refuse, "ours")?;
+        fs::remove_dir_all(&path).unwrap();
+        Ok(())
+    });
+    assert_eq!(said(result, &folder), overtaken);
+    assert!(names(folder.path()).is_empty());
+}
+
 #[test]
 fn an_empty_folder_is_filled() {
     let folder = tempfile::tempdir().unwrap();
