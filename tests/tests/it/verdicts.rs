@@ -147,6 +147,13 @@ fn each_fault_shows_where_it_belongs() {
         assert_eq!(found, word, "{item}: {says}");
         assert!(says.contains(words), "{item}: {says}");
         assert_conclusion(folder.path(), item, word);
+        if word == "bad" {
+            for command in ["align", "calibrate", "diagnose", "navigate"] {
+                let refused = rins_in(folder.path(), &format!("{command} rig.toml"));
+                assert_eq!(refused.code, Some(1), "{item}: {command}: {}", refused.out);
+                assert!(refused.out.is_empty() && !refused.err.is_empty(), "{item}: {command}");
+            }
+        }
     }
 }
 

@@ -33,6 +33,7 @@ use crate::recording::Recording;
 use crate::rest::RestMean;
 use crate::static_intervals::{SensorFigures, StaticIntervals, StaticOptions};
 use crate::station::Station;
+use crate::sticking::is_noisy;
 
 /// Rests that last this share of the longest are looked at like it.
 const LONG_REST: f64 = 0.5;
@@ -182,6 +183,14 @@ pub fn inspect_with(
     let longest_repeat = std::array::from_fn(|index| channel::longest_repeat(&channels[index]));
     let mut suspicions: Vec<Suspicion> = (0..6)
         .filter(|&channel| recording.len() > 1 && longest_repeat[channel] == recording.len())
+        // A coarse sensor, or one without noise, may well say the same throughout: the others of its triad tell. Three zeros are
+        // no reading.
+        .filter(|&channel| {
+            let first = channel / 3 * 3;
+            let triad = &channels[first..first + 3];
+            let is_zero = triad.iter().flatten().all(|reading| *reading == 0.0);
+            is_zero || triad.iter().any(|readings| is_noisy(readings))
+        })
         .map(|channel| Suspicion::StuckChannel { channel: CHANNELS[channel] })
         .collect();
     let of_channels = channel::suspicions(recording, expected, &stands);

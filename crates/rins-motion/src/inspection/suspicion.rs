@@ -52,7 +52,7 @@ pub enum Suspicion {
         /// The end of those ten seconds \[s\].
         time: f64,
     },
-    /// A channel repeats one value throughout.
+    /// A channel repeats one value throughout: while another of its triad is noisy, or all three zero.
     StuckChannel {
         /// The channel.
         channel: &'static str,

@@ -370,6 +370,28 @@ fn channels_that_stick_for_any_share_of_a_log_are_suspected() {
     assert!(missed.is_empty(), "{} of 200: {missed:?}", missed.len());
 }
 
+/// A channel that never moves beside noisy ones is stuck; one of a coarse triad, or without noise, may be at rest.
+#[test]
+fn channel_that_never_moves_is_told_by_the_others_of_its_triad() {
+    let stuck = |recording: &Recording| {
+        let found = inspect(recording, &expected(NAVIGATION)).suspicions;
+        found.iter().filter(|found| matches!(found, Suspicion::StuckChannel { .. })).count()
+    };
+    let hold = |recording: &mut Recording, step: f64| {
+        for sample in &mut recording.increments {
+            let held = *sample.velocity.components();
+            let held = held.map(|v| if step > 0.0 { (v / step).round() * step } else { v });
+            sample.velocity = InFrame::new(held.x, held.y, 0.098);
+        }
+    };
+    let mut noisy = record(usual(), NAVIGATION, 11);
+    hold(&mut noisy, 0.0);
+    assert_eq!(stuck(&noisy), 1);
+    let mut coarse = record(usual(), NAVIGATION, 11);
+    hold(&mut coarse, 0.01);
+    assert_eq!(stuck(&coarse), 0);
+}
+
 #[test]
 fn recordings_of_nothing_are_looked_through() {
     let nothing = inspect(&Recording::default(), &expected(NAVIGATION));

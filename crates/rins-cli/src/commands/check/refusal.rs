@@ -1,20 +1,13 @@
 //! Runs of which nothing that is computed would mean anything.
 
 use rins_io::{Loaded, shown};
-use rins_motion::Suspicion;
 
 use super::{inspected, mends, mends_in_words, suspicion_in_words};
 
 /// Refuses a run whose units, signs or axes are wrong.
 pub(crate) fn refuse_mistaken(loaded: &Loaded) -> anyhow::Result<()> {
     let inspection = inspected(loaded);
-    let mut mistaken: Vec<String> = inspection
-        .suspicions
-        .iter()
-        // A coarse accelerometer may well say the same throughout.
-        .filter(|suspicion| !matches!(suspicion, Suspicion::StuckChannel { .. }))
-        .map(suspicion_in_words)
-        .collect();
+    let mut mistaken: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
     mistaken.extend(mends_in_words(&mends(&inspection, &loaded.rig)));
     anyhow::ensure!(
         mistaken.is_empty(),
