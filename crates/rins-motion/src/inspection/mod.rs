@@ -181,18 +181,7 @@ pub fn inspect_with(
         stands[rest.span.clone()].fill(true);
     }
     let longest_repeat = std::array::from_fn(|index| channel::longest_repeat(&channels[index]));
-    let mut suspicions: Vec<Suspicion> = (0..6)
-        .filter(|&channel| recording.len() > 1 && longest_repeat[channel] == recording.len())
-        // A coarse sensor, or one without noise, may well say the same throughout: the others of its triad tell. Three zeros are
-        // no reading.
-        .filter(|&channel| {
-            let first = channel / 3 * 3;
-            let triad = &channels[first..first + 3];
-            let is_zero = triad.iter().flatten().all(|reading| *reading == 0.0);
-            is_zero || triad.iter().any(|readings| is_noisy(readings))
-        })
-        .map(|channel| Suspicion::StuckChannel { channel: CHANNELS[channel] })
-        .collect();
+    let mut suspicions = stuck_throughout(&channels, longest_repeat);
     let of_channels = channel::suspicions(recording, expected, &stands);
     let is_cut = |name: &str| {
         of_channels.iter().any(|of| {
@@ -274,6 +263,22 @@ pub fn inspect_with(
         timing,
         suspicions,
     }
+}
+
+/// The channels that repeat one reading throughout.
+///
+/// A coarse sensor, or one without noise, may well do so at rest: the others of its triad tell. Three zeros are no reading.
+fn stuck_throughout(channels: &[Vec<f64>; 6], longest_repeat: [usize; 6]) -> Vec<Suspicion> {
+    let is_stuck = |channel: &usize| {
+        let triad = &channels[channel / 3 * 3..][..3];
+        let is_zero = triad.iter().flatten().all(|reading| *reading == 0.0);
+        let length = channels[*channel].len();
+        length > 1
+            && longest_repeat[*channel] == length
+            && (is_zero || triad.iter().any(|readings| is_noisy(readings)))
+    };
+    let stuck = (0..6).filter(is_stuck);
+    stuck.map(|channel| Suspicion::StuckChannel { channel: CHANNELS[channel] }).collect()
 }
 
 fn reading(sample: &rins_frames::Increments, channel: usize) -> f64 {

@@ -16,5 +16,6 @@ mod schuler;
 mod slow_turn;
 mod static_population;
 mod strapdown;
+mod stuck;
 mod support;
 mod truth;
