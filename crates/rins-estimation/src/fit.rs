@@ -9,13 +9,13 @@ use rins_terms::{Free, Model};
 use crate::estimate::{Estimate, Fit, Iteration};
 use crate::evidence::Indefinite;
 use crate::fit_error::FitError;
-use crate::layout::{Joined, Layout};
+use crate::layout::{Joined, Layout, attitude_of};
 use crate::likely::likely_noise;
 use crate::linear::{Linear, Pieces, linearised};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
 use crate::strengths::{Noise, NoiseKnowledge};
-use crate::stride::{Bottom, Damping, Place, Stride};
+use crate::stride::{Bottom, Damping, Place, Stride, Until, leaves_little};
 
 /// The most times that a run is made linear.
 const MOST_ITERATIONS: usize = 20;
@@ -34,10 +34,9 @@ const MISJUDGED: f64 = 0.1;
 
 /// Estimates what `model` leaves free from `runs` of one IMU.
 ///
-/// The model, and the ids of all parameters, are along the axes of the first run. What belongs to the sensors is shared; what belongs to a run is estimated for each, or for those together that were
-/// not switched off in between. The
-/// values that the model has are what is expected, within the priors' sigmas. `progress` is told of every
-/// iteration.
+/// The model, and the ids of all parameters, are along the axes of the first run. What belongs to the sensors is shared; what belongs
+/// to a run is estimated for each, or for those together that were not switched off in between. The values that the model has are
+/// what is expected, within the priors' sigmas. `progress` is told of every iteration.
 ///
 /// # Errors
 /// [`FitError`] if there is nothing to do, or it does not converge.
@@ -76,9 +75,7 @@ fn fitted(
         return Err(FitError::NoRun);
     }
     let joined = Joined::of(model, imu, runs);
-    if joined.layout.all.is_empty() {
-        return Err(FitError::NothingFree);
-    }
+    joined.refuse_number()?;
     let strengths = knowledge.sheet();
     let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
     let mut problem = Problem::new((runs, near), joined);
@@ -97,11 +94,14 @@ fn fitted(
     let mut judged = 0;
     let said = loop {
         if find_noise {
-            let inverse = inverse_curvature.as_ref();
-            let likely = likely_noise(&problem.linear, &sheet, &noise, inverse, |linear, noise| {
-                let (_, posterior) = problem.posterior(linear, noise, iterations.len()).ok()?;
-                Some(posterior.log_likelihood)
-            });
+            let log_likelihood = |noise: &[Noise]| problem.log_likelihood(noise);
+            let likely = likely_noise(
+                &problem.linear,
+                &sheet,
+                &noise,
+                inverse_curvature.as_ref(),
+                log_likelihood,
+            );
             (noise, around) = (likely.noise, likely.around);
             inverse_curvature = Some(likely.inverse_curvature);
             judged += 1;
@@ -117,15 +117,6 @@ fn fitted(
     };
     let fit = problem.finish(said, noise, &around, iterations)?;
     Ok(Fit { inverse_curvature, ..fit })
-}
-
-/// When an iteration ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Until {
-    /// The parameters no longer move by much, so that noise can be judged.
-    NearEnough,
-    /// They do not move.
-    Converged,
 }
 
 /// Makes all noise as strong as the residuals, if these are stronger: a model that does not fit would chase them
@@ -242,6 +233,10 @@ impl<'a> Problem<'a> {
         Ok(sum)
     }
 
+    fn log_likelihood(&self, noise: &[Noise]) -> Option<f64> {
+        self.evidence(&self.linear, noise).ok()?.log_likelihood(&self.sigmas(), &self.offsets())
+    }
+
     fn posterior(
         &self,
         linear: &[Linear],
@@ -249,8 +244,7 @@ impl<'a> Problem<'a> {
         iteration: usize,
     ) -> Result<(Evidence, Posterior), FitError> {
         let evidence = self.evidence(linear, noise)?;
-        let sigmas: Vec<f64> = self.layout.all.iter().map(|(free, _)| free.sigma).collect();
-        let posterior = evidence.posterior(&sigmas, &self.offsets());
+        let posterior = evidence.posterior(&self.sigmas(), &self.offsets());
         let finite = posterior.filter(|posterior| posterior.log_likelihood.is_finite());
         Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
     }
@@ -298,10 +292,23 @@ impl<'a> Problem<'a> {
                 self.take_values(Pieces::Samples);
                 return Ok(());
             }
+            if is_last
+                && until == Until::Converged
+                && from == Pieces::Samples
+                && let [.., before, last] = &iterations[..]
+                && leaves_little([before.step, last.step], MOST_ITERATIONS)
+            {
+                return Ok(());
+            }
             if is_last || !step.is_finite() {
                 return Err(FitError::Diverged { iterations: iterations.len(), step });
             }
         }
+    }
+
+    /// How far the values may be from what was expected, 1σ.
+    fn sigmas(&self) -> Vec<f64> {
+        self.layout.all.iter().map(|(free, _)| free.sigma).collect()
     }
 
     /// By how much the values are off from what was expected.
@@ -388,11 +395,4 @@ impl<'a> Problem<'a> {
             inverse_curvature: None,
         })
     }
-}
-
-/// Where the attitude of a run's axis stands among all parameters, if all three of its angles are free.
-fn attitude_of(model: &Model, free: &[(usize, usize)], places: &[usize]) -> Option<[usize; 3]> {
-    let of = |id: &str| free.iter().position(|at| model.find(id).as_ref() == Some(at));
-    let [x, y, z] = ["axis.attitude.x", "axis.attitude.y", "axis.attitude.z"].map(of);
-    Some([places[x?], places[y?], places[z?]])
 }

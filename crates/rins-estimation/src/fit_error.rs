@@ -12,6 +12,16 @@ pub enum FitError {
     /// The model estimates nothing.
     #[error("the model leaves no parameter to be estimated")]
     NothingFree,
+    /// The model estimates more than is done in reasonable time.
+    #[error(
+        "the model estimates {parameters} parameters, at most {most} are estimated at once: leave some out"
+    )]
+    ManyParameters {
+        /// How many it estimates.
+        parameters: usize,
+        /// The most.
+        most: usize,
+    },
     /// The filter broke off.
     #[error(transparent)]
     Indefinite(#[from] Indefinite),

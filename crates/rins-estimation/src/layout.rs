@@ -3,7 +3,11 @@
 use rins_imu::ImuSpec;
 use rins_terms::{Free, Model, Owner};
 
+use crate::fit_error::FitError;
 use crate::run::Run;
+
+/// The most parameters of a model: time goes with their square and cube, and so many take some ten seconds.
+const MOST_PARAMETERS: usize = 256;
 
 /// All parameters of some runs of one IMU: those of the sensors are shared, and by runs that were not switched off in
 /// between the turn-on biases too; the others are each run's own.
@@ -107,4 +111,24 @@ impl Joined {
         let free = free.iter().map(|of_run| of_run.iter().map(place).collect()).collect();
         Self { models, free, layout }
     }
+    /// Refuses a model that estimates nothing, or more than can be done in reasonable time.
+    pub(crate) fn refuse_number(&self) -> Result<(), FitError> {
+        let parameters = self.free.iter().map(Vec::len).max().unwrap_or_default();
+        match parameters {
+            0 => Err(FitError::NothingFree),
+            1..=MOST_PARAMETERS => Ok(()),
+            _ => Err(FitError::ManyParameters { parameters, most: MOST_PARAMETERS }),
+        }
+    }
+}
+
+/// Where the attitude of a run's axis stands among all parameters, if all three of its angles are free.
+pub(crate) fn attitude_of(
+    model: &Model,
+    free: &[(usize, usize)],
+    places: &[usize],
+) -> Option<[usize; 3]> {
+    let of = |id: &str| free.iter().position(|at| model.find(id).as_ref() == Some(at));
+    let [x, y, z] = ["axis.attitude.x", "axis.attitude.y", "axis.attitude.z"].map(of);
+    Some([places[x?], places[y?], places[z?]])
 }

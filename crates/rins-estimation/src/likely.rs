@@ -140,7 +140,7 @@ pub(crate) fn likely_noise(
     expected: &[Noise],
     first: &[Noise],
     inverse_curvature: Option<&DMatrix<f64>>,
-    log_likelihood: impl Fn(&[Linear], &[Noise]) -> Option<f64> + Sync,
+    log_likelihood: impl Fn(&[Noise]) -> Option<f64> + Sync,
 ) -> Likely {
     let unknown = unknowns(linear, expected, first);
     let noise_at = |x: &DVector<f64>| {
@@ -159,7 +159,7 @@ pub(crate) fn likely_noise(
             .zip(x.iter())
             .map(|(u, x)| 0.5 * ((x - u.centre) / u.sigma).powi(2))
             .sum();
-        let value = log_likelihood(linear, &noise_at(x)).filter(|value| value.is_finite());
+        let value = log_likelihood(&noise_at(x)).filter(|value| value.is_finite());
         value.map_or(f64::INFINITY, |value| prior - value)
     };
     let inverse = inverse_curvature.filter(|inverse| inverse.nrows() == unknown.len());

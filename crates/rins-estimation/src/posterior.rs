@@ -1,6 +1,6 @@
 //! Information and score, and the estimate that they and prior knowledge make.
 
-use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
 
 /// The part of the best seen below which the information on a sum is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -103,6 +103,22 @@ impl Evidence {
     ///
     /// `None` if the information is not finite.
     pub fn posterior(&self, sigmas: &[f64], expected: &[f64]) -> Option<Posterior> {
+        let Solved { scale, factor, step, square, log_likelihood } =
+            self.solved(sigmas, expected)?;
+        let inverse = factor.inverse();
+        let p = sigmas.len();
+        let covariance = DMatrix::from_fn(p, p, |row, column| {
+            inverse[(row, column)] * scale[row] * scale[column]
+        });
+        Some(Posterior { step: step.component_mul(&scale), covariance, log_likelihood, square })
+    }
+
+    /// The log-likelihood of [`Posterior`], without its covariance, which takes most of the time.
+    pub fn log_likelihood(&self, sigmas: &[f64], expected: &[f64]) -> Option<f64> {
+        self.solved(sigmas, expected).map(|solved| solved.log_likelihood)
+    }
+
+    fn solved(&self, sigmas: &[f64], expected: &[f64]) -> Option<Solved> {
         // In units of the priors' sigmas, so that kinds with different units do not drown each other.
         let scale = DVector::from_column_slice(sigmas);
         let p = sigmas.len();
@@ -114,19 +130,20 @@ impl Evidence {
         let right = self.score.component_mul(&scale) + &offset;
         let factor = Cholesky::new(scaled)?;
         let step = factor.solve(&right);
-        let inverse = factor.inverse();
-        let covariance = DMatrix::from_fn(p, p, |row, column| {
-            inverse[(row, column)] * scale[row] * scale[column]
-        });
         let log_determinant: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
         let square = self.square + offset.norm_squared() - right.dot(&step);
-        Some(Posterior {
-            step: step.component_mul(&scale),
-            covariance,
-            log_likelihood: -0.5 * square - self.log_determinant - log_determinant,
-            square,
-        })
+        let log_likelihood = -0.5 * square - self.log_determinant - log_determinant;
+        Some(Solved { scale, factor, step, square, log_likelihood })
     }
+}
+
+/// What an estimate follows from, in units of the priors' sigmas.
+struct Solved {
+    scale: DVector<f64>,
+    factor: Cholesky<f64, Dyn>,
+    step: DVector<f64>,
+    square: f64,
+    log_likelihood: f64,
 }
 
 /// An estimate.

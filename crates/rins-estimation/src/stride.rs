@@ -12,6 +12,9 @@ const TURNING_BACK: f64 = 0.5;
 /// only turns back however little of it is taken, ends there.
 const ON_EDGE: f64 = 0.1;
 
+/// A way of so much of every sigma makes no difference: it adds a percent to the mean square error.
+const NEGLIGIBLE: f64 = 0.1;
+
 /// By how much more of a small step is taken if it does not turn back: less than it was lessened, or it would go on for ever.
 const BOLDER: f64 = 1.2;
 
@@ -21,6 +24,15 @@ const ABOUT: usize = 10;
 
 /// ... the squares differ by no more than this, which nobody could tell from noise.
 const ROUGH: f64 = 2.0;
+
+/// When an iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Until {
+    /// The parameters no longer move by much, so that noise can be judged.
+    NearEnough,
+    /// They do not move.
+    Converged,
+}
 
 /// How much of a step is taken: what only turns back goes half the way, for an azimuth that hardly shows would swing for ever;
 /// and less and less where steps are small, which finds an edge.
@@ -67,6 +79,14 @@ impl Stride {
     }
 }
 
+/// Whether the last two of steps that do not vanish, in sigmas, leave so little to go that no sigma shows it: the sum of the
+/// geometric series that they begin, or of as many more as there have been.
+pub(crate) fn leaves_little([before, last]: [f64; 2], steps: usize) -> bool {
+    let ratio = last / before;
+    let series = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
+    last * series.min(steps as f64) < NEGLIGIBLE
+}
+
 /// Where an iteration has been.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
@@ -103,6 +123,22 @@ impl Bottom {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn steps_that_sigmas_hide_are_few_or_small() {
+        for (before, last, little) in [
+            (0.004, 0.004, true),
+            (0.003, 0.0045, true),
+            (0.05, 0.03, true),
+            (0.02, 0.0199, false),
+            (0.2, 0.1, false),
+            (1.0, 0.2, true),
+            (0.0, 0.01, false),
+            (f64::NAN, f64::NAN, false),
+        ] {
+            assert_eq!(leaves_little([before, last], 20), little, "{before} {last}");
+        }
+    }
+
     use super::*;
     use rins_testing::assert_close;
 

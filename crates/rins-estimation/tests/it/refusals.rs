@@ -3,7 +3,7 @@
 use rins_estimation::{FitError, NoiseKnowledge, Reference, Run, RunError, Strengths, fit};
 use rins_imu::ImuError;
 use rins_motion::Recording;
-use rins_terms::Model;
+use rins_terms::{Chosen, Model, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted};
 
@@ -48,4 +48,12 @@ fn nothing_to_estimate_is_said() {
     };
     assert_eq!(of(&[], &Model::full()), FitError::NoRun);
     assert_eq!(of(&[any_run()], &Model::default()), FitError::NothingFree);
+    let mut many = Model::full();
+    many.terms
+        .extend(std::iter::repeat_n(Chosen::new(&catalogue::ENCODER_HARMONIC).estimated(), 128));
+    let refusal = of(&[any_run()], &many);
+    assert!(
+        matches!(refusal, FitError::ManyParameters { parameters: 257.., most: 256 }),
+        "{refusal}"
+    );
 }
