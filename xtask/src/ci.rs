@@ -43,10 +43,13 @@ const STEPS: &[Row] = &[
     ("book", None, "cargo xtask doc"),
     ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
     ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),
-    ("fuzz", None, "cargo xtask fuzz --seconds 3"),
-    ("benches", None, "cargo bench --quiet --workspace --no-run"),
+    // The readers are as bounded when they are slower.
+    ("fuzz", Some(("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")), "cargo xtask fuzz --seconds 3"),
+    // Benchmarks are compiled by `lint`; those whose instructions are counted are built and run.
     ("instructions", None, "cargo xtask bench --instructions"),
     ("demo", None, "cargo run --quiet --release -- demo -o target/ci/demo"),
+    // As the tests have built them: with one package's features alone all that they need would be built anew.
+    ("examples", None, "cargo build --quiet --workspace --examples"),
 ];
 
 /// A step with a command of cargo's that has to be installed.
@@ -142,13 +145,16 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
         command: command.into(),
     });
     let mut steps: Vec<Step> = fixed.collect();
+    let target = crate::target(root)?;
+    let built = target.strip_prefix(root).unwrap_or(&target).join("debug/examples");
+    let built = built.display();
     let mut unpublished = UNPUBLISHED.map(str::to_owned).to_vec();
     for folder in crate_folders(root)? {
         let Manifest { name, published, .. } = Manifest::read(&folder.join("Cargo.toml"))?;
         steps.extend(examples(&folder).into_iter().map(|example| Step {
             name: format!("example-{example}"),
             environment: None,
-            command: format!("cargo run --quiet --package {name} --example {example}"),
+            command: format!("{built}/{example}"),
         }));
         if !published {
             unpublished.push(name);

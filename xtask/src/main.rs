@@ -77,3 +77,14 @@ fn root() -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().expect("xtask/ lies in the workspace").to_path_buf()
 }
+
+/// Where cargo puts what it builds.
+fn target(root: &Path) -> Result<PathBuf> {
+    let output = std::process::Command::new("cargo")
+        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .current_dir(root)
+        .output()?;
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout)?;
+    let folder = metadata["target_directory"].as_str().ok_or("cargo metadata names no target")?;
+    Ok(folder.into())
+}

@@ -111,7 +111,7 @@ fn compiler() -> Result<Compiler> {
 impl Counted {
     /// The instructions of one call.
     fn count(&self, root: &Path, host: &str) -> Result<f64> {
-        let folder = super::target(root)?;
+        let folder = crate::target(root)?;
         fs::create_dir_all(&folder)?;
         let out = folder.join("callgrind.out");
         let runner = format!(

@@ -59,7 +59,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     if options.instructions {
         return instructions::run(root, options.keep);
     }
-    let target = target(root)?;
+    let target = crate::target(root)?;
     for &(package, bench) in BENCHES {
         let status = Command::new("cargo")
             .args(["bench", "--quiet", "--package", package, "--bench", bench])
@@ -95,15 +95,4 @@ fn entry(name: &str, own: f64, dense: Option<f64>) -> Value {
         entry["ratio"] = json!(dense / own);
     }
     entry
-}
-
-/// Where cargo puts what it builds.
-fn target(root: &Path) -> Result<std::path::PathBuf> {
-    let output = Command::new("cargo")
-        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
-        .current_dir(root)
-        .output()?;
-    let metadata: Value = serde_json::from_slice(&output.stdout)?;
-    let folder = metadata["target_directory"].as_str().ok_or("cargo metadata names no target")?;
-    Ok(folder.into())
 }
