@@ -1,6 +1,7 @@
 //! The `rins` command as its users meet it.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
+mod at_rest;
 mod bad_input;
 mod blind;
 mod certificate;

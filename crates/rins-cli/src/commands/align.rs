@@ -29,6 +29,12 @@ use rins_io::shown;
 /// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
 pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
 
+/// A bias of which a rest leaves more than this part of the sigma that was assumed is not shown by it.
+const SHOWN: f64 = 0.9;
+
+/// A bias of more than so many sigmas of the data sheet is told.
+pub(crate) const BEYOND_THE_SHEET: f64 = 4.0;
+
 /// The shortest rest that is aligned on \[s\].
 const SHORTEST_REST: f64 = 5.0;
 
@@ -57,6 +63,14 @@ impl Found {
     /// Whether the Earth's rotation showed north.
     pub(crate) const fn north_found(&self) -> bool {
         self.hidden.is_none()
+    }
+
+    /// Whether the rest shows each gyro's bias, along the sensors' own axes: what it does not show is what was assumed.
+    fn bias_shown(&self, own_axes: &SignedAxes) -> [bool; 3] {
+        let Some(fine) = self.fine else { return [true; 3] };
+        let sigma = own_axes.undo(&fine.gyro_bias_sigma).abs();
+        let assumed = own_axes.undo(&fine.gyro_bias_assumed).abs();
+        [0, 1, 2].map(|axis| sigma[axis] < SHOWN * assumed[axis])
     }
 
     /// The 1σ of the Earth's rate \[rad/s\] and of the latitude \[rad\] that the gyros see.
@@ -151,6 +165,11 @@ fn accel_sigma(loaded: &Loaded) -> f64 {
     })
 }
 
+/// The axes of a run among the sensors' own.
+fn own_axes(loaded: &Loaded) -> SignedAxes {
+    SignedAxes::from(loaded.rig.spin)
+}
+
 pub(crate) fn run(rig: &Path) -> anyhow::Result<Outcome> {
     let loaded = load(rig)?;
     refuse_mistaken(&loaded)?;
@@ -228,6 +247,19 @@ fn sentences(found: &Found, loaded: &Loaded) -> Vec<String> {
                 .into(),
         );
     }
+    if let (Some(imu), Some(_)) = (loaded.rig.imu, found.fine) {
+        let off = found.nav_from_body * found.residual.angular_rate;
+        for (axis, direction) in [(1, "north"), (2, "up")] {
+            let (off, sheet) = (off.components()[axis].abs(), imu.gyro.bias_sigma);
+            if off > BEYOND_THE_SHEET * sheet {
+                sentences.push(format!(
+                    "Along {direction} the gyros are off by {:.3} deg/h, {:.0} times the data sheet's bias_sigma, which is not relied on.",
+                    off / DEG_PER_HOUR,
+                    off / sheet
+                ));
+            }
+        }
+    }
     if let Some(hidden) = &found.hidden {
         sentences.push(format!("North was not found: {hidden}."));
     }
@@ -285,18 +317,25 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
         // Without north what is left of the rates is no bias.
         return rows;
     }
+    let shown = found.bias_shown(&own_axes(loaded));
     let bias_sigma = found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
     // Biases are the sensors', along their own axes.
-    let own_axes = SignedAxes::from(loaded.rig.spin);
+    let own_axes = own_axes(loaded);
     let bias = own_axes.undo(found.residual.angular_rate.components());
     let bias_sigma = own_axes.undo(&Vector3::from(bias_sigma)).abs();
     for (axis, name) in ["gyro bias x", "gyro bias y", "gyro bias z"].into_iter().enumerate() {
-        rows.push(row(
-            name,
-            format!("{:.4} deg/h", bias[axis] / DEG_PER_HOUR),
-            format!("{:.4} deg/h", bias_sigma[axis] / DEG_PER_HOUR),
-            "less what lies along east, which the azimuth holds".into(),
-        ));
+        let value = if shown[axis] {
+            format!("{:.4} deg/h", bias[axis] / DEG_PER_HOUR)
+        } else {
+            "not shown".into()
+        };
+        let note = if shown[axis] {
+            "less what lies along east, which the azimuth holds"
+        } else {
+            "assumed: along east it is azimuth"
+        };
+        let sigma = format!("{:.4} deg/h", bias_sigma[axis] / DEG_PER_HOUR);
+        rows.push(row(name, value, sigma, note.into()));
     }
     rows
 }
@@ -306,8 +345,10 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path, statics: &StaticIntervals) -
     let (east, north, up) = found.sigma;
     let place = &found.place;
     let (rate_sigma, latitude_sigma) = found.seen_sigma();
-    let own_axes = SignedAxes::from(loaded.rig.spin);
+    let own_axes = own_axes(loaded);
     let bias = own_axes.undo(found.residual.angular_rate.components()) / DEG_PER_HOUR;
+    let bias_sigma =
+        found.fine.map(|fine| own_axes.undo(&fine.gyro_bias_sigma).abs() / DEG_PER_HOUR);
     let accel = own_axes.undo(found.residual.specific_force.components()) / MICRO_G;
     let site = &loaded.station.site;
     json!({
@@ -335,6 +376,8 @@ fn json(found: &Found, loaded: &Loaded, rig: &Path, statics: &StaticIntervals) -
             "latitude_deg": site.latitude / DEG,
         },
         "gyro_bias_found_deg_h": up.map(|_| bias.as_slice()),
+        "gyro_bias_sigma_deg_h": bias_sigma.as_ref().map(Vector3::as_slice),
+        "gyro_bias_shown": bias_sigma.map(|_| found.bias_shown(&own_axes)),
         "accel_bias_found_ug": accel.as_slice(),
         "header_attitude_deg": loaded.psins_header.map(|header| euler_json(&header.attitude)),
     })

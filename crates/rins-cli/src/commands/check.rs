@@ -148,11 +148,11 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         ));
         let rate = rest.mean.rates.angular_rate.norm() / DEG_PER_HOUR;
         rows.push(row(
-            "Earth rate",
+            "rate at rest",
             if inspection.earth_rate_visible {
-                format!("{rate:.3} deg/h in the longest rest; the Earth turns at 15.041")
+                format!("{rate:.3} deg/h in the longest one, of which the Earth's is 15.041")
             } else {
-                format!("not visible: the gyros show {rate:.0} deg/h at rest")
+                format!("{rate:.0} deg/h, in which the Earth's 15.041 does not show")
             },
         ));
     }

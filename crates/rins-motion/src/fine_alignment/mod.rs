@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use nalgebra::{Matrix2, Matrix3, RowSVector, SMatrix, SVector, Vector1, Vector2, Vector3};
 use rins_ekf::{Block, Filter, Innovation, Measurement, UpdateError};
-use rins_frames::units::DEG_PER_HOUR;
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_frames::{Body, Dcm, EARTH_RATE, InFrame, Nav};
 
 use self::noise::{Noise, Second, most_likely, scatter, seconds};
@@ -32,6 +32,12 @@ const COARSE_TILT_SIGMA: f64 = 0.01;
 
 /// The same about up \[rad\].
 const COARSE_AZIMUTH_SIGMA: f64 = 0.2;
+
+/// The least that a base's heading may differ at the end of a rest from its start, 1σ \[rad\].
+const FIRM: f64 = ARCSEC;
+
+/// A bias of so many sigmas of what the data sheet says is none that it knows of: the sheet is then not relied on.
+const BEYOND_THE_SHEET: f64 = 4.0;
 
 /// How often the pass is repeated from what it found, before the last time.
 const RELINEARISATIONS: usize = 1;
@@ -59,6 +65,8 @@ pub struct FineAlignment {
     pub gyro_bias: InFrame<Body>,
     /// The 1σ of each component of the bias \[rad/s\].
     pub gyro_bias_sigma: Vector3<f64>,
+    /// The same before the rest: a component of which the rest says no more is assumed to be about zero.
+    pub gyro_bias_assumed: Vector3<f64>,
     /// The Earth's rate as these gyros see it, the sway of the base taken out \[rad/s\].
     pub earth_rate_seen: InFrame<Body>,
     /// The 1σ of that rate's magnitude \[rad/s\].
@@ -99,7 +107,9 @@ pub enum FineAlignmentError {
 ///
 /// Azimuth and the bias along east cannot be told apart at rest. The filter is told that the bias
 /// along east is zero to within the gyros' figure or, where there is none, within the bias found
-/// along north and up. A noise that is not known is the one under which the rest is most probable.
+/// along north and up. Gravity shows no bias along up: it is that under which the base's heading is the same at the end as at the
+/// start, to within as much as the base tilts. A bias along north or up far beyond the figure is believed, and the figure is not.
+/// A noise that is not known is the one under which the rest is most probable.
 ///
 /// # Errors
 /// [`FineAlignmentError`] if the coarse alignment fails or the span is too short.
@@ -135,6 +145,7 @@ pub fn align_finely(
             score.nis += innovation.nis() / seconds.len() as f64;
             score.log_likelihood += innovation.log_likelihood();
         }
+        pass.hold_heading()?;
         Ok((pass, score))
     };
     // The first pass finds how large a bias is; what it leaves open between azimuth and the bias
@@ -148,8 +159,12 @@ pub fn align_finely(
     };
     let (mut pass, _) = run(&first, guess)?;
     let found = pass.start.matrix() * pass.bias;
-    let bias_along_east = gyro
-        .map_or_else(|| found.y.hypot(found.z) / std::f64::consts::SQRT_2, |gyro| gyro.bias_sigma);
+    let [north, up] = pass.beyond_the_sheet(bias_elsewhere);
+    let bias_along_east = gyro.map_or_else(
+        || found.y.hypot(found.z) / std::f64::consts::SQRT_2,
+        |gyro| gyro.bias_sigma.max(north),
+    );
+    let bias_elsewhere = bias_elsewhere.max(north).max(up);
     pass.settle_bias_along_east(bias_along_east)?;
     let mut prior = Prior { nav_from_body: pass.start, bias_along_east, bias_elsewhere };
     let known = gyro.map(|gyro| gyro.noise_density);
@@ -184,6 +199,11 @@ struct Pass {
     bias: Vector3<f64>,
     filter: Filter<STATES>,
     noise: Noise,
+    /// The 1σ of the bias along the body's axes before the rest \[rad/s\].
+    assumed: Vector3<f64>,
+    /// The sum of the squares of how far the base was tilted from where it started after each second, about east and north together,
+    /// and how many seconds those are.
+    tilts: (f64, f64),
 }
 
 impl Pass {
@@ -198,7 +218,8 @@ impl Pass {
         let wide = prior.bias_elsewhere;
         let c_nb = nav_from_body.matrix();
         let bias = square(Vector3::new(prior.bias_along_east, wide, wide));
-        GYRO_BIAS.set(GYRO_BIAS, &mut p, &(c_nb.transpose() * bias * c_nb));
+        let bias = c_nb.transpose() * bias * c_nb;
+        GYRO_BIAS.set(GYRO_BIAS, &mut p, &bias);
         for (rows, columns) in
             [(ATTITUDE, ATTITUDE), (ATTITUDE, START), (START, ATTITUDE), (START, START)]
         {
@@ -210,6 +231,8 @@ impl Pass {
             bias: Vector3::zeros(),
             filter: Filter { state: SVector::zeros(), covariance: p },
             noise,
+            assumed: bias.diagonal().map(f64::sqrt),
+            tilts: (0.0, 0.0),
         }
     }
 
@@ -236,7 +259,40 @@ impl Pass {
         let velocity = self.navigator.state().velocity.components().xy();
         let innovation = self.filter.update(&Measurement::new(velocity, h, r))?;
         self.correct();
+        self.tilts.0 += self.turned().xy().norm_squared();
+        self.tilts.1 += 1.0;
         Ok(innovation)
+    }
+
+    /// The rotation since the start, in n \[rad\].
+    fn turned(&self) -> Vector3<f64> {
+        (self.navigator.state().nav_from_body * self.start.inverse()).rotation_vector()
+    }
+
+    /// Holds the heading at the end to that at the start, to within how far the base tilts in between.
+    fn hold_heading(&mut self) -> Result<(), UpdateError> {
+        let (squares, seconds) = self.tilts;
+        let variance = squares / (2.0 * seconds) + FIRM * FIRM;
+        let mut h = RowSVector::<f64, STATES>::zeros();
+        h[ATTITUDE.start() + 2] = 1.0;
+        h[START.start() + 2] = -1.0;
+        let r = SMatrix::<f64, 1, 1>::new(variance);
+        self.filter.update(&Measurement::new(Vector1::new(-self.turned().z), h, r))?;
+        self.correct();
+        Ok(())
+    }
+
+    /// The biases along north and up that are no less than so many times what is said of them \[rad/s\]; zero of one that is not.
+    fn beyond_the_sheet(&self, said: f64) -> [f64; 2] {
+        let c_nb = self.start.matrix();
+        let of_bias =
+            self.filter.covariance.fixed_view::<3, 3>(GYRO_BIAS.start(), GYRO_BIAS.start());
+        let (found, in_nav) = (c_nb * self.bias, c_nb * of_bias * c_nb.transpose());
+        [1, 2].map(|axis| {
+            let expected = (said * said + in_nav[(axis, axis)]).sqrt();
+            let size = found[axis].abs();
+            if size > BEYOND_THE_SHEET * expected { size } else { 0.0 }
+        })
     }
 
     fn predict(&mut self, force: &Vector3<f64>, duration: f64) {
@@ -294,6 +350,7 @@ impl Pass {
             covariance: covariance.fixed_view::<3, 3>(START.start(), START.start()).into_owned(),
             gyro_bias,
             gyro_bias_sigma: of_bias.diagonal().map(f64::sqrt),
+            gyro_bias_assumed: self.assumed,
             earth_rate_sigma: spread(along),
             latitude_sigma: spread(across) / EARTH_RATE,
             earth_rate_seen: earth_rate + gyro_bias,

@@ -4,7 +4,7 @@ use rins_frames::Increments;
 
 use super::suspicion::Suspicion;
 use super::{CHANNELS, Expected};
-use crate::comb::comb;
+use crate::comb::{Comb, comb};
 use crate::median::median;
 use crate::recording::Recording;
 use crate::sticking::steps;
@@ -130,14 +130,43 @@ pub(super) fn longest_repeat(readings: &[f64]) -> usize {
     runs(readings).map(|(_, length)| length).max().unwrap_or_default()
 }
 
-/// The distance of the teeth of a comb on which readings stand, if most teeth are shared by several samples: the digits of a
+/// Combs whose teeth are no further apart than so many times those of the other are the same.
+const SAME_COMB: f64 = 1.1;
+
+/// The resolution of increments: their own, or that of the rates which they were made of over intervals that are not all alike,
+/// over an interval. The coarser one, since products of two roundings stand on a comb that is far too fine, and of two that are about
+/// the same that on which readings stand more exactly.
+pub(super) fn resolution_of(
+    increments: &[f64],
+    recording: &Recording,
+    interval: f64,
+) -> Option<f64> {
+    let samples = increments.iter().zip(&recording.increments);
+    let over_one: Vec<f64> =
+        samples.map(|(increment, sample)| increment / sample.interval * interval).collect();
+    let found = match [increments, &over_one].map(resolution) {
+        [Some(of_increments), Some(of_rates)] => {
+            let [less, more] = if of_increments.step < of_rates.step {
+                [of_increments, of_rates]
+            } else {
+                [of_rates, of_increments]
+            };
+            let same = more.step < SAME_COMB * less.step;
+            if same && less.sigma < more.sigma { less } else { more }
+        }
+        [of_increments, of_rates] => of_increments.or(of_rates)?,
+    };
+    Some(found.step)
+}
+
+/// The comb on which readings stand, if most teeth are shared by several samples: the digits of a
 /// log are no sensor's.
-pub(super) fn resolution(readings: &[f64]) -> Option<f64> {
-    let step = comb(readings)?.step;
+fn resolution(readings: &[f64]) -> Option<Comb> {
+    let comb = comb(readings)?;
     let mut sorted = readings.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
-    let teeth = 1 + sorted.windows(2).filter(|pair| pair[1] - pair[0] > 0.5 * step).count();
-    (4 * teeth < readings.len()).then_some(step)
+    let teeth = 1 + sorted.windows(2).filter(|pair| pair[1] - pair[0] > 0.5 * comb.step).count();
+    (4 * teeth < readings.len()).then_some(comb)
 }
 
 /// Each run of equal readings: its start and its length.
@@ -226,7 +255,7 @@ fn saturated(
 /// Whether a reading is that of a constant rate between two steps of a coarse sensor, which reads the one or the other: time and
 /// again it goes to the next step and back, and hardly ever further.
 fn stands_between(readings: &[f64], extreme: f64) -> bool {
-    let Some(step) = resolution(readings) else { return false };
+    let Some(step) = resolution(readings).map(|comb| comb.step) else { return false };
     #[expect(clippy::float_cmp, reason = "it is one of the readings")]
     let leaving = readings.windows(2).filter(|pair| pair[0] == extreme && pair[1] != extreme);
     let (mut all, mut to_next) = (0, 0);

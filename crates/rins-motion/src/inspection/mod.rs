@@ -253,7 +253,9 @@ pub fn inspect_with(
         spin_ratio: spin.map(|spin| spin.ratio),
         table_lag,
         turns_whole: whole_turns.is_some(),
-        resolution: std::array::from_fn(|index| channel::resolution(&channels[index])),
+        resolution: std::array::from_fn(|index| {
+            channel::resolution_of(&channels[index], recording, timing.interval)
+        }),
         longest_repeat,
         earth_rate_visible: rests
             .iter()

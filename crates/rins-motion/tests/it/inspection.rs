@@ -1,7 +1,7 @@
 //! What a look through a recording finds in its channels and in the table's turn.
 
 use nalgebra::Vector3;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal, StudentT};
 use rand_pcg::Pcg64;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND};
@@ -266,6 +266,39 @@ fn coarse_sensors_are_not_cut_off_and_show_their_step() {
         assert_close!(inspection.resolution[axis].unwrap(), step, 1e-3 * step);
     }
     assert_eq!(inspection.resolution[3..], [None; 3]);
+}
+
+/// Rates in whole steps over intervals of stamps that are rounded to microseconds and jitter: their increments stand on a comb of the
+/// product of two roundings, which is no resolution.
+#[test]
+fn resolution_of_rates_shows_over_uneven_intervals() {
+    for draw in 0..200_u64 {
+        let mut random = Pcg64::seed_from_u64(draw);
+        let interval = 1e-6 * f64::from(random.random_range(500..20_000_u32));
+        let step = 1e-5 * 10_f64.powf(random.random_range(0.0..3.0));
+        let noise = step * random.random_range(0.5..5.0);
+        let jitter = random.random_range(0..20_u32);
+        let mut recording = Recording::default();
+        let mut end = 0.0;
+        for _ in 0..2000 {
+            let late = 1e-6 * f64::from(random.random_range(0..=jitter));
+            let interval = interval + late;
+            end += interval;
+            let mut rate = || {
+                let drawn: f64 = StandardNormal.sample(&mut random);
+                (noise * drawn / step).round() * step * interval
+            };
+            let angle = InFrame::new(rate(), rate(), rate());
+            let velocity = InFrame::new(rate(), rate(), rate() + 9.8 * interval);
+            recording.times.push(end);
+            recording.increments.push(Increments { angle, velocity, interval });
+        }
+        let seen = inspect(&recording, &Expected::default());
+        for (channel, found) in seen.resolution.iter().enumerate() {
+            let found = found.unwrap_or_default() / seen.timing.interval;
+            assert!((found / step - 1.0).abs() < 1e-3, "{draw}: {channel}: {found}, not {step}");
+        }
+    }
 }
 
 /// A table whose rate lies between two steps of a gyro is read as the one for long, as the other once, and is not cut off.

@@ -1,11 +1,13 @@
 //! A verdict on each thing that can be wrong with a log.
 
+use rins_frames::EARTH_RATE;
 use rins_frames::units::DEG_PER_HOUR;
 use rins_io::{Loaded, Omission};
 use rins_motion::{CHANNELS, Inspection, Suspicion};
 use serde_json::{Value, json};
 
 use super::{gaps, longest, step_in_words, suspicion_in_words};
+use crate::commands::align::BEYOND_THE_SHEET;
 use crate::report::Tone;
 
 /// Time stamps that jitter by more than this share of an interval are odd.
@@ -194,6 +196,7 @@ fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         (false, _) => "the table's turn is about z; which way x and y point, nothing tells".into(),
     };
     let nothing = "the IMU neither rests nor follows a table";
+    let no_axes = if rests { "needs an [attitude], or a table that turns" } else { nothing };
     vec![
         unless_shown(
             rests || turns,
@@ -208,7 +211,7 @@ fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         unless_shown(
             level || turns,
             suspected(inspection, "signs and axes", is_axis, signs),
-            nothing,
+            no_axes,
         ),
     ]
 }
@@ -263,16 +266,32 @@ fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     };
     let rest = match longest(inspection) {
         None => verdict("rest", Tone::Warning, "none of a second or more: nothing to align on"),
-        Some(rest) => verdict(
-            "rest",
-            Tone::Neutral,
-            format!(
+        Some(rest) => {
+            let rate = rest.mean.rates.angular_rate.norm();
+            let told = format!(
                 "{} span(s), the longest of {:.1} s at {:.3} deg/h",
                 inspection.rests.len(),
                 rest.mean.duration,
-                rest.mean.rates.angular_rate.norm() / DEG_PER_HOUR
-            ),
-        ),
+                rate / DEG_PER_HOUR
+            );
+            let scatter = rest.mean.angular_rate_sigma.norm();
+            // Three biases of the sheet's sigma make as much as their root mean square.
+            let beyond = loaded.rig.imu.filter(|imu| {
+                let expected = (3.0 * imu.gyro.bias_sigma.powi(2) + scatter.powi(2)).sqrt();
+                (rate - EARTH_RATE).abs() > BEYOND_THE_SHEET * expected
+            });
+            match beyond {
+                Some(imu) => verdict(
+                    "rest",
+                    Tone::Warning,
+                    format!(
+                        "{told}, which is not the Earth's 15.041 to within the data sheet's bias_sigma of {:.3} deg/h",
+                        imu.gyro.bias_sigma / DEG_PER_HOUR
+                    ),
+                ),
+                None => verdict("rest", Tone::Neutral, told),
+            }
+        }
     };
     let turns = format!("{:.2}, {:.0} deg either way", inspection.turns, inspection.turns * 360.0);
     let shows = super::shows::shows(inspection, loaded);

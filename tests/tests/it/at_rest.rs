@@ -1,0 +1,102 @@
+//! What an IMU that only rests shows, and what is assumed of it.
+
+use std::fs;
+
+use rins_testing::site;
+use tempfile::TempDir;
+
+use crate::support::{list, number, numbers, result_in, rins_in};
+
+/// Five minutes of rest; the gyro along up is off by a hundred times what the data sheet says, or not at all.
+fn rest(bias: &str) -> TempDir {
+    let scenario = format!(
+        concat!(
+            site!(),
+            r#"
+[log]
+rate = "50 Hz"
+
+[table]
+profile = [{{ rate = "0 deg/s", duration = "300 s" }}]
+
+[attitude]
+roll = "0 deg"
+pitch = "0 deg"
+yaw = "0 deg"
+sigma = "0.05 deg"
+
+[imu.gyro]
+noise = "0.05 deg/h/sqrt(Hz)"
+bias_sigma = "0.02 deg/h"
+scale_sigma = "10 ppm"
+misalignment_sigma = "20 arcsec"
+
+[imu.accel]
+noise = "20 ug/sqrt(Hz)"
+bias_sigma = "100 ug"
+scale_sigma = "100 ppm"
+misalignment_sigma = "20 arcsec"
+
+[truth]
+seed = 7
+gyro = {{ bias = ["0 deg/h", "0 deg/h", "{bias}"] }}
+"#
+        ),
+        bias = bias
+    );
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scenario.toml"), scenario).unwrap();
+    let made = rins_in(folder.path(), "simulate scenario.toml -o run");
+    assert_eq!(made.code, Some(0), "{}", made.err);
+    // A rig that states no attitude.
+    let rig = folder.path().join("run/rig.toml");
+    let text = fs::read_to_string(&rig).unwrap();
+    let (before, after) = text.split_once("[attitude]").unwrap();
+    let (_, after) = after.split_once("\n[").unwrap();
+    fs::write(&rig, format!("{before}[{after}")).unwrap();
+    folder
+}
+
+#[test]
+fn gyro_that_gravity_does_not_show_is_told_by_the_heading() {
+    for (bias, expected) in [("0 deg/h", 0.0), ("1 deg/h", 1.0), ("-0.5 deg/h", -0.5)] {
+        let folder = rest(bias);
+        let result = result_in(folder.path(), "align run/rig.toml");
+        let (found, sigma) = (
+            numbers(&result, "/gyro_bias_found_deg_h"),
+            numbers(&result, "/gyro_bias_sigma_deg_h"),
+        );
+        assert!(
+            (found[2] - expected).abs() < 4.0 * sigma[2] && sigma[2] < 0.02,
+            "{found:?} {sigma:?}"
+        );
+        let earth_rate = number(&result, "/seen/earth_rate_deg_h");
+        // The Earth's rate along north and up of the station's latitude.
+        let [north, up] = {
+            let rate = number(&result, "/expected/earth_rate_deg_h");
+            let latitude = number(&result, "/expected/latitude_deg").to_radians();
+            [rate * latitude.cos(), rate * latitude.sin()]
+        };
+        let sigma = number(&result, "/seen/earth_rate_sigma_deg_h");
+        assert!((earth_rate - north.hypot(up + expected)).abs() < 4.0 * sigma, "{earth_rate}");
+        let shown: Vec<bool> = list(&result, "/gyro_bias_shown")
+            .iter()
+            .map(|shown| shown.as_bool().unwrap())
+            .collect();
+        assert_eq!(shown, [false, true, true]);
+        let text = rins_in(folder.path(), "align run/rig.toml").out;
+        let is_beyond = expected.abs() > 0.1;
+        assert_eq!(text.contains("Along up the gyros are off by"), is_beyond, "{text}");
+        assert!(text.contains("not shown") && text.contains("assumed"), "{text}");
+        let check = rins_in(folder.path(), "check run/rig.toml").out;
+        assert_eq!(check.contains("odd: rest"), is_beyond, "{check}");
+    }
+}
+
+#[test]
+fn axes_of_an_imu_at_rest_need_an_attitude() {
+    let folder = rest("0 deg/h");
+    let check = rins_in(folder.path(), "check run/rig.toml").out;
+    assert!(check.contains("not shown: needs an [attitude], or a table that turns"), "{check}");
+    assert!(!check.contains("neither rests nor"), "{check}");
+}
