@@ -37,7 +37,10 @@ mod noise;
 
 mod allan;
 
-pub use allan::{AllanError, AllanPlan, AllanPoint, CONFIDENCE, NoiseLaw, NoiseSeen, Strength};
+pub use allan::{
+    AllanError, AllanPlan, AllanPoint, CONFIDENCE, NoiseLaw, NoiseSeen, SpectralLine, Strength,
+    take_out_lines,
+};
 pub use axis::{Axis, Triad};
 pub use imu::{Compensation, ImuCompensationError, ImuError};
 pub use noise::{

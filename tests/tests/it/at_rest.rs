@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use rins_testing::site;
+use rins_testing::{assert_close, site};
 use tempfile::TempDir;
 
 use crate::support::{list, number, numbers, result_in, rins_in};
@@ -99,4 +99,39 @@ fn axes_of_an_imu_at_rest_need_an_attitude() {
     let check = rins_in(folder.path(), "check run/rig.toml").out;
     assert!(check.contains("not shown: needs an [attitude], or a table that turns"), "{check}");
     assert!(!check.contains("neither rests nor"), "{check}");
+}
+
+/// A line of 0.565 Hz beside white noise and steps of the resolution, as of a base that sways.
+#[test]
+fn line_is_no_quantisation() {
+    let folder = rest("0 deg/h");
+    let log = folder.path().join("run/run.csv");
+    let text = fs::read_to_string(&log).unwrap();
+    let (head, rows) = text.split_once('\n').unwrap();
+    let names: Vec<&str> = head.split(',').collect();
+    let column = |name: &str| names.iter().position(|column| column.starts_with(name)).unwrap();
+    let (time, accel) = (column("time"), column("accel_x"));
+    let mut phase = 0.0_f64;
+    let mut before = 0.0;
+    let mut disturbed = format!("{head}\n");
+    for row in rows.lines() {
+        let mut fields: Vec<String> = row.split(',').map(String::from).collect();
+        let now: f64 = fields[time].parse().unwrap();
+        phase += std::f64::consts::TAU * (0.565 + 0.01 * (0.1 * now).sin()) * (now - before);
+        before = now;
+        let reading: f64 = fields[accel].parse().unwrap();
+        fields[accel] = (reading + 0.02 * 9.8e-3 * phase.sin()).to_string();
+        disturbed += &(fields.join(",") + "\n");
+    }
+    fs::write(&log, disturbed).unwrap();
+    let result = result_in(folder.path(), "allan run/rig.toml");
+    let channel = &list(&result, "/channels")[3];
+    let lines = list(channel, "/lines");
+    assert!(!lines.is_empty(), "{channel}");
+    assert_close!(number(&lines[0], "/frequency_hz"), 0.565, 0.02);
+    let noise = number(channel, "/terms/1/value");
+    assert_close!(noise, 20.0, 1.0);
+    assert_eq!(channel["terms"][0]["seen"], false);
+    let text = rins_in(folder.path(), "allan run/rig.toml").out;
+    assert!(text.contains("In accelerometer x there is a line at 0.56"), "{text}");
 }

@@ -222,6 +222,67 @@ fn the_next_test_tells_what_this_one_could_not() {
     assert!(!texts(cause, "/cannot_tell_from").contains(&"base_tilt_ramp"), "{cause}");
 }
 
+/// A late encoder on a short fast turn of a consumer IMU; `turned` is how long \[s\].
+fn short_turn(turned: u32) -> String {
+    format!(
+        r#"
+        [site]
+        latitude = "45 deg"
+        longitude = "9 deg"
+        height = "100 m"
+        [log]
+        rate = "64 Hz"
+        table_angle = {{ noise = "360 arcsec" }}
+        [table]
+        profile = [
+            {{ rate = "0 deg/s", duration = "2 s" }},
+            {{ rate = "100 deg/s", duration = "{turned} s" }},
+            {{ rate = "0 deg/s", duration = "4 s" }},
+        ]
+        acceleration = "100 deg/s^2"
+        [attitude]
+        roll = "0 deg"
+        pitch = "0 deg"
+        yaw = "0 deg"
+        sigma = "0.1 deg"
+        [imu.gyro]
+        noise = "180 deg/h/sqrt(Hz)"
+        bias_sigma = "0.5 deg/s"
+        scale_sigma = "3 %"
+        misalignment_sigma = "120 arcsec"
+        [imu.accel]
+        noise = "2000 ug/sqrt(Hz)"
+        bias_sigma = "200 ug"
+        scale_sigma = "300 ppm"
+        misalignment_sigma = "60 arcsec"
+        [truth]
+        seed = 1
+        [[truth.effects]]
+        id = "encoder_latency"
+        delay = "60 ms"
+        "#
+    )
+}
+
+/// The diagnosis of a run of half a minute or less stands, whether a test of twice its length tells the causes apart or not.
+#[test]
+fn diagnosis_stands_without_a_next_test() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (turned, proposed) in [(7, false), (21, true)] {
+        fs::write(here.join("scenario.toml"), short_turn(turned)).unwrap();
+        let made = rins_in(here, &format!("simulate scenario.toml -o {turned}"));
+        assert_eq!(made.code, Some(0), "{}", made.err);
+        let result = result_in(here, &format!("diagnose {turned}/rig.toml"));
+        let causes = list(&result, "/causes");
+        assert!(!causes.is_empty(), "{result}");
+        for cause in causes {
+            assert!(!texts(cause, "/cannot_tell_from").is_empty(), "{cause}");
+        }
+        assert_eq!(causes.iter().any(|cause| cause["next_test"].is_object()), proposed, "{result}");
+    }
+}
+
 /// What is supposed is measured as it is, significant or not, and what cannot be supposed is refused.
 #[test]
 fn a_supposed_effect_is_measured_and_not_searched_for() {

@@ -1,21 +1,29 @@
 //! `rins allan`: the noise that a rest shows, sensor by sensor.
 
+mod filled;
+
 use std::ops::Range;
 use std::path::Path;
 
 use anyhow::Context;
-use rins_frames::{Increments, Rates};
-use rins_imu::{AllanPlan, Axis, CONFIDENCE, NoiseLaw, NoiseSeen, Strength, Triad, TriadSpec};
+use nalgebra::Vector3;
+use rins_frames::Increments;
+use rins_imu::{
+    AllanPlan, Axis, CONFIDENCE, NoiseLaw, NoiseSeen, SpectralLine, Strength, Triad, TriadSpec,
+    take_out_lines,
+};
 use rins_io::{Gaps, Loaded, LogFormat};
-use rins_motion::{Recording, SignedAxes, median};
+use rins_motion::{Combs, SignedAxes};
 use rins_terms::Unit;
 use serde_json::{Value, json};
 
+use self::filled::{Filled, MOST_FILLED, unbroken};
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::load;
 use crate::commands::statics::{
     longest, none_found, static_intervals, statics_in_words, statics_json,
 };
+use crate::number::figure;
 use crate::outcome::Outcome;
 use crate::view::{allan_report, allan_text};
 use rins_io::shown;
@@ -23,11 +31,8 @@ use rins_io::shown;
 /// The shortest rest whose noise is looked at \[s\].
 const SHORTEST_REST: f64 = 10.0;
 
-/// An interval that is so many times the usual one holds a gap.
-const GAP: f64 = 1.5;
-
-/// Lost samples are filled in up to this share of all.
-const MOST_FILLED: f64 = 0.01;
+/// Quantisation of so many sigmas more than the resolution makes is none.
+const BEYOND_RESOLUTION: f64 = 4.0;
 
 /// The noise of six sensors over a rest.
 #[derive(Debug)]
@@ -52,6 +57,8 @@ pub(crate) struct Channel {
     pub(crate) triad: Triad,
     pub(crate) axis: Axis,
     pub(crate) seen: NoiseSeen,
+    /// What was taken out before: sinusoids are no noise.
+    pub(crate) lines: Vec<SpectralLine>,
     /// What the data sheet says of the triad.
     sheet: Option<TriadSpec>,
 }
@@ -163,7 +170,8 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     );
     let plan = AllanPlan::new(filled.samples.len(), interval).with_context(|| log.clone())?;
     let own_axes = SignedAxes::from(loaded.rig.spin);
-    let mut channels = Vec::new();
+    let combs = resolutions(loaded, interval);
+    let (mut channels, mut beyond) = (Vec::new(), Vec::new());
     for triad in [Triad::Gyro, Triad::Accel] {
         for axis in Axis::ALL {
             let of = |sample: &Increments| match triad {
@@ -173,20 +181,24 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
             let lasting: f64 = filled.samples.iter().map(|sample| sample.interval).sum();
             let mean = filled.samples.iter().map(of).sum::<f64>() / lasting;
             // Less the mean over its own interval: where intervals jitter, gravity is no noise.
-            let noise: Vec<f64> =
+            let mut noise: Vec<f64> =
                 filled.samples.iter().map(|sample| of(sample) - mean * sample.interval).collect();
-            let seen = plan.noise(&noise).with_context(|| format!("{log}: {triad} {axis}"))?;
+            let lines = take_out_lines(&mut noise, interval);
+            let mut seen = plan.noise(&noise).with_context(|| format!("{log}: {triad} {axis}"))?;
             let sheet = loaded.rig.imu.map(|imu| match triad {
                 Triad::Gyro => imu.gyro,
                 Triad::Accel => imu.accel,
             });
-            channels.push(Channel { triad, axis, seen, sheet });
+            let capped = combs[channels.len()]
+                .and_then(|most| cap_quantisation(&mut seen, most, triad, axis));
+            beyond.extend(capped);
+            channels.push(Channel { triad, axis, seen, lines, sheet });
         }
     }
     let statics = static_intervals(loaded);
     let start = recording.times[span.start] - recording.increments[span.start].interval;
     let start = if start.abs() < 1e-6 * interval { 0.0 } else { start };
-    let mut remarks: Vec<String> = remark.into_iter().collect();
+    let mut remarks: Vec<String> = remark.into_iter().chain(beyond).collect();
     remarks.extend(statics_in_words(&statics, &loaded.rig));
     Ok(Rest {
         span: (start, recording.times[span.end - 1]),
@@ -201,93 +213,45 @@ fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     })
 }
 
-/// Samples at even intervals, those that are lost filled in.
-struct Filled {
-    samples: Vec<Increments>,
-    interval: f64,
-    lost: usize,
-}
-
-impl Filled {
-    /// The samples of `span` as they are.
-    fn whole(recording: &Recording, span: Range<usize>) -> Self {
-        let samples = recording.increments[span].to_vec();
-        let duration: f64 = samples.iter().map(|sample| sample.interval).sum();
-        Self { interval: duration / samples.len().max(1) as f64, samples, lost: 0 }
-    }
-
-    /// Those of `span`; none if more are lost than may be filled in.
-    ///
-    /// A sensor that went on summing says what the lost samples were together. Of one that did not, a lost sample is the
-    /// mean of those before and after: with half the variance of white noise, so that one lost of a hundred makes the Allan
-    /// variance of the shortest time half a percent too small.
-    fn of(recording: &Recording, span: Range<usize>, accumulated: bool) -> Option<Self> {
-        let samples = &recording.increments[span.clone()];
-        let usual = median(samples.iter().map(|sample| sample.interval))?;
-        let mut filled = Vec::with_capacity(samples.len());
-        let mut lost = 0;
-        for (place, sample) in samples.iter().enumerate() {
-            let missing = missing(sample.interval, usual);
-            if missing == 0 {
-                filled.push(*sample);
-                continue;
-            }
-            lost += missing;
-            if lost as f64 > MOST_FILLED * samples.len() as f64 {
-                return None;
-            }
-            let part = sample.interval / (missing + 1) as f64;
-            let own = sample.rates();
-            let between = match place.checked_sub(1).filter(|_| !accumulated) {
-                Some(before) => {
-                    let before = samples[before].rates();
-                    Rates {
-                        angular_rate: (before.angular_rate + own.angular_rate) * 0.5,
-                        specific_force: (before.specific_force + own.specific_force) * 0.5,
-                    }
-                }
-                None => own,
-            };
-            filled.extend(std::iter::repeat_n(between.over(part), missing));
-            filled.push(own.over(part));
+/// Quantisation is no stronger than the resolution makes it \[rad or m/s\]: says so where it seemed to be.
+fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -> Option<String> {
+    let place = NoiseLaw::ALL.iter().position(|law| *law == NoiseLaw::Quantisation)?;
+    let strength = &mut seen.strengths[place];
+    match *strength {
+        Strength::Seen { value, sigma, .. } if value > most + BEYOND_RESOLUTION * sigma => {
+            *strength = Strength::NotSeen { below: most };
+            let (_, _, unit) = term(triad, NoiseLaw::Quantisation);
+            Some(format!(
+                "What looks like quantisation of {} {} in {triad} {axis} is more than its resolution makes, {}: vibration, or a filter.",
+                figure(value / unit.factor, 3),
+                unit.symbol,
+                figure(most / unit.factor, 3)
+            ))
         }
-        let duration: f64 = samples.iter().map(|sample| sample.interval).sum();
-        Some(Self { interval: duration / filled.len() as f64, samples: filled, lost })
-    }
-
-    /// The share of them that is filled in.
-    fn share(&self) -> f64 {
-        self.lost as f64 / self.samples.len() as f64
+        Strength::NotSeen { ref mut below } => {
+            *below = below.min(most);
+            None
+        }
+        Strength::Seen { .. } => None,
     }
 }
 
-/// How many samples are missing in an interval.
-fn missing(interval: f64, usual: f64) -> usize {
-    if interval <= GAP * usual {
-        return 0;
-    }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "it is more than one, and gaps are of a second at most"
-    )]
-    let samples = (interval / usual).round() as usize;
-    samples.saturating_sub(1)
-}
-
-/// The longest part of these samples without a gap.
-fn unbroken(recording: &Recording, span: Range<usize>) -> Range<usize> {
-    let samples = &recording.increments;
-    let usual = median(samples[span.clone()].iter().map(|sample| sample.interval));
-    let longest = GAP * usual.unwrap_or_default();
-    let gaps = span.clone().filter(|k| samples[*k].interval > longest);
-    let mut parts = Vec::new();
-    let mut start = span.start;
-    for gap in gaps.chain([span.end]) {
-        parts.push(start..gap);
-        start = gap + 1;
-    }
-    parts.into_iter().max_by_key(ExactSizeIterator::len).unwrap_or(span)
+/// The 1σ that the resolution of each channel makes of an increment, along the sensors' own axes \[rad or m/s\].
+fn resolutions(loaded: &Loaded, interval: f64) -> [Option<f64>; 6] {
+    let combs = loaded.recording.combs();
+    let step = |channel: usize| {
+        let Combs { increments, rates } = combs[channel];
+        let of_rates = rates.map(|comb| comb.step * interval);
+        let steps = increments.map(|comb| comb.step).into_iter().chain(of_rates);
+        steps.max_by(f64::total_cmp).map(|step| step / 12.0_f64.sqrt())
+    };
+    let axes = SignedAxes::from(loaded.rig.spin);
+    // The run's axes in the places of the sensors' own.
+    let places = axes.undo(&Vector3::new(1.0, 2.0, 3.0)).abs();
+    std::array::from_fn(|own| {
+        let along = (0..3).find(|along| (places[own % 3] - (*along as f64 + 1.0)).abs() < 0.5)?;
+        step(own / 3 * 3 + along)
+    })
 }
 
 fn json(rest: &Rest, rig: &Path) -> Value {
@@ -324,6 +288,13 @@ fn channel_json(channel: &Channel) -> Value {
         "high": column(|point| point.bounds.1),
         "fitted": column(|point| point.fitted),
         "disagreement": channel.seen.disagreement,
+        "lines": channel.lines.iter().map(|line| json!({
+            "frequency_hz": line.frequency,
+            "frequency_sigma_hz": line.frequency_sigma,
+            "width_hz": line.width,
+            "amplitude": line.amplitude / unit.factor,
+            "amplitude_sigma": line.amplitude_sigma / unit.factor,
+        })).collect::<Vec<_>>(),
         "explained_from_s": channel.seen.explained_from,
         "terms": terms.map(|(law, strength)| term_json(channel, *law, strength)).collect::<Vec<_>>(),
     })

@@ -62,8 +62,37 @@ fn sentences(rest: &Rest) -> Vec<String> {
         figure(longest, 3),
     )];
     sentences.extend(rest.remarks.iter().cloned());
+    sentences.extend(rest.channels.iter().filter_map(lines));
     sentences.extend(rest.channels.iter().filter_map(off_the_laws));
     sentences
+}
+
+/// The sinusoids in a sensor's readings.
+fn lines(channel: &Channel) -> Option<String> {
+    let unit = channel.unit();
+    let told: Vec<String> = channel
+        .lines
+        .iter()
+        .map(|line| {
+            let (amplitude, sigma) =
+                estimate(line.amplitude / unit.factor, line.amplitude_sigma / unit.factor);
+            let wanders = if line.width > 0.0 {
+                format!(", wandering within {} Hz,", figure(line.width, 2))
+            } else {
+                String::new()
+            };
+            let frequency = figure(line.frequency, 4);
+            format!("{frequency} Hz{wanders} of {amplitude} ± {sigma} {}", unit.symbol)
+        })
+        .collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "In {} {} there is a line at {}: it is taken out before, as no law of noise makes it.",
+            channel.triad,
+            channel.axis,
+            told.join(", at ")
+        )
+    })
 }
 
 /// What of a sensor's deviation the four laws do not explain.

@@ -169,3 +169,97 @@ fn series_that_tell_nothing_are_refused() {
     gap[7] = f64::NAN;
     assert_eq!(plan.noise(&gap), Err(AllanError::NotFinite { sample: 7 }));
 }
+
+/// Increments of one axis over a rest with this noise.
+fn rest(model: &NoiseModel, run: u64, samples: usize) -> Vec<f64> {
+    let span = Span { interval: INTERVAL, duration: INTERVAL * samples as f64 };
+    let mut noise = TriadNoise::new(model, &span, Triad::Gyro, Seed { seed: 6, run }).unwrap();
+    let still = rins_frames::InFrame::zeros();
+    (0..samples).map(|_| noise.corrupt(&still, INTERVAL).components().x).collect()
+}
+
+#[test]
+fn lines_are_found_with_their_frequency_and_amplitude_and_leave_the_noise() {
+    let (mut frequency, mut amplitude, mut white, mut seen) = (0.0, 0.0, 0.0, 0.0);
+    for run in 0..200 {
+        // Spread over what there may be: 40 s to 4 min, 1 to 20 Hz, 1.5 to 150 times where a line begins to show.
+        let part = |step: f64| (0.5 + step * run as f64).fract();
+        let samples = 2000 + 6180 * usize::try_from(run).unwrap() % 10_000;
+        let (hertz, phase) = (1.0 + 19.0 * part(0.755), 6.0 * part(0.319));
+        let size = 0.5 / (samples as f64 * INTERVAL).sqrt() * 15.0 * 100_f64.powf(part(0.570));
+        let mut increments = rest(&NoiseModel::white(0.5), run, samples);
+        for (sample, increment) in increments.iter_mut().enumerate() {
+            let time = sample as f64 * INTERVAL;
+            *increment += INTERVAL * size * (std::f64::consts::TAU * hertz * time + phase).sin();
+        }
+        let lines = take_out_lines(&mut increments, INTERVAL);
+        let [line] = lines[..] else { panic!("{run}: {lines:?}") };
+        assert!(line.width == 0.0, "{run}: {line:?}");
+        frequency += ((line.frequency - hertz) / line.frequency_sigma).powi(2) / 200.0;
+        amplitude += ((line.amplitude - size) / line.amplitude_sigma).powi(2) / 200.0;
+        let plan = AllanPlan::new(samples, INTERVAL).unwrap();
+        if let Strength::Seen { value, sigma, .. } = plan.noise(&increments).unwrap().strengths[1] {
+            white += ((value - 0.5) / sigma).powi(2);
+            seen += 1.0;
+        }
+    }
+    let bound = 4.0 * (2.0 / 200.0_f64).sqrt();
+    assert_close!(frequency, 1.0, bound);
+    assert_close!(amplitude, 1.0, bound);
+    assert!(seen > 195.0, "{seen}");
+    assert_close!(white / seen, 1.0, bound);
+}
+
+#[test]
+fn noise_of_any_colour_has_no_lines() {
+    for run in 0..200 {
+        let part = |step: f64| (0.5 + step * run as f64).fract();
+        let model = NoiseModel {
+            flicker: Some(0.2 * part(0.618)),
+            bias_random_walk: 0.2 * part(0.755),
+            quantisation: (run % 2 == 0).then_some(Quantisation::Increment(0.05)),
+            ..NoiseModel::white(0.5)
+        };
+        let samples = 3000 + 5700 * usize::try_from(run).unwrap() % 9000;
+        let before = rest(&model, run, samples);
+        let mut after = before.clone();
+        assert_eq!(take_out_lines(&mut after, INTERVAL), [], "{run}");
+        assert_eq!(before, after);
+    }
+}
+
+/// A line that wanders within a hundredth of its frequency, as of a motor or of a base that sways.
+#[test]
+fn line_that_wanders_is_found_with_its_band_and_is_no_quantisation() {
+    let (mut noise, mut seen) = (Vec::new(), 0);
+    for run in 0..200 {
+        let samples = 12_000;
+        let part = |step: f64| (0.5 + step * run as f64).fract();
+        let hertz = 2.0 + 10.0 * part(0.618);
+        // From where it is well seen to ten times that.
+        let size = 10_f64.powf(part(0.755));
+        let mut increments = rest(&NoiseModel::white(0.5), run, samples);
+        let wander = rest(&NoiseModel::white(0.03), run + 1000, samples);
+        let mut phase = 0.0;
+        let mut power = 0.0;
+        for (increment, wander) in increments.iter_mut().zip(wander) {
+            phase += std::f64::consts::TAU * (hertz * INTERVAL + wander);
+            *increment += INTERVAL * size * phase.sin();
+            power += (size * phase.sin()).powi(2) / samples as f64;
+        }
+        let lines = take_out_lines(&mut increments, INTERVAL);
+        let line = lines[0];
+        assert!((line.frequency - hertz).abs() < 0.05, "{run}: {line:?}, not {hertz}");
+        let off = line.amplitude - (2.0 * power).sqrt();
+        // Its skirts below the noise are not taken out.
+        assert!(off.abs() < 4.0 * line.amplitude_sigma + 0.05 * size, "{run}: {off} {line:?}");
+        let plan = AllanPlan::new(samples, INTERVAL).unwrap();
+        let strengths = plan.noise(&increments).unwrap().strengths;
+        seen += usize::from(matches!(strengths[0], Strength::Seen { .. }));
+        let Strength::Seen { value, .. } = strengths[1] else { panic!("{run}: {strengths:?}") };
+        noise.push(value);
+    }
+    noise.sort_by(f64::total_cmp);
+    assert!(noise[100] > 0.49 && noise[100] < 0.53 && noise[199] < 0.6, "{noise:?}");
+    assert!(seen < 10, "{seen}");
+}

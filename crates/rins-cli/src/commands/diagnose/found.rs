@@ -96,6 +96,8 @@ pub(crate) struct Named {
     pub(crate) plausible: bool,
     /// What would tell it from the likeliest of the others, if it is not told from all.
     pub(crate) next_test: Option<NextTest>,
+    /// Why none could be looked for.
+    pub(crate) no_next_test: Option<String>,
 }
 
 /// An estimate that moved when the causes joined the model.
@@ -154,18 +156,15 @@ impl Found {
             .causes
             .into_iter()
             .map(|cause| {
-                let next_test = match cause.rivals.first() {
-                    Some(rival) => {
-                        let run = (&runs[0], &diagnosis.after.noise[0]);
-                        next_test(run, &imu, &case.model, &cause, rival)?
-                    }
-                    None => None,
-                };
-                let mut named = Named::of(cause, &diagnosis.after, &imu, next_test);
+                let next = cause.rivals.first().map_or(Ok(None), |rival| {
+                    let run = (&runs[0], &diagnosis.after.noise[0]);
+                    next_test(run, &imu, &case.model, &cause, rival)
+                });
+                let mut named = Named::of(cause, &diagnosis.after, &imu, next);
                 named.cause = named.cause.along_own(&axes);
-                Ok(named)
+                named
             })
-            .collect::<anyhow::Result<_>>()?;
+            .collect();
         let verdict = if !diagnosis.unexplained.is_empty() {
             Verdict::Unexplained
         } else if causes.iter().all(|named| named.cause.ln_p > FALSE_ALARMS.ln()) {
@@ -235,7 +234,13 @@ impl Found {
 }
 
 impl Named {
-    fn of(cause: Cause, after: &Fit, imu: &ImuSpec, next_test: Option<NextTest>) -> Self {
+    /// A test that cannot be proposed takes nothing from what was found.
+    fn of(
+        cause: Cause,
+        after: &Fit,
+        imu: &ImuSpec,
+        next: anyhow::Result<Option<NextTest>>,
+    ) -> Self {
         // What is not known of a setting that was sought says nothing against there being an effect.
         let sought = if cause.sought.is_some() { (2.0 * cause.gain).sqrt() } else { 0.0 };
         let sigmas = distance(&cause.parameters, after).max(sought);
@@ -243,7 +248,11 @@ impl Named {
             let parameter = &cause.term.parameters[estimate.parameter.parameter];
             estimate.value.abs() - BEYOND * estimate.sigma <= parameter.range(imu).1
         });
-        Self { cause, sigmas, plausible, next_test }
+        let (next_test, no_next_test) = match next {
+            Ok(test) => (test, None),
+            Err(why) => (None, Some(format!("{why:#}"))),
+        };
+        Self { cause, sigmas, plausible, next_test, no_next_test }
     }
 }
 

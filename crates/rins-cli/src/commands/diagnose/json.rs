@@ -125,6 +125,7 @@ fn cause(found: &Found, named: &Named) -> Value {
             "from": test.from.id,
             "sigmas": test.sigmas,
         })),
+        "no_next_test": named.no_next_test,
     })
 }
 

@@ -67,9 +67,13 @@ impl Candidate {
 pub(super) fn candidates(given: &Planned, limits: &Limits) -> Vec<Candidate> {
     let mut all = Vec::new();
     for directions in 1..=limits.directions.min(3) {
-        for duration in DURATIONS.iter().filter(|&&d| d * directions as f64 <= limits.duration) {
+        let longest = limits.duration / directions as f64;
+        // Where the limit is shorter than all of them, the limit.
+        let shorter = (longest < DURATIONS[0]).then_some(longest);
+        let usual = DURATIONS.into_iter().filter(|duration| *duration <= longest);
+        for duration in usual.chain(shorter) {
             for shape in &SHAPES {
-                all.extend(candidate(given, limits, directions, *duration, shape));
+                all.extend(candidate(given, limits, directions, duration, shape));
             }
         }
     }

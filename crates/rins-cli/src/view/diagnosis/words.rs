@@ -187,14 +187,16 @@ fn amplitude(found: &Found, named: &Named) -> String {
 /// What a cause cannot be told from.
 fn doubt(named: &Named) -> Option<String> {
     let rivals = rivals(named);
-    let next = named.next_test.as_ref().map_or_else(String::new, |test| {
-        format!(
+    let next = match (&named.next_test, &named.no_next_test) {
+        (Some(test), _) => format!(
             " A run of its own would tell it from the {} by {} sigma: {}.",
             test.from.name,
             figure(test.sigmas, 2),
             test.words
-        )
-    });
+        ),
+        (None, Some(why)) => format!(" No test that would tell can be proposed: {why}."),
+        (None, None) => String::new(),
+    };
     (!rivals.is_empty()).then(|| {
         format!("This run cannot tell the {} from: {rivals}.{next}", named.cause.term.name)
     })
