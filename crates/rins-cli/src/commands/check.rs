@@ -150,7 +150,7 @@ fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>> {
         rows.push(row(
             "rate at rest",
             if inspection.earth_rate_visible {
-                format!("{rate:.3} deg/h in the longest one, of which the Earth's is 15.041")
+                format!("{rate:.3} deg/h in the longest one; that of the Earth is 15.041")
             } else {
                 format!("{rate:.0} deg/h, in which the Earth's 15.041 does not show")
             },
@@ -369,6 +369,8 @@ fn json(inspection: &Inspection, oddities: &[String], loaded: &Loaded, rig: &Pat
         "static_intervals": statics_json(&inspection.static_intervals, |_| None),
         "turns": inspection.turns,
         "spin_ratio": inspection.spin_ratio,
+        "table_latency_s": inspection.table_lag.map(|lag| lag.latency),
+        "table_latency_sigma_s": inspection.table_lag.map(|lag| lag.sigma),
         "earth_rate_visible": inspection.earth_rate_visible,
         "expected_gravity_m_s2": loaded.station.gravity,
         "suspicions": suspicions,

@@ -6,6 +6,7 @@ mod axes;
 mod closed_form;
 mod fine_alignment;
 mod inspection;
+mod late_table;
 mod linear_model;
 mod mistakes;
 mod moving;

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::{gaps, longest, step_in_words, suspicion_in_words};
 use crate::commands::align::BEYOND_THE_SHEET;
+use crate::number::{estimate, figure};
 use crate::report::Tone;
 
 /// Time stamps that jitter by more than this share of an interval are odd.
@@ -241,14 +242,13 @@ fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         Some(lag) => {
             let off = (lag.latency - stated).abs();
             let odd = off > (ODD_SIGMAS * lag.sigma).max(ODD_SHARE * inspection.timing.interval);
+            let (latency, sigma) = estimate(lag.latency * 1e3, lag.sigma * 1e3);
             verdict(
                 "latency",
                 if odd { Tone::Warning } else { Tone::Good },
                 format!(
-                    "the table's angle is {:.4} ms late (1 sigma {:.4} ms), the rig file says {:.4} ms",
-                    lag.latency * 1e3,
-                    lag.sigma * 1e3,
-                    stated * 1e3
+                    "the table's angle is {latency} ms late (1 sigma {sigma} ms), the rig file says {} ms",
+                    figure(stated * 1e3, 4)
                 ),
             )
         }
