@@ -8,6 +8,15 @@ use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig};
 /// Time stamps that jitter by less than this share of an interval are told by no more than a figure.
 const ODD_JITTER: f64 = 0.02;
 
+/// A part of a second in the unit that suits its size.
+fn short_time(seconds: f64) -> String {
+    let units = [(1e-3, "ms"), (1e-6, "us")];
+    let (unit, symbol) =
+        units.into_iter().find(|(unit, _)| seconds > 0.999 * unit).unwrap_or((1e-9, "ns"));
+    // A decimal unit is written as one.
+    format!("{} {symbol}", (seconds / unit * 1e6).round() / 1e6)
+}
+
 /// What was repaired or left out, each in a sentence.
 pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
     let mut told = left_out(summary, rig.path.parent());
@@ -21,8 +30,8 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
     }
     if let Some(rounded) = summary.rounded {
         told.push(format!(
-            "time stamps are rounded to {} ms: they are those of an even clock of {:.6} Hz, whose intervals are used",
-            rounded.unit * 1e3,
+            "time stamps are rounded to {}: they are those of an even clock of {:.6} Hz, whose intervals are used",
+            short_time(rounded.unit),
             rounded.interval.recip()
         ));
     }
@@ -97,4 +106,23 @@ fn gaps(rig: &Rig, summary: &LogSummary) -> Option<String> {
         longest.length,
         longest.after
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short_time;
+
+    #[test]
+    fn units_of_time_stamps_have_no_long_fractions() {
+        for power in -9..0 {
+            let unit = 10.0_f64.powi(power);
+            for seconds in [unit, 1.0 / 10.0_f64.powi(-power), 0.5 * unit] {
+                let shown = short_time(seconds);
+                assert!(shown.len() <= "100 us".len(), "{seconds}: {shown}");
+            }
+        }
+        assert_eq!(short_time(1e-7), "100 ns");
+        assert_eq!(short_time(1e-4), "100 us");
+        assert_eq!(short_time(0.01), "10 ms");
+    }
 }
