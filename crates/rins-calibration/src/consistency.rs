@@ -11,8 +11,8 @@ use crate::filter::MEASUREMENTS;
 pub struct Consistency {
     /// The mean normalised innovation squared.
     pub nis_mean: f64,
-    /// What it should be: the number of channels.
-    pub nis_dof: usize,
+    /// What it should be: the number of channels, on average where some epochs have fewer.
+    pub nis_dof: f64,
     /// How probable a mean so far off is, if the model is right (two-sided).
     pub nis_p: f64,
     /// How probable innovations so far from white are, if the model is right; channels for which too
@@ -45,7 +45,7 @@ impl Consistency {
 
     /// The consistency of whitened innovations in order of time; `None` if there are fewer than 8.
     ///
-    /// A channel that is zero throughout is one that this run does not have, and counts for nothing.
+    /// A channel that is zero is one that this epoch does not have, and counts for nothing.
     pub fn of(innovations: &[SVector<f64, MEASUREMENTS>]) -> Option<Self> {
         const FEWEST: usize = 8;
         if innovations.len() < FEWEST {
@@ -53,18 +53,25 @@ impl Consistency {
         }
         let count = innovations.len() as f64;
         let sum: f64 = innovations.iter().map(SVector::norm_squared).sum();
-        let there = |channel: &usize| innovations.iter().any(|nu| nu[*channel] != 0.0);
-        let channels = (0..MEASUREMENTS).filter(there).count();
-        let dof = channels as f64;
+        let series = |channel: usize| -> Vec<f64> {
+            innovations.iter().map(|nu| nu[channel]).filter(|nu| *nu != 0.0).collect()
+        };
+        let series: [Vec<f64>; MEASUREMENTS] = std::array::from_fn(series);
+        let channels = series.iter().filter(|series| !series.is_empty()).count() as f64;
+        let dof = series.iter().map(|series| series.len() as f64).sum::<f64>() / count;
         // The sum is chi-squared with so many degrees of freedom that it is normal.
         let off = (sum - count * dof) / (2.0 * count * dof).sqrt();
         let mut channel_rms = [0.0; MEASUREMENTS];
         let mut distance = [0.0; MEASUREMENTS];
         let mut least_p = 1.0_f64;
-        for channel in 0..MEASUREMENTS {
-            let series: Vec<f64> = innovations.iter().map(|nu| nu[channel]).collect();
-            channel_rms[channel] = (series.iter().map(|nu| nu * nu).sum::<f64>() / count).sqrt();
-            let (largest, p) = cumulative_periodogram(&series);
+        for (channel, series) in series.iter().enumerate() {
+            // One of a few epochs only tells nothing of its colour.
+            if series.len() < FEWEST {
+                continue;
+            }
+            let square: f64 = series.iter().map(|nu| nu * nu).sum();
+            channel_rms[channel] = (square / series.len() as f64).sqrt();
+            let (largest, p) = cumulative_periodogram(series);
             distance[channel] = largest;
             if channel_rms[channel] > OVERSTATED {
                 least_p = least_p.min(p);
@@ -72,9 +79,9 @@ impl Consistency {
         }
         Some(Self {
             nis_mean: sum / count,
-            nis_dof: channels,
+            nis_dof: dof,
             nis_p: erfc(off.abs() / std::f64::consts::SQRT_2),
-            whiteness_p: (least_p * dof).min(1.0),
+            whiteness_p: (least_p * channels).min(1.0),
             channel_rms,
             periodogram_distance: distance,
         })
@@ -83,7 +90,7 @@ impl Consistency {
     /// What the tests say together.
     pub fn verdict(&self) -> Verdict {
         let size_is_off = self.nis_p < Self::SIGNIFICANCE;
-        let too_large = self.nis_mean > self.nis_dof as f64;
+        let too_large = self.nis_mean > self.nis_dof;
         if self.whiteness_p < Self::SIGNIFICANCE || (size_is_off && too_large) {
             Verdict::Misfit
         } else if size_is_off {
@@ -225,7 +232,11 @@ mod tests {
             innovation[2] = 0.0;
         }
         let consistency = Consistency::of(&innovations).unwrap();
-        assert_eq!((consistency.nis_dof, consistency.verdict()), (5, Verdict::Fits));
+        assert_eq!((consistency.nis_dof, consistency.verdict()), (5.0, Verdict::Fits));
+        // Two kinds of runs, one after the other.
+        innovations.extend(white(6));
+        let consistency = Consistency::of(&innovations).unwrap();
+        assert_eq!((consistency.nis_dof, consistency.verdict()), (5.5, Verdict::Fits));
     }
 
     #[test]

@@ -6,8 +6,8 @@ use rins_terms::{Chosen, Model, Need, Setting, Term, catalogue};
 use crate::dead_zone;
 use crate::timing::has_frequency;
 
-/// Choices of a frame: nothing could be named by them that a baseline does not hold.
-const GAUGES: [&str; 2] = ["mounting", "encoder.zero"];
+/// Choices of a frame, of which a baseline holds all that shows, and the heading, which a survey tells or a baseline estimates.
+const NEVER_TRIED: [&str; 3] = ["mounting", "encoder.zero", "axis.azimuth"];
 
 /// How many times of an event are tried over a run.
 pub(crate) const EVENTS: u32 = 16;
@@ -56,7 +56,7 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
     catalogue::CATALOGUE
         .iter()
         .copied()
-        .filter(|term| term.is_signal() && !GAUGES.contains(&term.id))
+        .filter(|term| term.is_signal() && !NEVER_TRIED.contains(&term.id))
         .filter(|term| term.needs.iter().all(|need| offer(runs, *need)))
         .flat_map(|term| shapes(duration(runs), term))
         .map(|candidate| candidate.about(runs))

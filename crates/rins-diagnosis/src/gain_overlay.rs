@@ -2,7 +2,7 @@
 
 use rins_estimation::{Fit, Run};
 use rins_frames::{InFrame, Increments};
-use rins_terms::{Making, Model, Track};
+use rins_terms::{Making, Model, Track, catalogue};
 use rustfft::num_complex::Complex;
 
 /// A table that turns more slowly has no angle or order to speak of \[rad/s\].
@@ -27,8 +27,9 @@ impl Overlay {
     pub fn of(run: &Run, fit: &Fit, place: usize) -> Self {
         let track = fit.linear[place].track();
         let mut model = fit.models[place].clone();
-        // It is in the track's surroundings.
-        model.terms.retain(|chosen| chosen.term.id != "axis.attitude");
+        // They are in the track's surroundings.
+        let around = [catalogue::AXIS_ATTITUDE.id, catalogue::AXIS_AZIMUTH.id];
+        model.terms.retain(|chosen| !around.contains(&chosen.term.id));
         let errors: Vec<f64> = readings(&model, track).map(|reading| reading.1).collect();
         let first = errors.first().copied().unwrap_or_default();
         let errors = std::iter::once(first).chain(errors);

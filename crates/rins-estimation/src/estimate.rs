@@ -70,17 +70,24 @@ impl Fit {
         self.parameters.iter().find(|estimate| estimate.parameter.id == id)
     }
 
-    /// The same with some parameters left open: what is told of the others is told whatever these are.
+    /// The same with the other parameters marginalized: integrated out with their priors.
     ///
     /// Models, and what is linear, keep them.
     #[must_use]
-    pub fn leaving_open(mut self, open: impl Fn(&Estimate) -> bool) -> Self {
-        let (open, kept): (Vec<usize>, Vec<usize>) =
-            (0..self.parameters.len()).partition(|&place| open(&self.parameters[place]));
-        if open.is_empty() {
+    pub fn marginal(mut self, keep: impl Fn(&Estimate) -> bool) -> Self {
+        let (kept, others): (Vec<usize>, Vec<usize>) =
+            (0..self.parameters.len()).partition(|&place| keep(&self.parameters[place]));
+        if others.is_empty() {
             return self;
         }
-        self.evidence = self.evidence.leaving_open(&open, &kept);
+        let prior = |place: usize| {
+            let Estimate { parameter, expected, value, .. } = &self.parameters[place];
+            (place, parameter.sigma, expected - value)
+        };
+        let others: Vec<(usize, f64, f64)> = others.into_iter().map(prior).collect();
+        // An estimate was found with the same information.
+        let Some(evidence) = self.evidence.marginal(&kept, &others) else { return self };
+        self.evidence = evidence;
         self.covariance = DMatrix::from_fn(kept.len(), kept.len(), |row, column| {
             self.covariance[(kept[row], kept[column])]
         });

@@ -68,6 +68,15 @@ const STEP: f64 = 0.25;
 /// How far gravity's turning may be off the axis that it shows, 1σ \[rad\]: the base may move.
 pub const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
 
+/// How an axis stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisSeen {
+    /// The attitude of the axis frame.
+    pub nav_from_table: Dcm<Nav, Table>,
+    /// Whether its heading was surveyed; if not it is arbitrary.
+    pub heading_known: bool,
+}
+
 /// The attitude of an axis about which the body turns, from the accelerometers.
 ///
 /// What of the specific force turns with the body is gravity's part across the axis; the part along
@@ -77,13 +86,10 @@ pub const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
 /// Gravity does not show where the axis heads: it does so as it was `surveyed`. The surveyed yaw alone would not say it, for
 /// that depends on how far the table has turned, which nobody knows where nothing reads it. It is all that is taken of a
 /// survey that leans by more than three times [`AXIS_BY_GRAVITY`] less or more than what is seen, or by no more than that
-/// itself; without a survey the yaw is zero.
+/// itself; without a survey the yaw is zero. The heading is not known then.
 ///
 /// `None` if the body makes less than a turn.
-pub fn axis_from_gravity(
-    recording: &Recording,
-    surveyed: Option<EulerAngles>,
-) -> Option<Dcm<Nav, Table>> {
+pub fn axis_from_gravity(recording: &Recording, surveyed: Option<EulerAngles>) -> Option<AxisSeen> {
     let turned: f64 = recording.increments.iter().map(|k| k.angle.components().z.abs()).sum();
     let turned = turned.min(MOST_TURNED);
     let (mut best, mut least) = (None, f64::INFINITY);
@@ -103,7 +109,8 @@ pub fn axis_from_gravity(
     let roll = (-up.x).atan2(up.z);
     let yaw = surveyed.map_or(0.0, |angles| angles.yaw);
     let axis = EulerAngles { roll, pitch, yaw }.dcm();
-    Some(surveyed.and_then(|angles| headed(&axis, &angles.dcm())).unwrap_or(axis))
+    let headed = surveyed.and_then(|angles| headed(&axis, &angles.dcm()));
+    Some(AxisSeen { nav_from_table: headed.unwrap_or(axis), heading_known: headed.is_some() })
 }
 
 /// An axis with the heading of the surveyed one; `None` where the two do not lean alike, or not at all.

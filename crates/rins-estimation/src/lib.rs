@@ -58,7 +58,7 @@ pub use filter::Filter;
 pub use fit::{fit, fit_near};
 pub use fit_error::FitError;
 pub use foretold::{Foretold, Known};
-pub use gravity::{AXIS_BY_GRAVITY, axis_from_gravity, turning_span};
+pub use gravity::{AXIS_BY_GRAVITY, AxisSeen, axis_from_gravity, turning_span};
 pub use identifiability::{
     Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
     Separation, Shown, Unknown, distance, gauge_of, joint, separation,

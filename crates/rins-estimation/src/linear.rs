@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use rins_frames::{Dcm, InFrame, Table};
-use rins_terms::{Model, Surroundings, Track};
+use rins_frames::{Dcm, InFrame, Nav, Table};
+use rins_terms::{Model, Surroundings, Track, catalogue};
 
 use crate::build::{Build, Compared, Turning};
 use crate::gains::Gains;
@@ -77,21 +77,29 @@ pub struct Linear {
     pub(crate) track: Track,
 }
 
-/// The attitude of the axis frame with what `model` has for its error, and the model without that.
+/// The surroundings with what `model` has for the errors of the axis' attitude and azimuth, and the model without those.
 ///
-/// The one parameter that is not small enough for its square to be left out is taken along exactly.
+/// The parameters that are not small enough for their squares to be left out are taken along exactly: what an attitude error
+/// does to the gyros is by the Earth's rate as it is, not as it was assumed.
 pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
     let mut rest = model.clone();
     let mut nav_from_table = run.rig.nav_from_table;
+    let mut horizontal = InFrame::<Nav>::new(0.0, 0.0, 0.0);
     for chosen in &mut rest.terms {
-        if chosen.term.id == "axis.attitude" {
+        if chosen.term.id == catalogue::AXIS_ATTITUDE.id {
             let tilt = InFrame::<Table>::new(chosen.values[0], chosen.values[1], chosen.values[2]);
             nav_from_table =
                 nav_from_table * Dcm::<Table, Table>::from_rotation_vector(tilt.components());
             chosen.values.fill(0.0);
         }
+        if chosen.term.id == catalogue::AXIS_AZIMUTH.id {
+            horizontal = InFrame::new(chosen.values[1], chosen.values[0], 0.0);
+            chosen.values.fill(0.0);
+        }
     }
-    (Surroundings::new(run.rig.station, nav_from_table), rest)
+    let mut surroundings = Surroundings::new(run.rig.station, nav_from_table);
+    surroundings.earth_rate += (nav_from_table.inverse() * horizontal).components();
+    (surroundings, rest)
 }
 
 /// How finely derivatives are taken.

@@ -1,9 +1,6 @@
 //! Information and score, and the estimate that they and prior knowledge make.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SymmetricEigen};
-
-/// The part of the best seen below which the information on a sum is rounding.
-const ROUNDING: f64 = 1e-13;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// What data say of parameters about the values where they were made linear.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,10 +60,12 @@ impl Evidence {
         self.log_determinant += other.log_determinant;
     }
 
-    /// What is said of the parameters `kept` whatever the others are, those `open`.
+    /// What is said of the parameters `kept`, those in `others` integrated out with their priors: each one's place, `sigma`, and how
+    /// far its expected value is from where the data were made linear.
     ///
-    /// A sum of these of which the data say nothing takes nothing from the rest.
-    pub(crate) fn leaving_open(&self, open: &[usize], kept: &[usize]) -> Self {
+    /// `None` if the information is not finite.
+    pub(crate) fn marginal(&self, kept: &[usize], others: &[(usize, f64, f64)]) -> Option<Self> {
+        let places: Vec<usize> = others.iter().map(|&(place, ..)| place).collect();
         let block = |rows: &[usize], columns: &[usize]| {
             DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
                 self.information[(rows[row], columns[column])]
@@ -75,27 +74,20 @@ impl Evidence {
         let score = |places: &[usize]| {
             DVector::from_iterator(places.len(), places.iter().map(|&place| self.score[place]))
         };
-        // In units of what each alone is told to, so that units do not matter.
-        let size =
-            block(open, open).diagonal().map(|x| if x > 0.0 { x.sqrt().recip() } else { 0.0 });
-        let own = SymmetricEigen::new(DMatrix::from_fn(open.len(), open.len(), |row, column| {
-            self.information[(open[row], open[column])] * size[row] * size[column]
-        }));
-        let inverse = DMatrix::from_diagonal(
-            &own.eigenvalues.map(|value| if value > ROUNDING { value.recip() } else { 0.0 }),
-        );
-        let turned = own.eigenvectors.transpose() * DMatrix::from_diagonal(&size);
-        let (across, pull) = (&turned * block(open, kept), &turned * score(open));
-        let solved = across.tr_mul(&inverse);
-        let seen = own.eigenvalues.iter().zip(&size).filter(|(value, _)| **value > ROUNDING);
-        let log_determinant: f64 = seen.map(|(value, size)| value.ln() - 2.0 * size.ln()).sum();
-        Self {
-            information: block(kept, kept) - &solved * across,
-            score: score(kept) - solved * &pull,
-            square: self.square - pull.dot(&(inverse * &pull)),
+        let of_others =
+            Self { information: block(&places, &places), score: score(&places), ..self.clone() };
+        let (sigmas, expected): (Vec<f64>, Vec<f64>) =
+            others.iter().map(|&(_, sigma, expected)| (sigma, expected)).unzip();
+        let Solved { scale, factor, step, square, log_determinant, .. } =
+            of_others.solved(&sigmas, &expected)?;
+        let across = DMatrix::from_diagonal(&scale) * block(&places, kept);
+        Some(Self {
+            information: block(kept, kept) - across.tr_mul(&factor.solve(&across)),
+            score: score(kept) - across.tr_mul(&step),
+            square,
             figures: self.figures,
-            log_determinant: self.log_determinant + 0.5 * log_determinant,
-        }
+            log_determinant: self.log_determinant + log_determinant,
+        })
     }
 
     /// The estimate with these priors: each parameter's `sigma`, and how far its expected value is from
@@ -103,7 +95,7 @@ impl Evidence {
     ///
     /// `None` if the information is not finite.
     pub fn posterior(&self, sigmas: &[f64], expected: &[f64]) -> Option<Posterior> {
-        let Solved { scale, factor, step, square, log_likelihood } =
+        let Solved { scale, factor, step, square, log_likelihood, .. } =
             self.solved(sigmas, expected)?;
         let inverse = factor.inverse();
         let p = sigmas.len();
@@ -133,7 +125,7 @@ impl Evidence {
         let log_determinant: f64 = factor.l_dirty().diagonal().iter().map(|x| x.ln()).sum();
         let square = self.square + offset.norm_squared() - right.dot(&step);
         let log_likelihood = -0.5 * square - self.log_determinant - log_determinant;
-        Some(Solved { scale, factor, step, square, log_likelihood })
+        Some(Solved { scale, factor, step, square, log_determinant, log_likelihood })
     }
 }
 
@@ -143,6 +135,8 @@ struct Solved {
     factor: Cholesky<f64, Dyn>,
     step: DVector<f64>,
     square: f64,
+    /// Half the logarithm of the determinant of information and priors.
+    log_determinant: f64,
     log_likelihood: f64,
 }
 

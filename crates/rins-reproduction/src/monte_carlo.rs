@@ -112,7 +112,7 @@ fn calibrated(
         estimate,
         sigma,
         nees: error.dot(&(inverse * error)),
-        nis_ratio: calibration.consistency.nis_mean / calibration.consistency.nis_dof as f64,
+        nis_ratio: calibration.consistency.nis_mean / calibration.consistency.nis_dof,
         history: calibration.history,
         before: Outcome::from(&calibration.before),
         after: Outcome::from(&calibration.after),

@@ -4,7 +4,7 @@ use rins_blind::Effect;
 use rins_terms::{Chosen, Term, catalogue};
 
 /// What the baseline holds anyway, what is a choice of frame, and what leaves nothing behind.
-const NEVER_HIDDEN: [&str; 10] = [
+const NEVER_HIDDEN: [&str; 11] = [
     "gyro.bias",
     "gyro.scale",
     "gyro.misalignment",
@@ -12,6 +12,7 @@ const NEVER_HIDDEN: [&str; 10] = [
     "accel.scale",
     "accel.misalignment",
     "axis.attitude",
+    "axis.azimuth",
     "mounting",
     "encoder.zero",
     "table_rate_ripple",

@@ -31,3 +31,4 @@ mod turned_over;
 mod unobservable;
 mod unread;
 mod verdicts;
+mod wheel;

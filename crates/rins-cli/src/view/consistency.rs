@@ -21,7 +21,7 @@ pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
     let figures = format!(
         "mean NIS {:.2} where {} is expected, whiteness p {}",
         consistency.nis_mean,
-        consistency.nis_dof,
+        (100.0 * consistency.nis_dof).round() / 100.0,
         probability(consistency.whiteness_p)
     );
     match consistency.verdict() {

@@ -3,7 +3,7 @@
 use rins_frames::units::{ARCSEC, DEG};
 use rins_terms::{Model, Term, Unit};
 
-use crate::commands::calibrate::{Budget, EQUATION, STEPS};
+use crate::commands::calibrate::{Budget, EQUATION, STEPS, of_run_alone};
 use crate::number::{estimate, figure};
 use crate::report::{Cell, Column, Item, Section, Table};
 
@@ -48,7 +48,7 @@ pub(crate) fn compensation_section(model: &Model) -> Section {
     items.extend(STEPS.iter().map(|step| Item::Text((*step).into())));
     let mut rows: Vec<Vec<Cell>> = Vec::new();
     for (place, chosen) in model.terms.iter().enumerate() {
-        let of_table = chosen.term.id == "axis.attitude";
+        let of_table = of_run_alone(chosen.term.id);
         rows.push(vec![
             Cell::text((place + 1).to_string()),
             Cell::text(chosen.term.id),

@@ -46,8 +46,8 @@ fn a_wheel_shows_its_lever_arm_and_the_scale_of_its_gyro() {
         "turns from {first} to {last} s"
     );
     let recording = recording.slice(span.start, span.end);
-    let nav_from_table =
-        axis_from_gravity(&recording, Some(tilted(85.0, 20.0).euler_angles())).unwrap();
+    let surveyed = tilted(85.0, 20.0).euler_angles();
+    let nav_from_table = axis_from_gravity(&recording, Some(surveyed)).unwrap().nav_from_table;
     let up = nav_from_table.matrix()[(2, 2)];
     assert!(
         (up.acos() - 85.0 * DEG).abs() < 0.5 * DEG,
@@ -91,12 +91,16 @@ fn an_axis_that_leans_as_it_was_surveyed_heads_where_it_was() {
     let recording = recording.slice(turning_span(&recording).unwrap().start + 777, recording.len());
     let shown = |surveyed| axis_from_gravity(&recording, surveyed).unwrap();
     let surveyed = tilted(85.0, 20.0);
-    let off = shown(Some(surveyed.euler_angles())).matrix().column(2) - surveyed.matrix().column(2);
+    let seen = shown(Some(surveyed.euler_angles()));
+    assert!(seen.heading_known);
+    let off = seen.nav_from_table.matrix().column(2) - surveyed.matrix().column(2);
     assert!(off.norm() < 0.5 * DEG, "{off}");
     // A survey of another axis.
     let other = shown(Some(tilted(60.0, 20.0).euler_angles()));
-    assert_close!(other.euler_angles().yaw, 20.0 * DEG, 1e-12);
-    assert_close!(shown(None).euler_angles().yaw, 0.0, 1e-12);
+    for (seen, yaw) in [(other, 20.0 * DEG), (shown(None), 0.0)] {
+        assert!(!seen.heading_known);
+        assert_close!(seen.nav_from_table.euler_angles().yaw, yaw, 1e-12);
+    }
 }
 
 #[test]

@@ -39,6 +39,36 @@ pub static WRONG_LATITUDE: Term = Term {
     }),
 };
 
+/// An azimuth that is not known, or wrong.
+///
+/// It is linear in what the gyros feel of it: a heading that is off by any angle, of which they feel a sine and a cosine,
+/// has two parameters and one solution.
+pub static AXIS_AZIMUTH: Term = Term {
+    id: "axis.azimuth",
+    also: &[],
+    name: "azimuth of the axis",
+    cause: "the axis heads otherwise than was assumed: the Earth's horizontal rate there, true less assumed",
+    equation: "gyro += C_n^b Δω, Δω horizontal",
+    source: "nie2019, eq. (2)",
+    parameters: &[
+        parameter("north", Unit::DEG_PER_HOUR, Prior::Anywhere(0.01, 30.0)),
+        parameter("east", Unit::DEG_PER_HOUR, Prior::Anywhere(0.01, 15.0)),
+    ],
+    settings: &[],
+    needs: &[],
+    partners: &["axis.attitude", "gyro_g_sensitivity", "gyro.bias", "wrong_latitude"],
+    told_apart_by: "survey the heading, and give it as yaw under [attitude]",
+    owner: Owner::Run,
+    parity: Parity::Unchanged,
+    action: Action::Signal(|p, _, moment, out| {
+        let in_table = moment.surroundings.nav_from_table.inverse();
+        for (rate, way) in p.iter().zip([InFrame::new(0.0, 1.0, 0.0), InFrame::new(1.0, 0.0, 0.0)])
+        {
+            out.add_gyro(*rate, &moment.in_body((in_table * way).components()));
+        }
+    }),
+};
+
 /// A gravity that is wrong.
 pub static WRONG_GRAVITY: Term = Term {
     id: "wrong_gravity",

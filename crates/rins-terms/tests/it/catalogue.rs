@@ -26,7 +26,7 @@ const WANTED: &str = "
 
 /// What the catalogue has besides: the baseline, and the accelerometers' share of the noise.
 const BESIDES: &str = "gyro.bias gyro.scale gyro.misalignment accel.bias accel.scale
-    accel.misalignment axis.attitude mounting encoder.zero accel_bias_instability accel_rate_random_walk";
+    accel.misalignment axis.attitude axis.azimuth mounting encoder.zero accel_bias_instability accel_rate_random_walk";
 
 #[test]
 fn ids_are_unique_and_those_that_are_wanted() {

@@ -3,12 +3,15 @@
 use std::collections::BTreeSet;
 
 use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths};
+use rins_frames::EARTH_RATE;
+use rins_frames::units::DEG_PER_HOUR;
 use rins_imu::ImuSpec;
 use rins_terms::{Chosen, Model, Role, catalogue};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::{NamedModel, Prepared};
 use crate::commands::range::ensure_temperature;
+use crate::number::figure;
 
 /// What is estimated, from what, and what is known beforehand.
 pub(crate) struct Case {
@@ -117,6 +120,41 @@ impl Case {
     }
 }
 
+/// The model with the Earth's horizontal rate, if there are runs whose azimuth is not known.
+fn with_azimuth(
+    mut model: Model,
+    runs: &[Prepared],
+    preset: bool,
+    remarks: &mut Vec<String>,
+) -> Model {
+    let rate = |run: &Prepared| EARTH_RATE * run.loaded.station.site.latitude.cos();
+    let of_run =
+        |run: &Prepared| Some(run.attitude.horizontal_rate()?.map(|part| part * rate(run)));
+    let sigmas: Vec<[f64; 2]> = runs.iter().filter_map(of_run).collect();
+    // One prior for all runs: the widest.
+    let Some([north, east]) = sigmas.into_iter().reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])
+    else {
+        return model;
+    };
+    let azimuth = &catalogue::AXIS_AZIMUTH;
+    if preset && !model.terms.iter().any(|chosen| chosen.term.id == azimuth.id) {
+        model = model.with(Chosen::new(azimuth).estimated());
+        remarks.push(format!(
+            "The azimuth of the axis is not known: what the Earth's horizontal rate differs by from that of the assumed one is \
+             estimated too ({}; a priori 0 ± {} deg/h north, 0 ± {} deg/h east).",
+            azimuth.id,
+            figure(north / DEG_PER_HOUR, 2),
+            figure(east / DEG_PER_HOUR, 2)
+        ));
+    }
+    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == azimuth.id);
+    let roles = chosen.flat_map(|chosen| chosen.roles.iter_mut().zip([north, east]));
+    for (role, sigma) in roles.filter(|(role, _)| **role == Role::Free) {
+        *role = Role::Within(sigma);
+    }
+    model
+}
+
 /// The model with what is known of these runs: how their axes stand, and where gravity is the angle
 /// reference, a lever arm.
 fn on_these_runs(
@@ -134,6 +172,7 @@ fn on_these_runs(
                 .into(),
         );
     }
+    let mut model = with_azimuth(model, runs, preset, remarks);
     let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == "axis.attitude");
     for (axis, role) in chosen.flat_map(|chosen| chosen.roles.iter_mut().enumerate()) {
         if *role != Role::Free {

@@ -95,11 +95,11 @@ impl Certificate {
     pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
         let given = case.given_of_logs();
         // How an IMU stood that was turned over and over is nothing to keep.
-        let fit = fit.leaving_open(|estimate| {
+        let fit = fit.marginal(|estimate| {
             let of_log = |run| given.iter().position(|runs| runs.contains(&run));
             let log = estimate.run.and_then(of_log);
             let many = log.is_some_and(|log| given[log].len() > 1);
-            estimate.parameter.owner == Owner::Placement && many
+            !(estimate.parameter.owner == Owner::Placement && many)
         });
         let fit = fit.along(SignedAxes::IDENTITY);
         let told = fit.identifiability();
@@ -201,7 +201,7 @@ impl Certificate {
             format!(
                 "the innovations are {:.0} times larger than the noise that was found allows: units, axes, signs, \
                  attitude or table profile are wrong, and so are the estimates",
-                (nis / self.consistency.nis_dof as f64).sqrt()
+                (nis / self.consistency.nis_dof).sqrt()
             )
         }))
     }

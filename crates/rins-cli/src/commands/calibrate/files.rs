@@ -27,8 +27,9 @@ pub(crate) const STEPS: [&str; 5] = [
 
 /// Whether a term of the model describes the run's table alone or has no name, so that there is nothing to undo in
 /// another run.
-fn of_run_alone(id: &str) -> bool {
-    id == "axis.attitude" || catalogue::term(id).is_none()
+pub(crate) fn of_run_alone(id: &str) -> bool {
+    [catalogue::AXIS_ATTITUDE.id, catalogue::AXIS_AZIMUTH.id].contains(&id)
+        || catalogue::term(id).is_none()
 }
 
 /// The calibration file of one run: what its sensors and its encoder get wrong, along the sensors' own axes.

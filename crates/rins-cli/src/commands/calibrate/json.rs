@@ -1,7 +1,7 @@
 //! A calibration for a machine.
 
 use nalgebra::{DMatrix, Vector3};
-use rins_calibration::{Consistency, FreeNavigation, Verdict};
+use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, Verdict};
 use rins_estimation::{Departure, Reference, correlation};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use serde_json::{Value, json};
@@ -23,9 +23,13 @@ pub(crate) fn navigation_json(navigation: &FreeNavigation) -> Value {
 
 /// What the innovations say of the model, as JSON.
 pub(crate) fn consistency_json(consistency: &Consistency) -> Value {
+    let dof = consistency.nis_dof;
     json!({
         "nis_mean": consistency.nis_mean,
-        "nis_dof": consistency.nis_dof,
+        // A whole number where all epochs have the same channels.
+        "nis_dof": (1..=MEASUREMENTS)
+            .find(|count| (*count as f64 - dof).abs() < 1e-9)
+            .map_or_else(|| json!(dof), |count| json!(count)),
         "nis_p": consistency.nis_p,
         "whiteness_p": consistency.whiteness_p,
         "channel_rms": consistency.channel_rms,
@@ -172,7 +176,9 @@ fn run_json(certificate: &Certificate, place: usize, run: &CertifiedRun) -> Valu
         },
         "samples": run.prepared.samples(),
         "static_intervals": run.prepared.static_intervals,
-        "rests": (!run.prepared.others.is_empty()).then_some(1 + run.prepared.others.len()),
+        "rests": (!run.prepared.others.is_empty()).then_some(
+            run.prepared.others.len() + usize::from(reference == Reference::Rest)
+        ),
         "axis_attitude_deg": euler_json(&run.nav_from_table.euler_angles()),
         "gravity_across_axis_m_s2":
             across_axis(run.prepared.loaded.station.gravity, &run.nav_from_table),

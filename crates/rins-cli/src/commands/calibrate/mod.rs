@@ -1,5 +1,6 @@
 //! `rins calibrate`: from runs to sensor errors, with the certificate of what was found.
 
+mod attitude;
 mod budget;
 mod case;
 mod certificate;
@@ -16,7 +17,7 @@ use rins_terms::Model;
 pub(crate) use self::budget::{Budget, Drift};
 pub(crate) use self::case::Case;
 pub(crate) use self::certificate::{Certificate, CertifiedRun};
-pub(crate) use self::files::{EQUATION, STEPS};
+pub(crate) use self::files::{EQUATION, STEPS, of_run_alone};
 pub(crate) use self::json::{consistency_json, navigation_json, noise_json};
 pub(crate) use self::paper::{calibrated, outcome};
 pub(crate) use self::prepared::Prepared;

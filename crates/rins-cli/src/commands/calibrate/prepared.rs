@@ -1,12 +1,12 @@
 //! A rig made ready to be estimated from: what tells the table's angle, and how its axis stands.
 
+use std::ops::Range;
 use std::path::Path;
 
 use anyhow::Context;
-use nalgebra::{Matrix3, Vector3};
 use rins_calibration::{Setup, likely_wobble, table_angles};
 use rins_estimation::{
-    AXIS_BY_GRAVITY, AngleSteps, Reference, Rig, Run, axis_from_gravity, turning_span,
+    AXIS_BY_GRAVITY, AngleSteps, AxisSeen, Reference, Rig, Run, axis_from_gravity, turning_span,
 };
 use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
@@ -17,14 +17,12 @@ use serde_json::Value;
 
 use crate::args::NoiseChoice;
 use crate::commands::align::{ANY_AZIMUTH, Found, found};
-use crate::commands::calibrate::rests::{self, Rests};
+use crate::commands::calibrate::attitude::{Attitude, FOUND_HERE, aligned};
+use crate::commands::calibrate::rests::{self, OnAxis, Rests};
 use crate::commands::check::refuse_mistaken;
 use crate::commands::setup::setup;
 use crate::commands::statics::{lasting, only, static_intervals, statics_in_words, statics_json};
 use rins_io::shown;
-
-/// An attitude that was found in the same data is counted again by a hundredth of its information.
-const FOUND_HERE: f64 = 10.0;
 
 /// The first guess of how a floor or a hand lets an axis tremble on which no encoder sits \[rad\].
 const UNREAD_WOBBLE: f64 = 20.0 * ARCSEC;
@@ -54,20 +52,6 @@ pub(crate) struct Prepared {
     pub(crate) remarks: Vec<String>,
 }
 
-/// How well the attitude of an axis is known before anything is estimated.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Attitude {
-    /// The 1σ of its error about each axis of the axis frame \[rad\]; none if it is a definition.
-    pub(crate) sigma: [Option<f64>; 3],
-}
-
-impl Attitude {
-    /// Known to `sigma` about any axis \[rad\].
-    const fn within(sigma: f64) -> Self {
-        Self { sigma: [Some(sigma); 3] }
-    }
-}
-
 /// What is known of the table, as far as the samples go.
 struct Axis {
     /// The part of the log that is used, if not all of it is.
@@ -78,6 +62,8 @@ struct Axis {
     nav_from_table: Dcm<Nav, Table>,
     /// Other rests, and how each stands.
     others: Vec<(Recording, Dcm<Nav, Table>)>,
+    /// Which static intervals are used, if not all or the longest.
+    rests_used: Option<Vec<Range<usize>>>,
     attitude: Attitude,
     remarks: Vec<String>,
 }
@@ -91,6 +77,7 @@ impl Axis {
             reference,
             nav_from_table,
             others: Vec::new(),
+            rests_used: None,
             attitude,
             remarks: Vec::new(),
         }
@@ -108,11 +95,7 @@ impl Prepared {
         let axis = axis(&loaded, &setup).with_context(log)?;
         let statics = static_intervals(&loaded);
         let told = statics_in_words(&statics, &loaded.rig);
-        let unused = match axis.reference {
-            Reference::Rest if axis.others.is_empty() => None,
-            _ => Some(rests::SHORTEST),
-        };
-        let static_intervals = statics_of(&statics, unused);
+        let static_intervals = statics_of(&statics, &axis);
         let turned = matches!(axis.reference, Reference::Encoder { .. });
         if noise == NoiseChoice::Given && !has_wobble && turned {
             setup.table.wobble = likely_wobble(&loaded.recording, &setup).with_context(log)?;
@@ -147,7 +130,8 @@ impl Prepared {
         let mut run = Run::new(rig, recording).with_context(log)?.with_axes(axes);
         run.angle_steps = steps.or(run.angle_steps);
         let others = axis.others.into_iter().map(|(recording, nav_from_table)| {
-            let run = Run::new(Rig { nav_from_table, ..rig }, recording).with_context(log)?;
+            let rig = Rig { nav_from_table, reference: Reference::Rest, ..rig };
+            let run = Run::new(rig, recording).with_context(log)?;
             anyhow::Ok(run.with_axes(axes))
         });
         let others = others.collect::<anyhow::Result<Vec<Run>>>()?;
@@ -187,21 +171,40 @@ impl Prepared {
         std::iter::once(&self.run).chain(&self.others)
     }
 
-    /// The same with the longest rest only.
-    pub(crate) fn of_longest_rest(mut self) -> Self {
-        if !self.others.is_empty() {
-            self.others.clear();
+    /// The same without the other rests.
+    pub(crate) fn alone(mut self) -> Self {
+        if self.others.is_empty() {
+            return self;
+        }
+        self.others.clear();
+        if self.run.rig.reference == Reference::Gravity {
+            self.attitude.sigma[2] = None;
+            self.remarks.push("The rests are not used here.".into());
+        } else {
             self.remarks.push("Of these only the longest is used here.".into());
         }
         self
     }
 }
 
-/// The static intervals for a machine: all that last so long are used, or only the longest.
-fn statics_of(found: &StaticIntervals, shortest: Option<f64>) -> Value {
-    match (shortest, found.longest()) {
-        (None, Some(longest)) => statics_json(found, only(&longest.span)),
-        (shortest, _) => statics_json(found, lasting(shortest.unwrap_or_default())),
+/// The static intervals for a machine: those that are used of a run that turns by gravity, all that are long enough, or only the
+/// longest.
+fn statics_of(found: &StaticIntervals, axis: &Axis) -> Value {
+    if let Some(used) = &axis.rests_used {
+        return statics_json(found, |interval| {
+            let is_used = used.contains(&interval.span);
+            (!is_used).then(|| {
+                format!(
+                    "static, but shorter than {} s, or its axis leans otherwise than where it turns",
+                    rests::SHORTEST
+                )
+            })
+        });
+    }
+    let is_one_rest = axis.reference == Reference::Rest && axis.others.is_empty();
+    match found.longest() {
+        Some(longest) if is_one_rest => statics_json(found, only(&longest.span)),
+        _ => statics_json(found, lasting(if is_one_rest { 0.0 } else { rests::SHORTEST })),
     }
 }
 
@@ -235,7 +238,12 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
     let rest = found(loaded).context("the rig gives no [attitude], and none can be found")?;
     let table_from_body = Dcm::<Table, Body>::about_z(angles[rest.span.start]);
     let nav_from_table = rest.nav_from_body * table_from_body.inverse();
-    let attitude = aligned(&nav_from_table, rest.sigma);
+    // Where the gyros do not show north, what is not known of it is a parameter, and none of the tilt.
+    let (east, north, up) = rest.sigma;
+    let is_shown = up.is_some_and(|up| FOUND_HERE * up < ANY_AZIMUTH);
+    let about_up = if is_shown { up } else { Some(north) };
+    let azimuth = (!is_shown).then_some(ANY_AZIMUTH);
+    let attitude = Attitude { azimuth, ..aligned(&nav_from_table, (east, north, about_up)) };
     let remarks = vec![format!(
         "The attitude of the axis was found over the rest from {:.0} s to {:.0} s.",
         rest.start,
@@ -247,14 +255,15 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
 /// A run whose table nothing reads: it turns by gravity, or rests.
 fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
     let recording = &loaded.recording;
-    let surveyed = loaded.rig.attitude.map(|given| given.angles);
+    let given = loaded.rig.attitude;
     let turning = turning_span(recording).map(|span| (recording.slice(span.start, span.end), span));
     if let Some((turning, span)) = turning
         && spin(&turning) > LEAST_SPIN
-        && let Some(nav_from_table) = axis_from_gravity(&turning, surveyed)
+        && let Some(AxisSeen { nav_from_table, heading_known }) =
+            axis_from_gravity(&turning, given.map(|given| given.angles))
     {
         let angles = nav_from_table.euler_angles();
-        let remarks = vec![format!(
+        let mut remarks = vec![format!(
             "Nothing reads the table: gravity, {:.2} m/s² of it across the axis (roll {:.1}, pitch {:.1} deg), is the angle \
              reference from {:.1} s to {:.1} s, {:.1} turns. The table angle is zero where it begins.",
             across_axis(loaded.station.gravity, &nav_from_table),
@@ -264,10 +273,38 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
             recording.times[span.end - 1],
             spin(&turning) / (360.0 * DEG)
         )];
+        let rests = rests::on_axis(loaded, &span, &nav_from_table);
+        let (rests_used, others): (Vec<_>, Vec<_>) = rests
+            .into_iter()
+            .map(|OnAxis { span, nav_from_table }| {
+                let recording = recording.slice(span.start, span.end);
+                (span, (recording, nav_from_table))
+            })
+            .unzip();
         let wide = Some(AXIS_BY_GRAVITY);
-        let attitude = Attitude { sigma: [wide, wide, None] };
+        // Of a rest gravity shows how far the body is turned, and no better than its accelerometers do.
+        let about_axis = (!others.is_empty()).then_some(ANY_AZIMUTH);
+        if !others.is_empty() {
+            let lasting = rests_used
+                .iter()
+                .map(|rest| recording.times[rest.end - 1] - recording.times[rest.start]);
+            remarks.push(format!(
+                "The static intervals on the same axis, {} of them with {:.0} s in all, are used too.",
+                others.len(),
+                lasting.sum::<f64>()
+            ));
+        }
+        let heading = given.filter(|_| heading_known).map_or(ANY_AZIMUTH, |given| given.sigma);
+        let azimuth = (heading > AXIS_BY_GRAVITY).then_some(heading);
+        let attitude = Attitude { sigma: [wide, wide, about_axis], azimuth };
         let axis = Axis::of(Reference::Gravity, nav_from_table, attitude);
-        return Ok(Axis { part: Some(turning), remarks, ..axis });
+        return Ok(Axis {
+            part: Some(turning),
+            others,
+            rests_used: Some(rests_used),
+            remarks,
+            ..axis
+        });
     }
     if let Some(rests) = Rests::of(loaded)? {
         return Ok(turned_over(loaded, &rests));
@@ -304,19 +341,8 @@ fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
     // One prior for all: the widest.
     let sigmas = rests.found.iter().map(|found| aligned(&stood(found).1, found.sigma).sigma);
     let wide = sigmas.fold([None; 3], |wide, of| [0, 1, 2].map(|axis| wider(wide[axis], of[axis])));
-    let axis = Axis::of(Reference::Rest, nav_from_table, Attitude { sigma: wide });
+    let axis = Axis::of(Reference::Rest, nav_from_table, Attitude { sigma: wide, azimuth: None });
     Axis { part: Some(recording), others, remarks: vec![rests.in_words()], ..axis }
-}
-
-/// What an alignment's 1σ about east, north and up are about the axes of the axis frame, widened since the
-/// estimate uses the same data.
-fn aligned(nav_from_table: &Dcm<Nav, Table>, sigma: (f64, f64, Option<f64>)) -> Attitude {
-    let (east, north, up) = sigma;
-    let wide = |sigma: f64| (FOUND_HERE * sigma).min(ANY_AZIMUTH);
-    let about = Vector3::new(wide(east), wide(north), up.map_or(ANY_AZIMUTH, wide));
-    let covariance = Matrix3::from_diagonal(&about.map(|sigma| sigma * sigma));
-    let turned = nav_from_table.matrix().transpose() * covariance * nav_from_table.matrix();
-    Attitude { sigma: [0, 1, 2].map(|axis| Some(turned[(axis, axis)].sqrt())) }
 }
 
 /// The larger of two sigmas.

@@ -1,8 +1,14 @@
-//! A log of many rests: an IMU that was turned over from one attitude to the next, by hand or on anything.
+//! The rests of a log: of an IMU that was turned over from one attitude to the next, by hand or on anything, and of a wheel
+//! before and after it turns.
+
+use std::ops::Range;
 
 use nalgebra::Vector3;
+use rins_estimation::AXIS_BY_GRAVITY;
 use rins_frames::units::DEG;
+use rins_frames::{Dcm, Nav, Table};
 use rins_io::Loaded;
+use rins_motion::Recording;
 
 use crate::commands::align::{Found, found_over};
 use crate::commands::statics::static_intervals;
@@ -15,6 +21,42 @@ const ALIKE: f64 = 5.0 * DEG;
 
 /// In fewer attitudes gravity tells hardly more than at the longest rest.
 const FEWEST_ATTITUDES: usize = 3;
+
+/// A rest of an IMU on an axis about which it turns in the rest of the log.
+pub(super) struct OnAxis {
+    pub(super) span: Range<usize>,
+    /// The attitude of the body, the table angle taken for zero.
+    pub(super) nav_from_table: Dcm<Nav, Table>,
+}
+
+/// The rests of a log outside of `turning` in which the axis leans as it does while it turns, to within three times what
+/// [`AXIS_BY_GRAVITY`] allows: gravity tells how far the body is turned about it.
+pub(super) fn on_axis(
+    loaded: &Loaded,
+    turning: &Range<usize>,
+    nav_from_table: &Dcm<Nav, Table>,
+) -> Vec<OnAxis> {
+    let up: Vector3<f64> = nav_from_table.matrix().row(2).transpose();
+    let rest = |span: Range<usize>| {
+        if span.start < turning.end && turning.start < span.end {
+            return None;
+        }
+        let felt = up_in_body(&loaded.recording, span.clone());
+        let leans_alike = (felt.z.acos() - up.z.acos()).abs() <= 3.0 * AXIS_BY_GRAVITY;
+        let angle = up.y.atan2(up.x) - felt.y.atan2(felt.x);
+        leans_alike.then(|| OnAxis {
+            span,
+            nav_from_table: *nav_from_table * Dcm::<Table, Table>::about_z(angle),
+        })
+    };
+    static_intervals(loaded).spans(SHORTEST).into_iter().filter_map(rest).collect()
+}
+
+/// The direction of the mean specific force, in the body.
+fn up_in_body(recording: &Recording, span: Range<usize>) -> Vector3<f64> {
+    let gained = recording.increments[span].iter().map(|sample| sample.velocity.components());
+    gained.sum::<Vector3<f64>>().normalize()
+}
 
 /// The rests of one log, how each stands, and in how many attitudes.
 pub(crate) struct Rests {
@@ -33,8 +75,7 @@ impl Rests {
         let mut ways: Vec<Vector3<f64>> = Vec::new();
         let spans = static_intervals(loaded).spans(SHORTEST);
         for span in &spans {
-            let gained = recording.increments[span.clone()].iter().map(|s| s.velocity.components());
-            let up: Vector3<f64> = gained.sum();
+            let up = up_in_body(recording, span.clone());
             if ways.iter().all(|way| way.angle(&up) > ALIKE) {
                 ways.push(up);
             }

@@ -20,14 +20,14 @@ use crate::outcome::Outcome;
 /// A diagnosis of one run as it comes, without an output.
 pub(crate) fn diagnosed(rig: &Path, loaded: Loaded) -> anyhow::Result<Found> {
     let noise = NoiseChoice::Likely;
-    let run = Prepared::of(rig, loaded, noise)?.of_longest_rest();
+    let run = Prepared::of(rig, loaded, noise)?.alone();
     let named = NamedModel::of(&ModelChoice::Full, &run.loaded.rig.spin)?;
     Found::of(Case::of(vec![run], named, noise)?, &Asked::default())
 }
 
 pub(crate) fn run(arguments: &Diagnose) -> anyhow::Result<Outcome> {
     let prepared = |rig: &Path| -> anyhow::Result<Prepared> {
-        Ok(Prepared::of(rig, load(rig)?, arguments.noise)?.of_longest_rest())
+        Ok(Prepared::of(rig, load(rig)?, arguments.noise)?.alone())
     };
     let runs = arguments.rigs.iter().map(|rig| prepared(rig));
     let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
