@@ -300,14 +300,14 @@ fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
         format!("the station has {:.5} m/s^2", loaded.station.gravity),
     ));
     rows.push(row(
-        "Earth rate",
+        "apparent Earth rate",
         format!("{:.4} deg/h", place.earth_rate / DEG_PER_HOUR),
         format!("{:.4} deg/h", rate_sigma / DEG_PER_HOUR),
         format!("the Earth turns at {:.4} deg/h", earth_rate / DEG_PER_HOUR),
     ));
     if found.hidden.is_none() {
         rows.push(row(
-            "latitude",
+            "apparent latitude",
             degrees(place.latitude),
             degrees(latitude_sigma),
             format!("the station lies at {:.5} deg", site.latitude / DEG),
