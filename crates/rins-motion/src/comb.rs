@@ -126,7 +126,7 @@ fn gaps(apart: &[f64], alike: f64) -> Vec<f64> {
 }
 
 /// How far readings are apart at most that are the same.
-fn alike(readings: &[f64]) -> f64 {
+pub(crate) fn alike(readings: &[f64]) -> f64 {
     ROUNDING * readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 

@@ -4,7 +4,7 @@ use rins_frames::Increments;
 
 use super::suspicion::Suspicion;
 use super::{CHANNELS, Expected};
-use crate::comb::{Comb, comb};
+use crate::comb::{Comb, alike, comb};
 use crate::median::median;
 use crate::recording::Recording;
 use crate::sticking::steps;
@@ -104,7 +104,7 @@ fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
         found.iter().map(|(channel, _)| *channel).filter(|channel| *channel < 2).collect();
     let is_shown = |channel: usize| {
         let steps = steps(&channels[channel]);
-        let Some(scatter) = scatter(&steps) else { return false };
+        let Some(scatter) = scatter(&channels[channel], &steps) else { return false };
         let least = BESIDE * scatter;
         let out = |at: usize| steps.get(at).is_some_and(|step| step.abs() > least);
         out(first.largest - 1) && out(first.largest)
@@ -117,13 +117,14 @@ fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
         }
 }
 
-/// The robust scatter of steps; none if there is no step.
-fn scatter(steps: &[f64]) -> Option<f64> {
+/// The robust scatter of the steps between readings; none if there is no step.
+fn scatter(readings: &[f64], steps: &[f64]) -> Option<f64> {
+    let alike = alike(readings);
     let sizes = || steps.iter().map(|step| step.abs());
     let usual = 1.4826 * median(sizes())?;
     // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
-    let coarse = sizes().filter(|size| *size > 0.0).min_by(f64::total_cmp)?;
-    Some(if usual > 0.0 { usual } else { coarse })
+    let coarse = sizes().filter(|size| *size > alike).min_by(f64::total_cmp)?;
+    Some(if usual > alike { usual } else { coarse })
 }
 
 pub(super) fn longest_repeat(readings: &[f64]) -> usize {
@@ -187,7 +188,7 @@ fn runs(readings: &[f64]) -> impl Iterator<Item = (usize, usize)> {
 
 fn spikes(readings: &[f64]) -> Option<Spikes> {
     let steps = steps(readings);
-    let scatter = scatter(&steps)?;
+    let scatter = scatter(readings, &steps)?;
     let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
     // What is left of rounding in readings without noise is no scatter.
     let least = (SPIKE_RATIO * scatter).max(1e-9 * most);
