@@ -201,6 +201,8 @@ struct Pass {
     noise: Noise,
     /// The 1σ of the bias along the body's axes before the rest \[rad/s\].
     assumed: Vector3<f64>,
+    /// By how much the azimuth was corrected since the start \[rad\].
+    azimuth_corrected: f64,
     /// The sum of the squares of how far the base was tilted from where it started after each second, about east and north together,
     /// and how many seconds those are.
     tilts: (f64, f64),
@@ -232,6 +234,7 @@ impl Pass {
             filter: Filter { state: SVector::zeros(), covariance: p },
             noise,
             assumed: bias.diagonal().map(f64::sqrt),
+            azimuth_corrected: 0.0,
             tilts: (0.0, 0.0),
         }
     }
@@ -299,10 +302,17 @@ impl Pass {
         let nav_rate = self.navigator.rate_of_nav_in_inertial();
         let c_nb = *self.navigator.state().nav_from_body.matrix();
         let mut f = SMatrix::<f64, STATES, STATES>::zeros();
-        let by_attitude = rins_frames::cross_matrix(force).fixed_rows::<2>(0).into_owned();
+        // What of the force is horizontal is there by a tilt that the filter has still to find. Were it in the derivatives, a wrong
+        // azimuth would turn it, and would seem to show in the velocity.
+        let upward = Vector3::new(0.0, 0.0, force.z);
+        let by_attitude = rins_frames::cross_matrix(&upward).fixed_rows::<2>(0).into_owned();
         VELOCITY.set(ATTITUDE, &mut f, &by_attitude);
         ATTITUDE.set(ATTITUDE, &mut f, &-nav_rate.cross_matrix());
-        ATTITUDE.set(GYRO_BIAS, &mut f, &-c_nb);
+        // With the azimuth before its corrections, so that what a rest does not show keeps its direction: otherwise each
+        // correction would seem to show a part of it (first-estimates Jacobian; Huang, Mourikis and Roumeliotis 2010).
+        let before =
+            Dcm::<Nav, Nav>::from_rotation_vector(&Vector3::new(0.0, 0.0, -self.azimuth_corrected));
+        ATTITUDE.set(GYRO_BIAS, &mut f, &-(before.matrix() * c_nb));
         let step = f * duration;
         let transition = SMatrix::identity() + step + step * step * 0.5;
         let mut q = SMatrix::<f64, STATES, STATES>::zeros();
@@ -321,6 +331,7 @@ impl Pass {
         state.nav_from_body = Dcm::from_rotation_vector(&ATTITUDE.of(x)) * state.nav_from_body;
         self.start = Dcm::from_rotation_vector(&START.of(x)) * self.start;
         self.bias += GYRO_BIAS.of(x);
+        self.azimuth_corrected += ATTITUDE.of(x).z;
         self.filter.state = SVector::zeros();
     }
 

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G};
-use rins_frames::{Body, Dcm, EulerAngles, InFrame, Increments, Nav, Site};
+use rins_frames::{Body, Dcm, EARTH_RATE, EulerAngles, InFrame, Increments, Nav, Site};
 use rins_motion::{
     GyroFigures, MeanUncertainty, Recording, RestMean, Station, align, align_finely,
 };
@@ -146,6 +146,32 @@ fn bias_along_up_beyond_the_data_sheet_is_found() {
     // Components are correlated, so that only their mean is known; a heading that is held to less than it is known to is no harm.
     assert!(nees.iter().all(|mean| (0.5..3.9).contains(mean)), "{nees:?}");
     assert!((yaw - 1.0).abs() < 2.576 * (2.0 / f64::from(RUNS)).sqrt(), "{yaw}");
+}
+
+/// Gyros that are off along north by ten to two hundred times what the data sheet says, so that nothing is known of the bias along
+/// east but that it may be as large: the azimuth is known no better than that.
+#[test]
+fn bias_along_north_beyond_the_data_sheet_leaves_the_azimuth_open() {
+    const RUNS: u32 = 200;
+    let mut yaw = 0.0;
+    for seed in 0..RUNS {
+        let mut draws = Draws(Pcg64::new(13, u128::from(seed)));
+        let start = start(&mut draws);
+        let part = (draws.vector(1.0).x.abs() / 3.0).min(1.0);
+        let beyond = BIAS * 10.0 * 20.0_f64.powf(part);
+        let along = InFrame::new(0.0, beyond, 0.0);
+        let bias = draws.vector(BIAS) + (start.inverse() * along).components();
+        let run = recorded(&mut draws, start, bias, |_| Vector3::zeros());
+        let found = align_finely(&run.recording, 0..SAMPLES, &station(), Some(&GYRO)).unwrap();
+        let error = (found.gyro_bias.components() - run.bias).component_div(&found.gyro_bias_sigma);
+        assert!(error.amax() < 4.5, "{seed}: {error} sigma of {}", found.gyro_bias_sigma);
+        let phi = -(found.nav_from_body * run.start.inverse()).rotation_vector();
+        yaw += phi.z * phi.z / found.covariance[(2, 2)] / f64::from(RUNS);
+        let open = beyond / (EARTH_RATE * station().site.latitude.cos());
+        assert!(found.covariance[(2, 2)].sqrt() > 0.4 * open, "{seed}: {open} rad");
+    }
+    // The bias along east is that of the sheet here, far within what is allowed it.
+    assert!(yaw < 1.0, "{yaw}");
 }
 
 #[test]

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_estimation::{Departure, Fit, Identifiability, InRun, Lost, Run, Strengths, fit};
+use rins_estimation::{
+    Departure, Estimate, Fit, Identifiability, InRun, Lost, Reference, Run, Strengths, fit,
+};
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, Table};
 use rins_io::ModelFile;
@@ -94,15 +96,20 @@ impl Certificate {
     /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
     pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
         let given = case.given_of_logs();
-        // How an IMU stood that was turned over and over is nothing to keep.
-        let fit = fit.marginal(|estimate| {
-            let of_log = |run| given.iter().position(|runs| runs.contains(&run));
-            let log = estimate.run.and_then(of_log);
-            let many = log.is_some_and(|log| given[log].len() > 1);
-            !(estimate.parameter.owner == Owner::Placement && many)
+        // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
+        let is_kept = |run: usize, id: &str| match case.runs.get(run) {
+            Some(log) if log.others.is_empty() => true,
+            Some(log) => log.run.rig.reference != Reference::Rest && id != "axis.attitude.z",
+            None => false,
+        };
+        let fit = fit.marginal(|Estimate { parameter, run, .. }| {
+            parameter.owner != Owner::Placement || run.is_none_or(|run| is_kept(run, &parameter.id))
         });
         let fit = fit.along(SignedAxes::IDENTITY);
-        let told = fit.identifiability();
+        let mut told = fit.identifiability();
+        if let [_] = case.runs[..] {
+            told.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
+        }
         let departures = fit.prior_departures(&told, &Strengths::of(case.imu()));
         let held = held(&fit, &told);
         let fit = fit.with_prior_values_at(&held);
