@@ -1,5 +1,8 @@
 //! Suspicions as a person reads them.
 
+use std::f64::consts::FRAC_PI_2;
+
+use rins_frames::EARTH_RATE;
 use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_motion::{Correction, SignedAxes, Suspicion};
 
@@ -82,9 +85,11 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
             limit / DEG_PER_HOUR
         ),
         Suspicion::Latitude { seen, expected, .. } => format!(
-            "the Earth's rate and gravity at rest are those of latitude {:.2} deg where [site] has {:.2} deg",
+            "the Earth's rate and gravity at rest are those of latitude {:.2} deg where [site] has {:.2} deg (a gyro bias of \
+             {:.2} deg/h or more would explain it too)",
             seen / DEG,
-            expected / DEG
+            expected / DEG,
+            EARTH_RATE * (seen - expected).abs().min(FRAC_PI_2).sin() / DEG_PER_HOUR
         ),
         Suspicion::Handedness { ratio, correlation, .. } => format!(
             "turning moves the specific force in the body by {ratio:.2} of what the gyros say (correlation \
