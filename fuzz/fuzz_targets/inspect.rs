@@ -3,7 +3,7 @@
 
 use rins_frames::EulerAngles;
 use rins_fuzz::rows::Table;
-use rins_motion::{Expected, ExpectedAxis, ExpectedTriad, inspect};
+use rins_inspection::{Expected, ExpectedAxis, ExpectedTriad, inspect};
 
 libfuzzer_sys::fuzz_target!(|table: Table| {
     let Some(loaded) = rins_fuzz::csv(table.choice, table.text().as_bytes()) else { return };

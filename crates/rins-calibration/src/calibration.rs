@@ -7,10 +7,8 @@ use rins_ekf::UpdateError;
 use rins_frames::units::{ARCSEC, PPM};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::{ImuCompensationError, ImuError, TriadError, TriadSpec};
-use rins_motion::{
-    AlignmentError, MeanUncertainty, Recording, RestMean, SensorFigures, StaticIntervals,
-    StaticOptions, align,
-};
+use rins_inspection::{SensorFigures, StaticIntervals, StaticOptions};
+use rins_motion::{AlignmentError, MeanUncertainty, Recording, RestMean, align};
 
 use crate::consistency::Consistency;
 use crate::filter::{AngleSource, MEASUREMENTS, Reference, SpinAxisFilter, Start, TableReading};

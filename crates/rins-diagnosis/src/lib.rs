@@ -4,7 +4,7 @@
 //! any time, harmonics of any order), and names the one that explains it best, with its amplitude, the chance
 //! that it is nothing, and the rivals that this run cannot tell from it; then it looks for the next.
 //!
-//! **What it does not do.** Gross errors (units, axes, lost samples) are found by `rins_motion::inspect`, and must be
+//! **What it does not do.** Gross errors (units, axes, lost samples) are found by `rins_inspection::inspect`, and must be
 //! mended first. Nothing is named by force: what no effect explains is [`Unexplained`].
 //!
 //! Numbers are in SI units and radians.

@@ -1,6 +1,6 @@
 //! What was found in a run about any axis, by the names of the sensors' own axes.
 
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 use rins_terms::{Chosen, own_channel};
 
 use crate::diagnosis::Cause;

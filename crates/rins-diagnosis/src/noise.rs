@@ -3,7 +3,7 @@
 use rins_estimation::{
     Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths, TriadStrengths,
 };
-use rins_motion::Repeats;
+use rins_inspection::Repeats;
 use rins_terms::{Free, Term, catalogue};
 
 use crate::case::Case;

@@ -1,7 +1,7 @@
 //! Readings in steps, so coarse that their rounding is a part of the noise.
 
 use rins_estimation::{Fit, Run, Strengths};
-use rins_motion::{Comb, Combs};
+use rins_inspection::{Comb, Combs};
 use rins_terms::{Term, catalogue};
 
 use crate::case::Case;
@@ -56,7 +56,7 @@ impl Rounding {
     /// The steps of all sensors that are told of, beside the noise that a sheet states.
     pub(crate) fn of(runs: &[Run], sheet: Strengths) -> Self {
         let of_run = |run: &Run| {
-            let combs = run.recording.combs();
+            let combs = Combs::of(&run.recording);
             let interval = run.recording.mean_interval();
             [0, 1].map(|which| {
                 let stated = triad(&mut { sheet }, which).white;

@@ -1,7 +1,7 @@
 //! A finished estimate, and what is asked of it.
 
 use nalgebra::{DMatrix, DVector, SVector};
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 use rins_terms::{Free, Model};
 
 use crate::evidence::innovations;

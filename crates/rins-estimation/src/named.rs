@@ -1,7 +1,7 @@
 //! Estimates along other axes than the first run's: by the names that the sensors themselves have.
 
 use nalgebra::DMatrix;
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 use rins_terms::Chosen;
 
 use crate::estimate::{Estimate, Fit};

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use rins_frames::{Dcm, Nav, Table};
-use rins_motion::{Recording, SignedAxes, Station};
+use rins_frames::{Dcm, Nav, SignedAxes, Table};
+use rins_motion::{Recording, Station};
 
 use crate::linear::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;

@@ -33,6 +33,7 @@ mod frame;
 mod increments;
 mod quaternion;
 mod rotation_vector;
+mod signed_axes;
 pub mod units;
 
 pub use dcm::{Dcm, NotARotation};
@@ -42,6 +43,7 @@ pub use frame::{Body, Frame, InFrame, Nav, Table};
 pub use increments::{Increments, Rates};
 pub use quaternion::{NotAUnitQuaternion, Quaternion};
 pub use rotation_vector::cross_matrix;
+pub use signed_axes::SignedAxes;
 
 /// Compiles the README's examples.
 #[cfg(doctest)]

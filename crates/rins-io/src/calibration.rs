@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 pub use covariance::Covariance;
+use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
-use rins_motion::SignedAxes;
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Chosen, Model, Role};
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Chosen, Model};
 

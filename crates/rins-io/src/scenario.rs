@@ -4,9 +4,8 @@ mod temperature;
 
 use std::path::{Path, PathBuf};
 
-use rins_frames::{Dcm, EulerAngles};
+use rins_frames::{Dcm, EulerAngles, SignedAxes};
 use rins_imu::{ImuError, ImuNoise, NoiseModel, Quantisation, Seed, TriadError, TriadSpec};
-use rins_motion::SignedAxes;
 use rins_simulation::{Encoder, Scenario, TableRecord};
 use rins_terms::Model;
 

@@ -2,15 +2,14 @@
 //!
 //! **What it does.** A [`Profile`] tells a single-axis table what to do; [`TrueMotion`] puts the
 //! table on the turning Earth and integrates what a perfect IMU measures there, to the last digit.
-//! [`StaticIntervals`], [`align`] and [`Navigator`] go the other way, from increments to static intervals, attitude,
-//! velocity and position; [`inspect`] says what a [`Recording`] looks like before any of that. The
-//! [`mechanism`] module foretells what sensor errors do to all this: the paper's closed forms, with
+//! [`align`] and [`Navigator`] go the other way, from the increments of a [`Recording`] to attitude, velocity and position.
+//! The [`mechanism`] module predicts what sensor errors do to all this: the paper's closed forms, with
 //! their sign corrected, and a linear model of the round Earth beside them.
 //!
 //! **What it does not do.** Sensor errors and noise are added elsewhere; the table has one axis, no
 //! wobble and no lever arm. The navigator is a strapdown navigator alone: nothing aids it, its
-//! free vertical channel diverges, and it must not come near a pole. Files and units are read elsewhere:
-//! every number is in SI units and radians, in the frames of `rins_frames`.
+//! free vertical channel diverges, and it must not come near a pole. Where a recording is static and what
+//! is wrong with it is found by `rins-inspection`. Files and units are read elsewhere: every number is in SI units and radians, in the frames of `rins_frames`.
 //!
 //! An hour on a standing table, its IMU perfect, leads nowhere:
 //! ```
@@ -37,19 +36,14 @@
 )]
 
 mod alignment;
-mod comb;
 mod cubic;
 mod fine_alignment;
-mod inspection;
 pub mod mechanism;
 mod median;
 mod ramps;
 mod recording;
-mod repeats;
 mod rest;
-mod static_intervals;
 mod station;
-mod sticking;
 mod strapdown;
 mod truth;
 mod turntable;
@@ -57,21 +51,12 @@ mod turntable;
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
 };
-pub use comb::{Comb, Combs, ENOUGH_ANGLES};
 pub use cubic::cubic;
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};
-pub use inspection::{
-    CHANNELS, Correction, Expected, ExpectedAxis, ExpectedTriad, Inspection, ReadingOf,
-    ReadingUnit, RestSeen, SignedAxes, Suspicion, TableLag, Timing, inspect, inspect_with,
-};
 pub use median::median;
 pub use ramps::with_ramps;
 pub use recording::Recording;
-pub use repeats::Repeats;
 pub use rest::RestMean;
-pub use static_intervals::{
-    NotStatic, SensorFigures, StaticInterval, StaticIntervals, StaticOptions,
-};
 pub use station::Station;
 pub use strapdown::{Figures, Mechanisation, NavState, Navigator, VerticalChannel};
 pub use truth::{TrueMotion, TrueSample};

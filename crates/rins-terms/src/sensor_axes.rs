@@ -5,7 +5,7 @@
 //! `gyro.scale.x`. [`SignedAxes`] say how the two stand: axis `i` of the run is `sign[i]` times the sensor's axis
 //! `source[i]`, and they are a proper rotation.
 
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 
 use crate::model::{Chosen, Model};
 use crate::term::{Parity, Term};
@@ -55,7 +55,7 @@ fn axis_of(setting: f64) -> usize {
 /// A channel such as `gyro.x` of a run with these axes by its own name; what has no axis keeps its name.
 ///
 /// ```
-/// use rins_motion::SignedAxes;
+/// use rins_frames::SignedAxes;
 /// let about_x = SignedAxes { source: [1, 2, 0], sign: [1.0; 3] };
 /// assert_eq!(rins_terms::own_channel("gyro.z", &about_x), "gyro.x");
 /// assert_eq!(rins_terms::own_channel("encoder", &about_x), "encoder");

@@ -11,7 +11,7 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 const LAYERS: &[&[&str]] = &[
     &["rins-frames", "rins-ekf", "rins-lanes", "rins-blind"],
     &["rins-imu", "rins-motion"],
-    &["rins-terms"],
+    &["rins-terms", "rins-inspection"],
     &["rins-simulation", "rins-calibration"],
     &["rins-estimation", "rins-campaign"],
     &["rins-diagnosis"],

@@ -7,11 +7,12 @@ use std::path::Path;
 use anyhow::Context;
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
-use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates};
+use rins_frames::{Body, Dcm, EulerAngles, InFrame, Nav, Rates, SignedAxes};
+use rins_inspection::StaticIntervals;
 use rins_io::Loaded;
 use rins_motion::{
     AlignmentError, FineAlignment, FineAlignmentError, GyroFigures, MeanUncertainty, PlaceSeen,
-    RestMean, SignedAxes, StaticIntervals, align_finely, level, place_seen, residual,
+    RestMean, align_finely, level, place_seen, residual,
 };
 use serde_json::{Value, json};
 

@@ -7,13 +7,13 @@ use std::path::Path;
 
 use anyhow::Context;
 use nalgebra::Vector3;
-use rins_frames::Increments;
+use rins_frames::{Increments, SignedAxes};
 use rins_imu::{
     AllanPlan, Axis, CONFIDENCE, NoiseLaw, NoiseSeen, SpectralLine, Strength, Triad, TriadSpec,
     take_out_lines,
 };
+use rins_inspection::Combs;
 use rins_io::{Gaps, Loaded, LogFormat};
-use rins_motion::{Combs, SignedAxes};
 use rins_terms::Unit;
 use serde_json::{Value, json};
 
@@ -238,7 +238,7 @@ fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -
 
 /// The 1σ that the resolution of each channel makes of an increment, along the sensors' own axes \[rad or m/s\].
 fn resolutions(loaded: &Loaded, interval: f64) -> [Option<f64>; 6] {
-    let combs = loaded.recording.combs();
+    let combs = Combs::of(&loaded.recording);
     let step = |channel: usize| {
         let Combs { increments, rates } = combs[channel];
         let of_rates = rates.map(|comb| comb.step * interval);

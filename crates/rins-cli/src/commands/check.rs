@@ -13,10 +13,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use rins_frames::units::{DEG, DEG_PER_HOUR};
-use rins_io::Loaded;
-use rins_motion::{
+use rins_inspection::{
     CHANNELS, Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect_with,
 };
+use rins_io::Loaded;
 use serde_json::{Value, json};
 
 use self::mends::{mends, mends_in_words};

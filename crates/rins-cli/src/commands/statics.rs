@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use rins_frames::units::DEG_PER_SECOND;
 use rins_imu::TriadSpec;
+use rins_inspection::{SensorFigures, StaticInterval, StaticIntervals, StaticOptions};
 use rins_io::{Loaded, Rig};
-use rins_motion::{SensorFigures, StaticInterval, StaticIntervals, StaticOptions};
 use serde_json::{Value, json};
 
 /// So many spans are listed in a line.

@@ -5,9 +5,9 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_frames::SignedAxes;
 use rins_frames::units::ARCSEC;
 use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadError, TriadSpec};
-use rins_motion::SignedAxes;
 use rins_terms::{Chosen, Model, Owner, Role, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};

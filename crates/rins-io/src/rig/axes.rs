@@ -1,7 +1,7 @@
 //! Which sensor axis is which body axis.
 
 use nalgebra::Vector3;
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 

@@ -1,6 +1,6 @@
 //! Terms read from files.
 
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 use rins_terms::{Chosen, Role, Term, Unit, catalogue};
 
 use crate::document::{Entry, Node};

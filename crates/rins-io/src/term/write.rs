@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use rins_motion::SignedAxes;
+use rins_frames::SignedAxes;
 use rins_terms::{Chosen, Model, Role, Unit};
 
 use super::read::Use;

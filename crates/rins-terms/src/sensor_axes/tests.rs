@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use rins_frames::units::DEG;
-use rins_frames::{EulerAngles, Site};
-use rins_motion::{SignedAxes, Station};
+use rins_frames::{EulerAngles, SignedAxes, Site};
+use rins_motion::Station;
 use rins_testing::assert_close;
 
 use super::{own_channel, sign_of};

@@ -9,9 +9,9 @@ use rins_estimation::{
     Departure, Estimate, Fit, Identifiability, InRun, Lost, Reference, Run, Strengths, fit,
 };
 use rins_frames::units::DEG;
-use rins_frames::{Dcm, Nav, Table};
+use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_io::ModelFile;
-use rins_motion::{Recording, SignedAxes};
+use rins_motion::Recording;
 use rins_terms::{Chosen, Model, NotUndone, Owner, Role, Surroundings, compensated};
 
 use crate::args::NoiseChoice;

@@ -8,9 +8,10 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use rins_calibration::{
     Calibration, MEASUREMENTS, Parameter, calibrate, likely_wobble, table_angles,
 };
+use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
+use rins_inspection::Repeats;
 use rins_io::{Covariance, Loaded, ModelFile};
-use rins_motion::SignedAxes;
 use rins_terms::{Model, Role, Surroundings, Track};
 use serde_json::{Value, json};
 
@@ -40,7 +41,7 @@ pub(crate) fn calibrated(loaded: &mut Loaded) -> anyhow::Result<(Calibration, Op
     let mut setup = setup(loaded)?;
     refuse_mistaken(loaded)?;
     refuse_standing(loaded)?;
-    let repeats = loaded.recording.take_out_repeats().map(|repeats| {
+    let repeats = Repeats::take_out_of(&mut loaded.recording).map(|repeats| {
         format!(
             "{} The paper's filter takes the rate over them for constant; --model full weighs what is not known of it.",
             repeats_in_words(repeats)

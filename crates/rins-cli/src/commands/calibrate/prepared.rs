@@ -11,8 +11,9 @@ use rins_estimation::{
 use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::ImuSpec;
+use rins_inspection::{CHANNELS, Repeats, StaticIntervals};
 use rins_io::Loaded;
-use rins_motion::{CHANNELS, Recording, Repeats, StaticIntervals};
+use rins_motion::Recording;
 use serde_json::Value;
 
 use crate::args::NoiseChoice;
@@ -125,7 +126,7 @@ impl Prepared {
         if let Some(angles) = axis.brought_forward {
             recording.table_angle = Some(angles);
         }
-        let repeats = recording.take_out_repeats();
+        let repeats = Repeats::take_out_of(&mut recording);
         let axes = loaded.rig.spin.into();
         let mut run = Run::new(rig, recording).with_context(log)?.with_axes(axes);
         run.angle_steps = steps.or(run.angle_steps);

@@ -1,7 +1,8 @@
 //! What to write into a rig file to put wrong axes, or a table's wrong sense, right.
 
+use rins_frames::SignedAxes;
+use rins_inspection::{Correction, Inspection, Suspicion};
 use rins_io::{Axes, LogFormat, Rig};
-use rins_motion::{Correction, Inspection, SignedAxes, Suspicion};
 
 /// A change of the rig file that would put all right that is seen of signs and axes.
 pub(crate) struct Mend {

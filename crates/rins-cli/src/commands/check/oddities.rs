@@ -1,7 +1,7 @@
 //! What is odd about a run: no mistake, but worth a look.
 
+use rins_inspection::{CHANNELS, Inspection, Suspicion};
 use rins_io::Loaded;
-use rins_motion::{CHANNELS, Inspection, Suspicion};
 
 use super::{longest, suspicion_in_words};
 use crate::commands::repairs::repairs;

@@ -2,8 +2,8 @@
 
 use rins_frames::Increments;
 use rins_frames::units::DEG;
+use rins_inspection::Inspection;
 use rins_io::Loaded;
-use rins_motion::Inspection;
 
 use crate::report::{Item, Plot, Series, Style};
 

@@ -1,8 +1,9 @@
 //! What a run can show: which commands have something to work on, and what they can tell apart.
 
 use rins_frames::units::DEG;
+use rins_inspection::Inspection;
 use rins_io::Loaded;
-use rins_motion::{Inspection, Recording};
+use rins_motion::Recording;
 
 use super::longest;
 

@@ -1,7 +1,7 @@
 //! The units that a rig file says readings are in.
 
+use rins_inspection::{ReadingOf, ReadingUnit};
 use rins_io::{LogFormat, LogSpec, Reading, TriadColumns};
-use rins_motion::{ReadingOf, ReadingUnit};
 
 /// The units of the usual ones that a rig file names.
 #[derive(Default)]

@@ -2,8 +2,8 @@
 
 use rins_frames::EARTH_RATE;
 use rins_frames::units::DEG_PER_HOUR;
+use rins_inspection::{CHANNELS, Inspection, Suspicion};
 use rins_io::{Loaded, Omission};
-use rins_motion::{CHANNELS, Inspection, Suspicion};
 use serde_json::{Value, json};
 
 use super::{gaps, longest, step_in_words, suspicion_in_words};

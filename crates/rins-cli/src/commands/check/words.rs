@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use rins_frames::EARTH_RATE;
 use rins_frames::units::{DEG, DEG_PER_HOUR};
-use rins_motion::{Correction, SignedAxes, Suspicion};
+use rins_frames::{EARTH_RATE, SignedAxes};
+use rins_inspection::{Correction, Suspicion};
 
 /// How many corrections that explain the same are told.
 pub(super) const TOLD: usize = 4;

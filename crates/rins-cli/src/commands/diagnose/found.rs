@@ -9,7 +9,7 @@ use rins_diagnosis::{
 };
 use rins_estimation::{Estimate, Fit, Indefinite};
 use rins_imu::{ImuSpec, Seed};
-use rins_motion::Repeats;
+use rins_inspection::Repeats;
 use rins_terms::{Chosen, Unit};
 
 use crate::commands::calibrate::{Case, Certificate, Prepared};

@@ -1,0 +1,308 @@
+//! What each channel's readings show by themselves: steps, repeats, spikes and cut-off tops.
+
+use rins_frames::Increments;
+
+use super::suspicion::Suspicion;
+use super::{CHANNELS, Expected};
+use crate::comb::{Comb, alike, comb};
+use crate::sticking::steps;
+use rins_motion::{Recording, median};
+
+/// A spike is so many times the robust scatter of the differences between neighbours ...
+const SPIKE_RATIO: f64 = 50.0;
+
+/// ... and so many times the largest difference nearby: an impact has others beside it.
+const SPIKE_ALONE: f64 = 10.0;
+
+/// ... unless no more than so many stand out so, and the largest of the others lead to expect more than this many of them:
+/// noise with heavy tails has one that is the largest.
+const OF_TAIL: (usize, f64) = (2, 1e-3);
+
+/// How many of the largest tell how a tail goes on.
+const TAIL: usize = 32;
+
+/// What stands so many times its scatter out of its neighbours is part of what another sensor shows as a spike.
+const BESIDE: f64 = 6.0;
+
+/// How many samples to each side are nearby.
+const NEARBY: usize = 25;
+
+/// A run of equal extreme readings is a flat top if so many are expected to be found by chance.
+const LEAST_CHANCE: f64 = 1e-9;
+
+/// Of a sensor so coarse that it repeats more than this share of its readings, a constant rate may
+/// be one reading throughout.
+const MOST_REPEATS: f64 = 0.2;
+
+/// The shortest run of equal readings that is a flat top.
+const SHORTEST_TOP: usize = 5;
+
+/// A reading that is left less often may be that of a top which noise has cut into pieces.
+const LEAST_LEAVINGS: usize = 20;
+
+/// The mistakes that the six channels show, one at a time. `stands` tells which samples are at rest.
+pub(super) fn suspicions(
+    recording: &Recording,
+    expected: &Expected,
+    stands: &[bool],
+) -> Vec<Suspicion> {
+    let mut found = Vec::new();
+    let channels: Vec<Vec<f64>> = (0..CHANNELS.len()).map(|of| readings(recording, of)).collect();
+    let mut alone = Vec::new();
+    for (channel, name) in CHANNELS.into_iter().enumerate() {
+        let readings = &channels[channel];
+        let range = if channel < 3 { expected.gyro.range } else { expected.accel.range };
+        if let Some(spikes) = spikes(readings) {
+            alone.push((channel, spikes));
+        }
+        let cut = range.and_then(|range| saturated(readings, range, name, recording));
+        found.extend(cut.or_else(|| flat_top(readings, stands, name, recording)));
+    }
+    if is_jolt(&alone, &channels) {
+        return found;
+    }
+    found.extend(alone.iter().map(|(channel, spikes)| Suspicion::Spike {
+        channel: CHANNELS[*channel],
+        count: spikes.count,
+        time: recording.times[spikes.largest],
+        reading: channels[*channel][spikes.largest],
+    }));
+    found
+}
+
+/// What a channel reads as mean rates \[rad/s\] or specific forces \[m/s²\].
+fn readings(recording: &Recording, channel: usize) -> Vec<f64> {
+    let of_sample = |sample: &Increments| {
+        let rates = sample.rates();
+        if channel < 3 {
+            rates.angular_rate.components()[channel]
+        } else {
+            rates.specific_force.components()[channel - 3]
+        }
+    };
+    recording.increments.iter().map(of_sample).collect()
+}
+
+/// Single readings of a channel that lie far outside of what comes before and after them.
+#[derive(Clone, Copy, Debug)]
+struct Spikes {
+    count: usize,
+    /// The sample of the largest.
+    largest: usize,
+}
+
+/// Whether the only spikes are those of gyros at the same samples, of both across the axis, or of one of them while the other
+/// shows its one too: the base tips over in an instant, and turns about the axis too if that is not upright. What spoils a line
+/// of a log, or a sensor, spoils others or one alone.
+fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
+    let Some(&(_, first)) = found.first() else { return false };
+    let at_once = |&(channel, spikes): &(usize, Spikes)| {
+        channel < 3 && (spikes.count, spikes.largest) == (first.count, first.largest)
+    };
+    let across: Vec<usize> =
+        found.iter().map(|(channel, _)| *channel).filter(|channel| *channel < 2).collect();
+    let is_shown = |channel: usize| {
+        let steps = steps(&channels[channel]);
+        let Some(scatter) = scatter(&channels[channel], &steps) else { return false };
+        let least = BESIDE * scatter;
+        let out = |at: usize| steps.get(at).is_some_and(|step| step.abs() > least);
+        out(first.largest - 1) && out(first.largest)
+    };
+    found.iter().all(at_once)
+        && match across[..] {
+            [_, _] => true,
+            [one] => first.count == 1 && is_shown(1 - one),
+            _ => false,
+        }
+}
+
+/// The robust scatter of the steps between readings; none if there is no step.
+fn scatter(readings: &[f64], steps: &[f64]) -> Option<f64> {
+    let alike = alike(readings);
+    let sizes = || steps.iter().map(|step| step.abs());
+    let usual = 1.4826 * median(sizes())?;
+    // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
+    let coarse = sizes().filter(|size| *size > alike).min_by(f64::total_cmp)?;
+    Some(if usual > alike { usual } else { coarse })
+}
+
+pub(super) fn longest_repeat(readings: &[f64]) -> usize {
+    runs(readings).map(|(_, length)| length).max().unwrap_or_default()
+}
+
+/// Combs whose teeth are no further apart than so many times those of the other are the same.
+const SAME_COMB: f64 = 1.1;
+
+/// The resolution of increments: their own, or that of the rates which they were made of over intervals that are not all alike,
+/// over an interval. The coarser one, since products of two roundings stand on a comb that is far too fine, and of two that are about
+/// the same that on which readings stand more exactly.
+pub(super) fn resolution_of(
+    increments: &[f64],
+    recording: &Recording,
+    interval: f64,
+) -> Option<f64> {
+    let samples = increments.iter().zip(&recording.increments);
+    let over_one: Vec<f64> =
+        samples.map(|(increment, sample)| increment / sample.interval * interval).collect();
+    let found = match [increments, &over_one].map(resolution) {
+        [Some(of_increments), Some(of_rates)] => {
+            let [less, more] = if of_increments.step < of_rates.step {
+                [of_increments, of_rates]
+            } else {
+                [of_rates, of_increments]
+            };
+            let same = more.step < SAME_COMB * less.step;
+            if same && less.sigma < more.sigma { less } else { more }
+        }
+        [of_increments, of_rates] => of_increments.or(of_rates)?,
+    };
+    Some(found.step)
+}
+
+/// The comb on which readings stand, if most teeth are shared by several samples: the digits of a
+/// log are no sensor's.
+fn resolution(readings: &[f64]) -> Option<Comb> {
+    let comb = comb(readings)?;
+    let mut sorted = readings.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let teeth = 1 + sorted.windows(2).filter(|pair| pair[1] - pair[0] > 0.5 * comb.step).count();
+    (4 * teeth < readings.len()).then_some(comb)
+}
+
+/// Each run of equal readings: its start and its length.
+fn runs(readings: &[f64]) -> impl Iterator<Item = (usize, usize)> {
+    let mut start = 0;
+    readings
+        .chunk_by(|a, b| {
+            #[expect(clippy::float_cmp, reason = "a repeated reading is the same to the last bit")]
+            let same = a == b;
+            same
+        })
+        .map(move |run| {
+            let first = start;
+            start += run.len();
+            (first, run.len())
+        })
+}
+
+fn spikes(readings: &[f64]) -> Option<Spikes> {
+    let steps = steps(readings);
+    let scatter = scatter(readings, &steps)?;
+    let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
+    // What is left of rounding in readings without noise is no scatter.
+    let least = (SPIKE_RATIO * scatter).max(1e-9 * most);
+    let alone = |index: usize, size: f64| {
+        let nearby = index.saturating_sub(NEARBY)..(index + 1 + NEARBY).min(steps.len());
+        nearby.filter(|&other| other + 1 != index && other != index).all(|other| {
+            // Steps next to another spike are not the motion's.
+            steps[other].abs() * SPIKE_ALONE < size || is_spike(&steps, other, least)
+        })
+    };
+    let sizes: Vec<f64> = steps.windows(2).map(|pair| there_and_back([pair[0], pair[1]])).collect();
+    let mut count = 0;
+    let mut largest = (0.0, 0);
+    for (before, &size) in sizes.iter().enumerate() {
+        let index = before + 1;
+        if size > least && alone(index, size) {
+            count += 1;
+            if size > largest.0 {
+                largest = (size, index);
+            }
+        }
+    }
+    let is_tail = || count <= OF_TAIL.0 && expected_beyond(largest.0, sizes, least) > OF_TAIL.1;
+    (count > 0 && !is_tail()).then_some(Spikes { count, largest: largest.1 })
+}
+
+/// How many are expected beyond `size` by the largest of those below `least`, if the tail goes on as a power
+/// (‹hill1975›).
+fn expected_beyond(size: f64, mut sizes: Vec<f64>, least: f64) -> f64 {
+    sizes.retain(|other| *other < least);
+    sizes.sort_unstable_by(|a, b| b.total_cmp(a));
+    sizes.truncate(TAIL + 1);
+    let Some(smallest) = sizes.pop().filter(|smallest| *smallest > 0.0) else { return 0.0 };
+    let count = sizes.len() as f64;
+    let mean = sizes.iter().map(|other| (other / smallest).ln()).sum::<f64>() / count;
+    count * (-(size / smallest).ln() / mean).exp()
+}
+
+/// How far two steps go to come back; nothing if they do not.
+fn there_and_back([there, back]: [f64; 2]) -> f64 {
+    let size = there.abs().min(back.abs());
+    if (there + back).abs() < 0.2 * size { size } else { 0.0 }
+}
+
+/// Whether the step is one of the two that a spike makes.
+fn is_spike(steps: &[f64], index: usize, least: f64) -> bool {
+    let is = |a: f64, b: f64| there_and_back([a, b]) > least;
+    let before = index.checked_sub(1).is_some_and(|before| is(steps[before], steps[index]));
+    before || steps.get(index + 1).is_some_and(|after| is(steps[index], *after))
+}
+
+fn saturated(
+    readings: &[f64],
+    range: f64,
+    channel: &'static str,
+    recording: &Recording,
+) -> Option<Suspicion> {
+    // A range in round figures and its last count differ.
+    let beyond = |reading: &f64| reading.abs() >= range * (1.0 - 1e-3);
+    let first = readings.iter().position(beyond)?;
+    let count = readings.iter().filter(|reading| beyond(reading)).count();
+    Some(Suspicion::Saturated { channel, count, time: recording.times[first], range })
+}
+
+/// Whether a reading is that of a constant rate between two steps of a coarse sensor, which reads the one or the other: time and
+/// again it goes to the next step and back, and hardly ever further.
+fn stands_between(readings: &[f64], extreme: f64) -> bool {
+    let Some(step) = resolution(readings).map(|comb| comb.step) else { return false };
+    #[expect(clippy::float_cmp, reason = "it is one of the readings")]
+    let leaving = readings.windows(2).filter(|pair| pair[0] == extreme && pair[1] != extreme);
+    let (mut all, mut to_next) = (0, 0);
+    for pair in leaving {
+        all += 1;
+        to_next += usize::from((pair[1] - pair[0]).abs() < 1.5 * step);
+    }
+    all >= LEAST_LEAVINGS && 10 * to_next >= 9 * all
+}
+
+/// The largest or the least reading, repeated while moving so often as no other reading is.
+fn flat_top(
+    readings: &[f64],
+    stands: &[bool],
+    channel: &'static str,
+    recording: &Recording,
+) -> Option<Suspicion> {
+    let least = readings.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    #[expect(clippy::float_cmp, reason = "they are the very readings")]
+    let extreme = |index: usize| readings[index] == least || readings[index] == most;
+    let (mut repeats, mut others) = (0.0, 0.0_f64);
+    let mut top = (0, 0);
+    for (start, length) in runs(readings) {
+        if !extreme(start) {
+            repeats += (length - 1) as f64;
+            others += length as f64;
+        } else if length > top.1 && !stands[start..start + length].contains(&true) {
+            top = (start, length);
+        }
+    }
+    let (start, count) = top;
+    // A channel that says little but its extremes is stuck or a perfect one.
+    if count < SHORTEST_TOP || others < 0.1 * readings.len() as f64 {
+        return None;
+    }
+    // One repeat more than was seen: that none was does not say that there can be none.
+    let chance = (repeats + 1.0) / others;
+    if chance > MOST_REPEATS {
+        return None;
+    }
+    let by_chance = readings.len() as f64 * chance.powf((count - 1) as f64);
+    let is_cut = by_chance < LEAST_CHANCE && !stands_between(readings, readings[start]);
+    is_cut.then(|| Suspicion::FlatTop {
+        channel,
+        count,
+        time: recording.times[start],
+        reading: readings[start],
+    })
+}

@@ -1,0 +1,134 @@
+//! A single channel that repeats its reading while the others go on.
+
+use std::ops::Range;
+
+use crate::comb::comb;
+use crate::rows::{BEYOND_CHANCE, LONGEST, MOST, alike, rows_of};
+use rins_motion::median;
+
+/// Readings whose noise is less than so many teeth of their comb, or than this part of the largest, say the same for long while
+/// nothing happens.
+const TEETH: f64 = 3.0;
+const ROUNDING: f64 = 1e-9;
+
+/// The rows in which a channel sticks, and how many samples would repeat the one before by chance.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sticking {
+    /// Each without the reading that it repeats.
+    pub(crate) rows: Vec<Range<usize>>,
+    pub(crate) by_chance: f64,
+}
+
+impl Sticking {
+    /// Where `readings` repeat, without those samples that are `passed` over; nowhere if they are coarse or without noise, if they
+    /// repeat by chance, or if they are at the end of what the sensor reads.
+    pub(crate) fn of(readings: &[f64], passed: &[bool]) -> Self {
+        let none = Self::default();
+        let ends = readings.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
+            (least.min(*x), most.max(*x))
+        });
+        let repeats = |sample: usize, back: usize| {
+            sample >= back && alike(readings[sample - back], readings[sample])
+        };
+        let counts = |sample: &usize| {
+            let is_end = alike(readings[*sample], ends.0) || alike(readings[*sample], ends.1);
+            !passed[*sample] && !is_end
+        };
+        let sticks = |sample: usize| counts(&sample) && repeats(sample, 1);
+        let mut rows = rows_of(&(0..readings.len()).map(sticks).collect::<Vec<bool>>());
+        let total = |rows: &[Range<usize>]| rows.iter().map(Range::len).sum::<usize>() as f64;
+        if total(&rows) > MOST * readings.len() as f64 {
+            // A sensor that has new readings more slowly than the log repeats most of them; for long it does so only if it sticks.
+            rows.retain(|row| row.len() > LONGEST);
+        }
+        let samples = total(&rows);
+        if samples == 0.0 {
+            return none;
+        }
+        // By chance a reading is that before the last one as often. One more: that none was seen does not say that there is none.
+        let alternates = |&sample: &usize| repeats(sample, 2) && !repeats(sample, 1);
+        let by_chance = 1.0 + (2..readings.len()).filter(counts).filter(alternates).count() as f64;
+        if samples < 1.0 + BEYOND_CHANCE * by_chance {
+            return none;
+        }
+        // Without noise a row of equal readings may be what there was.
+        if is_noisy(readings) { Self { rows, by_chance } } else { none }
+    }
+}
+
+/// The rows of repeated readings that are the largest or the least of all.
+pub(crate) fn at_ends(readings: &[f64]) -> Vec<Range<usize>> {
+    let least = readings.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let repeats = |sample: usize| {
+        sample > 0
+            && alike(readings[sample - 1], readings[sample])
+            && [least, most].iter().any(|end| alike(*end, readings[sample]))
+    };
+    rows_of(&(0..readings.len()).map(repeats).collect::<Vec<bool>>())
+}
+
+/// Whether readings have so much noise that equal ones are no reading of what there was.
+pub(crate) fn is_noisy(readings: &[f64]) -> bool {
+    let most = readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let step = comb(readings).map_or(0.0, |comb| comb.step);
+    let noise = noise(readings);
+    noise > 0.0 && noise >= (TEETH * step).max(ROUNDING * most)
+}
+
+/// From each reading to the next.
+pub(crate) fn steps(readings: &[f64]) -> Vec<f64> {
+    readings.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+/// The noise of readings: what their fourth differences are of, in which nothing is left of what is slow, or nothing if these are no
+/// larger than the third.
+fn noise(readings: &[f64]) -> f64 {
+    let size = |values: &[f64]| {
+        median(values.iter().map(|x| x.abs()).filter(|x| *x > 0.0)).unwrap_or_default()
+    };
+    let third = steps(&steps(&steps(readings)));
+    let fourth = size(&steps(&third));
+    // Of white noise it has 70 times the variance.
+    if fourth > size(&third) { fourth / 70.0_f64.sqrt() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sticking(readings: &[f64]) -> Vec<Range<usize>> {
+        Sticking::of(readings, &vec![false; readings.len()]).rows
+    }
+
+    fn random(count: u32) -> Vec<f64> {
+        (0..count).map(|at| (43_758.545 * f64::from(at + 1).sin()).fract()).collect()
+    }
+
+    #[test]
+    fn rows_of_a_reading_that_sticks_are_found() {
+        let mut readings = random(3000);
+        // A table that turns moves gravity by more than noise is.
+        for (at, reading) in readings.iter_mut().enumerate() {
+            *reading = 0.1 * *reading + 100.0 * (0.02 * at as f64).sin();
+        }
+        for row in [100..120, 2000..2001, 2500..2503] {
+            let held = readings[row.start - 1];
+            readings[row].fill(held);
+        }
+        assert_eq!(sticking(&readings), [100..120, 2000..2001, 2500..2503]);
+    }
+
+    #[test]
+    fn what_is_coarse_smooth_or_cut_off_does_not_stick() {
+        let noise = random(3000);
+        let coarse = |step: f64| noise.iter().map(|x| (x / step).round() * step).collect();
+        let smooth = |at: u32| if at < 300 { 0.0 } else { (0.01 * f64::from(at - 300)).sin() };
+        let cut: Vec<f64> = noise.iter().map(|x| x.min(0.95)).collect();
+        for readings in
+            [noise.clone(), coarse(0.5), coarse(0.01), (0..3000).map(smooth).collect(), cut]
+        {
+            assert!(sticking(&readings).is_empty());
+        }
+    }
+}

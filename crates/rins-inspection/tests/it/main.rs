@@ -1,0 +1,12 @@
+//! What this crate finds in recordings, against what they were made with.
+#![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
+
+mod axes;
+mod inspection;
+mod late_table;
+mod mistakes;
+mod rest;
+mod run;
+mod slow_turn;
+mod static_population;
+mod stuck;
