@@ -71,15 +71,15 @@ pub fn workspace() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package lies in the workspace")
 }
 
-/// A file or folder of the measured and sample data that are kept outside of the repository, or
-/// `None`, said on standard error, where `RINS_DATA` does not name their folder.
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
-pub fn outside_data(name: &str) -> Option<PathBuf> {
-    match std::env::var_os("RINS_DATA") {
-        Some(folder) => Some(PathBuf::from(folder).join(name)),
-        None => {
-            eprintln!("skipped: RINS_DATA is not set, so {name} cannot be read");
-            None
-        }
-    }
+/// A file or folder of the measured and sample data that are kept outside of the repository, in the folder that `RINS_DATA` names.
+///
+/// Tests that want one are ignored where there was no such folder when they were built.
+///
+/// # Panics
+/// If it is not there.
+pub fn outside_data(name: &str) -> PathBuf {
+    let folder = std::env::var_os("RINS_DATA").expect("RINS_DATA names the folder of the data");
+    let path = PathBuf::from(folder).join(name);
+    assert!(path.exists(), "{} is not there", path.display());
+    path
 }

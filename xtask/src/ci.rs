@@ -37,6 +37,8 @@ const STEPS: &[Row] = &[
         "cargo clippy --quiet -p xtask --features book --all-targets -- -D warnings",
     ),
     ("test-book", None, "cargo test --quiet --profile tool -p xtask --features book --bin book"),
+    // Ignored without a browser; CI has one.
+    ("browser", None, "cargo test --quiet --workspace --test browser -- --ignored"),
     ("doc", Some(("RUSTDOCFLAGS", "-D warnings")), "cargo doc --quiet --workspace --no-deps"),
     ("verify", None, "cargo xtask verify"),
     ("reproduce", None, "cargo xtask reproduce --check"),

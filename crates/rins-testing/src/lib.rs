@@ -2,11 +2,13 @@
 //! a statistic must keep, covariances in long numbers, and sections of files.
 #![expect(clippy::missing_panics_doc, reason = "tests are meant to panic")]
 
+mod draft;
 mod long;
 mod sections;
 mod statistics;
 mod strategies;
 
+pub use draft::filled;
 pub use long::LongCovariance;
 pub use statistics::{
     assert_chi_squared, assert_standard_normal, chi_squared_mean_bounds, is_chi_squared,

@@ -61,23 +61,9 @@ fn a_file_that_cannot_grow_is_not_left_half_written() {
     }
 }
 
-/// Whether this process may mount something that only it sees.
-#[expect(clippy::print_stderr, reason = "a skipped test says so")]
-fn may_mount() -> bool {
-    let tried =
-        Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "tmpfs", "/mnt"]).output();
-    let may = tried.is_ok_and(|output| output.status.success());
-    if !may {
-        eprintln!("skipped: this user may mount nothing");
-    }
-    may
-}
-
 #[test]
+#[cfg_attr(not(private_mounts), ignore = "this user may mount nothing")]
 fn a_disk_that_is_full_keeps_nothing() {
-    if !may_mount() {
-        return;
-    }
     for (command, place) in COMMANDS {
         let folder = run();
         let script = format!(
@@ -92,10 +78,8 @@ fn a_disk_that_is_full_keeps_nothing() {
 }
 
 #[test]
+#[cfg_attr(not(private_mounts), ignore = "this user may mount nothing")]
 fn a_disk_that_cannot_be_written_is_named() {
-    if !may_mount() {
-        return;
-    }
     for (command, _) in COMMANDS {
         let folder = run();
         let script = format!("mount -t tmpfs -o ro tmpfs disk && exec \"$0\" {command}");
@@ -106,10 +90,8 @@ fn a_disk_that_cannot_be_written_is_named() {
 
 /// An old result on a disk without room for the new one stays.
 #[test]
+#[cfg_attr(not(private_mounts), ignore = "this user may mount nothing")]
 fn an_old_result_outlives_a_full_disk() {
-    if !may_mount() {
-        return;
-    }
     let folder = run();
     let made = rins_in(folder.path(), "check rig.toml -o old");
     assert_eq!(made.code, Some(0), "{}", made.err);

@@ -13,7 +13,7 @@ use crate::support::{list, magnitude, number, result_in, texts};
 const ANGLE_FLOOR: f64 = 0.03;
 const SCALE_FLOOR: f64 = 0.1;
 
-fn sample(name: &str) -> Option<PathBuf> {
+fn sample(name: &str) -> PathBuf {
     outside_data(&format!("synthetic/{name}"))
 }
 
@@ -33,8 +33,9 @@ fn earth_rate_about_spin_axis(truth: &Value, latitude: f64) -> f64 {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn one_constant_rate_shows_combinations_and_says_so() {
-    let Some(run) = sample("paper_constant_rate") else { return };
+    let run = sample("paper_constant_rate");
     let truth = std::fs::read_to_string(run.join("truth.json")).unwrap();
     let truth: Value = serde_json::from_str(&truth).unwrap();
     let rate = 10.0 * DEG + earth_rate_about_spin_axis(&truth, 34.25 * DEG);
@@ -66,9 +67,10 @@ fn one_constant_rate_shows_combinations_and_says_so() {
 
 /// Several rates tell the errors from the biases, but a model without biases cannot follow them.
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn several_rates_show_that_the_model_lacks_something() {
     for name in ["clean_multirate", "encoder_latency_reversal"] {
-        let Some(run) = sample(name) else { return };
+        let run = sample(name);
         let result = calibrated(&run);
         assert_eq!(result["consistency"]["model_fits"], false, "{name}");
         for parameter in list(&result, "/parameters") {
@@ -79,9 +81,10 @@ fn several_rates_show_that_the_model_lacks_something() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn every_sample_run_is_taken() {
     for name in ["lever_arm_multirate", "g_sensitivity_dwell", "thermal_and_asymmetry"] {
-        let Some(run) = sample(name) else { return };
+        let run = sample(name);
         let checked = result_in(&run, "check rig.toml");
         assert!(texts(&checked, "/suspicions").is_empty(), "{name}: {checked}");
         let result = calibrated(&run);

@@ -15,9 +15,10 @@ use std::process::Command;
 use chromium::{CURVE, Scheme, assert_sound, open};
 
 #[test]
+#[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn every_plot_is_drawn_whatever_the_names_in_it() {
     let page = report::render(&sample::report());
-    let Some(visit) = open(&page, 1280, Scheme::Light) else { return };
+    let visit = open(&page, 1280, Scheme::Light);
     // The plot of one sample has one dot.
     assert_sound(&visit, &page, 5);
     let plots = visit.probe["plots"].as_array().unwrap();
@@ -28,9 +29,10 @@ fn every_plot_is_drawn_whatever_the_names_in_it() {
 }
 
 #[test]
+#[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn plots_of_one_section_and_abscissa_share_cursor_and_zoom() {
     let page = report::render(&sample::report());
-    let Some(visit) = open(&page, 1280, Scheme::Light) else { return };
+    let visit = open(&page, 1280, Scheme::Light);
     let probe = &visit.probe;
     assert_eq!(probe["reading"], 4, "plots whose legend reads the cursor: {probe}");
     assert_eq!(probe["zoomed"], 4, "plots that follow a zoom: {probe}");
@@ -40,15 +42,17 @@ fn plots_of_one_section_and_abscissa_share_cursor_and_zoom() {
 }
 
 #[test]
+#[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn a_phone_in_the_dark_shows_the_same() {
     let page = report::render(&sample::report());
-    let Some(visit) = open(&page, 400, Scheme::Dark) else { return };
+    let visit = open(&page, 400, Scheme::Dark);
     assert_sound(&visit, &page, 5);
     assert_eq!(visit.probe["width"], 400);
     assert_eq!(visit.probe["background"], "rgb(17, 20, 23)");
 }
 
 #[test]
+#[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn the_demonstration_makes_a_sound_page() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("demo");
@@ -58,13 +62,14 @@ fn the_demonstration_makes_a_sound_page() {
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.len() < 3_000_000, "{} bytes", page.len());
     for (width, scheme) in [(1280, Scheme::Light), (400, Scheme::Dark)] {
-        let Some(visit) = open(&page, width, scheme) else { return };
+        let visit = open(&page, width, scheme);
         assert_sound(&visit, &page, CURVE);
         assert_ne!(visit.probe["plots"].as_array().unwrap().len(), 0, "a page without plots");
     }
 }
 
 #[test]
+#[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn a_page_that_errs_or_asks_is_caught() {
     let policy = "<meta http-equiv=\"Content-Security-Policy\" \
                   content=\"default-src 'none'; script-src 'unsafe-inline'\">";
@@ -82,7 +87,7 @@ fn a_page_that_errs_or_asks_is_caught() {
     ];
     for (head, body, complaint) in cases {
         let page = format!("<html><head>{head}</head><body>{body}</body></html>");
-        let Some(visit) = open(&page, 800, Scheme::Light) else { return };
+        let visit = open(&page, 800, Scheme::Light);
         let complaints = visit.complaints();
         assert!(
             complaints.iter().any(|found| found.starts_with(complaint)),

@@ -3,9 +3,8 @@
     clippy::float_cmp,
     clippy::format_collect,
     clippy::format_push_string,
-    clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "tests expect bits that are the same, write small files, say when they are skipped, and are meant to panic"
+    reason = "tests expect bits that are the same, write small files and are meant to panic"
 )]
 
 mod calibration;
@@ -18,7 +17,6 @@ mod formats;
 mod grid;
 mod log_refusals;
 mod logs;
-mod measured;
 mod model;
 mod output;
 mod rig;

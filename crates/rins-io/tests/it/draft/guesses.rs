@@ -2,9 +2,9 @@
 
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, STANDARD_GRAVITY};
 use rins_io::read;
-use rins_testing::assert_close;
+use rins_testing::{assert_close, filled};
 
-use super::support::{Motion, SITE, draft, filled};
+use super::support::{Motion, SITE, draft};
 use crate::support::folder;
 
 /// What one of a log's numbers is in SI units, per second or per interval, and how a rig says so.

@@ -1,7 +1,6 @@
 //! Rig files drafted from logs: what they say, and that the logs are then read rightly.
 
 mod guesses;
-mod measured;
 mod refusals;
 mod support;
 
@@ -10,10 +9,10 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{InFrame, Increments};
 use rins_io::{read, write_recording};
 use rins_motion::Recording;
-use rins_testing::assert_close;
+use rins_testing::{assert_close, filled};
 
 use crate::support::folder;
-use support::{Motion, SITE, draft, filled};
+use support::{Motion, SITE, draft};
 
 /// What rins itself writes is drafted without a loss: read again, it is the same to the last bit.
 #[test]

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 use rins_io::{draft_rig, read};
+use rins_testing::filled;
 
-use super::support::{SITE, draft, filled};
+use super::support::{SITE, draft};
 use crate::support::{folder, log, without};
 
 /// Keys and what is filled in for them.

@@ -1,21 +1,26 @@
-//! Drafts of logs that others have measured, where they are at hand (`RINS_DATA`).
+//! Drafts of logs that others have measured.
 
 use rins_frames::EARTH_RATE;
 use rins_frames::units::{DEG, STANDARD_GRAVITY};
 use rins_io::{Loaded, read};
-use rins_testing::assert_close;
+use rins_testing::{assert_close, filled};
+use rins_tests::outside_data;
 
-use super::support::{SITE, filled};
-use crate::measured::data;
+/// A place for what a draft leaves open.
+const SITE: [(&str, &str); 3] = [
+    ("site.latitude", "\"34.25 deg\""),
+    ("site.longitude", "\"108.9 deg\""),
+    ("site.height", "\"400 m\""),
+];
 
 /// Reads a measured log by its draft, filled in as told.
-fn load(name: &str, log: &str, values: &[(&str, &str)]) -> Option<Loaded> {
-    let log = data(name)?.join(log).canonicalize().unwrap();
+fn load(name: &str, log: &str, values: &[(&str, &str)]) -> Loaded {
+    let log = outside_data(name).join(log).canonicalize().unwrap();
     let folder = tempfile::tempdir().unwrap();
     let draft = rins_io::draft_rig(&log, folder.path()).unwrap();
     let rig = folder.path().join("rig.toml");
     std::fs::write(&rig, filled(&draft.text, values)).unwrap();
-    Some(read(&rig).unwrap())
+    read(&rig).unwrap()
 }
 
 /// The mean specific force over the first hundred samples \[m/s²\].
@@ -25,8 +30,9 @@ fn first_force(loaded: &Loaded) -> f64 {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn a_wheel() {
-    let Some(loaded) = load("real/worklab_wheel_right", "sensors.csv", &SITE) else { return };
+    let loaded = load("real/worklab_wheel_right", "sensors.csv", &SITE);
     assert_eq!(loaded.recording.len(), 14008);
     assert_close!(first_force(&loaded), STANDARD_GRAVITY, 0.3);
     // It is the wheel's axis that has become z.
@@ -35,8 +41,9 @@ fn a_wheel() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn a_laser_gyro() {
-    let Some(loaded) = load("real/psins_lasergyro", "lasergyro.imu", &[]) else { return };
+    let loaded = load("real/psins_lasergyro", "lasergyro.imu", &[]);
     assert_close!(first_force(&loaded), 9.797, 0.02);
     let sum = loaded.recording.increments.iter().map(|sample| sample.angle.components());
     let mean = sum.sum::<nalgebra::Vector3<f64>>().norm() / 1847.18;
@@ -44,15 +51,16 @@ fn a_laser_gyro() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn a_sample_counter() {
     let mut values = SITE.to_vec();
     values.extend([("log.rate", "\"102.4 Hz\""), ("log.gyro.unit", "\"deg/s\"")]);
     let loaded = load("real/imucal_nilspod", "example_ferraris_session.csv", &values);
-    let Some(loaded) = loaded else { return };
     assert_close!(first_force(&loaded), STANDARD_GRAVITY, 0.6);
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn raw_counts() {
     let mut values = SITE.to_vec();
     values.extend([
@@ -62,7 +70,7 @@ fn raw_counts() {
         ("log.accel.unit", "\"m/s^2\""),
     ]);
     // Of the accelerometers' file, a draft of the gyros' log does not ask for a scale.
-    let Some(folder) = data("real/imu_tk_xsens") else { return };
+    let folder = outside_data("real/imu_tk_xsens");
     let log = folder.join("xsens_gyro.mat").canonicalize().unwrap();
     let place = tempfile::tempdir().unwrap();
     let draft = rins_io::draft_rig(&log, place.path()).unwrap();
@@ -76,8 +84,9 @@ fn raw_counts() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn synthetic_runs() {
-    let Some(loaded) = load("synthetic/clean_multirate", "run.csv", &SITE) else { return };
-    let own = read(&data("synthetic/clean_multirate").unwrap().join("rig.toml")).unwrap();
+    let loaded = load("synthetic/clean_multirate", "run.csv", &SITE);
+    let own = read(&outside_data("synthetic/clean_multirate").join("rig.toml")).unwrap();
     assert_eq!(loaded.recording, own.recording);
 }

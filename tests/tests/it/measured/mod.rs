@@ -3,8 +3,10 @@
 //! Expected figures were counted in the files with awk, or are those of the project that measured
 //! them; none is what `rins` said. The rigs are in `tests/rigs`, with how their figures were found.
 
+mod drafts;
+mod logs;
+
 use std::fs;
-use std::path::PathBuf;
 
 use rins_testing::assert_close;
 use rins_tests::{outside_data, workspace};
@@ -13,15 +15,15 @@ use tempfile::TempDir;
 
 use crate::support::{list, magnitude, number, numbers, parameter, result_in, rins_in, texts};
 
-/// A folder with a rig of `tests/rigs` in it that leads to the measured log, where that is at hand.
-fn rig(name: &str) -> Option<TempDir> {
-    outside_data(&format!("real/{name}")).filter(|log| log.is_dir())?;
-    let data = PathBuf::from(std::env::var_os("RINS_DATA")?).canonicalize().unwrap();
+/// A folder with a rig of `tests/rigs` in it that leads to the measured log.
+fn rig(name: &str) -> TempDir {
+    outside_data(&format!("real/{name}"));
+    let data = outside_data("").canonicalize().unwrap();
     let rig = fs::read_to_string(workspace().join(format!("tests/rigs/{name}.toml"))).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let rig = rig.replace("RINS_DATA", &data.display().to_string());
     fs::write(folder.path().join("rig.toml"), rig).unwrap();
-    Some(folder)
+    folder
 }
 
 fn checked(folder: &TempDir) -> Value {
@@ -34,8 +36,9 @@ fn is_odd(check: &Value, words: &str) -> bool {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn laser_gyro_is_at_rest_and_sees_the_earth_turn() {
-    let Some(folder) = rig("psins_lasergyro") else { return };
+    let folder = rig("psins_lasergyro");
     let check = checked(&folder);
     assert_eq!(check["samples"], 184718);
     assert_close!(number(&check, "/rate_hz"), 100.0, 1e-6);
@@ -53,8 +56,9 @@ fn laser_gyro_is_at_rest_and_sees_the_earth_turn() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn laser_gyro_finds_its_latitude_and_north() {
-    let Some(folder) = rig("psins_lasergyro") else { return };
+    let folder = rig("psins_lasergyro");
     let align = result_in(folder.path(), "align rig.toml");
     let latitude_sigma = number(&align, "/seen/latitude_sigma_deg");
     let rate_sigma = number(&align, "/seen/earth_rate_sigma_deg_h");
@@ -73,8 +77,9 @@ fn laser_gyro_finds_its_latitude_and_north() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn laser_gyro_navigates_within_a_mile() {
-    let Some(folder) = rig("psins_lasergyro") else { return };
+    let folder = rig("psins_lasergyro");
     let navigate = result_in(folder.path(), "navigate rig.toml");
     assert_close!(number(&navigate, "/duration_s"), 1847.18, 1e-6);
     let runs = list(&navigate, "/runs");
@@ -97,8 +102,9 @@ fn laser_gyro_navigates_within_a_mile() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn wheel_has_gaps_and_no_rest() {
-    let Some(folder) = rig("worklab_wheel_right") else { return };
+    let folder = rig("worklab_wheel_right");
     let check = checked(&folder);
     // 14039 lines of which 31 repeat the one before them.
     assert_eq!(check["samples"], 14008);
@@ -131,8 +137,9 @@ fn wheel_has_gaps_and_no_rest() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
-    let Some(folder) = rig("imucal_nilspod") else { return };
+    let folder = rig("imucal_nilspod");
     let check = checked(&folder);
     assert_eq!(check["samples"], 10376);
     assert_close!(number(&check, "/rate_hz"), 102.4, 1e-6);
@@ -158,8 +165,9 @@ fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
 
 /// What its columns hold; its rests are another test.
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn xsens_is_read_from_two_files_of_counts() {
-    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let folder = rig("imu_tk_xsens");
     let check = checked(&folder);
     assert_eq!(check["samples"], 51175);
     assert_close!(number(&check, "/rate_hz"), 100.0, 0.1);
@@ -169,8 +177,9 @@ fn xsens_is_read_from_two_files_of_counts() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn xsens_rests_38_times_and_reads_gravity_each_time() {
-    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let folder = rig("imu_tk_xsens");
     let check = checked(&folder);
     let rests = list(&check, "/rests");
     assert!((36..=40).contains(&rests.len()), "{} rests", rests.len());
@@ -186,8 +195,9 @@ fn xsens_rests_38_times_and_reads_gravity_each_time() {
 
 /// Of the model's errors only: the chair moves, and more than its sigmas may be off.
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
-    let Some(folder) = rig("worklab_wheel_right") else { return };
+    let folder = rig("worklab_wheel_right");
     let result = result_in(folder.path(), "calibrate rig.toml");
     assert_eq!(
         (&result["model"], &result["runs"][0]["reference"]),
@@ -212,8 +222,9 @@ fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
 
 /// The vehicle that it stands in rocks by hundreds of seconds of arc: that is not the gyros' noise.
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn laser_gyro_is_quiet_on_a_base_that_sways() {
-    let Some(folder) = rig("psins_lasergyro") else { return };
+    let folder = rig("psins_lasergyro");
     let result = result_in(folder.path(), "calibrate rig.toml");
     assert_eq!(result["runs"][0]["reference"], "rest");
     let white = number(&result, "/noise/gyro/white_deg_h_sqrt_hz");
@@ -242,10 +253,11 @@ fn laser_gyro_is_quiet_on_a_base_that_sways() {
 /// Against nine parameters that were fitted to the means over 38 rests by a program of its own: least squares of the
 /// magnitude of gravity, 0.98 mm/s² left, with misalignments that are alike across the diagonal.
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
     /// How many of the larger sigma the two may be apart: their data are the same, their rests and weights not quite.
     const APART: f64 = 1.0;
-    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let folder = rig("imu_tk_xsens");
     let result = result_in(folder.path(), "calibrate rig.toml");
     assert_eq!(result["runs"][0]["reference"], "rest");
     assert_eq!(result["runs"][0]["rests"], 38);
@@ -272,8 +284,9 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn xsens_names_what_its_rests_do_not_show() {
-    let Some(folder) = rig("imu_tk_xsens") else { return };
+    let folder = rig("imu_tk_xsens");
     let result = result_in(folder.path(), "calibrate rig.toml");
     let hidden = texts(&result, "/identifiability/not_shown");
     for axis in ["x", "y", "z"] {
@@ -291,8 +304,9 @@ fn xsens_names_what_its_rests_do_not_show() {
 
 /// What comes back with every turn of the wheel is a rate that stands still beside it: the chair turns, by some 3 deg/s.
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn chair_that_turns_under_the_wheel_is_named() {
-    let Some(folder) = rig("worklab_wheel_right") else { return };
+    let folder = rig("worklab_wheel_right");
     let result = result_in(folder.path(), "diagnose rig.toml");
     let causes = list(&result, "/causes");
     let chair = causes.iter().find(|cause| cause["effect"] == "base_rotation");
@@ -307,8 +321,9 @@ fn chair_that_turns_under_the_wheel_is_named() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn laser_gyro_shows_its_noise_beyond_its_dither() {
-    let Some(folder) = rig("psins_lasergyro") else { return };
+    let folder = rig("psins_lasergyro");
     let allan = result_in(folder.path(), "allan rig.toml");
     let channels = list(&allan, "/channels");
     let names: Vec<&str> = channels.iter().filter_map(|one| one["channel"].as_str()).collect();

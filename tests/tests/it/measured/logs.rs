@@ -1,24 +1,13 @@
-//! Logs that others have measured, where they are at hand: `RINS_DATA` says in which folder.
+//! Logs that others have measured, as they are read.
 //!
 //! Expected values were taken from the files with awk, not with the code under test.
-
-use std::path::PathBuf;
 
 use nalgebra::Vector3;
 use rins_frames::EARTH_RATE;
 use rins_frames::units::{DEG, STANDARD_GRAVITY};
 use rins_io::{Loaded, LogPolicy, Rig, read, read_log};
 use rins_testing::assert_close;
-
-/// The folder with the data; `None`, and a word of it, where there is none.
-pub(crate) fn data(name: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("RINS_DATA").map(|data| PathBuf::from(data).join(name));
-    let folder = folder.filter(|folder| folder.is_dir());
-    if folder.is_none() {
-        println!("skipped: RINS_DATA does not lead to {name}");
-    }
-    folder
-}
+use rins_tests::outside_data;
 
 fn load(folder: &std::path::Path, rig: &str) -> Loaded {
     let rig = Rig::parse(rig, &folder.join("rig.toml")).unwrap();
@@ -28,8 +17,9 @@ fn load(folder: &std::path::Path, rig: &str) -> Loaded {
 const SITE: &str = "[site]\nlatitude = \"50 deg\"\nlongitude = \"10 deg\"\nheight = \"100 m\"\n";
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn synthetic_runs_are_read() {
-    let Some(folder) = data("synthetic/clean_multirate") else { return };
+    let folder = outside_data("synthetic/clean_multirate");
     let loaded = read(&folder.join("rig.toml")).unwrap();
     assert_eq!(loaded.recording.len(), 40500);
     assert!(loaded.summary.gaps.is_empty() && loaded.rig.imu.is_some());
@@ -40,8 +30,9 @@ fn synthetic_runs_are_read() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn a_laser_gyro_at_rest_sees_the_earth_turn() {
-    let Some(folder) = data("real/psins_lasergyro") else { return };
+    let folder = outside_data("real/psins_lasergyro");
     let loaded = load(&folder, "[log]\npath = \"lasergyro.imu\"\nformat = \"psins\"\n");
     assert_eq!(loaded.recording.len(), 184718);
     assert_close!(loaded.station.site.latitude, 34.246048 * DEG, 1e-15);
@@ -55,8 +46,9 @@ fn a_laser_gyro_at_rest_sees_the_earth_turn() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn a_wheelchairs_wheel_has_gaps_repeats_and_a_slow_thermometer() {
-    let Some(folder) = data("real/worklab_wheel_right") else { return };
+    let folder = outside_data("real/worklab_wheel_right");
     let rig = format!(
         "{SITE}[log]\npath = \"sensors.csv\"\ntime = {{ column = \"Time (s)\", unit = \"s\" }}\n\
          gyro = {{ columns = [\"Gyroscope X (deg/s)\", \"Gyroscope Y (deg/s)\", \
@@ -83,8 +75,9 @@ fn a_wheelchairs_wheel_has_gaps_repeats_and_a_slow_thermometer() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn a_sample_counter_stands_in_for_time() {
-    let Some(folder) = data("real/imucal_nilspod") else { return };
+    let folder = outside_data("real/imucal_nilspod");
     let rig = format!(
         "{SITE}[log]\npath = \"example_ferraris_session.csv\"\nrate = \"102.4 Hz\"\n\
          time = {{ column = \"n_samples\", unit = \"sample\" }}\n\
@@ -98,8 +91,9 @@ fn a_sample_counter_stands_in_for_time() {
 }
 
 #[test]
+#[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn raw_counts_in_two_files_are_joined() {
-    let Some(folder) = data("real/imu_tk_xsens") else { return };
+    let folder = outside_data("real/imu_tk_xsens");
     let columns = "columns = [\"2\", \"3\", \"4\"], offset = 32768";
     let rig = format!(
         "{SITE}[log]\nformat = \"csv\"\nrate = \"100 Hz\"\ntime = {{ column = \"1\", unit = \"s\" }}\n\
