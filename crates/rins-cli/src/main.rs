@@ -12,10 +12,8 @@ use rins_io::one_line;
 mod args;
 mod commands;
 mod interrupt;
-mod number;
 mod outcome;
 mod progress;
-mod report;
 mod view;
 
 fn main() -> ExitCode {

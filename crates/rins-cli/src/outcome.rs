@@ -7,8 +7,8 @@ use rins_io::{IoError, Loaded, Overwrite, write_file, write_folder};
 use serde_json::Value;
 
 use crate::commands::repairs::repairs;
-use crate::report::{Report, render};
 use rins_io::shown;
+use rins_report::{Report, render};
 
 /// Writes further files into the folder that it is given.
 pub(crate) type Fill = Box<dyn Fn(&Path) -> Result<(), IoError>>;

@@ -9,7 +9,7 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 
 /// The crates in layers, bottom first: a crate uses those of the layers below its own.
 const LAYERS: &[&[&str]] = &[
-    &["rins-frames", "rins-ekf", "rins-lanes", "rins-blind"],
+    &["rins-frames", "rins-ekf", "rins-lanes", "rins-report", "rins-blind"],
     &["rins-imu", "rins-motion"],
     &["rins-terms", "rins-inspection"],
     &["rins-simulation", "rins-calibration"],
@@ -27,8 +27,8 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("anyhow", &["rins-cli"]),
     ("clap", &["rins-cli"]),
     ("csv", &["rins-io", "rins-cli"]),
-    ("serde", &["rins-io", "rins-cli", "rins-trials"]),
-    ("serde_json", &["rins-io", "rins-cli", "rins-trials"]),
+    ("serde", &["rins-io", "rins-report", "rins-cli", "rins-trials"]),
+    ("serde_json", &["rins-io", "rins-report", "rins-cli", "rins-trials"]),
     ("toml", &["rins-io", "rins-cli"]),
 ];
 

@@ -10,7 +10,7 @@ use crate::Result;
 const MAX_LINES: usize = 400;
 
 /// Other people's files, and those that a fuzzer begins with, kept as they came.
-const VENDORED: &[&str] = &["crates/rins-cli/assets", "docs/katex", "fuzz/corpus"];
+const VENDORED: &[&str] = &["crates/rins-report/assets", "docs/katex", "fuzz/corpus"];
 
 /// Names that say nothing of what is inside.
 const EMPTY_NAMES: &[&str] = &["utils", "util", "common", "helpers", "misc"];

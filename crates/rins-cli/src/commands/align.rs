@@ -22,10 +22,10 @@ use crate::commands::statics::{
     longest, none_found, only, static_intervals, statics_in_words, statics_json,
 };
 use crate::outcome::Outcome;
-use crate::report::{Cell, Column, Item, Report, Section, Table};
 use crate::view::euler_json;
 use crate::view::table::aligned;
 use rins_io::shown;
+use rins_report::{Cell, Column, Item, Report, Section, Table};
 
 /// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
 pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;

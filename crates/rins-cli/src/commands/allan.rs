@@ -23,10 +23,10 @@ use crate::commands::setup::load;
 use crate::commands::statics::{
     longest, none_found, static_intervals, statics_in_words, statics_json,
 };
-use crate::number::figure;
 use crate::outcome::Outcome;
 use crate::view::{allan_report, allan_text};
 use rins_io::shown;
+use rins_report::number::figure;
 
 /// The shortest rest whose noise is looked at \[s\].
 const SHORTEST_REST: f64 = 10.0;

@@ -31,11 +31,11 @@ use crate::commands::align::table;
 use crate::commands::repairs::repairs;
 use crate::commands::setup::load;
 use crate::commands::statics::{static_intervals, statics_in_words, statics_json};
-use crate::number::figure;
 use crate::outcome::Outcome;
-use crate::report::{Item, Report, Section, Tone};
 use crate::view::table::aligned;
 use rins_io::shown;
+use rins_report::number::figure;
+use rins_report::{Item, Report, Section, Tone};
 
 /// How many gaps and rests are listed one by one.
 const LISTED: usize = 12;

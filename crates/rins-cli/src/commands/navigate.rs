@@ -20,10 +20,10 @@ use crate::commands::check::refuse_mistaken;
 use crate::commands::range::{Beyond, beyond};
 use crate::commands::setup::load;
 use crate::outcome::Outcome;
-use crate::report::{Item, Report, Section};
 use crate::view::table::aligned;
 use crate::view::{attitude_plot, position_plot, velocity_plot};
 use rins_io::shown;
+use rins_report::{Item, Report, Section};
 
 pub(crate) fn run(arguments: &Navigate) -> anyhow::Result<Outcome> {
     let rig = &arguments.input.rig;

@@ -6,8 +6,8 @@ use rins_motion::Recording;
 use rins_terms::{Chosen, Model, Need, Role};
 use serde_json::{Value, json};
 
-use crate::number::figure;
 use rins_io::shown;
+use rins_report::number::figure;
 
 /// A rate is the mean over this time \[s\], so that noise does not widen what was covered.
 const MEAN_OVER: f64 = 1.0;

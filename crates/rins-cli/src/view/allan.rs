@@ -6,9 +6,9 @@ use rins_imu::{CONFIDENCE, NoiseLaw, Strength, Triad};
 
 use crate::commands::align::table;
 use crate::commands::allan::{Channel, Rest, term};
-use crate::number::{estimate, figure};
-use crate::report::{Band, Item, Plot, Report, Scale, Section, Series, Style};
 use crate::view::table::aligned;
+use rins_report::number::{estimate, figure};
+use rins_report::{Band, Item, Plot, Report, Scale, Section, Series, Style};
 
 /// The noise for a terminal.
 pub(crate) fn allan_text(rest: &Rest, title: &str) -> String {

@@ -8,13 +8,13 @@ use rins_calibration::{
 };
 use rins_frames::units::{ARCSEC, DEG};
 
-use crate::report::{
-    Band, Cell, Column, Item, Matrix, Plot, Report, Scale, Section, Series, Style, Table, Tone,
-};
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::table::aligned;
 use crate::view::told::{OBSERVABLE, Summand, only_in, sum_in_words};
+use rins_report::{
+    Band, Cell, Column, Item, Matrix, Plot, Report, Scale, Section, Series, Style, Table, Tone,
+};
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
 pub(crate) const SYSTEMATIC_NOTE: &str = "Zero velocity also sees accelerometer biases, which this \

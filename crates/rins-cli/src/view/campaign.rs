@@ -11,10 +11,8 @@ use serde_json::{Value, json};
 
 use crate::commands::campaign_runs::{Run, UNITS};
 use crate::outcome::Outcome;
-use crate::report::{
-    Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render,
-};
 use rins_io::shown;
+use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render};
 
 /// The most runs that a plot shows of each scenario, and of all of them.
 const SHOWN: [usize; 2] = [2000, 50_000];
@@ -266,7 +264,7 @@ fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
         }
     }
     let x_label = "Scenario, in the order of the table, from 0";
-    let reference = |value: f64, name: &str| crate::report::Reference { name: name.into(), value };
+    let reference = |value: f64, name: &str| rins_report::Reference { name: name.into(), value };
     Section {
         heading: id.into(),
         intro: "Where covariances are honest, one run in 20 lies beyond ±1.96.".into(),

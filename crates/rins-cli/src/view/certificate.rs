@@ -8,14 +8,14 @@ use rins_frames::units::DEG;
 use rins_terms::Unit;
 
 use crate::commands::calibrate::{Certificate, CertifiedRun};
-use crate::number::figure;
-use crate::report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
 use crate::view::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::view::navigation::{gain_sentence, navigation_section};
 use crate::view::noise::{noise_section, noise_sentence};
 use crate::view::table::aligned;
 use crate::view::told::{badge, gauge_sentences, name, observability, rank_sentence};
 use crate::view::worth::{budget_section, compensation_section};
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
 
 /// What the rows of an innovation are.
 const CHANNELS: [&str; MEASUREMENTS] = [
@@ -81,7 +81,7 @@ pub(crate) fn quantity(certificate: &Certificate, of: Quantity) -> (String, Unit
 pub(crate) fn departure_in_words(certificate: &Certificate, departure: &Departure) -> String {
     let (id, unit) = quantity(certificate, departure.of);
     let figures = [departure.value, departure.expected, departure.sigma]
-        .map(|figure| crate::number::figure(figure / unit.factor, 4));
+        .map(|figure| rins_report::number::figure(figure / unit.factor, 4));
     let [value, expected, sigma] = figures;
     let aliases = match departure.of {
         Quantity::Parameter(place) => !certificate.told.seen[place].aliases.is_empty(),

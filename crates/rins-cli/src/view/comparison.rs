@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use crate::commands::compare::{Comparison, Moved};
-use crate::number::figure;
-use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
 use crate::view::consistency::probability;
 use crate::view::table::aligned;
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Report, Section, Table, Tone};
 
 /// A parameter that is off by more sigmas of the difference has moved.
 const MOVED: f64 = 3.0;

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 use rins_calibration::{Consistency, MEASUREMENTS, Verdict};
 
-use crate::report::{Cell, Column, Item, Plot, Reference, Section, Series, Style, Table, Tone};
+use rins_report::{Cell, Column, Item, Plot, Reference, Section, Series, Style, Table, Tone};
 
 /// A p-value as a person reads it.
 pub(crate) fn probability(p: f64) -> String {

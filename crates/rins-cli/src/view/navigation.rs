@@ -3,7 +3,7 @@
 use rins_calibration::{FreeNavigation, NavigationPoint};
 use rins_frames::units::DEG;
 
-use crate::report::{Cell, Column, Item, Plot, Section, Series, Style, Table};
+use rins_report::{Cell, Column, Item, Plot, Section, Series, Style, Table};
 
 /// A change of the velocity error by less than this factor is none.
 const LEAST_GAIN: f64 = 1.5;

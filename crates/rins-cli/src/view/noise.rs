@@ -5,8 +5,8 @@ use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::Certificate;
-use crate::number::figure;
-use crate::report::{Cell, Column, Item, Section, Table};
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Section, Table};
 
 /// The noise in a sentence.
 pub(super) fn noise_sentence(certificate: &Certificate) -> String {

@@ -4,8 +4,8 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_terms::{Model, Term, Unit};
 
 use crate::commands::calibrate::{Budget, EQUATION, STEPS, of_run_alone};
-use crate::number::{estimate, figure};
-use crate::report::{Cell, Column, Item, Section, Table};
+use rins_report::number::{estimate, figure};
+use rins_report::{Cell, Column, Item, Section, Table};
 
 /// The settings of a term, such as "order = 2"; one that was `sought` has a sigma.
 pub(crate) fn settings_in_words(

@@ -1,10 +1,5 @@
 //! The report page in a real browser, with the network cut.
 
-#[path = "../../src/number.rs"]
-mod number;
-#[path = "../../src/report/mod.rs"]
-mod report;
-
 #[cfg(test)] // so that its helpers count as tests
 mod chromium;
 mod sample;
@@ -17,7 +12,7 @@ use chromium::{CURVE, Scheme, assert_sound, open};
 #[test]
 #[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn every_plot_is_drawn_whatever_the_names_in_it() {
-    let page = report::render(&sample::report());
+    let page = rins_report::render(&sample::report());
     let visit = open(&page, 1280, Scheme::Light);
     // The plot of one sample has one dot.
     assert_sound(&visit, &page, 5);
@@ -31,7 +26,7 @@ fn every_plot_is_drawn_whatever_the_names_in_it() {
 #[test]
 #[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn plots_of_one_section_and_abscissa_share_cursor_and_zoom() {
-    let page = report::render(&sample::report());
+    let page = rins_report::render(&sample::report());
     let visit = open(&page, 1280, Scheme::Light);
     let probe = &visit.probe;
     assert_eq!(probe["reading"], 4, "plots whose legend reads the cursor: {probe}");
@@ -44,7 +39,7 @@ fn plots_of_one_section_and_abscissa_share_cursor_and_zoom() {
 #[test]
 #[ignore = "needs Chromium: cargo test --workspace --test browser -- --ignored"]
 fn a_phone_in_the_dark_shows_the_same() {
-    let page = report::render(&sample::report());
+    let page = rins_report::render(&sample::report());
     let visit = open(&page, 400, Scheme::Dark);
     assert_sound(&visit, &page, 5);
     assert_eq!(visit.probe["width"], 400);

@@ -1,6 +1,6 @@
 //! A report with everything in it that a report can hold, and names that try to break out of it.
 
-use crate::report::{
+use rins_report::{
     Band, Cell, Column, Item, Matrix, Plot, Reference, Report, Scale, Section, Series, Style,
     Table, Tone,
 };

@@ -11,7 +11,7 @@ use rins_terms::{Chosen, Model, Role, catalogue};
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::{NamedModel, Prepared};
 use crate::commands::range::ensure_temperature;
-use crate::number::figure;
+use rins_report::number::figure;
 
 /// What is estimated, from what, and what is known beforehand.
 pub(crate) struct Case {

@@ -5,7 +5,7 @@ use rins_frames::units::DEG;
 use rins_inspection::Inspection;
 use rins_io::Loaded;
 
-use crate::report::{Item, Plot, Series, Style};
+use rins_report::{Item, Plot, Series, Style};
 
 /// A plot of each kind of reading that a run has.
 pub(super) fn readings(inspection: &Inspection, loaded: &Loaded) -> Vec<Item> {

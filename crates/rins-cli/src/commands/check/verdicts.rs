@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 
 use super::{gaps, longest, step_in_words, suspicion_in_words};
 use crate::commands::align::BEYOND_THE_SHEET;
-use crate::number::{estimate, figure};
-use crate::report::Tone;
+use rins_report::Tone;
+use rins_report::number::{estimate, figure};
 
 /// Time stamps that jitter by more than this share of an interval are odd.
 const ODD_JITTER: f64 = 0.02;

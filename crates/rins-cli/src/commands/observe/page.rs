@@ -2,8 +2,8 @@
 
 use super::words::{comparison, pair_sentences, proposal_sentences, row};
 use super::{Found, Observed};
-use crate::report::{Cell, Column, Item, Report, Section, Table, Tone};
 use crate::view::told::{badge, gauge_sentences, list, rank_sentence};
+use rins_report::{Cell, Column, Item, Report, Section, Table, Tone};
 
 pub(super) fn report(found: &Found) -> Report {
     let names: Vec<String> =

@@ -7,9 +7,9 @@ use rins_frames::units::DEG;
 
 use super::proposal::ENOUGH;
 use super::{Found, Observed, Pair};
-use crate::number::figure;
 use crate::view::table::aligned;
 use crate::view::told::{gauge_sentences, meaning, name, rank_sentence};
+use rins_report::number::figure;
 
 /// A number to three digits.
 fn short(value: f64) -> String {

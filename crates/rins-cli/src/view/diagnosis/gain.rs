@@ -4,8 +4,8 @@ use rins_diagnosis::{Drift, Gain, GainVerdict};
 use rins_frames::units::DEG;
 
 use crate::commands::diagnose::{Measured, On};
-use crate::number::figure;
-use crate::report::{Cell, Column, Item, Section, Table, Tone};
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Section, Table, Tone};
 
 /// By which factor a drift has to grow for it to be said: it scatters, being that of a few windows.
 const FURTHER: f64 = 1.5;

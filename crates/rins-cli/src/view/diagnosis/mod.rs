@@ -12,9 +12,9 @@ pub(crate) use self::report::diagnosis_report;
 pub(crate) use self::structure::{size_in_words, structure_in_words};
 use self::words::{next_steps, probability, summary};
 use crate::commands::diagnose::{Found, Named};
-use crate::number::estimate;
 use crate::view::settings_in_words;
 use crate::view::table::aligned;
+use rins_report::number::estimate;
 
 /// The summary for a terminal: what was found in plain words, then the figures.
 pub(crate) fn diagnosis_text(found: &Found) -> String {

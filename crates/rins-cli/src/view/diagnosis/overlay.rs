@@ -6,7 +6,7 @@ use rins_diagnosis::Overlay;
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G};
 
 use crate::commands::diagnose::Found;
-use crate::report::{Item, Plot, Section, Series, Style};
+use rins_report::{Item, Plot, Section, Series, Style};
 
 /// The channels, and the unit in which each is shown.
 const CHANNELS: [(&str, &str, f64); 6] = [

@@ -7,9 +7,9 @@ use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
 use super::words::{next_steps, probability, rivals, summary};
 use crate::commands::diagnose::{Found, Named};
-use crate::number::figure;
-use crate::report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
 use crate::view::settings_in_words;
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
 
 /// The report page.
 pub(crate) fn diagnosis_report(found: &Found) -> Report {

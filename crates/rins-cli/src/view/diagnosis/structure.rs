@@ -2,7 +2,7 @@
 
 use rins_diagnosis::{Along, Structure, Unexplained};
 
-use crate::number::figure;
+use rins_report::number::figure;
 
 /// An order so near to a whole one is that one: a run of a hundred turns tells no finer.
 const NEARLY: f64 = 5e-3;

@@ -6,8 +6,8 @@ use rins_terms::catalogue;
 use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
 use crate::commands::diagnose::{ByChance, Found, Named, Verdict};
-use crate::number::{estimate, figure};
 use crate::view::{settings_in_words, symbol};
+use rins_report::number::{estimate, figure};
 
 /// How many of the estimates that moved are told in words.
 const SHIFTS_TOLD: usize = 3;

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use rins_estimation::{Alias, Gauge, Identifiability, Shown};
 
 pub(crate) use self::json::{identifiability_json, parameter_json};
-use crate::number::figure;
-use crate::report::{Cell, Tone};
+use rins_report::number::figure;
+use rins_report::{Cell, Tone};
 
 /// How many of those that are unobservable are named in a sentence.
 const MOST_NAMED: usize = 12;

@@ -1,7 +1,7 @@
 //! What reaches the page's script.
 
 use super::*;
-use crate::report::{Band, Reference, Series};
+use crate::{Band, Reference, Series};
 use serde_json::Value;
 
 fn series(name: &str, x: Vec<f64>, y: Vec<f64>) -> Series {

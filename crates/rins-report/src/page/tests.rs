@@ -1,7 +1,7 @@
 //! What a page promises, whatever it is given.
 
 use super::*;
-use crate::report::{Band, Cell, Column, Matrix, Reference, Series, Style, Table};
+use crate::{Band, Cell, Column, Matrix, Reference, Series, Style, Table};
 
 /// Tries to leave an element, an attribute, a script and a style.
 const HOSTILE: &str = "\"'><script>alert(1)</script><img src=http://evil.test/x onerror=alert(1)>\

@@ -4,7 +4,7 @@
 const NONE: &str = "–";
 
 /// A number to so many digits, with a power of ten where it is very small or large.
-pub(crate) fn figure(value: f64, digits: usize) -> String {
+pub fn figure(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return unusual(value);
     }
@@ -23,7 +23,7 @@ pub(crate) fn figure(value: f64, digits: usize) -> String {
 }
 
 /// The number with that many decimals, and a real minus sign, or with a power of ten where they would make zero of it.
-pub(crate) fn fixed(value: f64, decimals: usize) -> String {
+pub fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return unusual(value);
     }
@@ -37,7 +37,7 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
 /// A value and its standard deviation, both to the second digit of the standard deviation, with a real minus sign.
 ///
 /// Without a usable standard deviation the value has six digits.
-pub(crate) fn estimate(value: f64, sigma: f64) -> (String, String) {
+pub fn estimate(value: f64, sigma: f64) -> (String, String) {
     if !value.is_finite() {
         return (unusual(value), unusual_or(sigma, |sigma| format!("{sigma:.1e}")));
     }

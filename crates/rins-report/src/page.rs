@@ -6,11 +6,11 @@ use super::escape::{each, html, json_in_script};
 use super::plot::{Plot, Scale};
 use super::table::{class, matrix, table};
 
-const STYLE: &str = include_str!("../../assets/report.css");
-const SCRIPT: &str = include_str!("../../assets/report.js");
-const UPLOT: &str = include_str!("../../assets/uplot-1.6.32.min.js");
-const UPLOT_STYLE: &str = include_str!("../../assets/uplot-1.6.32.min.css");
-const UPLOT_LICENSE: &str = include_str!("../../assets/uplot-LICENSE");
+const STYLE: &str = include_str!("../assets/report.css");
+const SCRIPT: &str = include_str!("../assets/report.js");
+const UPLOT: &str = include_str!("../assets/uplot-1.6.32.min.js");
+const UPLOT_STYLE: &str = include_str!("../assets/uplot-1.6.32.min.css");
+const UPLOT_LICENSE: &str = include_str!("../assets/uplot-LICENSE");
 
 /// Nothing is loaded; the page's own style, script and data suffice.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
@@ -26,7 +26,7 @@ const DATA_SIZE: usize = 2_500_000;
 const FEW_PLOTS: usize = 3;
 
 /// The report as one HTML file.
-pub(crate) fn render(report: &Report) -> String {
+pub fn render(report: &Report) -> String {
     let mut figures = figures(report).into_iter();
     let sections = each(report.sections.iter().enumerate(), |(place, content)| {
         section(place, content, &mut figures)

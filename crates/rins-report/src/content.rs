@@ -4,33 +4,33 @@ use super::plot::Plot;
 
 /// A page, in the order in which it is read.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Report {
+pub struct Report {
     /// What was done to what, such as "Calibration of run 7".
-    pub(crate) title: String,
+    pub title: String,
     /// The command, its model and its input files, in a line.
-    pub(crate) subtitle: String,
+    pub subtitle: String,
     /// The result in plain words: the first sentence stands out, the others are listed below it.
-    pub(crate) summary: Vec<String>,
+    pub summary: Vec<String>,
     /// The evidence.
-    pub(crate) sections: Vec<Section>,
+    pub sections: Vec<Section>,
 }
 
 /// One question and what answers it.
 ///
 /// Plots that follow each other share a row of the page; those with the same abscissa label share a cursor and a zoom.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Section {
+pub struct Section {
     /// The heading, also listed at the top of the page.
-    pub(crate) heading: String,
+    pub heading: String,
     /// What the reader should look for; may be empty.
-    pub(crate) intro: String,
+    pub intro: String,
     /// The contents, in reading order.
-    pub(crate) items: Vec<Item>,
+    pub items: Vec<Item>,
 }
 
 /// A piece of a section.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Item {
+pub enum Item {
     /// A paragraph.
     Text(String),
     /// A remark set apart, with its weight.
@@ -45,7 +45,7 @@ pub(crate) enum Item {
 
 /// How good the news is; the page adds a word to it, never colour alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Tone {
+pub enum Tone {
     /// A fact.
     Neutral,
     /// As it should be.
@@ -58,27 +58,27 @@ pub(crate) enum Tone {
 
 /// A table with a heading over each column.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Table {
+pub struct Table {
     /// What the rows are.
-    pub(crate) caption: String,
+    pub caption: String,
     /// The columns, left to right.
-    pub(crate) columns: Vec<Column>,
+    pub columns: Vec<Column>,
     /// The rows; a row that is too short ends in empty cells.
-    pub(crate) rows: Vec<Vec<Cell>>,
+    pub rows: Vec<Vec<Cell>>,
 }
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Column {
+pub struct Column {
     /// The heading, with the unit of the column if it has one.
-    pub(crate) heading: String,
+    pub heading: String,
     /// What stands in it.
-    pub(crate) kind: Kind,
+    pub kind: Kind,
 }
 
 /// How a column is set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// Words, at the left.
     Text,
     /// Numbers, at the right, with digits of equal width.
@@ -89,24 +89,24 @@ pub(crate) enum Kind {
 
 impl Column {
     /// A column of words.
-    pub(crate) fn text(heading: impl Into<String>) -> Self {
+    pub fn text(heading: impl Into<String>) -> Self {
         Self { heading: heading.into(), kind: Kind::Text }
     }
 
     /// A column of numbers.
-    pub(crate) fn number(heading: impl Into<String>) -> Self {
+    pub fn number(heading: impl Into<String>) -> Self {
         Self { heading: heading.into(), kind: Kind::Number }
     }
 
     /// A column of parameter ids or file names.
-    pub(crate) fn id(heading: impl Into<String>) -> Self {
+    pub fn id(heading: impl Into<String>) -> Self {
         Self { heading: heading.into(), kind: Kind::Id }
     }
 }
 
 /// A cell of a table.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Cell {
+pub enum Cell {
     /// Nothing to say.
     Empty,
     /// Words.
@@ -138,23 +138,23 @@ pub(crate) enum Cell {
 
 impl Cell {
     /// A cell of words.
-    pub(crate) fn text(text: impl Into<String>) -> Self {
+    pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
 
     /// A badge.
-    pub(crate) fn badge(tone: Tone, text: impl Into<String>) -> Self {
+    pub fn badge(tone: Tone, text: impl Into<String>) -> Self {
         Self::Badge(tone, text.into())
     }
 }
 
 /// A square matrix of coefficients between −1 and 1, such as correlations, shaded by their size.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Matrix {
+pub struct Matrix {
     /// What the coefficients are.
-    pub(crate) caption: String,
+    pub caption: String,
     /// The names of rows and columns.
-    pub(crate) labels: Vec<String>,
+    pub labels: Vec<String>,
     /// The rows of the matrix.
-    pub(crate) values: Vec<Vec<f64>>,
+    pub values: Vec<Vec<f64>>,
 }

@@ -6,30 +6,30 @@
 /// An ordinate that is not finite, or not positive on a logarithmic scale, is a gap.
 /// Of an abscissa and an ordinate of different lengths the common beginning is drawn.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Plot {
+pub struct Plot {
     /// What is shown.
-    pub(crate) title: String,
+    pub title: String,
     /// The abscissa with its unit in brackets, such as "Time \[s\]".
-    pub(crate) x_label: String,
+    pub x_label: String,
     /// The ordinate with its unit in brackets.
-    pub(crate) y_label: String,
+    pub y_label: String,
     /// How the abscissa is divided.
-    pub(crate) x_scale: Scale,
+    pub x_scale: Scale,
     /// How the ordinate is divided.
-    pub(crate) y_scale: Scale,
+    pub y_scale: Scale,
     /// The curves, the last one on top.
-    pub(crate) series: Vec<Series>,
+    pub series: Vec<Series>,
     /// Shaded regions behind the curves, such as ±3σ.
-    pub(crate) bands: Vec<Band>,
+    pub bands: Vec<Band>,
     /// Horizontal lines with a name; always in view until the reader zooms.
-    pub(crate) references: Vec<Reference>,
+    pub references: Vec<Reference>,
     /// What to see in it; may be empty.
-    pub(crate) caption: String,
+    pub caption: String,
 }
 
 /// How an axis is divided.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) enum Scale {
+pub enum Scale {
     /// Equal steps are equal differences.
     #[default]
     Linear,
@@ -39,20 +39,20 @@ pub(crate) enum Scale {
 
 /// A curve.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Series {
+pub struct Series {
     /// Its name in the legend.
-    pub(crate) name: String,
+    pub name: String,
     /// Abscissae, ascending, in the unit of the plot's label.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// Ordinates, in the unit of the plot's label.
-    pub(crate) y: Vec<f64>,
+    pub y: Vec<f64>,
     /// How it is drawn.
-    pub(crate) style: Style,
+    pub style: Style,
 }
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) enum Style {
+pub enum Style {
     /// Samples joined by a line.
     #[default]
     Line,
@@ -66,22 +66,22 @@ pub(crate) enum Style {
 
 /// The region between two curves.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Band {
+pub struct Band {
     /// Its name in the legend, such as "±3σ".
-    pub(crate) name: String,
+    pub name: String,
     /// Abscissae, ascending, in the unit of the plot's label.
-    pub(crate) x: Vec<f64>,
+    pub x: Vec<f64>,
     /// The lower edge, in the unit of the plot's label.
-    pub(crate) lower: Vec<f64>,
+    pub lower: Vec<f64>,
     /// The upper edge, in the unit of the plot's label.
-    pub(crate) upper: Vec<f64>,
+    pub upper: Vec<f64>,
 }
 
 /// A horizontal line.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Reference {
+pub struct Reference {
     /// Its name, written on the line.
-    pub(crate) name: String,
+    pub name: String,
     /// Where it lies, in the unit of the ordinate.
-    pub(crate) value: f64,
+    pub value: f64,
 }
