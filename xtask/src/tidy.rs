@@ -7,11 +7,16 @@ use std::process::Command;
 use crate::Result;
 
 mod crates;
+mod cycles;
 mod references;
 mod text;
 
 #[cfg(test)]
 mod tests;
+
+/// The crates in which files still import each other in circles: none may join them.
+const IN_CIRCLES: &[&str] =
+    &["rins-blind", "rins-cli", "rins-diagnosis", "rins-estimation", "rins-io"];
 
 /// One breach of a rule.
 #[derive(Debug)]
@@ -47,6 +52,7 @@ fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     let mut findings = text::findings(root, files)?;
     findings.extend(references::findings(root, files)?);
     findings.extend(crates::findings(root)?);
+    findings.extend(cycles::findings(root, IN_CIRCLES)?);
     findings.sort_by(|a, b| (&a.path, a.line).cmp(&(&b.path, b.line)));
     Ok(findings)
 }

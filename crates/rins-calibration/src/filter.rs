@@ -7,7 +7,7 @@ use rins_imu::TriadError;
 use rins_lanes::Vector;
 use rins_motion::NavState;
 
-use crate::kernel::{Kernel, Reading, Sample, WithAxis};
+use crate::kernel::{Kernel, PLAIN, Reading, Sample, WithAxis};
 use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY};
 use crate::setup::Setup;
 
@@ -18,10 +18,6 @@ pub const MEASUREMENTS: usize = 6;
 ///
 /// Nothing here depends on it; it only keeps the covariance positive definite.
 const POSITION_SIGMA: f64 = 1e-3;
-
-/// The ratio of a measured combination's variance, its states taken apart, to its noise from which on
-/// the covariance is kept as factors: below it the plain form keeps six digits of every sigma.
-pub(crate) const PLAIN: f64 = 1e7;
 
 /// What the table said at the end of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,10 +4,13 @@ use rins_frames::{Dcm, Nav};
 use rins_lanes::{Matrix, Real, Vector, rotation};
 use rins_motion::{Figures, Mechanisation, VerticalChannel};
 
-use crate::filter::PLAIN;
 use crate::layout::{AXIS, PAPER_STATES, SPIN_AXIS_ERRORS, STATES};
 use crate::setup::Setup;
 use crate::structured::{Comparison, Covariance, Found, Input, Means, States, Transition, With};
+
+/// The ratio of a measured combination's variance, its states taken apart, to its noise from which on
+/// the covariance is kept as factors: below it the plain form keeps six digits of every sigma.
+pub(crate) const PLAIN: f64 = 1e7;
 
 /// `M_xz`, `M_yz` and `S_z`, each in its gyro in proportion to the spin rate, and no more: the paper's
 /// twelve states.

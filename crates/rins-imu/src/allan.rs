@@ -5,11 +5,13 @@ mod curve;
 mod fit;
 mod law;
 mod line;
+mod point;
 
-pub use curve::{AllanError, AllanPlan, AllanPoint, CONFIDENCE};
+pub use curve::{AllanError, AllanPlan};
 pub use fit::{NoiseSeen, Strength};
 pub use law::NoiseLaw;
 pub use line::{SpectralLine, take_out_lines};
+pub use point::{AllanPoint, CONFIDENCE};
 
 #[cfg(test)]
 mod tests;

@@ -6,18 +6,9 @@ mod vicinity;
 use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Site};
 use rins_lanes::{Matrix, Vector};
 
-pub use self::mechanisation::Mechanisation;
+pub use self::mechanisation::{Mechanisation, VerticalChannel};
 pub use self::vicinity::Figures;
 use crate::station::Station;
-
-/// Whether height and vertical velocity are integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum VerticalChannel {
-    /// They are; the channel then diverges, as `2 g/R` makes it.
-    Free,
-    /// They stay as they were at the start.
-    Held,
-}
 
 /// Position, velocity and attitude.
 #[derive(Clone, Copy, Debug, PartialEq)]

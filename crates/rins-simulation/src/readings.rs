@@ -4,7 +4,6 @@ use rins_frames::{InFrame, Increments, Table};
 use rins_terms::{Making, Model, Surroundings, Track};
 
 use crate::check::ScenarioError;
-use crate::run::reserved;
 use crate::scenario::Scenario;
 
 /// The true motion of a run, sample by sample.
@@ -25,6 +24,15 @@ pub(crate) struct Readings {
     pub(crate) angle_errors: Vec<f64>,
     /// The tilt at time zero and at the end of each interval; empty if the axis stands still.
     pub(crate) tilts: Vec<InFrame<Table>>,
+}
+
+/// An empty list with room for `n_samples`.
+pub(crate) fn reserved<T>(n_samples: usize) -> Result<Vec<T>, ScenarioError> {
+    let mut list = Vec::new();
+    match list.try_reserve_exact(n_samples) {
+        Ok(()) => Ok(list),
+        Err(_) => Err(ScenarioError::OutOfMemory { n_samples }),
+    }
 }
 
 impl Scenario {

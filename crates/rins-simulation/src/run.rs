@@ -6,7 +6,7 @@ use rins_motion::{Recording, Station, TrueMotion};
 use rins_terms::Model;
 
 use crate::check::ScenarioError;
-use crate::readings::TrueRun;
+use crate::readings::{TrueRun, reserved};
 use crate::scenario::{Encoder, Scenario, TableRecord};
 
 /// A simulated run.
@@ -136,13 +136,4 @@ pub fn simulate(scenario: &Scenario) -> Result<Simulated, ScenarioError> {
         tilt: readings.tilts,
     };
     Ok(Simulated { recording, truth })
-}
-
-/// An empty list with room for `n_samples`.
-pub(crate) fn reserved<T>(n_samples: usize) -> Result<Vec<T>, ScenarioError> {
-    let mut list = Vec::new();
-    match list.try_reserve_exact(n_samples) {
-        Ok(()) => Ok(list),
-        Err(_) => Err(ScenarioError::OutOfMemory { n_samples }),
-    }
 }

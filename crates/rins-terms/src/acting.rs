@@ -141,6 +141,13 @@ impl<'a> Acting<'a> {
     }
 }
 
+impl Model {
+    /// What all its terms add at `moment`, those that follow the table having settled.
+    pub fn signals(&self, moment: &Moment) -> Signals {
+        Acting::together(&Acting::settled(self), moment)
+    }
+}
+
 /// Whether a term says in which directions the gyros' own axes are, in the body or with it.
 fn turns_axes(chosen: &Chosen) -> bool {
     [GYRO_MISALIGNMENT.id, AXIS_ATTITUDE.id].contains(&chosen.term.id)

@@ -4,7 +4,6 @@ use num_dual::Dual64;
 use rins_imu::{ImuSpec, Seed};
 use rins_motion::Recording;
 
-use crate::acting::Acting;
 use crate::catalogue::{self, REFERENCE_TEMPERATURE};
 use crate::moment::Moment;
 use crate::signals::Signals;
@@ -270,11 +269,6 @@ impl Model {
             self.terms[term].roles[parameter] = role;
         }
         self
-    }
-
-    /// What all its terms add at `moment`, those that follow the table having settled.
-    pub fn signals(&self, moment: &Moment) -> Signals {
-        Acting::together(&Acting::settled(self), moment)
     }
 
     /// The noise that its terms make of `noises`.

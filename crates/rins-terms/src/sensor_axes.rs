@@ -8,10 +8,7 @@
 use rins_frames::SignedAxes;
 
 use crate::model::{Chosen, Model};
-use crate::term::{Parity, Term};
-
-/// The name of the setting by which a term is on one of the sensors' axes.
-pub(crate) const SENSOR_AXIS: &str = "axis";
+use crate::term::{Parity, SENSOR_AXIS, Term};
 
 const LETTERS: [&str; 3] = ["x", "y", "z"];
 

@@ -11,6 +11,9 @@ use crate::moment::Moment;
 use crate::signals::{DualVector, Signals};
 use crate::unit::Unit;
 
+/// The name of the setting by which a term is on one of the sensors' axes.
+pub(crate) const SENSOR_AXIS: &str = "axis";
+
 /// One physical effect: what it is, how large it is, and what it does.
 ///
 /// The simulator makes it, the estimator estimates it, the diagnosis tests it and the report

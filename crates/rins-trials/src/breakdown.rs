@@ -5,12 +5,11 @@ use std::fmt::Write as _;
 
 use rins_terms::catalogue::BASE_TILT_STEP;
 
-use crate::card::{in_set, is_plain, meant, ones};
 use crate::draw::Kind;
 use crate::hide::Hidden;
 use crate::journal::Record;
 use crate::laboratory::{Level, Schedule};
-use crate::score::{class, classes};
+use crate::score::{class, classes, in_set, is_plain, meant, ones};
 use crate::statistics::{Share, power, threshold};
 
 /// The share of clean runs on which anything may be named.

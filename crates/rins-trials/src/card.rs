@@ -7,6 +7,7 @@ use crate::draw::Kind;
 use crate::hide::Hidden;
 use crate::journal::Record;
 use crate::laboratory::{Level, Schedule};
+use crate::score::{in_set, is_plain, meant, ones};
 use crate::statistics::Share;
 
 /// The page for these records.
@@ -64,25 +65,6 @@ fn table(page: &mut String, rows: &[Row]) {
     for (figure, target, found) in rows {
         let _ = writeln!(page, "| {figure} | {target} | {found} |");
     }
-}
-
-/// Whether a level is one of those that the targets are about.
-pub(crate) fn is_plain(record: &Record) -> bool {
-    matches!(record.level, Level::White | Level::Flicker)
-}
-
-/// Records of one hidden effect, on plain levels.
-pub(crate) fn ones<'a>(records: &[&'a Record]) -> Vec<(&'a Record, &'a Hidden)> {
-    let plain = records.iter().copied().filter(|record| is_plain(record));
-    plain.filter_map(|record| Some((record, record.one()?))).collect()
-}
-
-pub(crate) fn in_set((record, hidden): &(&Record, &Hidden)) -> bool {
-    record.set_with(&hidden.id).is_some()
-}
-
-pub(crate) fn meant(low: f64, high: f64) -> impl Fn(&&(&Record, &Hidden)) -> bool {
-    move |(_, hidden)| (low..=high).contains(&hidden.meant)
 }
 
 fn targets(records: &[&Record], timed: &[&Record]) -> Vec<Row> {

@@ -6,6 +6,7 @@ use crate::answer::Named;
 use crate::draw::Kind;
 use crate::hide::Hidden;
 use crate::journal::Record;
+use crate::laboratory::Level;
 
 /// A rival beside which so many sigmas are left is separable.
 const SEPARABLE: f64 = 5.0;
@@ -131,6 +132,25 @@ pub(crate) fn classes() -> impl Iterator<Item = &'static str> {
 /// The class of an effect.
 pub(crate) fn class(id: &str) -> &'static str {
     CLASSES.iter().find(|(_, ids)| ids.contains(&id)).map_or("other", |(name, _)| *name)
+}
+
+/// Whether a level is one of those that the targets are about.
+pub(crate) fn is_plain(record: &Record) -> bool {
+    matches!(record.level, Level::White | Level::Flicker)
+}
+
+/// Records of one hidden effect, on plain levels.
+pub(crate) fn ones<'a>(records: &[&'a Record]) -> Vec<(&'a Record, &'a Hidden)> {
+    let plain = records.iter().copied().filter(|record| is_plain(record));
+    plain.filter_map(|record| Some((record, record.one()?))).collect()
+}
+
+pub(crate) fn in_set((record, hidden): &(&Record, &Hidden)) -> bool {
+    record.set_with(&hidden.id).is_some()
+}
+
+pub(crate) fn meant(low: f64, high: f64) -> impl Fn(&&(&Record, &Hidden)) -> bool {
+    move |(_, hidden)| (low..=high).contains(&hidden.meant)
 }
 
 #[cfg(test)]

@@ -79,7 +79,8 @@ mod tests {
         NavState, Navigator, Profile, Segment, Station, TrueMotion, VerticalChannel,
     };
 
-    use crate::filter::{AngleSource, PLAIN, Start};
+    use crate::filter::{AngleSource, Start};
+    use crate::kernel::PLAIN;
     use crate::kernel::{Kernel, Reading, Sample, WithAxis};
     use crate::setup::{Setup, TableSpec};
     use crate::structured::{Covariance, Transition};

@@ -7,9 +7,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::covariance::Covariances;
 use super::fit::{FEWEST_POINTS, NoiseSeen, noise_seen};
-
-/// How probably a deviation lies within its bounds.
-pub const CONFIDENCE: f64 = 0.95;
+use super::point::{AllanPoint, CONFIDENCE, degrees_of_freedom};
 
 /// A cluster is at most this part of a series: longer ones have too few neighbours to tell anything.
 const LONGEST_CLUSTER: usize = 5;
@@ -37,19 +35,6 @@ pub struct AllanPlan {
     interval: f64,
     clusters: Vec<usize>,
     covariances: Covariances,
-}
-
-/// The Allan deviation at one averaging time; a rate is in rad/s or m/s².
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AllanPoint {
-    /// The averaging time τ \[s\].
-    pub time: f64,
-    /// The overlapping Allan deviation \[rate\].
-    pub deviation: f64,
-    /// The bounds between which the true one lies with [`CONFIDENCE`] \[rate\].
-    pub bounds: (f64, f64),
-    /// What the laws that were seen make of it \[rate\].
-    pub fitted: f64,
 }
 
 /// Why a series shows no noise.
@@ -148,20 +133,6 @@ impl AllanPoint {
         let deviation = variance.sqrt();
         Self { time, deviation, bounds: (deviation * low, deviation * high), fitted: fitted.sqrt() }
     }
-}
-
-/// The equivalent degrees of freedom of a variance of that mean and scatter (‹riley2008›, chapter 5).
-pub(super) fn degrees_of_freedom(mean: f64, scatter: f64) -> f64 {
-    2.0 * mean * mean / scatter
-}
-
-/// How improbable it is that a variance of `mean` is as far off as `found`, to either side.
-pub(super) fn improbability(found: f64, mean: f64, scatter: f64) -> f64 {
-    let degrees = degrees_of_freedom(mean, scatter);
-    ChiSquared::new(degrees).map_or(1.0, |law| {
-        let square = degrees * found / mean;
-        (2.0 * law.cdf(square).min(law.sf(square))).min(1.0)
-    })
 }
 
 /// The factors by which a deviation of so many degrees of freedom is multiplied to its bounds.

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector, Matrix4, Matrix4xX, MatrixXx4, Vector4};
 
 use super::covariance::Covariances;
-use super::curve::{AllanPoint, improbability};
 use super::law::NoiseLaw;
+use super::point::{AllanPoint, improbability};
 
 /// A law is seen if its squared strength is so many sigma of what chance would make of it.
 const SIGNIFICANCE: f64 = 4.0;

@@ -53,7 +53,7 @@ pub struct SpectralLine {
 ///
 /// A line stands out of the noise about it in the periodogram so far that chance makes none in `e^16` rests. Where one sinusoid
 /// is not all of it, as of a motor or a base that sways, it wanders: the others near it are taken out with it, until what is left
-/// is what noise makes (the CLEAN algorithm; Roberts, Lehár and Dreher 1987). Readings with a resolution far coarser than their
+/// is what noise makes (the CLEAN algorithm; ‹roberts1987›). Readings with a resolution far coarser than their
 /// noise have lines of their own.
 pub fn take_out_lines(increments: &mut [f64], interval: f64) -> Vec<SpectralLine> {
     let mut lines = Vec::new();
@@ -108,7 +108,7 @@ fn strongest(increments: &mut [f64], interval: f64) -> Option<SpectralLine> {
     let spread = mean(&|part| (part.cycles - centre).powi(2)).sqrt();
     let number = parts.len() as f64;
     let duration = count as f64 * interval;
-    // Of one sinusoid in white noise (Rife and Boorstyn 1974); of several, as far as they scatter.
+    // Of one sinusoid in white noise (‹rife1974›); of several, as far as they scatter.
     let alone = (6.0 / count as f64).sqrt() * noise / (PI * amplitude);
     Some(SpectralLine {
         frequency: centre / duration,

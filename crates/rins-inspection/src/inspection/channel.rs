@@ -2,8 +2,8 @@
 
 use rins_frames::Increments;
 
+use super::expected::{CHANNELS, Expected};
 use super::suspicion::Suspicion;
-use super::{CHANNELS, Expected};
 use crate::comb::{Comb, alike, comb};
 use crate::sticking::steps;
 use rins_motion::{Recording, median};

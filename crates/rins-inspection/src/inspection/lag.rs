@@ -64,8 +64,8 @@ impl TableLag {
     ///
     /// The gyro's angle is `ratio · (θ + latency · ω) + bias · t + start`, in means over blocks, which hold as the equation does.
     /// Its noise is white, that of the angle, and a random walk, that of the gyro: how much there is of each is the most likely by
-    /// restricted maximum likelihood, and with it the parameters follow by generalised least squares (local level model; Harvey
-    /// 1989, section 4.1).
+    /// restricted maximum likelihood, and with it the parameters follow by generalised least squares (local level
+    /// model; ‹harvey1989›, section 4.1).
     ///
     /// The equation holds for a lag in which the rate does not change: it is asked again of the gyro's angle as late as the lag
     /// that was found, until nothing is left (Gauss–Newton).

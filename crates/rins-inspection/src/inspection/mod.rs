@@ -3,6 +3,7 @@
 mod channel;
 mod correction;
 mod exchange;
+mod expected;
 mod lag;
 mod orientation;
 mod own_axes;
@@ -13,11 +14,10 @@ mod turning;
 mod units;
 mod whole_turns;
 
-use std::ops::Range;
-
-use rins_frames::{EARTH_RATE, EulerAngles};
+use rins_frames::EARTH_RATE;
 
 pub use correction::Correction;
+pub use expected::{CHANNELS, Expected, ExpectedAxis, ExpectedTriad, RestSeen};
 pub use lag::TableLag;
 pub use suspicion::Suspicion;
 pub use timing::Timing;
@@ -31,62 +31,13 @@ use self::whole_turns::WholeTurns;
 use crate::repeats::{stuck_at_ends, stuck_for_long};
 use crate::static_intervals::{SensorFigures, StaticIntervals, StaticOptions};
 use crate::sticking::is_noisy;
-use rins_motion::{Recording, RestMean, Station, median};
+use rins_motion::{Recording, RestMean, median};
 
 /// Rests that last this share of the longest are looked at like it.
 const LONG_REST: f64 = 0.5;
 
 /// A mean rate at rest up to this many times the Earth's still shows the Earth's.
 const EARTH_RATE_VISIBLE: f64 = 2.0;
-
-/// The names of the six channels, in the order of every list here.
-pub const CHANNELS: [&str; 6] = ["gyro.x", "gyro.y", "gyro.z", "accel.x", "accel.y", "accel.z"];
-
-/// What was seen in a stretch of rest.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RestSeen {
-    /// The samples.
-    pub span: Range<usize>,
-    /// The means over them.
-    pub mean: RestMean,
-}
-
-/// What a triad's data sheet says that its readings can be held against.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ExpectedTriad {
-    /// How far a bias may be from zero, 1σ \[rad/s\] or \[m/s²\].
-    pub bias_sigma: Option<f64>,
-    /// The largest rate or specific force that can be read \[rad/s\] or \[m/s²\].
-    pub range: Option<f64>,
-    /// The unit that readings are said to be in.
-    pub unit: Option<ReadingUnit>,
-}
-
-/// The attitude that the spin axis is said to have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ExpectedAxis {
-    /// Of the axis frame at table angle zero, `C_s^n`.
-    pub angles: EulerAngles,
-    /// Their 1σ \[rad\].
-    pub sigma: f64,
-}
-
-/// What is known of a run beforehand; what is not, nothing is held against.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Expected {
-    /// The place and its gravity.
-    pub station: Option<Station>,
-    /// The attitude of the spin axis.
-    pub axis: Option<ExpectedAxis>,
-    /// By how much the table's angle or rate is late \[s\].
-    pub table_latency: f64,
-    /// The unit that the table's angle or rate is said to be in.
-    pub table_unit: Option<ReadingUnit>,
-    /// The gyros.
-    pub gyro: ExpectedTriad,
-    /// The accelerometers.
-    pub accel: ExpectedTriad,
-}
 
 /// What a recording holds.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,10 @@ use rins_frames::units::{DEG, DEG_PER_HOUR, STANDARD_GRAVITY};
 use rins_frames::{Body, Dcm, EARTH_RATE, InFrame, Nav, Site, Table};
 
 use super::correction::{Hypothesis, Weight};
+use super::expected::{Expected, RestSeen};
 use super::suspicion::Suspicion;
 use super::turning::Turning;
 use super::whole_turns::WholeTurns;
-use super::{Expected, RestSeen};
 use rins_motion::Station;
 
 /// The least angle by which the specific force may be off the axis' attitude \[rad\].

@@ -4,12 +4,12 @@ use nalgebra::Vector3;
 use rins_frames::units::DEG;
 
 use super::correction::Hypothesis;
+use super::expected::{CHANNELS, Expected};
 use super::suspicion::Suspicion;
 use super::timing::Timing;
 use super::turning::Turning;
 use super::units::{Mistake, ReadingUnit, explained, mistakes};
 use super::whole_turns::{STANDS, WholeTurns};
-use super::{CHANNELS, Expected};
 use rins_motion::{Recording, median};
 
 /// A table that turns by less \[rad\] says nothing of the gyros.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use rins_frames::EARTH_RATE;
 use rins_frames::units::{DEG, STANDARD_GRAVITY};
 
-use super::NotStatic;
+use super::interval::NotStatic;
 use super::options::StaticOptions;
 
 /// Directions of gravity in the body that differ by less are one attitude \[rad\].

@@ -7,11 +7,13 @@ use rins_frames::units::DEG_PER_SECOND;
 
 use super::bias::{Piece, turning};
 use super::cells::Cells;
+use super::interval::{NotStatic, StaticInterval};
 use super::noise::{Limits, Noise};
 use super::options::StaticOptions;
+use super::runs::{runs, whole};
 use super::split::{SIGMAS, coarse_step};
 use super::wander::wanders;
-use super::{NotStatic, StaticInterval, drift, runs, split, table, whole};
+use super::{drift, split, table};
 use rins_motion::Recording;
 
 /// A cell at the end of an interval that is so many sigma off its mean belongs to the motion that follows: of a thousand

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::bias::turning;
+use super::interval::{NotStatic, StaticInterval};
 use super::search::Search;
 use super::split::SIGMAS;
-use super::{NotStatic, StaticInterval};
 
 impl Search<'_> {
     /// The intervals that the user states, and what contradicts them.

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use super::NotStatic;
 use super::cells::Cells;
+use super::interval::NotStatic;
 use super::options::StaticOptions;
 
 /// The probability that white noise makes a static interval look like one in which the IMU turns to and fro.

@@ -309,7 +309,7 @@ impl Pass {
         VELOCITY.set(ATTITUDE, &mut f, &by_attitude);
         ATTITUDE.set(ATTITUDE, &mut f, &-nav_rate.cross_matrix());
         // With the azimuth before its corrections, so that what a rest does not show keeps its direction: otherwise each
-        // correction would seem to show a part of it (first-estimates Jacobian; Huang, Mourikis and Roumeliotis 2010).
+        // correction would seem to show a part of it (first-estimates Jacobian; ‹huang2010›).
         let before =
             Dcm::<Nav, Nav>::from_rotation_vector(&Vector3::new(0.0, 0.0, -self.azimuth_corrected));
         ATTITUDE.set(GYRO_BIAS, &mut f, &-(before.matrix() * c_nb));

@@ -2,9 +2,17 @@
 
 use rins_lanes::{Matrix, Real, Vector, rotation};
 
-use super::VerticalChannel;
 use super::vicinity::{Figures, Vicinity};
 use crate::station::Station;
+
+/// Whether height and vertical velocity are integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VerticalChannel {
+    /// They are; the channel then diverges, as `2 g/R` makes it.
+    Free,
+    /// They stay as they were at the start.
+    Held,
+}
 
 /// Strapdown navigation of one run, or of several side by side, without frames in types.
 ///

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::number::{Table, fixed, signed, significant, spread, tuple, with_unit};
-use super::ranking::{self, FIGURES};
+use super::ranking::{self, CHANCE, FIGURES, HOPELESS, needed};
 use super::results::Results;
 use super::{enhancement, roll, uncertainty};
 use crate::causes::{Cause, Graded};
@@ -13,12 +13,6 @@ use crate::{Sample, printed};
 
 /// The decimals of each figure that are larger than the emulation's spread.
 const DECIMALS: [usize; 5] = [2, 2, 4, 4, 4];
-
-/// How many deviations from the emulation's mean still pass for chance.
-pub(super) const CHANCE: f64 = 3.0;
-
-/// Causes that need more than this multiple of the size allowed them are not listed.
-pub(super) const HOPELESS: f64 = 1000.0;
 
 pub(super) fn section(results: &Results) -> String {
     let mut out = String::new();
@@ -133,12 +127,6 @@ fn sizes(out: &mut String, causes: &[Graded], wanted: [f64; 5]) {
         ]);
     }
     out.push_str(&table.finish());
-}
-
-/// How large a cause must be to make the error `wanted` in a figure, in its unit.
-pub(super) fn needed(causes: &[Graded], cause: Cause, figure: usize, wanted: f64) -> f64 {
-    let found = causes.iter().find(|graded| graded.cause == cause);
-    found.map_or(f64::NAN, |graded| graded.needed(figure, wanted))
 }
 
 fn after(out: &mut String, results: &Results) {

@@ -1,7 +1,13 @@
 //! Causes in order of what they can make of an error, and whether that is enough.
 
 use super::number::{Table, fixed, significant, with_unit};
-use crate::causes::{Basis, Graded, ranked, share_of_all};
+use crate::causes::{Basis, Cause, Graded, ranked, share_of_all};
+
+/// How many deviations from the emulation's mean still pass for chance.
+pub(super) const CHANCE: f64 = 3.0;
+
+/// Causes that need more than this multiple of the size allowed them are not listed.
+pub(super) const HOPELESS: f64 = 1000.0;
 
 /// The names of the five figures.
 pub(super) const FIGURES: [&str; 5] =
@@ -64,4 +70,10 @@ pub(super) fn cause_name(graded: &Graded) -> String {
 /// A share as per cent, with two digits.
 pub(super) fn percent(share: f64) -> String {
     with_unit(&significant(100.0 * share, 2), "%")
+}
+
+/// How large a cause must be to make the error `wanted` in a figure, in its unit.
+pub(super) fn needed(causes: &[Graded], cause: Cause, figure: usize, wanted: f64) -> f64 {
+    let found = causes.iter().find(|graded| graded.cause == cause);
+    found.map_or(f64::NAN, |graded| graded.needed(figure, wanted))
 }

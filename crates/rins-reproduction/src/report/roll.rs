@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use rins_frames::units::DEG;
 
-use super::experiment::{CHANCE, HOPELESS, needed};
 use super::number::{Table, fixed, significant, with_unit};
+use super::ranking::{CHANCE, HOPELESS, needed};
 use super::results::Results;
 use crate::causes::{Cause, ranked};
 use crate::{printed, real_test};

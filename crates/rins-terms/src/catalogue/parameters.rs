@@ -1,7 +1,6 @@
 //! Parameters and settings as the catalogue's files write them.
 
-use crate::sensor_axes::SENSOR_AXIS;
-use crate::term::{Parameter, Prior, Setting};
+use crate::term::{Parameter, Prior, SENSOR_AXIS, Setting};
 use crate::unit::Unit;
 
 /// Usual magnitudes with fibre gyros, laser gyros and MEMS; with pendulous accelerometers, vibrating
