@@ -4,10 +4,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::log::LogProblem;
-use crate::output::OutputProblem;
 use crate::quantity::{QuantityError, did_you_mean};
 use crate::shown::shown;
-use crate::write::WriteProblem;
 
 /// Why a file could not be read or written.
 ///
@@ -195,4 +193,87 @@ impl LogError {
     pub(crate) fn of(path: &Path, problem: LogProblem) -> IoError {
         Box::new(Self { path: path.into(), line: None, problem }).into()
     }
+}
+
+/// Why a result was not put where it should go.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputProblem {
+    /// Something is there.
+    #[error("exists already; choose another name, or --force to replace it")]
+    Exists,
+    /// Another program has put something there, or taken it away, since the work began.
+    #[error("was written by another program in the meantime; choose another name, or try again")]
+    Overtaken,
+    /// A folder should be replaced that does not look like one of ours.
+    #[error("is not replaced, as it does not hold a result of rins; choose another name")]
+    NotOurs,
+    /// A folder of ours holds something else too.
+    #[error("is not replaced, as it also holds {entry:?}; move that away or choose another name")]
+    HoldsMore {
+        /// The first entry that is not ours.
+        entry: String,
+    },
+    /// A folder should go where a file is, or a file where a folder is.
+    #[error("is {found}, expected {expected}")]
+    WrongType {
+        /// What is there.
+        found: &'static str,
+        /// What should be.
+        expected: &'static str,
+    },
+    /// It is one of the files that are read.
+    #[error("is an input of the same command and is not replaced; choose another name")]
+    IsInput,
+    /// A folder of ours holds one of the files that are read.
+    #[error(
+        "is not replaced, as it holds {entry:?}, an input of the same command; choose another name"
+    )]
+    HoldsInput {
+        /// The input.
+        entry: String,
+    },
+    /// The path does not end in a name.
+    #[error("does not end in the name of a file or folder")]
+    NoName,
+    /// A rig file has to name it, and cannot.
+    #[error("its name is not UTF-8, so that no rig file can tell it; choose another")]
+    NotText,
+}
+
+/// Why a recording cannot be written in a format.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteProblem {
+    /// The format has no time column.
+    #[error(
+        "a psins log has no time column, and sample {sample} is {off:e} s away from even steps of \
+         {interval} s; choose another format"
+    )]
+    Uneven {
+        /// The sample, from 1.
+        sample: usize,
+        /// How far its time is from where it should be \[s\].
+        off: f64,
+        /// The interval \[s\].
+        interval: f64,
+    },
+    /// The format cannot say so much.
+    #[error("{what} cannot be written in {format}: {why}")]
+    TooMuch {
+        /// What cannot be written.
+        what: &'static str,
+        /// The format.
+        format: &'static str,
+        /// Why not.
+        why: &'static str,
+    },
+    /// The encoder refuses.
+    #[error("cannot be written as {format}: {message}")]
+    Encoder {
+        /// The format.
+        format: &'static str,
+        /// What it says.
+        message: String,
+    },
 }

@@ -46,16 +46,14 @@ pub use campaign::{
     GridCell, Heading, Identity, Journal, PartRuns, Record, Row, RunRows, ScenarioGrid, write_part,
 };
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
-pub use error::{IoError, KeyError, KeyProblem, LogError};
+pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WriteProblem};
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
     PsinsHeader, Redivided, Rounded, peek, read, read_log,
 };
 pub use model::ModelFile;
-pub use output::{
-    OutputProblem, Overwrite, ensure_replaceable, write_file, write_files, write_folder,
-};
+pub use output::{Overwrite, ensure_replaceable, write_file, write_files, write_folder};
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
@@ -69,8 +67,7 @@ pub use shown::{one_line, shown};
 pub use suggestion::nearest;
 pub use unfinished::{Abandoned, abandon};
 pub use write::{
-    Converted, Difference, LogFile, WriteProblem, convert, convert_changed, write_log,
-    write_recording,
+    Converted, Difference, LogFile, convert, convert_changed, write_log, write_recording,
 };
 
 /// What only a build for fuzzing has.

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use tempfile::{Builder, TempDir};
 
-use crate::error::IoError;
+use crate::error::{IoError, OutputProblem};
 use crate::inputs;
 use crate::unfinished::{Unfinished, undisturbed};
 
@@ -19,52 +19,6 @@ pub enum Overwrite {
     /// Yes, if it is a regular file, or a folder that holds only results of ours; and no input that is protected
     /// ([`protect_inputs`](crate::protect_inputs)).
     Force,
-}
-
-/// Why a result was not put where it should go.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum OutputProblem {
-    /// Something is there.
-    #[error("exists already; choose another name, or --force to replace it")]
-    Exists,
-    /// Another program has put something there, or taken it away, since the work began.
-    #[error("was written by another program in the meantime; choose another name, or try again")]
-    Overtaken,
-    /// A folder should be replaced that does not look like one of ours.
-    #[error("is not replaced, as it does not hold a result of rins; choose another name")]
-    NotOurs,
-    /// A folder of ours holds something else too.
-    #[error("is not replaced, as it also holds {entry:?}; move that away or choose another name")]
-    HoldsMore {
-        /// The first entry that is not ours.
-        entry: String,
-    },
-    /// A folder should go where a file is, or a file where a folder is.
-    #[error("is {found}, expected {expected}")]
-    WrongType {
-        /// What is there.
-        found: &'static str,
-        /// What should be.
-        expected: &'static str,
-    },
-    /// It is one of the files that are read.
-    #[error("is an input of the same command and is not replaced; choose another name")]
-    IsInput,
-    /// A folder of ours holds one of the files that are read.
-    #[error(
-        "is not replaced, as it holds {entry:?}, an input of the same command; choose another name"
-    )]
-    HoldsInput {
-        /// The input.
-        entry: String,
-    },
-    /// The path does not end in a name.
-    #[error("does not end in the name of a file or folder")]
-    NoName,
-    /// A rig file has to name it, and cannot.
-    #[error("its name is not UTF-8, so that no rig file can tell it; choose another")]
-    NotText,
 }
 
 /// Any of these marks a folder as a result of ours.

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use rins_frames::units::STANDARD_GRAVITY;
 
+use super::clock_keys;
 use super::evidence::steady;
+use super::findings::Findings;
 use super::label::{Label, Role};
 use super::layout::{Picked, sensor_by_file_name};
 use super::page::{Page, list, short, text};
@@ -13,7 +15,6 @@ use super::sample::Sample;
 use super::stated::Stated;
 use super::table_keys::Table;
 use super::units::{Surroundings, UnitFound, accel_unit};
-use super::{Findings, clock_keys};
 use crate::quantity::{Dimension, Unit};
 
 /// The unit of a triad's numbers.

@@ -3,6 +3,7 @@
 mod channels;
 mod clock_keys;
 mod evidence;
+mod findings;
 mod label;
 mod layout;
 mod pace;
@@ -11,6 +12,7 @@ mod place;
 mod psins;
 mod sample;
 mod sections;
+mod spin;
 mod stated;
 mod table_keys;
 mod units;
@@ -20,6 +22,7 @@ use std::path::Path;
 pub use page::{Draft, Guess, ToFillIn};
 
 use channels::Channels;
+use findings::Findings;
 use label::Label;
 use layout::Layout;
 use pace::Pace;
@@ -79,26 +82,6 @@ pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
     Ok(page.finish())
 }
 
-/// What is known of a log of columns.
-#[derive(Clone, Copy, Debug)]
-struct Findings<'f> {
-    log: &'f Path,
-    /// The folder of the rig file.
-    folder: &'f Path,
-    sample: &'f Sample,
-    /// What the name of each column says.
-    labels: &'f [Label],
-    pace: Option<&'f Pace>,
-    layout: &'f Layout,
-}
-
-impl Findings<'_> {
-    /// The interval from row to row \[s\], if it is known.
-    fn interval(&self) -> Option<f64> {
-        self.pace.and_then(Pace::interval)
-    }
-}
-
 /// Drafts the rig of a log of columns.
 fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
     let names = sample.names.as_deref().unwrap_or_default();
@@ -129,5 +112,5 @@ fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
     table_keys::write(page, findings, channels.table.as_ref());
     sections::attitude(page);
     sections::imu(page);
-    sections::spin(page, sample, &channels);
+    spin::spin(page, sample, &channels);
 }

@@ -1,7 +1,5 @@
 //! The parts of a draft that a log says little of: place, format, attitude, data sheet, axis.
 
-use super::channels::Channels;
-use super::evidence::spin_axis;
 use super::page::{Page, text};
 use super::sample::Sample;
 use crate::log::Delimiter;
@@ -99,17 +97,6 @@ pub(super) fn imu(page: &mut Page) {
     page.leave("bias_sigma", r#""? ug""#, "as for the gyros");
     page.leave("scale_sigma", r#""? ppm""#, "as for the gyros");
     page.leave("misalignment_sigma", r#""? arcsec""#, "as for the gyros");
-}
-
-/// Which axis the IMU was turned about.
-pub(super) fn spin(page: &mut Page, sample: &Sample, channels: &Channels) {
-    let table = channels.table.as_ref().map(|table| (table.column, table.is_angle));
-    let found = channels.gyro.and_then(|gyro| spin_axis(sample, gyro, table));
-    let Some((axis, share)) = found else { return default_spin(page) };
-    page.section("axis");
-    let share = (share * 1e3).floor() / 10.0;
-    let by = if table.is_some() { " as the table moves" } else { "" };
-    page.guess("spin", &text(&axis), &format!("{share} % of the turning is about it{by}"));
 }
 
 pub(super) fn default_spin(page: &mut Page) {

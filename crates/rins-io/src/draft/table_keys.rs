@@ -1,12 +1,13 @@
 //! The keys of the table and of the temperature.
 
+use super::findings::Findings;
 use super::label::Label;
 use super::layout::{Layout, Picked};
 use super::page::{Page, short, text};
 use super::sample::Sample;
+use super::sections;
 use super::stated::Stated;
 use super::units::{UnitFound, angle_unit, rate_unit};
-use super::{Findings, sections};
 use crate::quantity::Dimension;
 
 /// The table's column.

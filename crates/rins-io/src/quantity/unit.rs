@@ -2,8 +2,8 @@
 
 use rins_frames::units::{ARCMIN, ARCSEC, DEG, STANDARD_GRAVITY};
 
-use super::QuantityError;
 use super::dimension::Dimension;
+use super::error::QuantityError;
 use crate::suggestion::nearest;
 
 /// A unit: its size in SI units and radians, and its dimension.

@@ -1,9 +1,9 @@
 //! Logs whose format fixes what stands in which column, in which unit and along which axes.
 
 use super::axes::Axes;
-use super::log_keys::{ACCEL, GYRO, refuse_own, scale_of, unit};
 use super::log_spec::{ColumnSpec, Reading, Stamp, Table, TimeColumn, TimeUnit, TriadColumns};
 use super::novatel;
+use super::readings::{ACCEL, GYRO, refuse_own, scale_of, unit};
 use crate::error::IoError;
 use crate::section::{Section, quoted};
 use std::path::Path;

@@ -8,6 +8,7 @@ mod log_spec;
 mod log_times;
 mod novatel;
 mod place;
+mod readings;
 mod table;
 mod table_columns;
 

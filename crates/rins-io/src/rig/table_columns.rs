@@ -1,7 +1,7 @@
 //! Reading `table_angle` and `table_rate` of `[log]`.
 
-use super::log_keys::{Readings, column, unit};
 use super::log_spec::{AngleColumn, ScaledColumn};
+use super::readings::{Readings, column, unit};
 use crate::error::IoError;
 use crate::quantity::{Dimension, kinds};
 use crate::section::Section;

@@ -14,9 +14,9 @@ use super::exact::inverted;
 use super::rig_text::{column_keys, figures, matrix_keys, push_table};
 use super::{LogFile, write_log};
 use crate::document::{Document, Entry, Node};
-use crate::error::IoError;
+use crate::error::{IoError, OutputProblem};
 use crate::log::{Loaded, LogPolicy, LogSummary, read_log};
-use crate::output::{OutputProblem, Overwrite, write_files};
+use crate::output::{Overwrite, write_files};
 use crate::rig::{Axes, LogFormat, Rig};
 
 /// What became of a conversion.

@@ -3,7 +3,8 @@
 use std::io::Write;
 
 use super::exact::quotient;
-use super::{Failure, WriteProblem};
+use super::failure::Failure;
+use crate::error::WriteProblem;
 use crate::log::Loaded;
 
 const HEADER: &str = "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],\

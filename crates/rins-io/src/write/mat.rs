@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use rins_motion::Recording;
 
+use super::failure::Failure;
 use super::signals::{channel, others};
-use super::{Failure, WriteProblem};
+use crate::error::WriteProblem;
 
 const MATRIX: u32 = 14;
 const DOUBLES: u32 = 9;

@@ -6,6 +6,7 @@ mod csv;
 mod doubles;
 mod euroc;
 mod exact;
+mod failure;
 mod kf_gins;
 mod mat;
 mod parquet;
@@ -21,6 +22,7 @@ pub use compare::Difference;
 pub use convert::{Converted, convert, convert_changed};
 pub use csv::write_recording;
 
+use self::failure::Failure;
 use crate::error::IoError;
 use crate::log::Loaded;
 
@@ -90,61 +92,6 @@ impl LogFile {
     /// Whether it has room for a table's angle or rate, and for a temperature.
     pub const fn holds_more_than_the_imu(self) -> bool {
         matches!(self, Self::Csv | Self::Parquet | Self::Mat)
-    }
-}
-
-/// Why a recording cannot be written in a format.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum WriteProblem {
-    /// The format has no time column.
-    #[error(
-        "a psins log has no time column, and sample {sample} is {off:e} s away from even steps of \
-         {interval} s; choose another format"
-    )]
-    Uneven {
-        /// The sample, from 1.
-        sample: usize,
-        /// How far its time is from where it should be \[s\].
-        off: f64,
-        /// The interval \[s\].
-        interval: f64,
-    },
-    /// The format cannot say so much.
-    #[error("{what} cannot be written in {format}: {why}")]
-    TooMuch {
-        /// What cannot be written.
-        what: &'static str,
-        /// The format.
-        format: &'static str,
-        /// Why not.
-        why: &'static str,
-    },
-    /// The encoder refuses.
-    #[error("cannot be written as {format}: {message}")]
-    Encoder {
-        /// The format.
-        format: &'static str,
-        /// What it says.
-        message: String,
-    },
-}
-
-/// Why writing has failed, before the file is known.
-enum Failure {
-    System(std::io::Error),
-    Problem(WriteProblem),
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Self {
-        Self::System(error)
-    }
-}
-
-impl From<WriteProblem> for Failure {
-    fn from(problem: WriteProblem) -> Self {
-        Self::Problem(problem)
     }
 }
 

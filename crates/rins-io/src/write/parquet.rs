@@ -11,8 +11,9 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use rins_motion::Recording;
 
+use super::failure::Failure;
 use super::signals::{COLUMNS, channel, others};
-use super::{Failure, WriteProblem};
+use crate::error::WriteProblem;
 
 /// The rows of a group: what is held in memory twice.
 const GROUP: usize = 1 << 20;

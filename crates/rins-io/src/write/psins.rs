@@ -6,8 +6,9 @@ use rins_frames::units::{ARCSEC, DEG};
 use rins_motion::Recording;
 
 use super::exact::{inverted, quotient};
+use super::failure::Failure;
 use super::signals::channel;
-use super::{Failure, WriteProblem};
+use crate::error::WriteProblem;
 use crate::log::Loaded;
 
 /// How far a time may be from even steps, in intervals.

@@ -3,7 +3,8 @@
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use super::{Columns, MOST_ROWS, Repeated, Wanted, typed};
+use super::columns::{Columns, MOST_ROWS, Repeated, Wanted};
+use super::typed;
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::source;
@@ -15,8 +16,9 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
     let mut reader = BufReader::with_capacity(1 << 16, source::open(path).map_err(failed())?);
     let Wanted { names, time } = wanted;
     let present: Vec<String> = (1..=count).map(|place| place.to_string()).collect();
-    let place =
-        |name: &str| super::place(name, &present).map_err(|problem| LogError::of(path, problem));
+    let place = |name: &str| {
+        super::columns::place(name, &present).map_err(|problem| LogError::of(path, problem))
+    };
     let places = names.iter().map(|name| place(name)).collect::<Result<Vec<_>, _>>()?;
     let time_place = time.as_ref().map(|(name, _)| place(name)).transpose()?;
     let mut numbers = vec![Vec::new(); names.len()];

@@ -11,8 +11,8 @@ use std::path::Path;
 use flate2::read::ZlibDecoder;
 
 use self::element::{Elements, Matrix};
+use super::columns::{Columns, MOST_COLUMNS, Wanted, place};
 use super::typed::{Numbers, most_rows, together};
-use super::{Columns, MOST_COLUMNS, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::source;

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::{Columns, MOST_ROWS, Repeated, Wanted, place};
+use super::columns::{Columns, MOST_ROWS, Repeated, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;

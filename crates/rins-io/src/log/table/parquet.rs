@@ -8,8 +8,8 @@ use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
+use super::columns::{Columns, Wanted, place};
 use super::typed::{Numbers, together};
-use super::{Columns, Wanted, place};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::sound_parquet::SoundParquet;

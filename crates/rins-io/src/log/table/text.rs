@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::{Columns, MOST_COLUMNS, MOST_ROWS, Repeated, Wanted, listed, place};
+use super::columns::{Columns, MOST_COLUMNS, MOST_ROWS, Repeated, Wanted, listed, place};
 use crate::error::{IoError, LogError};
 use crate::log::fields::{Delimiter, Fields};
 use crate::log::lines::Lines;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Columns, MOST_ROWS};
+use super::columns::{Columns, MOST_ROWS};
 use crate::error::{IoError, LogError};
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;

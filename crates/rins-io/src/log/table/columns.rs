@@ -1,0 +1,96 @@
+//! Columns that are asked for, and the rows that hold them.
+
+use super::rows::RowLines;
+use crate::log::instant::Instants;
+use crate::log::problem::LogProblem;
+use crate::log::summary::Omission;
+use crate::section::quoted;
+use crate::suggestion::nearest;
+
+/// The most columns that are read.
+pub(crate) const MOST_COLUMNS: usize = 4096;
+
+/// The most rows that are read: 93 hours at 200 Hz, which fill some ten gigabytes of memory.
+pub(in crate::log) const MOST_ROWS: u64 = 1 << 26;
+
+/// A row that is repeated so often in a row is no sample that a logger wrote twice.
+const MOST_REPEATED: u64 = 1 << 20;
+
+/// The most columns that an error lists.
+const MOST_LISTED: usize = 30;
+
+/// How much of a column's name an error shows.
+const LONGEST_LISTED: usize = 60;
+
+/// The numbers of some columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::log) struct Columns {
+    /// The time stamps \[s\], if time was asked for.
+    pub(in crate::log) time: Vec<f64>,
+    /// The numbers of each column that was asked for.
+    pub(in crate::log) numbers: Vec<Vec<f64>>,
+    /// The line of each row; its number from 1 where a log has no lines.
+    pub(in crate::log) lines: RowLines,
+    /// The lines that are left out.
+    pub(in crate::log) left_out: Vec<(u64, Omission)>,
+}
+
+/// What of a log is asked for: columns by name, and perhaps one of time stamps.
+pub(in crate::log) struct Wanted<'w> {
+    pub(in crate::log) names: &'w [&'w str],
+    pub(in crate::log) time: Option<(&'w str, &'w mut Instants)>,
+}
+
+/// Rows that are the same as the one before.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Repeated {
+    times: u64,
+    /// The line of the first of them.
+    from: u64,
+}
+
+impl Repeated {
+    /// Counts a row.
+    ///
+    /// # Errors
+    /// The line of the first of them, once there are more than any logger repeats.
+    pub(super) fn count(&mut self, line: u64, is_same: bool) -> Result<(), (u64, LogProblem)> {
+        match (is_same, self.times) {
+            (false, _) => self.times = 0,
+            (true, 0) => (self.times, self.from) = (1, line),
+            (true, times) if times > MOST_REPEATED => {
+                return Err((self.from, LogProblem::SameRow { times }));
+            }
+            (true, times) => self.times = times + 1,
+        }
+        Ok(())
+    }
+}
+
+/// The place of the only one of `names` that is `wanted`.
+pub(super) fn place(wanted: &str, names: &[String]) -> Result<usize, LogProblem> {
+    let mut found = names.iter().enumerate().filter(|(_, present)| *present == wanted);
+    match (found.next(), found.next()) {
+        (Some((place, _)), None) => Ok(place),
+        (Some(_), Some(_)) => Err(LogProblem::TwoColumns { column: wanted.into() }),
+        (None, _) => Err(LogProblem::NoColumn {
+            column: wanted.into(),
+            suggestion: nearest(wanted, names.iter().map(String::as_str)).map(Into::into),
+            present: listed(names),
+        }),
+    }
+}
+
+/// The columns that there are, in words.
+pub(super) fn listed(names: &[String]) -> String {
+    let short: Vec<String> = names
+        .iter()
+        .take(MOST_LISTED)
+        .map(|name| name.chars().take(LONGEST_LISTED).collect())
+        .collect();
+    let words = quoted(short.iter().map(String::as_str));
+    match names.len().checked_sub(MOST_LISTED) {
+        None | Some(0) => words,
+        Some(more) => format!("{words} and {more} more"),
+    }
+}
