@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use rins_terms::{Acting, Dual64, Model, Moment, Moments, Signals, Track, values};
 
+use crate::epoch::{Epoch, Span, Turning};
 use crate::gains::Growing;
-use crate::linear::{Epoch, Span};
 use crate::run::{Reference, Run};
 use crate::sway::Sway;
 
@@ -51,17 +51,6 @@ pub(crate) struct Build<'a> {
     fine: Moments<'a>,
     pieces: Moments<'a>,
     growing: Growing,
-}
-
-/// What the body does over an epoch, as far as noise is carried by it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Turning {
-    /// The integral of `C_b^s` \[s\].
-    pub(crate) turned: Matrix3<f64>,
-    /// The mean of that over the readings \[s\].
-    pub(crate) mean: Matrix3<f64>,
-    /// Its integral \[s²\].
-    pub(crate) twice: Matrix3<f64>,
 }
 
 impl<'a> Build<'a> {

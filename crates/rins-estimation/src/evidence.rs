@@ -7,9 +7,10 @@
 use nalgebra::SVector;
 use rins_frames::{Dcm, Table};
 
+use crate::epoch::Epoch;
 use crate::gains::Gains;
 use crate::gram::Gram;
-use crate::linear::{Epoch, Linear};
+use crate::linear::Linear;
 use crate::pass::Pass;
 use crate::posterior::Evidence;
 use crate::run::Run;

@@ -5,9 +5,10 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
 
+use crate::epoch::Epoch;
 use crate::evidence::Indefinite;
 use crate::gains::ROWS;
-use crate::linear::{Epoch, Linear};
+use crate::linear::Linear;
 use crate::space::Space;
 use crate::step::{CARRIED_OF, NAVIGATION, SHOWN, SHOWN_OF, Step};
 use crate::strengths::Noise;

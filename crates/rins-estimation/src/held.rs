@@ -4,25 +4,10 @@ use nalgebra::Vector3;
 use rins_frames::Increments;
 use rins_motion::Recording;
 
-use crate::linear::Epoch;
+use crate::epoch::{Epoch, whole};
 
 /// At least so many samples on either side say how much the motion changes from one to the next.
 const FEWEST_AROUND: usize = 3;
-
-/// The variances that missing samples add to an epoch, along x, y and z of the axis frame.
-///
-/// The rates of the sample after a gap are held over it, and the motion went its own way.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Held {
-    /// Of attitude at the end \[rad²\].
-    pub(crate) angle: Vector3<f64>,
-    /// Its covariance with the mean attitude that is shown.
-    pub(crate) angle_with_mean: Vector3<f64>,
-    /// Of that mean.
-    pub(crate) mean_angle: Vector3<f64>,
-    /// Of the velocity gained \[m²/s²\].
-    pub(crate) velocity: Vector3<f64>,
-}
 
 /// Tells every epoch what is not known of it for want of samples.
 pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
@@ -50,7 +35,7 @@ pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
 /// either side as are `missing`. The body turns between x and y, which share theirs.
 fn scatter(recording: &Recording, sample: usize, missing: f64) -> [Vector3<f64>; 2] {
     let samples = &recording.increments;
-    let reach = FEWEST_AROUND.max(crate::linear::whole(missing));
+    let reach = FEWEST_AROUND.max(whole(missing));
     let around = &samples[sample.saturating_sub(reach)..samples.len().min(sample + reach + 1)];
     let own = samples[sample].rates();
     let mut sums = [Vector3::zeros(); 2];

@@ -41,6 +41,7 @@ mod pass;
 mod posterior;
 mod stride;
 
+mod epoch;
 mod estimate;
 mod filter;
 mod fit;

@@ -7,18 +7,15 @@ use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Nav, Table};
 use rins_terms::{Model, Surroundings, Track, catalogue};
 
-use crate::build::{Build, Compared, Turning};
-use crate::gains::Gains;
-use crate::held::{Held, hold};
+use crate::build::{Build, Compared};
+use crate::epoch::{Epoch, SHORTEST_EPOCH, Span, whole};
+use crate::held::hold;
 use crate::path;
 use crate::run::{Reference, Run};
 use crate::step::SHOWN;
 
 /// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
 const EPOCH: (f64, f64) = (SHORTEST_EPOCH, 0.5);
-
-/// The shortest epoch \[s\].
-pub(crate) const SHORTEST_EPOCH: f64 = 0.1;
 
 /// No more epochs than this, however long the run is: those of a day last two seconds.
 const MOST_EPOCHS: f64 = 40_000.0;
@@ -34,31 +31,6 @@ const FEWEST_PIECES: usize = 4;
 
 /// How many epochs a thread makes at a time.
 const EPOCHS_AT_A_TIME: usize = 64;
-
-/// A stretch of samples, taken as one.
-///
-/// Over it `φ`, the attitude error of the reference path, `C~ = (I - φ×) C`, and `v`, the velocity, both in the
-/// axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`, but for the Earth's turning of `φ`,
-/// which every gain holds too; what is observed are
-/// the mean of `φ` over the readings within and the velocity at the end. Every gain has one
-/// column of what was read beyond the model, and one a parameter: the derivative by it.
-#[derive(Clone, Debug)]
-pub(crate) struct Epoch {
-    /// The first sample, and the first of the next epoch.
-    pub(crate) samples: (usize, usize),
-    /// How long \[s\].
-    pub(crate) duration: f64,
-    /// Whether samples are missing before it, so that nothing is known of φ and v.
-    pub(crate) fresh: bool,
-    /// Whether it plays no part: time goes by, and nothing is shown.
-    pub(crate) left_out: bool,
-    pub(crate) gains: Gains,
-    pub(crate) turning: Turning,
-    /// What is not known of it where samples are missing.
-    pub(crate) held: Option<Held>,
-    /// The variance of its mean angle for which the encoder's steps are taken \[rad²\].
-    pub(crate) rounding: f64,
-}
 
 /// A run, linear in the parameters that a model estimates.
 #[derive(Clone, Debug)]
@@ -188,24 +160,6 @@ pub(crate) fn linearised(
     }
 }
 
-/// A ratio of positive durations or angles as a number of samples, one at least.
-pub(crate) fn whole(ratio: f64) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "it is positive, and at most the number of samples"
-    )]
-    let whole = ratio.round() as usize;
-    whole.max(1)
-}
-
-/// The samples of an epoch.
-pub(crate) struct Span {
-    pub(crate) samples: Range<usize>,
-    /// Whether samples are missing before it.
-    pub(crate) fresh: bool,
-}
-
 /// The samples of all epochs: so many each, and a new one after a gap.
 fn spans(run: &Run, block: usize) -> Vec<Span> {
     let recording = &run.recording;
@@ -256,13 +210,6 @@ fn leave_out(epochs: &mut [Epoch], spans: &[Range<usize>]) {
     for epoch in epochs {
         let (first, end) = epoch.samples;
         epoch.left_out = spans.iter().any(|span| span.start < end && first < span.end);
-    }
-}
-
-impl Epoch {
-    /// How many readings the mean is of.
-    pub(crate) fn count(&self) -> f64 {
-        (self.samples.1 - self.samples.0) as f64
     }
 }
 

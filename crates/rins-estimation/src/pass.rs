@@ -7,8 +7,8 @@
 use nalgebra::{Cholesky, DMatrix, SMatrix, Vector3};
 use rins_lanes::{Arch, Lane, Simd, WithSimd};
 
+use crate::epoch::Epoch;
 use crate::gains::{Gains, WIDEST};
-use crate::linear::Epoch;
 use crate::space::Space;
 use crate::step::{CARRIED_OF, FOLLOWING, NAVIGATION, SHOWN, SHOWN_OF, Step};
 

@@ -11,7 +11,7 @@ use rins_inspection::{Comb, ENOUGH_ANGLES};
 use rins_motion::Recording;
 use rins_terms::Track;
 
-use crate::linear::Epoch;
+use crate::epoch::Epoch;
 
 /// Steps whose rounding adds less than this to the variance that is stated of a reading are fine.
 const FINE: f64 = 0.05;

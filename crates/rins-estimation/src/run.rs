@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_motion::{Recording, Station};
 
-use crate::linear::SHORTEST_EPOCH;
+use crate::epoch::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
 
 /// What tells where the table is.

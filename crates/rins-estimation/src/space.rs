@@ -6,10 +6,9 @@
 use nalgebra::{DMatrix, Matrix3, SMatrix};
 use rins_frames::cross_matrix;
 
-use crate::build::Turning;
 use crate::colour::{Colours, Passage};
-use crate::held::Held;
-use crate::linear::{Epoch, Linear};
+use crate::epoch::{Epoch, Held, Turning};
+use crate::linear::Linear;
 use crate::run::Reference;
 use crate::step::{NAVIGATION, SHOWN, Step, Weight};
 use crate::strengths::Noise;

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, Matrix3, SMatrix};
 use rins_lanes::{Matrix, Real, Vector};
 
-use crate::build::Turning;
+use crate::epoch::Turning;
 
 /// Attitude and velocity.
 pub(crate) const NAVIGATION: usize = 6;
