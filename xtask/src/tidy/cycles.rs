@@ -74,10 +74,11 @@ fn named(module: &[String]) -> String {
     if module.is_empty() { "the crate's root".to_owned() } else { module.join("::") }
 }
 
-/// The files of a crate, by module.
+/// The files of a crate, by module; none where it has no sources.
 fn files(source: &Path) -> Result<BTreeMap<Module, File>> {
     let mut files = BTreeMap::new();
-    let mut folders = vec![source.to_path_buf()];
+    let mut folders: Vec<PathBuf> =
+        source.is_dir().then(|| source.to_path_buf()).into_iter().collect();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder)? {
             let path = entry?.path();
