@@ -17,27 +17,25 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 /// assert_eq!(axes.apply(&Vector3::new(1.0, 2.0, 3.0)), Vector3::new(-2.0, 1.0, 3.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axes {
-    source: [usize; 3],
-    sign: [f64; 3],
-}
+pub struct Axes(SignedAxes);
 
 impl Axes {
     /// The axes as they are.
-    pub const IDENTITY: Self = Self { source: [0, 1, 2], sign: [1.0; 3] };
+    pub const IDENTITY: Self = Self(SignedAxes::IDENTITY);
 
     /// From front, right, down to right, front, up; and back.
-    pub const FRONT_RIGHT_DOWN: Self = Self { source: [1, 0, 2], sign: [1.0, 1.0, -1.0] };
+    pub const FRONT_RIGHT_DOWN: Self =
+        Self(SignedAxes { source: [1, 0, 2], sign: [1.0, 1.0, -1.0] });
 
     /// The axes that three texts name; `None` unless each of x, y and z occurs once.
     pub fn parse(names: [&str; 3]) -> Option<Self> {
-        let mut axes = Self::IDENTITY;
+        let mut axes = SignedAxes::IDENTITY;
         for (index, name) in names.into_iter().enumerate() {
             (axes.source[index], axes.sign[index]) = axis(name)?;
         }
         let mut seen = axes.source;
         seen.sort_unstable();
-        (seen == [0, 1, 2]).then_some(axes)
+        (seen == [0, 1, 2]).then_some(Self(axes))
     }
 
     /// The proper rotation that makes the axis `name` the new z; `None` if it is not an axis.
@@ -47,7 +45,7 @@ impl Axes {
     pub fn spin(name: &str) -> Option<Self> {
         let (source, sign) = axis(name)?;
         let source = [(source + 1) % 3, (source + 2) % 3, source];
-        Some(Self { source, sign: [1.0, sign, sign] })
+        Some(Self(SignedAxes { source, sign: [1.0, sign, sign] }))
     }
 
     /// The axis that has become z, as a rig file names it; [`Axes::spin`] gives these axes of it, if they are of a spin axis.
@@ -59,46 +57,40 @@ impl Axes {
     /// The vector's components along these axes.
     #[must_use]
     pub fn apply(&self, vector: &Vector3<f64>) -> Vector3<f64> {
-        Vector3::from_fn(|row, _| self.sign[row] * vector[self.source[row]])
+        self.0.apply(vector)
     }
 
     /// The axes by which what these have mixed up is as it was.
     #[must_use]
     pub fn inverse(&self) -> Self {
-        let mut inverse = *self;
-        for row in 0..3 {
-            inverse.source[self.source[row]] = row;
-            inverse.sign[self.source[row]] = self.sign[row];
-        }
-        inverse
+        Self(self.0.inverse())
     }
 
     /// Each axis as a rig file names it.
     pub fn names(&self) -> [String; 3] {
+        let SignedAxes { source, sign } = self.0;
         core::array::from_fn(|row| {
-            let sign = if self.sign[row] < 0.0 { "-" } else { "" };
-            format!("{sign}{}", NAMES[self.source[row]])
+            let sign = if sign[row] < 0.0 { "-" } else { "" };
+            format!("{sign}{}", NAMES[source[row]])
         })
     }
 
     /// These axes picked from `first`, not from the sensor's.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
-        let source = self.source.map(|index| first.source[index]);
-        let sign = core::array::from_fn(|row| self.sign[row] * first.sign[self.source[row]]);
-        Self { source, sign }
+        Self(self.0.after(&first.0))
     }
 }
 
 impl From<Axes> for SignedAxes {
-    fn from(Axes { source, sign }: Axes) -> Self {
-        Self { source, sign }
+    fn from(Axes(axes): Axes) -> Self {
+        axes
     }
 }
 
 impl From<SignedAxes> for Axes {
-    fn from(SignedAxes { source, sign }: SignedAxes) -> Self {
-        Self { source, sign }
+    fn from(axes: SignedAxes) -> Self {
+        Self(axes)
     }
 }
 
