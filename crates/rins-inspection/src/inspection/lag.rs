@@ -102,7 +102,8 @@ impl TableLag {
             Trial::of(&blocks, walk.exp()).map_or(f64::NEG_INFINITY, |trial| trial.likelihood)
         };
         let places = (0..TRIED).map(|place| low + step * f64::from(place));
-        let best = places.max_by(|a, b| likelihood(*a).total_cmp(&likelihood(*b)))?;
+        let tried = places.map(|walk| (likelihood(walk), walk));
+        let (_, best) = tried.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let walk = golden_section(best - step, best + step, likelihood);
         let Trial { found, sigma_of_rate, .. } = Trial::of(&blocks, walk.exp())?;
         let lag = Self { latency: found.y, sigma: sigma_of_rate, ratio: found.x };

@@ -92,7 +92,7 @@ impl Cells {
         let cell = length * interval;
         let needed = (WINDOW / cell).max(WINDOW_SAMPLES as f64 / length);
         all.window =
-            super::runs::whole((needed * (1.0 - 1e-9)).ceil()).clamp(1, all.cells.len().max(1));
+            super::whole::whole((needed * (1.0 - 1e-9)).ceil()).clamp(1, all.cells.len().max(1));
         let step = |stated: Option<f64>, of: &dyn Fn(usize) -> f64| {
             stated.unwrap_or_else(|| least_step((0..samples.len()).map(of)))
         };

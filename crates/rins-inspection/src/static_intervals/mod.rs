@@ -12,12 +12,12 @@ mod drift;
 mod interval;
 mod noise;
 mod options;
-mod runs;
 mod search;
 mod split;
 mod stated;
 mod table;
 mod wander;
+mod whole;
 
 use std::ops::Range;
 

@@ -7,7 +7,7 @@ use rins_frames::units::DEG_PER_SECOND;
 
 use super::cells::Cells;
 use super::options::StaticOptions;
-use super::runs::whole;
+use super::whole::whole;
 use rins_motion::median;
 
 /// A window moves if its scatter is so many times that of the quietest.

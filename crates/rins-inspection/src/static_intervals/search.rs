@@ -10,10 +10,11 @@ use super::cells::Cells;
 use super::interval::{NotStatic, StaticInterval};
 use super::noise::{Limits, Noise};
 use super::options::StaticOptions;
-use super::runs::{runs, whole};
 use super::split::{SIGMAS, coarse_step};
 use super::wander::wanders;
+use super::whole::whole;
 use super::{drift, split, table};
+use crate::rows::rows_of;
 use rins_motion::Recording;
 
 /// A cell at the end of an interval that is so many sigma off its mean belongs to the motion that follows: of a thousand
@@ -69,11 +70,11 @@ impl<'r> Search<'r> {
         let table = table::stands(recording, &cells);
         let stand = table.clone().unwrap_or_else(|| vec![true; cells.len()]);
         let quiet = Limits::of(&cells, &stand, options).quiet(&cells, &stand);
-        let mut noise = Noise::of(&cells, &runs(&quiet));
+        let mut noise = Noise::of(&cells, &rows_of(&quiet));
         if table.is_none() {
             // What moves slowly is as quiet as what is static; it is no noise.
             for _ in 0..NOISE_PASSES {
-                let parts = runs(&quiet)
+                let parts = rows_of(&quiet)
                     .into_iter()
                     .flat_map(|run| split::parts(&cells, run, &noise, options))
                     .collect::<Vec<_>>();
@@ -85,7 +86,7 @@ impl<'r> Search<'r> {
 
     pub(super) fn found(&self) -> Vec<StaticInterval> {
         let mut all: Vec<Found> = Vec::new();
-        for run in runs(&self.quiet) {
+        for run in rows_of(&self.quiet) {
             if self.table.is_some() {
                 all.push(Found { parts: vec![run], why: None });
                 continue;
