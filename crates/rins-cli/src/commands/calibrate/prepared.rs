@@ -93,8 +93,8 @@ impl Prepared {
         let name = shown(&loaded.rig.log.path);
         let log = || name.clone();
         let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
-        let axis = axis(&loaded, &setup).with_context(log)?;
         let statics = static_intervals(&loaded);
+        let axis = axis(&loaded, &setup, &statics).with_context(log)?;
         let told = statics_in_words(&statics, &loaded.rig);
         let static_intervals = statics_of(&statics, &axis);
         let turned = matches!(axis.reference, Reference::Encoder { .. });
@@ -222,12 +222,12 @@ pub(super) fn repeats_in_words(Repeats { samples, rows, alone, .. }: Repeats) ->
     )
 }
 
-fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
+fn axis(loaded: &Loaded, setup: &Setup, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     let recording = &loaded.recording;
     let reference = match (&recording.table_angle, &recording.table_rate) {
         (Some(_), _) => Reference::Encoder { noise: setup.table.angle_noise },
         (None, Some(_)) => Reference::Command { noise: setup.table.rate_noise },
-        (None, None) => return unread(loaded),
+        (None, None) => return unread(loaded, statics),
     };
     let angles = table_angles(recording, setup.table.latency).unwrap_or_default();
     let late = recording.table_angle.is_some() && setup.table.latency != 0.0;
@@ -254,7 +254,7 @@ fn axis(loaded: &Loaded, setup: &Setup) -> anyhow::Result<Axis> {
 }
 
 /// A run whose table nothing reads: it turns by gravity, or rests.
-fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
+fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     let recording = &loaded.recording;
     let given = loaded.rig.attitude;
     let turning = turning_span(recording).map(|span| (recording.slice(span.start, span.end), span));
@@ -274,7 +274,7 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
             recording.times[span.end - 1],
             spin(&turning) / (360.0 * DEG)
         )];
-        let rests = rests::on_axis(loaded, &span, &nav_from_table);
+        let rests = rests::on_axis(recording, statics, &span, &nav_from_table);
         let (rests_used, others): (Vec<_>, Vec<_>) = rests
             .into_iter()
             .map(|OnAxis { span, nav_from_table }| {
@@ -307,7 +307,7 @@ fn unread(loaded: &Loaded) -> anyhow::Result<Axis> {
             ..axis
         });
     }
-    if let Some(rests) = Rests::of(loaded)? {
+    if let Some(rests) = Rests::of(loaded, statics)? {
         return Ok(turned_over(loaded, &rests));
     }
     let rest = found(loaded)

@@ -7,11 +7,11 @@ use nalgebra::Vector3;
 use rins_estimation::AXIS_BY_GRAVITY;
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, Table};
+use rins_inspection::StaticIntervals;
 use rins_io::Loaded;
 use rins_motion::Recording;
 
 use crate::commands::align::{Found, found_over};
-use crate::commands::statics::static_intervals;
 
 /// The shortest rest that is used \[s\].
 pub(super) const SHORTEST: f64 = 2.0;
@@ -32,7 +32,8 @@ pub(super) struct OnAxis {
 /// The rests of a log outside of `turning` in which the axis leans as it does while it turns, to within three times what
 /// [`AXIS_BY_GRAVITY`] allows: gravity tells how far the body is turned about it.
 pub(super) fn on_axis(
-    loaded: &Loaded,
+    recording: &Recording,
+    statics: &StaticIntervals,
     turning: &Range<usize>,
     nav_from_table: &Dcm<Nav, Table>,
 ) -> Vec<OnAxis> {
@@ -41,7 +42,7 @@ pub(super) fn on_axis(
         if span.start < turning.end && turning.start < span.end {
             return None;
         }
-        let felt = up_in_body(&loaded.recording, span.clone());
+        let felt = up_in_body(recording, span.clone());
         let leans_alike = (felt.z.acos() - up.z.acos()).abs() <= 3.0 * AXIS_BY_GRAVITY;
         let angle = up.y.atan2(up.x) - felt.y.atan2(felt.x);
         leans_alike.then(|| OnAxis {
@@ -49,7 +50,7 @@ pub(super) fn on_axis(
             nav_from_table: *nav_from_table * Dcm::<Table, Table>::about_z(angle),
         })
     };
-    static_intervals(loaded).spans(SHORTEST).into_iter().filter_map(rest).collect()
+    statics.spans(SHORTEST).into_iter().filter_map(rest).collect()
 }
 
 /// The direction of the mean specific force, in the body.
@@ -70,10 +71,10 @@ pub(crate) struct Rests {
 
 impl Rests {
     /// Those of a log that rests in several attitudes.
-    pub(super) fn of(loaded: &Loaded) -> anyhow::Result<Option<Self>> {
+    pub(super) fn of(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Option<Self>> {
         let recording = &loaded.recording;
         let mut ways: Vec<Vector3<f64>> = Vec::new();
-        let spans = static_intervals(loaded).spans(SHORTEST);
+        let spans = statics.spans(SHORTEST);
         for span in &spans {
             let up = up_in_body(recording, span.clone());
             if ways.iter().all(|way| way.angle(&up) > ALIKE) {
