@@ -15,7 +15,7 @@ mod text;
 mod tests;
 
 /// The crates in which files still import each other in circles: none may join them.
-const IN_CIRCLES: &[&str] = &["rins-blind", "rins-cli", "rins-diagnosis"];
+const IN_CIRCLES: &[&str] = &["rins-blind", "rins-diagnosis"];
 
 /// One breach of a rule.
 #[derive(Debug)]

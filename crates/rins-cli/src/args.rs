@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use rins::{ModelChoice, NoiseChoice};
 use rins_io::{LogFile, Overwrite, shown};
 
 mod observe;
 
-pub(crate) use self::observe::{Observe, Want};
+pub(crate) use self::observe::Observe;
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
 ///
@@ -208,8 +209,8 @@ pub(crate) struct Calibrate {
     #[arg(long, value_parser = ModelChoice::parse)]
     pub(crate) model: Option<ModelChoice>,
     /// Whether the data sheet's noise is found anew from the data or trusted; paper12 trusts it
-    #[arg(long, value_enum, default_value_t = NoiseChoice::Likely)]
-    pub(crate) noise: NoiseChoice,
+    #[arg(long, value_enum, default_value_t = Noise::Likely)]
+    pub(crate) noise: Noise,
 }
 
 #[derive(Debug, Args)]
@@ -230,12 +231,12 @@ pub(crate) struct Diagnose {
     /// What the run is taken to hold: full (biases, scale errors, misalignments, the axis' attitude), or a model file
     #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
     pub(crate) model: ModelChoice,
-    /// Search for nothing, and say what the effects of this model file explain and gain
-    #[arg(long, value_name = "FILE")]
-    pub(crate) suppose: Option<PathBuf>,
+    /// Search for nothing, and evaluate the effects of this model file: what they explain and gain
+    #[arg(long, alias = "suppose", value_name = "FILE")]
+    pub(crate) hypothesis: Option<PathBuf>,
     /// Whether the data sheet's noise is found anew from the data or trusted
-    #[arg(long, value_enum, default_value_t = NoiseChoice::Likely)]
-    pub(crate) noise: NoiseChoice,
+    #[arg(long, value_enum, default_value_t = Noise::Likely)]
+    pub(crate) noise: Noise,
     /// Draw the score of all effects of the catalogue so often under the extended model, and say in how many draws the
     /// first search would have named one; the search is not repeated on simulated runs
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -309,45 +310,22 @@ fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, Stri
     None
 }
 
-/// The error model to be estimated.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum ModelChoice {
-    /// The paper's, by the paper's filter.
-    Paper12,
-    /// All of eq. (1), and the attitude of the axis.
-    Full,
-    /// As a model file lists it.
-    File(PathBuf),
-}
-
-impl ModelChoice {
-    fn parse(text: &str) -> Result<Self, String> {
-        match text {
-            "paper12" => Ok(Self::Paper12),
-            "full" => Ok(Self::Full),
-            path if Path::new(path).extension().is_some_and(|ending| ending == "toml") => {
-                Ok(Self::File(path.into()))
-            }
-            _ => Err("expected paper12, full or a model file such as model.toml".into()),
-        }
-    }
-
-    /// A model for the estimator that takes any: the paper's filter is none.
-    fn parse_estimated(text: &str) -> Result<Self, String> {
-        match Self::parse(text) {
-            Ok(choice) if choice != Self::Paper12 => Ok(choice),
-            _ => Err("expected full or a model file such as model.toml".into()),
-        }
-    }
-}
-
 /// What is known of the random errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum NoiseChoice {
+pub(crate) enum Noise {
     /// The data sheet is a first guess; the most likely strengths are found
     Likely,
     /// The data sheet is right
     Given,
+}
+
+impl From<Noise> for NoiseChoice {
+    fn from(noise: Noise) -> Self {
+        match noise {
+            Noise::Likely => Self::Likely,
+            Noise::Given => Self::Given,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -380,14 +358,17 @@ pub(crate) struct Compare {
 }
 
 impl Command {
-    /// Where results go, if anywhere.
-    pub(crate) fn destination(&self) -> Option<&Path> {
+    /// The folder of the results, if there is one.
+    pub(crate) fn folder(&self) -> Option<&Path> {
         match self {
             Self::Demo(demo) => Some(&demo.output),
-            Self::Init(init) => init.output.as_deref(),
             Self::Simulate(simulate) => Some(&simulate.output),
-            // These write their two files themselves.
-            Self::Convert(_) | Self::MonteCarlo(_) | Self::Merge(_) | Self::Apply(_) => None,
+            // These write their one or two files themselves.
+            Self::Init(_)
+            | Self::Convert(_)
+            | Self::MonteCarlo(_)
+            | Self::Merge(_)
+            | Self::Apply(_) => None,
             Self::Check(input) | Self::Allan(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),

@@ -11,7 +11,7 @@ use crate::support::{list, magnitude, number, result_in, rins_in, texts};
 /// A folder with the demo's run.
 fn run() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
+    let demo = rins_tests::workspace().join("crates/rins/data/demo");
     for name in ["rig.toml", "run.csv"] {
         fs::copy(demo.join(name), folder.path().join(name)).unwrap();
     }

@@ -53,7 +53,7 @@ fn demo_leaves_a_result_that_others_can_read() {
     }
     let written = fs::read_to_string(folder.path().join("rins-demo/result.json")).unwrap();
     let result: Value = serde_json::from_str(&written).unwrap();
-    assert_eq!((&result["schema"], &result["command"]), (&1.into(), &"demo".into()));
+    assert_eq!((&result["schema"], &result["command"]), (&2.into(), &"demo".into()));
     let (before, after) = (
         magnitude(&result, "/navigation/before/velocity_m_s"),
         magnitude(&result, "/navigation/after/velocity_m_s"),

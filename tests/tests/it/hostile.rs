@@ -142,7 +142,7 @@ fn keys_without_an_end() {
 
 #[test]
 fn runs_that_would_last_for_ever() {
-    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo/scenario.toml");
+    let demo = rins_tests::workspace().join("crates/rins/data/demo/scenario.toml");
     let scenario = fs::read_to_string(demo).unwrap();
     for (from, to) in [
         ("\"180 s\"", "\"1e11 s\""),

@@ -47,7 +47,7 @@ fn assert_at_work(arguments: &str, at_work: u32) {
 /// A scenario of a minute, and its run.
 fn run() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
+    let demo = rins_tests::workspace().join("crates/rins/data/demo");
     let scenario = fs::read_to_string(demo.join("scenario.toml")).unwrap();
     assert!(scenario.contains("\"180 s\""));
     let short = scenario.replace("\"180 s\"", "\"30 s\"");

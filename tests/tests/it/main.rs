@@ -13,6 +13,7 @@ mod help;
 mod hostile;
 mod identifiability;
 mod interrupted;
+mod library;
 mod measured;
 mod mistakes;
 mod monte_carlo;

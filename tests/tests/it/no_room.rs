@@ -25,7 +25,7 @@ const COMMANDS: [(&str, &str); 9] = [
 
 fn run() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
+    let demo = rins_tests::workspace().join("crates/rins/data/demo");
     for name in ["rig.toml", "run.csv", "scenario.toml"] {
         fs::copy(demo.join(name), folder.path().join(name)).unwrap();
     }

@@ -11,7 +11,7 @@ use crate::support::{number, object, parameter, result_in, rins_in, texts};
 /// The demo's run with two samples lost at the rest's end, a line written twice, and a cut end.
 fn imperfect() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
+    let demo = rins_tests::workspace().join("crates/rins/data/demo");
     let rig = fs::read_to_string(demo.join("rig.toml")).unwrap();
     let rig = rig.replace("rate = \"25 Hz\"\n", "rate = \"25 Hz\"\ngaps = \"held\"\n");
     fs::write(folder.path().join("rig.toml"), rig).unwrap();

@@ -43,7 +43,7 @@ pub(crate) fn object(finished: &Finished) -> Value {
     let value: Value = serde_json::from_str(&finished.out)
         .unwrap_or_else(|error| panic!("{error} in {:?}", finished.out));
     assert!(value.is_object(), "{value}");
-    assert_eq!(value["schema"], 1);
+    assert_eq!(value["schema"], 2);
     value
 }
 

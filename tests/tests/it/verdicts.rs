@@ -33,7 +33,7 @@ const ITEMS: [&str; 19] = [
 
 /// The word and the sentence on one thing.
 fn verdict<'v>(check: &'v Value, item: &str) -> (&'v str, &'v str) {
-    let found = list(check, "/verdicts").iter().find(|verdict| verdict["item"] == item);
+    let found = list(check, "/verdicts").iter().find(|verdict| verdict["check"] == item);
     let found = found.unwrap_or_else(|| panic!("no verdict on {item} in {check:#}"));
     (found["verdict"].as_str().unwrap(), found["says"].as_str().unwrap())
 }
@@ -41,7 +41,7 @@ fn verdict<'v>(check: &'v Value, item: &str) -> (&'v str, &'v str) {
 /// The demo's run, with something replaced in its rig file and in its log.
 fn run(rig: [&str; 2], log: impl Fn(Vec<String>) -> Vec<String>) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let demo = rins_tests::workspace().join("crates/rins-cli/data/demo");
+    let demo = rins_tests::workspace().join("crates/rins/data/demo");
     let text = fs::read_to_string(demo.join("rig.toml")).unwrap();
     assert!(text.contains(rig[0]), "{text}");
     fs::write(folder.path().join("rig.toml"), text.replacen(rig[0], rig[1], 1)).unwrap();
@@ -57,8 +57,10 @@ const SAME: [&str; 2] = ["", ""];
 fn a_good_run_has_nothing_odd() {
     let folder = run(SAME, |lines| lines);
     let check = result_in(folder.path(), "check rig.toml -o out");
-    let items: Vec<&str> =
-        list(&check, "/verdicts").iter().map(|verdict| verdict["item"].as_str().unwrap()).collect();
+    let items: Vec<&str> = list(&check, "/verdicts")
+        .iter()
+        .map(|verdict| verdict["check"].as_str().unwrap())
+        .collect();
     assert_eq!(items, ITEMS);
     for item in ITEMS {
         let (word, says) = verdict(&check, item);

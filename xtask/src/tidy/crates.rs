@@ -14,9 +14,10 @@ const LAYERS: &[&[&str]] = &[
     &["rins-terms", "rins-inspection"],
     &["rins-simulation", "rins-calibration"],
     &["rins-estimation", "rins-campaign"],
-    &["rins-diagnosis"],
+    &["rins-diagnosis", "rins-design"],
     &["rins-io"],
-    &["rins-cli", "rins-reproduction", "rins-trials"],
+    &["rins", "rins-reproduction", "rins-trials"],
+    &["rins-cli"],
 ];
 
 /// The crate that is for tests only: a dev-dependency of any other, and in no layer.
@@ -24,12 +25,12 @@ const TESTING: &str = "rins-testing";
 
 /// Dependencies that only some crates may use, outside their tests.
 const CONFINED: &[(&str, &[&str])] = &[
-    ("anyhow", &["rins-cli"]),
+    ("anyhow", &["rins", "rins-cli"]),
     ("clap", &["rins-cli"]),
-    ("csv", &["rins-io", "rins-cli"]),
-    ("serde", &["rins-io", "rins-report", "rins-cli", "rins-trials"]),
-    ("serde_json", &["rins-io", "rins-report", "rins-cli", "rins-trials"]),
-    ("toml", &["rins-io", "rins-cli"]),
+    ("schemars", &["rins"]),
+    ("serde", &["rins-io", "rins-report", "rins", "rins-trials"]),
+    ("serde_json", &["rins-io", "rins-report", "rins", "rins-cli", "rins-trials"]),
+    ("toml", &["rins-io", "rins"]),
 ];
 
 /// What `[package]` must say before a crate can be published.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use rins::observe::Want;
 use rins_io::Quantity;
 use rins_io::quantity::kinds;
 
@@ -39,17 +40,6 @@ pub(crate) struct Observe {
     /// Folder for result.json, report.html and the proposed scenarios, next-1.toml and on
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-}
-
-/// A parameter and the 1σ that is wanted of it.
-#[derive(Clone, Debug)]
-pub(crate) struct Want {
-    /// The parameter's id, as it was typed.
-    pub(crate) id: String,
-    /// More than zero.
-    pub(crate) sigma: Quantity,
-    /// As it was typed.
-    pub(crate) typed: String,
 }
 
 fn want(text: &str) -> Result<Want, String> {

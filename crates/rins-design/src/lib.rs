@@ -1,0 +1,33 @@
+//! What a rotation schedule shows before it is run, and which one to run next.
+//!
+//! The information of a run on the parameters `x` of a model is `Jᵀ R⁻¹ J`, with `J` the derivatives of the whitened innovations
+//! along the planned motion and `R` the noise of the data sheet: it needs neither measured data nor simulated noise.
+//!
+//! **What it does.** A [`Planned`] run is a scenario of which only motion, site and data sheet count. [`information`] is what several
+//! of them hold together. [`Pair`] is how well two effects are separated, [`propose`] looks through a library of schedules for the
+//! shortest one that reaches a [`Goal`] within the [`Limits`] of a table, and [`next_test`] does that for two effects that a run could
+//! not separate. A [`Budget`] is what errors of given sizes are worth in free inertial navigation.
+//!
+//! **What it does not do.** It reads no files and decides nothing about measured data.
+
+mod budget;
+mod effect;
+mod error;
+mod library;
+mod next;
+mod pair;
+mod planned;
+mod proposal;
+
+pub use budget::{Asked, Budget, Drift, Truth, Worth};
+pub use effect::Effect;
+pub use error::DesignError;
+pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
+pub use next::{Confused, NextTest, next_test};
+pub use pair::{ENOUGH, Pair, information};
+pub use planned::Planned;
+pub use proposal::{Goal, Proposal, propose};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,64 @@
+//! How well runs separate two effects.
+
+use nalgebra::DMatrix;
+use rins_estimation::{Joint, Separation, Strengths, joint, separation};
+use rins_terms::Model;
+
+use crate::effect::Effect;
+use crate::error::DesignError;
+use crate::planned::Planned;
+
+/// By how many sigmas two effects must differ to be separated.
+pub const ENOUGH: f64 = 6.0;
+
+/// The information of runs of one IMU, to these plans, on what `model` estimates.
+///
+/// # Errors
+/// [`DesignError`] if a run cannot be simulated, or the model cannot be estimated from the runs.
+///
+/// # Panics
+/// If there are no plans.
+pub fn information(planned: &[Planned], model: &Model) -> Result<Joint, DesignError> {
+    let runs = planned.iter().map(Planned::run).collect::<Result<Vec<_>, _>>()?;
+    let imu = &planned[0].imu;
+    Ok(joint(&runs, model, imu, &Strengths::of(imu))?)
+}
+
+/// How well runs separate two effects.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// The first effect against the second, and the second against the first.
+    pub separations: [Separation; 2],
+    /// By how many sigmas the first, of its typical size, differs from the second in its worst direction; and the other way.
+    pub told: [f64; 2],
+}
+
+impl Pair {
+    /// How the information of a schedule separates two effects, in the model's company.
+    pub fn of(joint: &Joint, effects: &[Effect; 2]) -> Self {
+        let [first, second] = effects.each_ref().map(|effect| effect.places(joint));
+        let both: Vec<usize> = first.iter().chain(&second).copied().collect();
+        let information = with_priors(joint, &both);
+        let separations =
+            [separation(&information, &first, &second), separation(&information, &second, &first)];
+        let told = separations.each_ref().map(|separation| {
+            let least = separation.directions.iter().map(|direction| direction.told);
+            if separation.directions.is_empty() { 0.0 } else { least.fold(f64::INFINITY, f64::min) }
+        });
+        Self { separations, told }
+    }
+
+    /// Whether the effects are separated, each of its typical size.
+    pub fn is_separated(&self) -> bool {
+        self.told.iter().all(|told| *told >= ENOUGH)
+    }
+}
+
+/// The information in units of the priors, with what is known beforehand of all but the parameters at `places`.
+pub(crate) fn with_priors(joint: &Joint, places: &[usize]) -> DMatrix<f64> {
+    let mut information = joint.information();
+    for place in (0..information.nrows()).filter(|place| !places.contains(place)) {
+        information[(place, place)] += 1.0;
+    }
+    information
+}

@@ -1,0 +1,126 @@
+//! Runs that are planned: of one IMU, without errors and without noise.
+
+use rins_calibration::Setup;
+use rins_estimation::{Noise, Reference, Rig, Run};
+use rins_frames::{Dcm, Nav, Table};
+use rins_imu::{ImuError, ImuSpec};
+use rins_motion::{Profile, Segment};
+use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
+use rins_terms::Model;
+
+use crate::error::DesignError;
+
+/// A scenario, of which only what is planned matters: neither errors nor noise.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// What it is called.
+    pub name: String,
+    /// The data sheet of the IMU.
+    pub imu: ImuSpec,
+    /// The table's acceleration, if it is said \[rad/s²\].
+    pub acceleration: Option<f64>,
+    scenario: Scenario,
+    noise: f64,
+    wobble: f64,
+}
+
+impl Planned {
+    /// The plan of a scenario with this table: the 1σ of a reading of its angle and of its axis' direction \[rad\], and its
+    /// acceleration, if it is said \[rad/s²\].
+    pub fn new(
+        name: String,
+        scenario: Scenario,
+        imu: ImuSpec,
+        (noise, wobble, acceleration): (f64, f64, Option<f64>),
+    ) -> Self {
+        let mut scenario = Scenario {
+            imu_error: ImuError::default(),
+            noise: None,
+            effects: Model::default(),
+            ..scenario
+        };
+        if let TableRecord::Angle(encoder) = &mut scenario.table {
+            *encoder = Encoder::default();
+        }
+        Self { name, imu, acceleration, scenario, noise, wobble }
+    }
+
+    /// A plan at the place and with the attitude of a run that has been measured, as long and as fast.
+    ///
+    /// # Errors
+    /// [`DesignError::Profile`] if the run lasts no time.
+    pub fn like(run: &Run, noise: &Noise, imu: ImuSpec) -> Result<Self, DesignError> {
+        let times = &run.recording.times;
+        let duration = times[times.len() - 1] - times[0];
+        let interval = duration / (times.len() - 1) as f64;
+        let rates = run.recording.increments.iter().map(|sample| sample.rates().angular_rate);
+        let rate = rates.map(|rate| rate.components().z.abs()).fold(0.0, f64::max);
+        let segment = Segment { rate, duration };
+        Ok(Self {
+            name: "the next run".into(),
+            imu,
+            acceleration: None,
+            scenario: Scenario::perfect(
+                run.rig.station,
+                run.rig.nav_from_table,
+                Profile::new(&[segment], None)?,
+                interval,
+            ),
+            noise: noise.encoder,
+            wobble: noise.wobble,
+        })
+    }
+
+    /// The same with another motion and attitude of the axis.
+    #[must_use]
+    pub fn moved(&self, profile: Profile, nav_from_table: Dcm<Nav, Table>) -> Self {
+        let scenario = Scenario { profile, nav_from_table, ..self.scenario.clone() };
+        Self { scenario, ..self.clone() }
+    }
+
+    /// The attitude of the axis frame.
+    pub fn nav_from_table(&self) -> Dcm<Nav, Table> {
+        self.scenario.nav_from_table
+    }
+
+    /// How long it takes \[s\].
+    pub fn duration(&self) -> f64 {
+        self.scenario.profile.duration()
+    }
+
+    /// The fastest that the table turns \[rad/s\].
+    pub fn fastest(&self) -> f64 {
+        let steps = 1000;
+        let times = (0..steps).map(|step| self.duration() * f64::from(step) / f64::from(steps));
+        times.map(|time| self.scenario.profile.rate(time).abs()).fold(0.0, f64::max)
+    }
+
+    /// The run that it makes.
+    pub(crate) fn run(&self) -> Result<Run, DesignError> {
+        let scenario = &self.scenario;
+        let recording = simulate(scenario)
+            .map_err(|source| DesignError::Scenario { name: self.name.clone(), source })?
+            .recording;
+        let up = scenario.nav_from_table.matrix()[(2, 2)];
+        let reference = match scenario.table {
+            TableRecord::Angle(_) => Reference::Encoder { noise: self.noise },
+            TableRecord::CommandedRate => Reference::Command { noise: 0.0 },
+            TableRecord::Nothing if self.fastest() == 0.0 => Reference::Rest,
+            TableRecord::Nothing => {
+                if up.abs() >= 0.9998 {
+                    return Err(DesignError::NoAngleReference { name: self.name.clone() });
+                }
+                Reference::Gravity
+            }
+        };
+        let rig = Rig {
+            station: scenario.station,
+            nav_from_table: scenario.nav_from_table,
+            reference,
+            wobble: self.wobble,
+            velocity: Setup::FIXED_TABLE_VELOCITY_NOISE,
+        };
+        Run::new(rig, recording)
+            .map_err(|source| DesignError::Run { name: self.name.clone(), source })
+    }
+}

@@ -1,0 +1,146 @@
+//! The attitude of an IMU over a static interval.
+
+use std::ops::Range;
+
+use nalgebra::Vector3;
+use rins_frames::{Body, Dcm, InFrame, Nav, Rates, SignedAxes};
+use rins_io::Loaded;
+use rins_motion::{
+    AlignmentError, FineAlignment, FineAlignmentError, GyroFigures, MeanUncertainty, PlaceSeen,
+    RestMean, align_finely, level, place_seen, residual,
+};
+
+use crate::log::{longest, none_found};
+
+/// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
+pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
+
+/// A bias of which a rest leaves more than this part of the sigma that was assumed is not shown by it.
+const SHOWN: f64 = 0.9;
+
+/// The shortest rest that is aligned on \[s\].
+const SHORTEST_REST: f64 = 5.0;
+
+/// An attitude found from a rest.
+#[derive(Debug)]
+pub(crate) struct Found {
+    /// The body's attitude over the rest.
+    pub(crate) nav_from_body: Dcm<Nav, Body>,
+    /// The 1σ of the error about east, north and up \[rad\]; no third if north was not found.
+    pub(crate) sigma: (f64, f64, Option<f64>),
+    /// Why north was not found.
+    pub(super) hidden: Option<AlignmentError>,
+    /// The samples of the rest.
+    pub(crate) span: Range<usize>,
+    pub(crate) start: f64,
+    pub(super) mean: RestMean,
+    /// What the filter over the rest found; nothing if north was not found.
+    pub(super) fine: Option<FineAlignment>,
+    pub(super) uncertainty: MeanUncertainty,
+    pub(super) place: PlaceSeen,
+    /// Measured less predicted: what a bias would look like.
+    pub(crate) residual: Rates,
+}
+
+impl Found {
+    /// Whether the Earth's rotation showed north.
+    pub(crate) const fn north_found(&self) -> bool {
+        self.hidden.is_none()
+    }
+
+    /// Whether the rest shows each gyro's bias, along the sensors' own axes: what it does not show is what was assumed.
+    pub(super) fn bias_shown(&self, own_axes: &SignedAxes) -> [bool; 3] {
+        let Some(fine) = self.fine else { return [true; 3] };
+        let sigma = own_axes.undo(&fine.gyro_bias_sigma).abs();
+        let assumed = own_axes.undo(&fine.gyro_bias_assumed).abs();
+        [0, 1, 2].map(|axis| sigma[axis] < SHOWN * assumed[axis])
+    }
+
+    /// The 1σ of the Earth's rate \[rad/s\] and of the latitude \[rad\] that the gyros see.
+    pub(super) fn seen_sigma(&self) -> (f64, f64) {
+        let level = self.uncertainty.specific_force / self.place.gravity;
+        self.fine.map_or((self.uncertainty.angular_rate, self.place.latitude_sigma), |fine| {
+            (fine.earth_rate_sigma, fine.latitude_sigma.hypot(level))
+        })
+    }
+}
+
+/// Aligns on the longest rest of a run.
+pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
+    let span = longest(loaded, SHORTEST_REST).ok_or_else(|| {
+        anyhow::anyhow!("{}, so there is nothing to align on", none_found(loaded, SHORTEST_REST))
+    })?;
+    found_over(loaded, span)
+}
+
+/// Aligns on one rest of a run.
+pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<Found> {
+    let recording = &loaded.recording;
+    let mean = RestMean::of(recording, span.clone())
+        .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;
+    let uncertainty = uncertainty(loaded, &mean);
+    let figures = loaded.rig.imu.map(|imu| GyroFigures {
+        bias_sigma: imu.gyro.bias_sigma,
+        noise_density: imu.gyro.noise_density,
+    });
+    let aligned = align_finely(recording, span.clone(), &loaded.station, figures.as_ref());
+    // Without a data sheet, what gravity is off by is the least that the tilt may be off by.
+    let gravity_error = mean.rates.specific_force.norm() / loaded.station.gravity - 1.0;
+    let levelling = (uncertainty.specific_force / loaded.station.gravity).hypot(gravity_error);
+    let (nav_from_body, sigma, fine, hidden) = match aligned {
+        Ok(fine) => {
+            let sigma = fine.covariance.diagonal().map(f64::sqrt);
+            // The filter knows of noise, not of what an accelerometer is off by for good.
+            let constant = (accel_sigma(loaded) / loaded.station.gravity).hypot(gravity_error);
+            let tilt = |sigma: f64| sigma.hypot(constant);
+            (fine.nav_from_body, (tilt(sigma.x), tilt(sigma.y), Some(sigma.z)), Some(fine), None)
+        }
+        Err(FineAlignmentError::Coarse(hidden @ AlignmentError::NorthNotFound { .. })) => {
+            let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
+            (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
+        }
+        // What is too short for the Earth's rate to show is not too short for gravity.
+        Err(FineAlignmentError::TooShort { .. }) => {
+            let hidden = AlignmentError::NorthNotFound { azimuth_sigma: ANY_AZIMUTH };
+            let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
+            (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
+        }
+        Err(error) => return Err(error.into()),
+    };
+    // The filter tells the rate at the start of the rest, so that up must be that of the start too.
+    let seen = fine.map_or(mean.rates, |fine| {
+        let up = InFrame::new(0.0, 0.0, mean.rates.specific_force.norm());
+        let body_from_nav = fine.nav_from_body.inverse();
+        Rates { angular_rate: fine.earth_rate_seen, specific_force: body_from_nav * up }
+    });
+    Ok(Found {
+        nav_from_body,
+        sigma,
+        hidden,
+        start: recording.times[span.start] - recording.increments[span.start].interval,
+        place: place_seen(&seen, &uncertainty),
+        residual: residual(&seen, nav_from_body, &loaded.station),
+        fine,
+        span,
+        mean,
+        uncertainty,
+    })
+}
+
+/// The scatter of the mean, and with it the data sheet's errors where there is one.
+fn uncertainty(loaded: &Loaded, mean: &RestMean) -> MeanUncertainty {
+    let scatter = |sigma: Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
+    let gyro = loaded.rig.imu.map_or(0.0, |imu| imu.gyro.bias_sigma);
+    MeanUncertainty {
+        angular_rate: scatter(mean.angular_rate_sigma).hypot(gyro),
+        specific_force: scatter(mean.specific_force_sigma).hypot(accel_sigma(loaded)),
+    }
+}
+
+/// What the data sheet says a specific force of one g may be off by, for good \[m/s²\].
+fn accel_sigma(loaded: &Loaded) -> f64 {
+    loaded.rig.imu.map_or(0.0, |imu| {
+        let shape = imu.accel.scale_sigma.max(imu.accel.misalignment_sigma);
+        imu.accel.bias_sigma.hypot(shape * loaded.station.gravity)
+    })
+}

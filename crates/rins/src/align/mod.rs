@@ -1,0 +1,44 @@
+//! Attitude from a static interval: level from gravity, north from the Earth's rotation.
+
+mod found;
+mod outcome;
+mod result;
+mod text;
+
+use anyhow::Context;
+use rins_inspection::StaticIntervals;
+use rins_io::shown;
+
+pub(crate) use self::found::{ANY_AZIMUTH, Found, found, found_over};
+pub use self::result::{AboutAxes, AlignResult, ExpectedSite, LeveledDegrees, SeenSite};
+use crate::check::refuse_mistaken;
+use crate::error::Result;
+use crate::log::{Log, static_intervals};
+
+/// The attitude of an IMU over the longest static interval of a log, and what the sensors show of the site.
+#[derive(Debug)]
+pub struct Alignment<'a> {
+    log: &'a Log,
+    found: Found,
+    statics: StaticIntervals,
+}
+
+/// Aligns on the longest static interval of a log.
+///
+/// # Errors
+/// If units, signs or axes are mistaken, if there is no static interval of five seconds, or if the sensors show no attitude.
+///
+/// ```
+/// use rins::Outcome;
+/// let folder = tempfile::tempdir()?;
+/// let log = rins::demo::log(folder.path())?;
+/// let alignment = rins::align(&log)?;
+/// assert!(alignment.result().attitude_deg.yaw.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn align(log: &Log) -> Result<Alignment<'_>> {
+    let loaded = &log.loaded;
+    refuse_mistaken(loaded)?;
+    let found = found(loaded).with_context(|| shown(&loaded.rig.log.path))?;
+    Ok(Alignment { log, found, statics: static_intervals(loaded) })
+}

@@ -1,0 +1,231 @@
+//! The noise of six sensors over a static interval.
+
+use std::ops::Range;
+
+use anyhow::Context;
+use nalgebra::Vector3;
+use rins_frames::{Increments, SignedAxes};
+use rins_imu::{
+    AllanPlan, Axis, NoiseLaw, NoiseSeen, SpectralLine, Strength, Triad, TriadSpec, take_out_lines,
+};
+use rins_inspection::Combs;
+use rins_io::{Gaps, Loaded, LogFormat, shown};
+use rins_report::number::figure;
+use rins_terms::Unit;
+
+use super::filled::{Filled, MOST_FILLED, unbroken};
+use crate::log::{
+    StaticIntervalResult, longest, none_found, static_intervals, statics_in_words, statics_result,
+};
+
+/// The shortest rest whose noise is looked at \[s\].
+const SHORTEST_REST: f64 = 10.0;
+
+/// Quantisation of so many sigmas more than the resolution makes is none.
+const BEYOND_RESOLUTION: f64 = 4.0;
+
+/// The noise of six sensors over a rest.
+#[derive(Debug)]
+pub(super) struct Rest {
+    /// Its start and end \[s\].
+    pub(super) span: (f64, f64),
+    /// The mean interval between samples \[s\].
+    pub(super) interval: f64,
+    /// The gyros, then the accelerometers.
+    pub(super) channels: Vec<Channel>,
+    /// How many lost samples were filled in.
+    pub(super) lost: usize,
+    /// The static intervals, for a machine.
+    pub(super) statics: Vec<StaticIntervalResult>,
+    /// What a reader must know of the samples that were used.
+    pub(super) remarks: Vec<String>,
+}
+
+/// What one sensor shows.
+#[derive(Debug)]
+pub(super) struct Channel {
+    pub(super) triad: Triad,
+    pub(super) axis: Axis,
+    pub(super) seen: NoiseSeen,
+    /// What was taken out before: sinusoids are no noise.
+    pub(super) lines: Vec<SpectralLine>,
+    /// What the data sheet says of the triad.
+    sheet: Option<TriadSpec>,
+}
+
+impl Channel {
+    /// The unit of the deviation.
+    pub(super) const fn unit(&self) -> Unit {
+        match self.triad {
+            Triad::Gyro => Unit::DEG_PER_HOUR,
+            Triad::Accel => Unit::MICRO_G,
+        }
+    }
+
+    /// The strength that the data sheet gives a law, in SI units.
+    pub(super) fn sheet(&self, law: NoiseLaw) -> Option<f64> {
+        let sheet = self.sheet?;
+        match law {
+            NoiseLaw::Quantisation => None,
+            NoiseLaw::White => Some(sheet.noise_density),
+            NoiseLaw::Flicker => sheet.bias_instability,
+            NoiseLaw::RandomWalk => sheet.random_walk,
+        }
+    }
+}
+
+/// The effect of the catalogue that a law is, the letter of its strength, and the unit of that.
+pub(super) const fn term(triad: Triad, law: NoiseLaw) -> (&'static str, &'static str, Unit) {
+    match (triad, law) {
+        (Triad::Gyro, NoiseLaw::Quantisation) => ("gyro_quantisation", "Q", Unit::ARCSEC),
+        (Triad::Gyro, NoiseLaw::White) => {
+            let unit = Unit::new("deg/h/sqrt(Hz)", Unit::DEG_PER_HOUR.factor);
+            ("gyro_noise_level", "N", unit)
+        }
+        (Triad::Gyro, NoiseLaw::Flicker) => ("gyro_bias_instability", "B", Unit::DEG_PER_HOUR),
+        (Triad::Gyro, NoiseLaw::RandomWalk) => {
+            ("gyro_rate_random_walk", "K", Unit::DEG_PER_HOUR_PER_ROOT_HOUR)
+        }
+        (Triad::Accel, NoiseLaw::Quantisation) => {
+            ("accel_quantisation", "Q", Unit::MICROMETRE_PER_SECOND)
+        }
+        (Triad::Accel, NoiseLaw::White) => {
+            ("accel_noise_level", "N", Unit::new("ug/sqrt(Hz)", Unit::MICRO_G.factor))
+        }
+        (Triad::Accel, NoiseLaw::Flicker) => ("accel_bias_instability", "B", Unit::MICRO_G),
+        (Triad::Accel, NoiseLaw::RandomWalk) => {
+            ("accel_rate_random_walk", "K", Unit::MICRO_G_PER_ROOT_HOUR)
+        }
+    }
+}
+
+/// The noise over the longest static interval, lost samples filled in.
+pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
+    let recording = &loaded.recording;
+    let log = shown(&loaded.rig.log.path);
+    let still = longest(loaded, SHORTEST_REST).ok_or_else(|| {
+        let none = none_found(loaded, SHORTEST_REST);
+        anyhow::anyhow!("{log}: {none}, and what it reads on the move is no noise")
+    })?;
+    let accumulated = matches!(
+        &loaded.rig.log.format,
+        LogFormat::Columns(columns) if columns.gaps == Some(Gaps::Accumulated)
+    );
+    let (span, filled, remark) = match Filled::of(recording, still.clone(), accumulated) {
+        Some(filled) => {
+            let remark = (filled.lost > 0).then(|| {
+                format!(
+                    "{} lost samples, {:.2} % of the interval, are filled in from those beside them.",
+                    filled.lost,
+                    100.0 * filled.share()
+                )
+            });
+            (still, filled, remark)
+        }
+        None => {
+            let part = unbroken(recording, still.clone());
+            let lasting = |span: &Range<usize>| -> f64 {
+                recording.increments[span.clone()].iter().map(|sample| sample.interval).sum()
+            };
+            let remark = format!(
+                "Of the static interval of {:.0} s only {:.0} s are used, the longest part without a gap: more than \
+                 {:.0} % of it is lost.",
+                lasting(&still),
+                lasting(&part),
+                100.0 * MOST_FILLED
+            );
+            let filled = Filled::whole(recording, part.clone());
+            (part, filled, Some(remark))
+        }
+    };
+    let interval = filled.interval;
+    let duration = interval * filled.samples.len() as f64;
+    anyhow::ensure!(
+        duration >= SHORTEST_REST * (1.0 - 1e-9),
+        "{log}: gaps leave at most {duration:.1} s of a static interval in one piece, and {SHORTEST_REST} s are needed"
+    );
+    let plan = AllanPlan::new(filled.samples.len(), interval).with_context(|| log.clone())?;
+    let own_axes = SignedAxes::from(loaded.rig.spin);
+    let combs = resolutions(loaded, interval);
+    let (mut channels, mut beyond) = (Vec::new(), Vec::new());
+    for triad in [Triad::Gyro, Triad::Accel] {
+        for axis in Axis::ALL {
+            let of = |sample: &Increments| match triad {
+                Triad::Gyro => own_axes.undo(sample.angle.components())[axis.index()],
+                Triad::Accel => own_axes.undo(sample.velocity.components())[axis.index()],
+            };
+            let lasting: f64 = filled.samples.iter().map(|sample| sample.interval).sum();
+            let mean = filled.samples.iter().map(of).sum::<f64>() / lasting;
+            // Less the mean over its own interval: where intervals jitter, gravity is no noise.
+            let mut noise: Vec<f64> =
+                filled.samples.iter().map(|sample| of(sample) - mean * sample.interval).collect();
+            let lines = take_out_lines(&mut noise, interval);
+            let mut seen = plan.noise(&noise).with_context(|| format!("{log}: {triad} {axis}"))?;
+            let sheet = loaded.rig.imu.map(|imu| match triad {
+                Triad::Gyro => imu.gyro,
+                Triad::Accel => imu.accel,
+            });
+            let capped = combs[channels.len()]
+                .and_then(|most| cap_quantisation(&mut seen, most, triad, axis));
+            beyond.extend(capped);
+            channels.push(Channel { triad, axis, seen, lines, sheet });
+        }
+    }
+    let statics = static_intervals(loaded);
+    let start = recording.times[span.start] - recording.increments[span.start].interval;
+    let start = if start.abs() < 1e-6 * interval { 0.0 } else { start };
+    let mut remarks: Vec<String> = remark.into_iter().chain(beyond).collect();
+    remarks.extend(statics_in_words(&statics, &loaded.rig));
+    Ok(Rest {
+        span: (start, recording.times[span.end - 1]),
+        interval,
+        channels,
+        lost: filled.lost,
+        statics: statics_result(&statics, |interval| {
+            (interval.span.start > span.start || interval.span.end < span.end)
+                .then(|| "static, but only the longest interval is used".into())
+        }),
+        remarks,
+    })
+}
+
+/// Quantisation is no stronger than the resolution makes it \[rad or m/s\]: says so where it seemed to be.
+fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -> Option<String> {
+    let place = NoiseLaw::ALL.iter().position(|law| *law == NoiseLaw::Quantisation)?;
+    let strength = &mut seen.strengths[place];
+    match *strength {
+        Strength::Seen { value, sigma, .. } if value > most + BEYOND_RESOLUTION * sigma => {
+            *strength = Strength::NotSeen { below: most };
+            let (_, _, unit) = term(triad, NoiseLaw::Quantisation);
+            Some(format!(
+                "What looks like quantisation of {} {} in {triad} {axis} is more than its resolution makes, {}: vibration, or a filter.",
+                figure(value / unit.factor, 3),
+                unit.symbol,
+                figure(most / unit.factor, 3)
+            ))
+        }
+        Strength::NotSeen { ref mut below } => {
+            *below = below.min(most);
+            None
+        }
+        Strength::Seen { .. } => None,
+    }
+}
+
+/// The 1σ that the resolution of each channel makes of an increment, along the sensors' own axes \[rad or m/s\].
+fn resolutions(loaded: &Loaded, interval: f64) -> [Option<f64>; 6] {
+    let combs = Combs::of(&loaded.recording);
+    let step = |channel: usize| {
+        let Combs { increments, rates } = combs[channel];
+        let of_rates = rates.map(|comb| comb.step * interval);
+        let steps = increments.map(|comb| comb.step).into_iter().chain(of_rates);
+        steps.max_by(f64::total_cmp).map(|step| step / 12.0_f64.sqrt())
+    };
+    let axes = SignedAxes::from(loaded.rig.spin);
+    // The run's axes in the places of the sensors' own.
+    let places = axes.undo(&Vector3::new(1.0, 2.0, 3.0)).abs();
+    std::array::from_fn(|own| {
+        let along = (0..3).find(|along| (places[own % 3] - (*along as f64 + 1.0)).abs() < 0.5)?;
+        step(own / 3 * 3 + along)
+    })
+}

@@ -1,0 +1,186 @@
+//! A log without the errors that a calibration holds.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use rins_imu::ImuError;
+use rins_io::{Calibration, Converted, Loaded, LogFile, Overwrite, convert_changed, shown};
+use rins_terms::{Model, Surroundings, compensated};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::check::refuse_mistaken;
+use crate::convert::{format_of, remarks};
+use crate::error::Result;
+use crate::log::{Beyond, OutsideRange, beyond, repairs};
+use crate::navigate::axis_attitude;
+use crate::outcome::Outcome;
+
+/// How a calibration is applied.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ApplyOptions {
+    /// The calibration file.
+    pub calibration: PathBuf,
+    /// The new log; its rig file lies beside it and ends in `.toml`.
+    pub output: PathBuf,
+    /// The format of the new log; by default its name tells.
+    pub format: Option<LogFile>,
+    /// Whether readings are compensated at temperatures far outside of those that were calibrated.
+    pub extrapolate: bool,
+    /// Whether files that exist may be replaced.
+    pub overwrite: Overwrite,
+}
+
+/// A log that was written without the errors that a calibration holds.
+#[derive(Debug)]
+pub struct Applied {
+    rig: String,
+    options: ApplyOptions,
+    format: LogFile,
+    undone: Vec<&'static str>,
+    beyond: Beyond,
+    converted: Converted,
+}
+
+/// The result of `rins apply`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ApplyResult {
+    /// The version of this schema: 2.
+    pub schema: u32,
+    /// `apply`.
+    pub command: String,
+    /// The rig file.
+    pub rig: String,
+    /// The calibration file.
+    pub calibration: String,
+    /// The new log.
+    pub log: String,
+    /// The rig file of the new log.
+    pub new_rig: String,
+    /// The format of the new log.
+    pub format: String,
+    /// How many samples were written.
+    pub samples: usize,
+    /// The ids of the terms that were compensated.
+    pub undone: Vec<String>,
+    /// What of the log lies outside of what the calibration covers.
+    pub outside_calibrated_range: Option<OutsideRange>,
+    /// The same in sentences.
+    pub notes: Vec<String>,
+    /// Whether the new log, read again, is the same to the last bit.
+    pub exact: bool,
+    /// What the format has no room for.
+    pub left_out: Vec<String>,
+    /// The time of the log from which the new one counts \[s\].
+    pub time_origin_s: f64,
+    /// What reading the log has repaired or left out.
+    pub repairs: Vec<String>,
+}
+
+/// Writes a log without the errors that a calibration holds, and the rig file that reads it.
+///
+/// # Errors
+/// If a file cannot be read or written, if units, signs or axes are mistaken, or if the calibration does not cover the log.
+///
+/// ```
+/// use rins::{ApplyOptions, CalibrateOptions, Outcome, Overwrite};
+/// let folder = tempfile::tempdir()?;
+/// let log = rins::demo::log(folder.path())?;
+/// let rig = folder.path().join("rig.toml");
+/// rins::calibrate(vec![log], &CalibrateOptions::default())?
+///     .write(&folder.path().join("out"), Overwrite::Refuse)?;
+/// let applied = rins::apply(
+///     &rig,
+///     ApplyOptions {
+///         calibration: folder.path().join("out/calibration.toml"),
+///         output: folder.path().join("compensated.csv"),
+///         format: None,
+///         extrapolate: false,
+///         overwrite: Overwrite::Refuse,
+///     },
+/// )?;
+/// assert!(applied.result().undone.contains(&"gyro.misalignment".to_owned()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn apply(rig: &Path, options: ApplyOptions) -> Result<Applied> {
+    Ok(applied(rig, options)?)
+}
+
+fn applied(rig: &Path, options: ApplyOptions) -> anyhow::Result<Applied> {
+    let ApplyOptions { calibration: file, output, format, extrapolate, overwrite } = &options;
+    let format = format_of(output, *format)?;
+    let calibration = Calibration::read(file)?;
+    let mut found = Beyond::default();
+    let converted = convert_changed(rig, output, format, *overwrite, |loaded| {
+        refuse_mistaken(loaded)?;
+        let run = calibration.in_run(&loaded.rig.spin)?;
+        found = beyond(&calibration, &run.1, loaded, *extrapolate)?;
+        undo(run, loaded).with_context(|| shown(file))?;
+        anyhow::Ok(format!("Written by `rins apply` with the calibration {}.", shown(file)))
+    })?;
+    let triads = Model::from(&calibration.error);
+    let terms = triads.terms.iter().chain(&calibration.terms.terms);
+    let undone = terms.map(|chosen| chosen.term.id).collect();
+    Ok(Applied { rig: shown(rig), format, undone, beyond: found, converted, options })
+}
+
+impl fmt::Display for Applied {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "Compensated {} by {}\n  {} samples to {} as {}, read by {}\n  undone: {}",
+            self.rig,
+            shown(&self.options.calibration),
+            self.converted.samples,
+            shown(&self.options.output),
+            self.format.name(),
+            shown(&self.converted.rig),
+            self.undone.join(", ")
+        )?;
+        let lines = self.beyond.notes.iter().cloned().chain(remarks(&self.converted));
+        lines.into_iter().try_for_each(|line| writeln!(f, "  {line}"))
+    }
+}
+
+impl Outcome for Applied {
+    type Result = ApplyResult;
+
+    fn result(&self) -> ApplyResult {
+        let Self { rig, options, format, undone, beyond, converted } = self;
+        ApplyResult {
+            schema: crate::SCHEMA,
+            command: "apply".into(),
+            rig: rig.clone(),
+            calibration: shown(&options.calibration),
+            log: shown(&options.output),
+            new_rig: shown(&converted.rig),
+            format: format.name().into(),
+            samples: converted.samples,
+            undone: undone.iter().map(|id| (*id).to_owned()).collect(),
+            outside_calibrated_range: beyond.outside.clone(),
+            notes: beyond.notes.clone(),
+            exact: converted.differences.is_empty(),
+            left_out: converted.left_out.iter().map(|name| (*name).to_owned()).collect(),
+            time_origin_s: converted.time_origin,
+            repairs: repairs(&converted.old, &converted.summary),
+        }
+    }
+}
+
+/// Takes what a calibration holds out of a run.
+fn undo((error, terms): (ImuError, Model), loaded: &mut Loaded) -> anyhow::Result<()> {
+    if terms.terms.is_empty() {
+        // Eq. (1) is undone sample by sample, wherever the axis points.
+        let compensation = error.compensation()?;
+        for sample in &mut loaded.recording.increments {
+            *sample = compensation.compensate(sample);
+        }
+        return Ok(());
+    }
+    let around = Surroundings::new(loaded.station, axis_attitude(loaded)?);
+    let mut model = Model::from(&error);
+    model.terms.extend(terms.terms);
+    loaded.recording = compensated(&model, around, &loaded.recording)?;
+    Ok(())
+}

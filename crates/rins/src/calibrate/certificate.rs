@@ -1,0 +1,266 @@
+//! What a calibration found, and all that follows from it.
+
+use std::sync::Arc;
+
+use anyhow::Context;
+use nalgebra::{DMatrix, SVector};
+use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
+use rins_design::{Asked, Budget, Truth};
+use rins_estimation::{
+    Departure, Estimate, Fit, Identifiability, InRun, Lost, Reference, Run, Strengths, fit,
+};
+use rins_frames::units::DEG;
+use rins_frames::{Dcm, Nav, SignedAxes, Table};
+use rins_motion::Recording;
+use rins_terms::{Chosen, Model, NotUndone, Owner, Role, Surroundings, catalogue, compensated};
+
+use crate::check::steady_rates;
+use crate::log::repairs;
+use crate::options::NoiseChoice;
+use crate::preparation::{Case, Prepared};
+use crate::progress::Progress;
+
+/// At most so many rates of a run are told one by one.
+const MOST_RATES: usize = 7;
+
+/// The estimates from one run or several, and what they are worth.
+#[derive(Debug)]
+pub(crate) struct Certificate {
+    /// What the model is called.
+    pub(crate) model: String,
+    /// The runs, in the order in which they were given.
+    pub(crate) runs: Vec<CertifiedRun>,
+    /// The estimates, along the sensors' own axes.
+    pub(crate) fit: Fit,
+    /// What the data tell of each.
+    pub(crate) told: Identifiability,
+    /// The parameters that keep the values that were expected of them.
+    pub(crate) held: Vec<usize>,
+    /// What was found, against the data sheet and what else was stated beforehand.
+    pub(crate) departures: Vec<Departure>,
+    /// Whether the innovations of all runs are what the model says.
+    pub(crate) consistency: Consistency,
+    /// Whether the noise was found, or given.
+    pub(crate) noise: NoiseChoice,
+    /// What else was found that the model is to hold, such as noise: what it adds to no signal.
+    pub(crate) besides: Vec<Chosen>,
+    /// What else a reader must know.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// A run with what the estimates make of it.
+#[derive(Debug)]
+pub(crate) struct CertifiedRun {
+    pub(crate) prepared: Prepared,
+    /// The attitude of its axis, as estimated.
+    pub(crate) nav_from_table: Dcm<Nav, Table>,
+    /// The whitened innovations, one an epoch, and when each ends \[s\].
+    pub(crate) innovations: Vec<SVector<f64, MEASUREMENTS>>,
+    pub(crate) times: Vec<f64>,
+    pub(crate) consistency: Consistency,
+    /// Free navigation as recorded.
+    pub(crate) before: FreeNavigation,
+    /// The same with all that was estimated undone.
+    pub(crate) after: FreeNavigation,
+    /// What each parameter of this run and of the IMU is worth.
+    pub(crate) budget: Budget,
+    /// The place of each of these among all parameters.
+    pub(crate) places: Vec<usize>,
+    /// How it moved, in words.
+    pub(crate) motion: String,
+}
+
+impl Certificate {
+    /// Estimates the model of a case from its runs.
+    pub(crate) fn of(case: Case, progress: &Progress) -> anyhow::Result<Self> {
+        let stage = progress.begin("calibrating", None);
+        let found = fit(&case.given(), &case.model, case.imu(), case.knowledge(), |iteration| {
+            stage.at(&format!("calibrating, last step {:.3} sigma", iteration.step));
+        });
+        drop(stage);
+        let fit = found.with_context(|| case.names())?;
+        Self::with(case, fit)
+    }
+
+    /// What follows from a case and what was estimated from it.
+    ///
+    /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
+    pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
+        let given = case.given_of_logs();
+        // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
+        let is_kept = |run: usize, id: &str| match case.runs.get(run) {
+            Some(log) if log.others.is_empty() => true,
+            Some(log) => log.run.rig.reference != Reference::Rest && id != axis_attitude("z"),
+            None => false,
+        };
+        let fit = fit.marginal(|Estimate { parameter, run, .. }| {
+            parameter.owner != Owner::Placement || run.is_none_or(|run| is_kept(run, &parameter.id))
+        });
+        let fit = fit.along(SignedAxes::IDENTITY);
+        let mut told = fit.identifiability();
+        if let [_] = case.runs[..] {
+            told.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
+        }
+        let departures = fit.prior_departures(&told, &Strengths::of(case.imu()));
+        let held = held(&fit, &told);
+        let fit = fit.with_prior_values_at(&held);
+        let mut certified = Vec::with_capacity(case.runs.len());
+        for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
+            let undone = undone(&prepared.run, &fit.models[place]);
+            if let Err(error) = &undone {
+                case.remarks.push(format!(
+                    "{}: what was estimated cannot be undone from the readings ({error}): navigation is as recorded.",
+                    prepared.name
+                ));
+            }
+            certified.push(CertifiedRun::of((prepared, undone.ok()), &fit, place, given)?);
+        }
+        let innovations: Vec<_> =
+            certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
+        let consistency = Consistency::of(&innovations).context("too few epochs")?;
+        let Case { name: model, noise, remarks, .. } = case;
+        let besides = Vec::new();
+        Ok(Self {
+            model,
+            runs: certified,
+            fit,
+            told,
+            held,
+            departures,
+            consistency,
+            noise,
+            besides,
+            remarks,
+        })
+    }
+
+    /// The value and the 1σ of what the data tell of a parameter: of itself, or of the sum that it is in, in SI units.
+    pub(crate) fn value(&self, place: usize) -> (f64, f64) {
+        self.fit.sum(place, &self.told.seen[place].aliases)
+    }
+
+    /// What reading the logs has repaired or left out, log by log.
+    pub(crate) fn repairs(&self) -> Vec<String> {
+        let of =
+            |run: &CertifiedRun| repairs(&run.prepared.loaded.rig, &run.prepared.loaded.summary);
+        self.runs.iter().flat_map(of).collect()
+    }
+
+    /// What the calibration is called.
+    pub(crate) fn title(&self) -> String {
+        let names: Vec<&str> = self.runs.iter().map(|run| run.prepared.name.as_str()).collect();
+        format!("Calibration of {}", names.join(", "))
+    }
+}
+
+impl CertifiedRun {
+    /// Of a run, and of the same with what was estimated undone.
+    fn of(
+        (prepared, undone): (Prepared, Option<Recording>),
+        fit: &Fit,
+        run: usize,
+        given: &[usize],
+    ) -> anyhow::Result<Self> {
+        let station = &prepared.loaded.station;
+        let model = &fit.models[run];
+        let nav_from_table = prepared.run.rig.nav_from_table * attitude_of(model);
+        let recorded = &prepared.run.recording;
+        let undone = undone.map_or_else(|| Arc::clone(recorded), Arc::new);
+        let track = fit.linear[run].track();
+        let navigate = |recording: &Recording| {
+            navigate_freely(recording, track.angles(), nav_from_table, station, None)
+        };
+        let (before, after) = (navigate(recorded), navigate(&undone));
+        let innovations: Vec<_> = given.iter().flat_map(|&run| fit.innovations(run)).collect();
+        let consistency = Consistency::of(&innovations).context("too few epochs")?;
+        let in_run = |place: usize| Some((place, fit.in_run(&fit.parameters[place], run)?));
+        let (places, here): (Vec<usize>, Vec<InRun>) =
+            (0..fit.parameters.len()).filter_map(in_run).unzip();
+        let asked: Vec<Asked<'_>> = places
+            .iter()
+            .zip(&here)
+            .map(|(&place, here)| Asked {
+                chosen: &model.terms[here.term],
+                parameter: here.parameter,
+                value: here.sign * fit.parameters[place].value,
+                sigma: fit.parameters[place].sigma,
+            })
+            .collect();
+        let covariance = DMatrix::from_fn(places.len(), places.len(), |row, column| {
+            here[row].sign * here[column].sign * fit.covariance[(places[row], places[column])]
+        });
+        let truth = Truth { station, nav_from_table, recording: &undone, track };
+        let budget = Budget::of(&truth, &asked, &covariance);
+        let motion = motion(&prepared, &nav_from_table, given.len());
+        let times = given.iter().flat_map(|&rest| fit.linear[rest].ends()).collect();
+        Ok(Self {
+            prepared,
+            nav_from_table,
+            innovations,
+            times,
+            consistency,
+            before,
+            after,
+            budget,
+            places,
+            motion,
+        })
+    }
+}
+
+/// The parameters that are left at the values that were expected of them: those of which the data would tell nothing
+/// if all else were known, and those that they hardly tell better than a data sheet. What an earlier calibration said of a
+/// parameter is an estimate as good as this one.
+fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
+    let is_held = |&place: &usize| {
+        let role = |run: usize| {
+            let here = fit.in_run(&fit.parameters[place], run)?;
+            Some(fit.models[run].terms[here.term].roles[here.parameter])
+        };
+        let role = (0..fit.models.len()).find_map(role);
+        let visible = |lost: &Lost| lost.unknown != place || lost.visible;
+        role == Some(Role::Free) || !told.rank.lost.iter().all(visible)
+    };
+    told.unobservable().into_iter().filter(is_held).collect()
+}
+
+/// How a run moved that consists of so many rests, or turns.
+fn motion(prepared: &Prepared, nav_from_table: &Dcm<Nav, Table>, rests: usize) -> String {
+    if rests > 1 {
+        return format!("{rests} rests");
+    }
+    let rates = steady_rates(&prepared.run.recording);
+    let tilt = nav_from_table.matrix()[(2, 2)].clamp(-1.0, 1.0).acos() / DEG;
+    let rate = |rate: &f64| format!("{:.2}", rate / DEG);
+    let at = match rates.as_slice() {
+        [] => "no steady table rate".into(),
+        [only] => format!("a table rate of {} deg/s", rate(only)),
+        [rates @ .., last] if rates.len() < MOST_RATES => {
+            let rates: Vec<String> = rates.iter().map(rate).collect();
+            format!("table rates of {} and {} deg/s", rates.join(", "), rate(last))
+        }
+        many => {
+            let extreme = |pick: fn(f64, f64) -> f64| many.iter().copied().reduce(pick);
+            let [least, most] = [f64::min, f64::max].map(|pick| extreme(pick).unwrap_or_default());
+            format!("{} table rates from {} to {} deg/s", many.len(), rate(&least), rate(&most))
+        }
+    };
+    format!("{at}, axis of rotation {tilt:.1} deg off the vertical")
+}
+
+/// A run's readings with the errors of a model undone.
+fn undone(run: &Run, model: &Model) -> Result<Recording, NotUndone> {
+    let nav_from_table = run.rig.nav_from_table * attitude_of(model);
+    compensated(model, Surroundings::new(run.rig.station, nav_from_table), &run.recording)
+}
+
+/// The rotation by which a model says that the axis frame differs from the survey.
+fn attitude_of(model: &Model) -> Dcm<Table, Table> {
+    let axes = ["x", "y", "z"].map(|axis| model.value(&axis_attitude(axis)));
+    Dcm::from_rotation_vector(&axes.map(Option::unwrap_or_default).into())
+}
+
+/// The id of the error of the axis' attitude about one axis of the axis frame.
+fn axis_attitude(about: &str) -> String {
+    format!("{}.{about}", catalogue::AXIS_ATTITUDE.id)
+}

@@ -1,0 +1,117 @@
+//! From logs to sensor errors, with their uncertainty, what is observable, and what compensating them gains.
+
+mod budget;
+mod certificate;
+mod compensation;
+mod departure;
+mod files;
+mod noise;
+mod outcome;
+mod page;
+mod paper;
+mod result;
+mod worth;
+
+pub use self::budget::{BudgetResult, DriftResult, WorthResult};
+pub(crate) use self::certificate::Certificate;
+use self::paper::PaperCalibration;
+pub use self::result::{
+    AccelNoiseResult, CalibrateResult, DepartureResult, GyroNoiseResult, IterationResult,
+    NoiseResult, ParameterResult, RunResult,
+};
+use crate::error::Result;
+use crate::log::Log;
+use crate::options::{ModelChoice, NamedModel, NoiseChoice};
+use crate::preparation::{Case, Prepared};
+use crate::progress::Progress;
+
+/// What a calibration is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct CalibrateOptions {
+    /// The error model; by default the paper's for one log with a table angle or rate, and all of eq. (1) otherwise.
+    pub model: Option<ModelChoice>,
+    /// Whether the noise is estimated, as it is by default, or the data sheet trusted; the paper's filter trusts it.
+    pub noise: NoiseChoice,
+    /// Who hears how far it is.
+    pub progress: Progress,
+}
+
+/// The sensor errors that logs show.
+#[derive(Debug)]
+pub struct Calibration(Kind);
+
+#[derive(Debug)]
+enum Kind {
+    /// By the paper's filter.
+    Paper(Box<PaperCalibration>),
+    /// By the estimator that takes any model.
+    Certificate(Box<Certificate>),
+}
+
+/// Estimates sensor errors from the logs of one IMU, and navigates each log freely with them compensated.
+///
+/// # Errors
+/// If units, signs or axes are mistaken, if the logs are not of one IMU, or if the model cannot be estimated from them.
+///
+/// # Panics
+/// If there are no logs.
+///
+/// ```
+/// use rins::{CalibrateOptions, Outcome};
+/// let folder = tempfile::tempdir()?;
+/// let log = rins::demo::log(folder.path())?;
+/// let calibration = rins::calibrate(vec![log], &CalibrateOptions::default())?;
+/// print!("{calibration}");
+/// assert_eq!(calibration.result().parameters[0].id, "gyro.misalignment.xz");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn calibrate(logs: Vec<Log>, options: &CalibrateOptions) -> Result<Calibration> {
+    Ok(calibrated(logs, options)?)
+}
+
+fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<Calibration> {
+    let read = |log: &Log| {
+        let recording = &log.loaded.recording;
+        recording.table_angle.is_some() || recording.table_rate.is_some()
+    };
+    let by_default = match &logs[..] {
+        [only] if read(only) => ModelChoice::Paper12,
+        _ => ModelChoice::Full,
+    };
+    let choice = options.model.as_ref().unwrap_or(&by_default);
+    if *choice == ModelChoice::Paper12 {
+        anyhow::ensure!(logs.len() == 1, "the paper's filter takes one log; full takes several");
+        let paper = PaperCalibration::of(logs.remove(0), &options.progress)?;
+        return Ok(Calibration(Kind::Paper(Box::new(paper))));
+    }
+    let named = NamedModel::of(choice, &logs[0].loaded.rig.spin)?;
+    let stage = options.progress.begin("preparing", None);
+    let runs = logs.into_iter().map(|log| Prepared::of(log, options.noise));
+    let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
+    drop(stage);
+    let case = Case::of(runs, named, options.noise)?;
+    let certificate = Certificate::of(case, &options.progress)?;
+    Ok(Calibration(Kind::Certificate(Box::new(certificate))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_filter_and_the_estimator_take_the_same_samples() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut log = crate::demo::log(folder.path()).unwrap();
+        // A driver that hands out a sample again, so that preparing the log changes it.
+        let samples = &mut log.loaded.recording.increments;
+        for place in [3000, 3001, 3002, 3100, 3101] {
+            (samples[place].angle, samples[place].velocity) =
+                (samples[place - 1].angle, samples[place - 1].velocity);
+        }
+        let given = log.loaded.recording.len();
+        let paper = PaperCalibration::of(log.clone(), &Progress::default()).unwrap();
+        let prepared = Prepared::of(log, NoiseChoice::Given).unwrap();
+        assert!(paper.recording().len() < given, "nothing was taken out");
+        assert_eq!(*paper.recording(), *prepared.run.recording);
+    }
+}

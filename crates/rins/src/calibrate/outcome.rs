@@ -1,0 +1,81 @@
+//! A calibration as text, result, page and files.
+
+use std::fmt;
+
+use rins_report::Report;
+
+use super::certificate::Certificate;
+use super::page::{certificate_report, certificate_text};
+use super::result::CalibrateResult;
+use super::{Calibration, Kind};
+use crate::log::with_repairs;
+use crate::outcome::Outcome;
+
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&with_repairs(certificate_text(self), &self.repairs()))
+    }
+}
+
+impl Outcome for Certificate {
+    type Result = CalibrateResult;
+
+    fn result(&self) -> CalibrateResult {
+        CalibrateResult::of(self)
+    }
+
+    fn report(&self) -> Option<Report> {
+        let mut report = certificate_report(self);
+        report.summary.extend(self.repairs());
+        Some(report)
+    }
+
+    fn files(&self) -> Vec<(String, Vec<u8>)> {
+        self.calibration_files()
+    }
+
+    fn failure(&self) -> Option<String> {
+        self.absurd()
+    }
+}
+
+impl fmt::Display for Calibration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Kind::Paper(paper) => paper.fmt(f),
+            Kind::Certificate(certificate) => certificate.fmt(f),
+        }
+    }
+}
+
+impl Outcome for Calibration {
+    type Result = CalibrateResult;
+
+    fn result(&self) -> CalibrateResult {
+        match &self.0 {
+            Kind::Paper(paper) => paper.result(),
+            Kind::Certificate(certificate) => certificate.result(),
+        }
+    }
+
+    fn report(&self) -> Option<Report> {
+        match &self.0 {
+            Kind::Paper(paper) => paper.report(),
+            Kind::Certificate(certificate) => certificate.report(),
+        }
+    }
+
+    fn files(&self) -> Vec<(String, Vec<u8>)> {
+        match &self.0 {
+            Kind::Paper(paper) => paper.files(),
+            Kind::Certificate(certificate) => certificate.files(),
+        }
+    }
+
+    fn failure(&self) -> Option<String> {
+        match &self.0 {
+            Kind::Paper(paper) => paper.failure(),
+            Kind::Certificate(certificate) => certificate.failure(),
+        }
+    }
+}

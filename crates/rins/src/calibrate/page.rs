@@ -1,0 +1,226 @@
+//! A calibration with any model, for a terminal and for a browser.
+
+use std::fmt::Write as _;
+
+use rins_calibration::MEASUREMENTS;
+use rins_estimation::correlation;
+use rins_frames::units::DEG;
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
+
+use super::certificate::{Certificate, CertifiedRun};
+use super::departure::departure_in_words;
+use super::noise::{noise_section, noise_sentence};
+use super::worth::{budget_section, compensation_section};
+use crate::consistency::{Residuals, consistency_section, consistency_sentence};
+use crate::free_navigation::{gain_sentence, navigation_section};
+use crate::table::aligned;
+use crate::told::{badge, gauge_sentences, observability, rank_sentence};
+
+/// What the rows of an innovation are.
+const CHANNELS: [&str; MEASUREMENTS] = [
+    "direction of the axis, x",
+    "direction of the axis, y",
+    "table angle",
+    "velocity along x of the axis frame",
+    "velocity along y of the axis frame",
+    "velocity along z of the axis frame",
+];
+
+/// The summary for a terminal.
+pub(super) fn certificate_text(certificate: &Certificate) -> String {
+    let mut text = format!("{}\n", certificate.title());
+    for sentence in summary(certificate) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {sentence}");
+    }
+    text.push('\n');
+    let several = certificate.runs.len() > 1;
+    let mut rows = vec![
+        ["parameter", "run", "value", "sigma", "unit", "observability"].map(String::from).to_vec(),
+    ];
+    for (place, estimate) in certificate.fit.parameters.iter().enumerate() {
+        let unit = estimate.parameter.unit;
+        rows.push(vec![
+            estimate.parameter.id.clone(),
+            run_name(estimate.run),
+            figure(estimate.value / unit.factor, 4),
+            figure(estimate.sigma / unit.factor, 4),
+            unit.symbol.into(),
+            observability(&certificate.told, place, Some(certificate.value(place))),
+        ]);
+    }
+    if !several {
+        for row in &mut rows {
+            row.remove(1);
+        }
+    }
+    text.push_str(&aligned(&rows));
+    for sentence in gauge_sentences(&certificate.told) {
+        let _ = writeln!(text, "  {sentence}");
+    }
+    text
+}
+
+fn run_name(run: Option<usize>) -> String {
+    run.map_or_else(String::new, |run| (run + 1).to_string())
+}
+
+/// The result in plain words.
+fn summary(certificate: &Certificate) -> Vec<String> {
+    let mut sentences: Vec<String> = certificate
+        .departed()
+        .into_iter()
+        .map(|of| departure_in_words(certificate, of) + ".")
+        .collect();
+    let gains = certificate.runs.iter().map(|run| {
+        let gain = gain_sentence("what was estimated", &run.before, &run.after);
+        if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
+    });
+    sentences.extend(gains);
+    sentences.push(consistency_sentence(&certificate.consistency));
+    sentences.push(rank_sentence(&certificate.told));
+    sentences.push(noise_sentence(certificate));
+    sentences.extend(certificate.remarks.iter().cloned());
+    sentences
+}
+
+/// The report page.
+pub(super) fn certificate_report(certificate: &Certificate) -> Report {
+    let mut sections = vec![parameters_section(certificate), correlation_section(certificate)];
+    let several = certificate.runs.len() > 1;
+    let of = |heading: &str, run: &CertifiedRun| {
+        if several { format!("{heading}: {}", run.prepared.name) } else { heading.to_owned() }
+    };
+    for run in &certificate.runs {
+        sections.push(navigation_section(
+            &of("Free inertial navigation before and after", run),
+            &run.before,
+            &run.after,
+        ));
+    }
+    sections.push(compensation_section(certificate.fit.model()));
+    for run in &certificate.runs {
+        let ids: Vec<&str> = run
+            .places
+            .iter()
+            .map(|&place| certificate.fit.parameters[place].parameter.id.as_str())
+            .collect();
+        sections.push(budget_section(&of("Error budget", run), &ids, &run.budget));
+    }
+    sections.push(noise_section(certificate));
+    for run in &certificate.runs {
+        sections.push(consistency_section(
+            &of("Does the model fit?", run),
+            &run.consistency,
+            &Residuals { channels: CHANNELS, times: &run.times, innovations: &run.innovations },
+        ));
+    }
+    let samples: usize = certificate.runs.iter().map(|run| run.prepared.samples()).sum();
+    Report {
+        title: certificate.title(),
+        subtitle: format!(
+            "rins calibrate, model {}: {} parameters from {samples} samples",
+            certificate.model,
+            certificate.fit.parameters.len()
+        ),
+        summary: summary(certificate),
+        sections,
+    }
+}
+
+fn parameters_section(certificate: &Certificate) -> Section {
+    let told = &certificate.told;
+    let several = certificate.runs.len() > 1;
+    let rows = certificate.fit.parameters.iter().enumerate().map(|(place, estimate)| {
+        let unit = estimate.parameter.unit;
+        let wide = 3.0 * estimate.parameter.sigma;
+        let mut row = vec![
+            Cell::text(&estimate.parameter.id),
+            Cell::text(run_name(estimate.run)),
+            Cell::Estimate {
+                value: estimate.value / unit.factor,
+                sigma: estimate.sigma / unit.factor,
+            },
+            Cell::text(unit.symbol),
+            Cell::Bar {
+                value: (estimate.value - estimate.expected) / wide,
+                sigma: estimate.sigma / wide,
+            },
+            badge(told, place),
+            Cell::text(if told.seen[place].identifiable {
+                String::new()
+            } else {
+                observability(told, place, Some(certificate.value(place)))
+            }),
+        ];
+        if !several {
+            row.remove(1);
+        }
+        row
+    });
+    let mut columns = vec![
+        Column::id("parameter"),
+        Column::number("run"),
+        Column::number("estimate"),
+        Column::text("unit"),
+        Column::text("within ±3 prior σ"),
+        Column::text("under this schedule"),
+        Column::text("observability"),
+    ];
+    if !several {
+        columns.remove(1);
+    }
+    let axes = certificate.runs.iter().map(|run| {
+        let angles = run.nav_from_table.euler_angles();
+        let mut row = vec![Cell::text(&run.prepared.name)];
+        row.extend(
+            [angles.roll, angles.pitch, angles.yaw]
+                .map(|angle| Cell::Number { value: angle / DEG, decimals: 5 }),
+        );
+        row
+    });
+    let mut items = vec![
+        Item::Table(Table { caption: "Estimates, 1σ".into(), columns, rows: rows.collect() }),
+        Item::Table(Table {
+            caption: "Attitude of the axis frame".into(),
+            columns: vec![
+                Column::text("run"),
+                Column::number("roll [deg]"),
+                Column::number("pitch [deg]"),
+                Column::number("yaw [deg]"),
+            ],
+            rows: axes.collect(),
+        }),
+    ];
+    let gauges = gauge_sentences(told).into_iter();
+    items.splice(1..1, gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
+    Section {
+        heading: "Parameters".into(),
+        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. A parameter \
+                that is observable only in a combination has its own value and sigma, by what was known before; the \
+                combination's stand with it. An unobservable parameter is not estimated: it keeps the value that was \
+                expected. A run's number stands where a parameter is that run's own."
+            .into(),
+        items,
+    }
+}
+
+fn correlation_section(certificate: &Certificate) -> Section {
+    let correlation = correlation(&certificate.fit.covariance);
+    let labels = certificate.fit.parameters.iter().map(|estimate| {
+        let run = if certificate.runs.len() > 1 { run_name(estimate.run) } else { String::new() };
+        format!("{} {run}", estimate.parameter.id).trim_end().to_owned()
+    });
+    Section {
+        heading: "Correlations".into(),
+        intro: "Strong shades are pairs that the data tell apart badly. The covariance itself stands in calibration.toml, \
+                the correlations in result.json."
+            .into(),
+        items: vec![Item::Matrix(Matrix {
+            caption: "Correlation of the estimates".into(),
+            labels: labels.collect(),
+            values: correlation.row_iter().map(|row| row.iter().copied().collect()).collect(),
+        })],
+    }
+}

@@ -1,0 +1,92 @@
+//! How a calibration is used: the compensation in words, and what each error is worth in navigation.
+
+use rins_frames::units::{ARCSEC, DEG};
+use rins_terms::Model;
+
+use rins_design::Budget;
+
+use super::compensation::{EQUATION, STEPS, of_run_alone};
+use crate::settings::settings_in_words;
+use rins_report::{Cell, Column, Item, Section, Table};
+
+/// The compensation equation, its steps, and the terms of the model.
+pub(super) fn compensation_section(model: &Model) -> Section {
+    let mut items = vec![Item::Text(EQUATION.into())];
+    items.extend(STEPS.iter().map(|step| Item::Text((*step).into())));
+    let mut rows: Vec<Vec<Cell>> = Vec::new();
+    for (place, chosen) in model.terms.iter().enumerate() {
+        let of_table = of_run_alone(chosen.term.id);
+        rows.push(vec![
+            Cell::text((place + 1).to_string()),
+            Cell::text(chosen.term.id),
+            Cell::text(chosen.term.equation),
+            Cell::text(if of_table {
+                "not undone: it is the table's".into()
+            } else {
+                settings_in_words(chosen.term, &chosen.settings, None)
+            }),
+        ]);
+    }
+    items.push(Item::Table(Table {
+        caption: "Terms, all added up".into(),
+        columns: vec![
+            Column::number(""),
+            Column::id("term"),
+            Column::text("what it adds to what is measured"),
+            Column::text("settings"),
+        ],
+        rows,
+    }));
+    Section {
+        heading: "How to compensate".into(),
+        intro: "calibration.toml holds the numbers; rins navigate --calibration and rins apply do what follows. Errors are \
+                computed minus true; S are scale errors on the diagonal, M misalignments off it."
+            .into(),
+        items,
+    }
+}
+
+/// What each parameter makes of free navigation.
+pub(super) fn budget_section(heading: &str, ids: &[&str], budget: &Budget) -> Section {
+    let shown = |value: f64| Cell::Number { value, decimals: 5 };
+    let mut rows: Vec<Vec<Cell>> = ids
+        .iter()
+        .zip(&budget.worth)
+        .map(|(id, worth)| {
+            vec![
+                Cell::text(*id),
+                shown(worth.by_value.velocity.norm()),
+                shown(worth.by_value.attitude.norm() / DEG),
+                shown(worth.by_sigma.velocity.norm()),
+                Cell::Number { value: worth.by_sigma.attitude.norm() / ARCSEC, decimals: 3 },
+            ]
+        })
+        .collect();
+    rows.push(vec![
+        Cell::text("all, with their correlations"),
+        Cell::Empty,
+        Cell::Empty,
+        shown(budget.total.velocity.norm()),
+        Cell::Number { value: budget.total.attitude.norm() / ARCSEC, decimals: 3 },
+    ]);
+    Section {
+        heading: heading.into(),
+        intro: format!(
+            "What each error does to free inertial navigation over the first {:.0} s of this run, from rest: left in as it \
+             is, and by the 1σ that stays after compensation. Parameters that the run shows only together have large sigmas \
+             alone and little in all.",
+            budget.after
+        ),
+        items: vec![Item::Table(Table {
+            caption: "Drift of velocity and attitude".into(),
+            columns: vec![
+                Column::id("parameter"),
+                Column::number("left in [m/s]"),
+                Column::number("left in [deg]"),
+                Column::number("1σ [m/s]"),
+                Column::number("1σ [arcsec]"),
+            ],
+            rows,
+        })],
+    }
+}

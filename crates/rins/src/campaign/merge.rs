@@ -1,0 +1,128 @@
+//! `rins merge`: the shards of a campaign as a whole, the same bytes as if it had been run at once.
+
+use std::iter::Peekable;
+use std::path::{Path, PathBuf};
+
+use rins_io::{Heading, IoError, Overwrite, PartRuns, RunRows, shown};
+
+use super::page::{CampaignOutcome, deliver};
+use super::runs::Run;
+use crate::error::Result;
+
+/// Joins the shards of a campaign: the same bytes as if it had been run at once.
+///
+/// # Errors
+/// If a shard cannot be read, is of another campaign, is missing or is given twice, or if the results cannot be written.
+///
+/// ```
+/// use rins::{MonteCarloOptions, Outcome, Overwrite};
+/// let folder = tempfile::tempdir()?;
+/// let scenario = folder.path().join("scenario.toml");
+/// std::fs::write(&scenario, rins::demo::SCENARIO)?;
+/// let mut shards = Vec::new();
+/// for shard in 1..=2 {
+///     let output = folder.path().join(format!("{shard}.parquet"));
+///     let options = MonteCarloOptions { shard: Some((shard, 2)), ..MonteCarloOptions::new(2, &output) };
+///     rins::monte_carlo(&scenario, &options)?;
+///     shards.push(output);
+/// }
+/// let whole = rins::merge(&shards, &folder.path().join("all.parquet"), Overwrite::Refuse)?;
+/// assert_eq!(whole.result().shard, [1, 1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn merge(parts: &[PathBuf], output: &Path, overwrite: Overwrite) -> Result<CampaignOutcome> {
+    Ok(merged(parts, output, overwrite)?)
+}
+
+fn merged(
+    paths: &[PathBuf],
+    output: &Path,
+    overwrite: Overwrite,
+) -> anyhow::Result<CampaignOutcome> {
+    // Read twice, as the first run is written when the last part is known to belong to it.
+    let parts = paths
+        .iter()
+        .map(|path| Ok((path.clone(), checked(path)?)))
+        .collect::<Result<Vec<_>, IoError>>()?;
+    let heading = joined(parts)?;
+    let parts = paths
+        .iter()
+        .map(|path| Ok(PartRuns::open(path)?.peekable()))
+        .collect::<Result<_, IoError>>()?;
+    let runs = InOrder { parts }.map(|rows| rows.map(|rows| Run::read(&rows)));
+    let names: Vec<String> = paths.iter().map(|path| shown(path)).collect();
+    let source = (&*names.join(", "), "merge");
+    deliver(&heading, runs, output, source, overwrite)
+}
+
+/// What a part is of, if each of its runs can be read.
+fn checked(path: &Path) -> Result<Heading, IoError> {
+    let mut runs = PartRuns::open(path)?;
+    runs.by_ref().try_for_each(|run| run.map(drop))?;
+    Ok(runs.heading().clone())
+}
+
+/// The runs of parts in the order of scenarios and runs.
+struct InOrder {
+    parts: Vec<Peekable<PartRuns>>,
+}
+
+impl Iterator for InOrder {
+    type Item = Result<RunRows, IoError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let place = |run: &Self::Item| match run {
+            Ok([first, ..]) => (first.cell, first.run),
+            // What cannot be read is told at once.
+            Err(_) => (0, 0),
+        };
+        let peeked = self.parts.iter_mut().map(|part| part.peek().map(place));
+        let (next, _) = peeked
+            .enumerate()
+            .filter_map(|(part, place)| Some((part, place?)))
+            .min_by_key(|(_, place)| *place)?;
+        self.parts[next].next()
+    }
+}
+
+/// The parts' heading as one, if they are all of one campaign.
+fn joined(mut parts: Vec<(PathBuf, Heading)>) -> anyhow::Result<Heading> {
+    parts.sort_by_key(|(_, part)| part.identity.shard);
+    let (first_path, first) = &parts[0];
+    let identity = first.identity.whole();
+    let of = first.identity.shard.1;
+    for (expected, (path, part)) in (1..).zip(&parts) {
+        anyhow::ensure!(
+            part.identity.whole() == identity
+                && part.identity.shard.1 == of
+                && part.keys == first.keys,
+            "{}: not of the campaign of {}",
+            shown(path),
+            shown(first_path)
+        );
+        anyhow::ensure!(
+            part.identity.shard.0 == expected,
+            "{}: shard {} of {of}; expected shard {expected}, which is missing or given twice",
+            shown(path),
+            part.identity.shard.0
+        );
+    }
+    anyhow::ensure!(
+        parts.len() as u64 == of,
+        "{} of {of} shards are given; shard {} is missing",
+        parts.len(),
+        parts.len() + 1
+    );
+    let keys = first.keys.clone();
+    let n_cells = parts.iter().map(|(_, part)| part.values.len()).max().unwrap_or_default();
+    let mut values = vec![Vec::new(); n_cells];
+    for (_, part) in parts {
+        for (all, of_part) in values.iter_mut().zip(part.values) {
+            // A part knows nothing of a scenario of which it has no runs.
+            if !of_part.is_empty() {
+                *all = of_part;
+            }
+        }
+    }
+    Ok(Heading { identity, keys, values })
+}

@@ -1,0 +1,284 @@
+//! A campaign as text, JSON, report and Parquet file: do estimates scatter as claimed?
+
+use std::fmt::{self, Write as _};
+use std::fs;
+use std::path::Path;
+
+use nalgebra::Vector3;
+use rins_campaign::{PARAMETERS, Statistics, Tally};
+use rins_io::{Heading, IoError, Overwrite, shown, write_files, write_part};
+use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Style, Table, Tone, render};
+
+use super::result::{CampaignResult, CellResult};
+use super::runs::{Run, UNITS};
+use crate::outcome::Outcome;
+
+/// The most runs that a plot shows of each scenario, and of all of them.
+const SHOWN: [usize; 2] = [2000, 50_000];
+
+/// A campaign whose results have been written.
+#[derive(Debug)]
+pub struct CampaignOutcome {
+    text: String,
+    result: CampaignResult,
+}
+
+impl fmt::Display for CampaignOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl Outcome for CampaignOutcome {
+    type Result = CampaignResult;
+
+    fn result(&self) -> CampaignResult {
+        self.result.clone()
+    }
+}
+
+/// A scenario of the grid, and what its runs say.
+struct Scored<'a> {
+    values: &'a [String],
+    cell: usize,
+    truth: Vector3<f64>,
+    tally: Tally,
+    /// Of the first runs with estimates, the errors over the sigmas claimed.
+    errors: Vec<Vector3<f64>>,
+    statistics: Option<Statistics>,
+}
+
+/// Writes results and their report, and says what they say.
+///
+/// The runs are in the order of scenarios and runs, and are taken as they are written: of each, only
+/// what the report shows of it is kept.
+pub(super) fn deliver(
+    heading: &Heading,
+    runs: impl Iterator<Item = Result<Run, IoError>>,
+    output: &Path,
+    (source, command): (&str, &'static str),
+    overwrite: Overwrite,
+) -> anyhow::Result<CampaignOutcome> {
+    let title = format!("Campaign of {source}");
+    let page = output.with_extension("html");
+    anyhow::ensure!(page != output, "{}: the report would go here", shown(output));
+    let mut scored = Vec::new();
+    write_files(&[output, &page], overwrite, |folder| {
+        let in_folder = |path: &Path| folder.join(path.file_name().unwrap_or_default());
+        let runs = runs.map(|run| run.map(|run| Scored::add(&mut scored, heading, &run).rows()));
+        write_part(&in_folder(output), Overwrite::Refuse, heading, runs)?;
+        for cell in &mut scored {
+            cell.statistics = cell.tally.statistics();
+        }
+        let path = in_folder(&page);
+        fs::write(&path, render(&report(heading, &scored, &title)))
+            .map_err(|source| IoError::File { action: "write", path, source })
+    })?;
+    let result = CampaignResult {
+        schema: crate::SCHEMA,
+        command: command.into(),
+        scenario: source.into(),
+        runs: heading.identity.runs,
+        seed: heading.identity.seed,
+        shard: [heading.identity.shard.0, heading.identity.shard.1],
+        results: output.display().to_string(),
+        report: page.display().to_string(),
+        cells: scored.iter().map(|cell| cell_result(&heading.keys, cell)).collect(),
+    };
+    let text = text(heading, &scored, &title)
+        + &format!("\nResults: {}\nReport: {}\n", shown(output), shown(&page));
+    Ok(CampaignOutcome { text, result })
+}
+
+impl<'a> Scored<'a> {
+    /// Adds a run to its scenario, which is the last one or comes after it.
+    fn add<'r>(all: &mut Vec<Self>, heading: &'a Heading, run: &'r Run) -> &'r Run {
+        if all.last().is_none_or(|last| last.cell != run.cell) {
+            all.push(Self {
+                values: &heading.values[run.cell],
+                cell: run.cell,
+                truth: run.truth,
+                tally: Tally::new(run.truth),
+                errors: Vec::new(),
+                statistics: None,
+            });
+        }
+        let [of_each, of_all] = SHOWN;
+        let shown = (of_all / heading.values.len().max(1)).clamp(1, of_each);
+        if let Some(cell) = all.last_mut() {
+            cell.tally.add(&run.result);
+            if let Ok(found) = &run.result
+                && cell.errors.len() < shown
+            {
+                let sigma = found.covariance.diagonal().map(f64::sqrt);
+                cell.errors.push((found.value - run.truth).component_div(&sigma));
+            }
+        }
+        run
+    }
+}
+
+/// What distinguishes a scenario of the grid.
+fn label(keys: &[String], values: &[String]) -> String {
+    let pairs = keys.iter().zip(values).map(|(key, value)| format!("{key} = {value}"));
+    let label = pairs.collect::<Vec<_>>().join(", ");
+    if label.is_empty() { "the scenario".into() } else { label }
+}
+
+fn verdict(statistics: &Statistics) -> (Tone, &'static str) {
+    if statistics.is_honest() {
+        (Tone::Good, "as claimed")
+    } else if statistics.nees > statistics.nees_bounds[1] {
+        (Tone::Bad, "larger than claimed")
+    } else {
+        (Tone::Warning, "smaller than claimed")
+    }
+}
+
+fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> String {
+    let mut text = format!("{title}\n");
+    for cell in scored {
+        let Some(statistics) = &cell.statistics else {
+            let _ = writeln!(text, "\n  {}: too few runs", label(&heading.keys, cell.values));
+            continue;
+        };
+        let [least, most] = statistics.nees_bounds;
+        let _ = writeln!(
+            text,
+            "\n  {}: {} runs, {} failed; errors are {}\n    NEES {:.3} (honest from {least:.3} to {most:.3}), NIS {:.4} of 1",
+            label(&heading.keys, cell.values),
+            statistics.runs,
+            statistics.failed,
+            verdict(statistics).1,
+            statistics.nees,
+            statistics.nis_ratio
+        );
+        for ((id, (unit, _)), honesty) in PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters) {
+            let _ = writeln!(
+                text,
+                "    {id:22} mean error {:+.5} {unit}, spread {:.5}, claimed {:.5}, 95 % intervals hold {:.1} %",
+                honesty.mean_error,
+                honesty.spread,
+                honesty.claimed,
+                100.0 * honesty.coverage
+            );
+        }
+    }
+    text
+}
+
+fn cell_result(keys: &[String], cell: &Scored<'_>) -> CellResult {
+    let grid = keys.iter().cloned().zip(cell.values.iter().cloned()).collect();
+    match &cell.statistics {
+        None => CellResult::too_few(grid, cell.tally.runs()),
+        Some(statistics) => CellResult::of(grid, &cell.truth, statistics),
+    }
+}
+
+fn report(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Report {
+    let honest = scored.iter().filter_map(|cell| cell.statistics.as_ref());
+    let honest = honest.filter(|statistics| statistics.is_honest()).count();
+    let failed: usize = scored.iter().filter_map(|cell| cell.statistics).map(|s| s.failed).sum();
+    let mut summary = vec![format!(
+        "In {honest} of {} scenarios the errors scatter as the covariances claim.",
+        scored.len()
+    )];
+    if failed > 0 {
+        summary.push(format!("{failed} runs have no estimates; the results say why."));
+    }
+    let mut sections = vec![overview(heading, scored)];
+    for (row, id) in PARAMETERS.iter().enumerate() {
+        sections.push(parameter_section(scored, row, id));
+    }
+    let (shard, of) = heading.identity.shard;
+    Report {
+        title: title.into(),
+        subtitle: format!(
+            "{} runs of each scenario, seed {}, shard {shard} of {of}",
+            heading.identity.runs, heading.identity.seed
+        ),
+        summary,
+        sections,
+    }
+}
+
+/// A row for each scenario.
+fn overview(heading: &Heading, scored: &[Scored<'_>]) -> Section {
+    let row = |cell: &Scored<'_>| {
+        let name = Cell::text(label(&heading.keys, cell.values));
+        let Some(statistics) = &cell.statistics else { return vec![name] };
+        let number = |value: f64, decimals: usize| Cell::Number { value, decimals };
+        let (tone, word) = verdict(statistics);
+        vec![
+            name,
+            number(statistics.runs as f64, 0),
+            number(statistics.failed as f64, 0),
+            number(statistics.nees, 3),
+            number(statistics.nees_bounds[0], 3),
+            number(statistics.nees_bounds[1], 3),
+            number(statistics.nis_ratio, 4),
+            Cell::badge(tone, word),
+        ]
+    };
+    let numbers = ["Runs", "Failed", "NEES", "from", "to", "NIS / dof"];
+    let columns = std::iter::once(Column::text("Scenario"))
+        .chain(numbers.map(Column::number))
+        .chain([Column::text("Errors")]);
+    Section {
+        heading: "Scenarios".into(),
+        intro: "The mean normalised squared error of the three parameters is 3 where the \
+                covariances are honest; 99 % of such campaigns lie within the bounds."
+            .into(),
+        items: vec![Item::Table(Table {
+            caption: "What the runs say together".into(),
+            columns: columns.collect(),
+            rows: scored.iter().map(row).collect(),
+        })],
+    }
+}
+
+/// The errors of one parameter beside what is claimed for them.
+fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
+    let unit = UNITS[row].0;
+    let mut points = Series { name: "a run".into(), style: Style::Points, ..Series::default() };
+    let (mut claimed, mut spread) = (
+        Series { name: "claimed 1σ".into(), style: Style::Steps, ..Series::default() },
+        Series { name: "spread of the runs".into(), style: Style::Points, ..Series::default() },
+    );
+    for (place, cell) in scored.iter().enumerate() {
+        for (index, errors) in cell.errors.iter().enumerate() {
+            points.x.push(place as f64 + index as f64 / cell.errors.len() as f64);
+            points.y.push(errors[row]);
+        }
+        if let Some(statistics) = &cell.statistics {
+            let honesty = &statistics.parameters[row];
+            claimed.x.push(place as f64);
+            claimed.y.push(honesty.claimed);
+            spread.x.push(place as f64);
+            spread.y.push(honesty.spread);
+        }
+    }
+    let x_label = "Scenario, in the order of the table, from 0";
+    let reference = |value: f64, name: &str| rins_report::Reference { name: name.into(), value };
+    Section {
+        heading: id.into(),
+        intro: "Where covariances are honest, one run in 20 lies beyond ±1.96.".into(),
+        items: vec![
+            Item::Plot(Plot {
+                title: "Errors over the sigma claimed".into(),
+                x_label: x_label.into(),
+                y_label: "Error / σ".into(),
+                series: vec![points],
+                references: vec![reference(1.96, "95 %"), reference(-1.96, "95 %")],
+                ..Plot::default()
+            }),
+            Item::Plot(Plot {
+                title: "Sigma claimed and spread found".into(),
+                x_label: x_label.into(),
+                y_label: format!("1σ [{unit}]"),
+                series: vec![claimed, spread],
+                ..Plot::default()
+            }),
+        ],
+    }
+}

@@ -1,0 +1,118 @@
+//! A campaign, for a machine.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+use rins_campaign::{PARAMETERS, Statistics};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::runs::UNITS;
+
+/// The result of `rins monte-carlo` and `rins merge`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CampaignResult {
+    /// The version of this schema: 2.
+    pub schema: u32,
+    /// `monte-carlo` or `merge`.
+    pub command: String,
+    /// The scenario file, or the shards.
+    pub scenario: String,
+    /// How many runs of each scenario.
+    pub runs: u64,
+    /// The seed.
+    pub seed: u64,
+    /// The shard, and of how many.
+    pub shard: [u64; 2],
+    /// The file of the results.
+    pub results: String,
+    /// The page beside it.
+    pub report: String,
+    /// The scenarios of the grid.
+    pub cells: Vec<CellResult>,
+}
+
+/// What the runs of one scenario say together; of too few runs only `grid` and `runs` are there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CellResult {
+    /// What distinguishes it from the others of the grid: keys and values.
+    pub grid: BTreeMap<String, String>,
+    /// How many runs there are.
+    pub runs: usize,
+    /// How many have no estimate.
+    pub failed: Option<usize>,
+    /// The mean normalized estimation error squared.
+    pub nees: Option<f64>,
+    /// How much it is if the covariances are consistent.
+    pub nees_dof: Option<usize>,
+    /// Its 99 % bounds then.
+    pub nees_bounds_99: Option<[f64; 2]>,
+    /// The mean normalized innovation squared over its degrees of freedom.
+    pub nis_ratio: Option<f64>,
+    /// Whether the NEES is within its bounds.
+    pub honest: Option<bool>,
+    /// The parameters.
+    pub parameters: Vec<ScatterResult>,
+}
+
+/// How the estimates of one parameter scatter, in its unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ScatterResult {
+    /// Its id.
+    pub id: String,
+    /// Its unit.
+    pub unit: String,
+    /// The true value.
+    pub truth: f64,
+    /// The mean error.
+    pub mean_error: f64,
+    /// The standard deviation of the errors.
+    pub spread: f64,
+    /// The root mean square of the sigmas claimed.
+    pub claimed: f64,
+    /// The share of the 95 % intervals that hold the true value.
+    pub coverage_95: f64,
+}
+
+impl CellResult {
+    pub(super) fn too_few(grid: BTreeMap<String, String>, runs: usize) -> Self {
+        Self {
+            grid,
+            runs,
+            failed: None,
+            nees: None,
+            nees_dof: None,
+            nees_bounds_99: None,
+            nis_ratio: None,
+            honest: None,
+            parameters: Vec::new(),
+        }
+    }
+
+    pub(super) fn of(
+        grid: BTreeMap<String, String>,
+        truth: &Vector3<f64>,
+        statistics: &Statistics,
+    ) -> Self {
+        let parameters = PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters).enumerate();
+        let parameters = parameters.map(|(row, ((id, (unit, _)), honesty))| ScatterResult {
+            id: (*id).into(),
+            unit: unit.into(),
+            truth: truth[row],
+            mean_error: honesty.mean_error,
+            spread: honesty.spread,
+            claimed: honesty.claimed,
+            coverage_95: honesty.coverage,
+        });
+        Self {
+            failed: Some(statistics.failed),
+            nees: Some(statistics.nees),
+            nees_dof: Some(PARAMETERS.len()),
+            nees_bounds_99: Some(statistics.nees_bounds),
+            nis_ratio: Some(statistics.nis_ratio),
+            honest: Some(statistics.is_honest()),
+            parameters: parameters.collect(),
+            ..Self::too_few(grid, statistics.runs)
+        }
+    }
+}

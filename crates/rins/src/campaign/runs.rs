@@ -1,0 +1,81 @@
+//! What the runs of a campaign found, one after the other, and the rows of its results.
+
+use nalgebra::{Matrix3, Vector3};
+use rins_calibration::Estimate;
+use rins_campaign::{PARAMETERS, RunFailure, RunResult};
+use rins_frames::units::{ARCSEC, PPM};
+use rins_io::{Record, Row, RunRows};
+
+/// The parameters' units: their names, and what one is in SI units.
+pub(super) const UNITS: [(&str, f64); 3] = [("arcsec", ARCSEC), ("arcsec", ARCSEC), ("ppm", PPM)];
+
+/// What a run found, in the parameters' units.
+#[derive(Debug)]
+pub(super) struct Run {
+    /// The scenario's place in the grid.
+    pub(super) cell: usize,
+    /// The run's number.
+    pub(super) number: u64,
+    pub(super) truth: Vector3<f64>,
+    pub(super) result: RunResult,
+}
+
+impl Run {
+    /// A run that was made in SI units, of a scenario where this is true in them.
+    pub(super) fn made(cell: usize, number: u64, truth: &Vector3<f64>, result: RunResult) -> Self {
+        let truth =
+            truth.zip_map(&Vector3::from(UNITS.map(|unit| unit.1)), |truth, unit| truth / unit);
+        let result = result.map(|found| Estimate {
+            value: Vector3::from_fn(|row, _| found.value[row] / UNITS[row].1),
+            covariance: Matrix3::from_fn(|row, column| {
+                found.covariance[(row, column)] / UNITS[row].1 / UNITS[column].1
+            }),
+            nis_ratio: found.nis_ratio,
+        });
+        Self { cell, number, truth, result }
+    }
+
+    /// A run that was read.
+    pub(super) fn read(rows: &RunRows) -> Self {
+        let [first, ..] = rows;
+        // A file has no scenario beyond those that a grid can have.
+        let cell = usize::try_from(first.cell).unwrap_or(usize::MAX);
+        let truth = Vector3::from_fn(|row, _| rows[row].record.truth);
+        Self { cell, number: first.run, truth, result: result(rows) }
+    }
+
+    /// A row for each parameter.
+    pub(super) fn rows(&self) -> RunRows {
+        std::array::from_fn(|parameter| self.row(parameter))
+    }
+
+    fn row(&self, parameter: usize) -> Row {
+        let (estimate, covariances, nis_ratio) = match &self.result {
+            Ok(found) => (
+                found.value[parameter],
+                [0, 1, 2].map(|other| found.covariance[(parameter, other)]),
+                found.nis_ratio,
+            ),
+            Err(_) => (f64::NAN, [f64::NAN; 3], f64::NAN),
+        };
+        Row {
+            cell: self.cell as u64,
+            run: self.number,
+            parameter: PARAMETERS[parameter].into(),
+            unit: UNITS[parameter].0.into(),
+            record: Record { truth: self.truth[parameter], estimate, covariances, nis_ratio },
+            failure: self.result.as_ref().err().map_or_else(String::new, |f| f.reason.clone()),
+        }
+    }
+}
+
+fn result(rows: &RunRows) -> RunResult {
+    if !rows[0].failure.is_empty() {
+        return Err(RunFailure { reason: rows[0].failure.clone() });
+    }
+    Ok(Estimate {
+        value: Vector3::from_fn(|row, _| rows[row].record.estimate),
+        covariance: Matrix3::from_fn(|row, column| rows[row].record.covariances[column]),
+        nis_ratio: rows[0].record.nis_ratio,
+    })
+}

@@ -1,0 +1,58 @@
+//! What a log holds, and what looks wrong with it.
+
+mod inspected;
+mod mends;
+mod oddities;
+mod outcome;
+mod page;
+mod refusal;
+mod result;
+mod shows;
+mod text;
+mod units;
+mod verdicts;
+mod words;
+
+use rins_inspection::Inspection;
+
+pub(crate) use self::inspected::inspected;
+use self::mends::{Mend, mends};
+use self::oddities::oddities;
+pub(crate) use self::refusal::refuse_mistaken;
+pub use self::result::{CheckResult, GapResult, MendResult, RestResult, VerdictResult};
+pub(crate) use self::shows::steady_rates;
+use self::verdicts::{Verdict, verdicts};
+use crate::log::Log;
+
+/// What a log holds, and a verdict on each thing that can be wrong with it.
+#[derive(Debug)]
+pub struct Check<'a> {
+    log: &'a Log,
+    inspection: Inspection,
+    oddities: Vec<String>,
+    mends: Vec<Mend>,
+    verdicts: Vec<Verdict>,
+}
+
+/// Inspects a log against all that its rig file says.
+///
+/// ```
+/// use rins::Outcome;
+/// let folder = tempfile::tempdir()?;
+/// let log = rins::demo::log(folder.path())?;
+/// let check = rins::check(&log);
+/// assert_eq!(check.failure(), None);
+/// print!("{check}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn check(log: &Log) -> Check<'_> {
+    let loaded = &log.loaded;
+    let inspection = inspected(loaded);
+    Check {
+        oddities: oddities(&inspection, loaded),
+        mends: mends(&inspection, &loaded.rig),
+        verdicts: verdicts(&inspection, loaded),
+        inspection,
+        log,
+    }
+}

@@ -1,0 +1,307 @@
+//! A verdict on each thing that can be wrong with a log.
+
+use rins_frames::EARTH_RATE;
+use rins_frames::units::DEG_PER_HOUR;
+use rins_inspection::{CHANNELS, Inspection, Suspicion};
+use rins_io::{Loaded, Omission};
+
+use super::inspected::{extremes, gaps, longest, step_in_words};
+use super::shows::shows;
+use super::words::suspicion_in_words;
+use crate::log::BEYOND_DATA_SHEET;
+use rins_report::Tone;
+use rins_report::number::{estimate, figure};
+
+/// Time stamps that jitter by more than this share of an interval are odd.
+const ODD_JITTER: f64 = 0.02;
+
+/// A table that is otherwise late than is said is odd from so many sigma, and this share of an
+/// interval, on: a gyro whose scale changes looks a little late too.
+const ODD_SIGMAS: f64 = 10.0;
+const ODD_SHARE: f64 = 2.5e-3;
+
+/// What is said of one thing.
+#[derive(Debug)]
+pub(super) struct Verdict {
+    pub(super) item: &'static str,
+    pub(super) tone: Tone,
+    pub(super) says: String,
+}
+
+impl Verdict {
+    /// The tone in a word.
+    pub(super) fn word(&self) -> &'static str {
+        match self.tone {
+            Tone::Good => "good",
+            Tone::Neutral => "fact",
+            Tone::Warning => "odd",
+            Tone::Bad => "bad",
+        }
+    }
+}
+
+/// All verdicts, in the order in which a log is looked through.
+pub(super) fn verdicts(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
+    let mut all = times(inspection, loaded);
+    all.extend(channels(inspection, loaded));
+    all.extend(meaning(inspection, loaded));
+    all.extend(table(inspection, loaded));
+    all.extend(contents(inspection, loaded));
+    all
+}
+
+fn verdict(item: &'static str, tone: Tone, says: impl Into<String>) -> Verdict {
+    Verdict { item, tone, says: says.into() }
+}
+
+fn times(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
+    let timing = &inspection.timing;
+    let jitter = timing.jitter / timing.interval;
+    let repeated =
+        loaded.summary.left_out.iter().filter(|out| out.reason == Omission::Repeated).count();
+    vec![
+        verdict(
+            "rate and jitter",
+            if jitter > ODD_JITTER { Tone::Warning } else { Tone::Good },
+            format!(
+                "{:.3} Hz, {:.4} ms rms, {:.1} % of an interval",
+                1.0 / timing.interval,
+                timing.jitter * 1e3,
+                100.0 * jitter
+            ),
+        ),
+        verdict(
+            "gaps",
+            if timing.gaps.is_empty() { Tone::Good } else { Tone::Warning },
+            gaps(inspection, loaded),
+        ),
+        verdict(
+            "duplicates",
+            if repeated == 0 { Tone::Good } else { Tone::Warning },
+            format!("{repeated} line(s) repeat the one before"),
+        ),
+        // What has either is not read at all.
+        verdict("time order", Tone::Good, "time goes on at every sample"),
+        verdict("finite", Tone::Good, "every number is finite"),
+    ]
+}
+
+/// The suspicions of one kind as a verdict, or what is said without.
+fn suspected(
+    inspection: &Inspection,
+    item: &'static str,
+    is_one: impl Fn(&Suspicion) -> bool,
+    without: impl Into<String>,
+) -> Verdict {
+    let found: Vec<String> = inspection
+        .suspicions
+        .iter()
+        .filter(|suspicion| is_one(suspicion))
+        .map(suspicion_in_words)
+        .collect();
+    if found.is_empty() {
+        verdict(item, Tone::Good, without)
+    } else {
+        verdict(item, Tone::Bad, found.join("; "))
+    }
+}
+
+fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
+    let ranges = loaded.rig.imu.is_some_and(|imu| imu.gyro.range.or(imu.accel.range).is_some());
+    let unsaturated = if ranges {
+        "no reading is at the range of the data sheet"
+    } else {
+        "no reading is cut off; the data sheet gives no range"
+    };
+    let steps: Vec<String> = inspection
+        .resolution
+        .iter()
+        .enumerate()
+        .filter_map(|(channel, step)| {
+            step.map(|step| format!("{} {}", CHANNELS[channel], step_in_words(channel, step)))
+        })
+        .collect();
+    let quantised = if steps.is_empty() {
+        verdict("quantised", Tone::Good, "no least bit is seen")
+    } else {
+        verdict("quantised", Tone::Neutral, format!("the least bits are {}", steps.join(", ")))
+    };
+    vec![
+        suspected(
+            inspection,
+            "stuck",
+            |s| matches!(s, Suspicion::StuckChannel { .. } | Suspicion::Sticks { .. }),
+            "every channel moves",
+        ),
+        suspected(
+            inspection,
+            "saturated",
+            |s| matches!(s, Suspicion::Saturated { .. } | Suspicion::FlatTop { .. }),
+            unsaturated,
+        ),
+        suspected(
+            inspection,
+            "spikes",
+            |s| matches!(s, Suspicion::Spike { .. }),
+            "no sample stands alone",
+        ),
+        quantised,
+    ]
+}
+
+/// What is not shown by a log is neither good nor bad.
+fn unless_shown(shown: bool, verdict: Verdict, why: &str) -> Verdict {
+    if shown || verdict.tone == Tone::Bad {
+        verdict
+    } else {
+        Verdict { tone: Tone::Neutral, says: format!("not shown: {why}"), ..verdict }
+    }
+}
+
+fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
+    let rests = !inspection.rests.is_empty();
+    let turns = inspection.spin_ratio.is_some();
+    let is_unit = |s: &Suspicion| {
+        matches!(
+            s,
+            Suspicion::Gravity { .. }
+                | Suspicion::SpinScale { .. }
+                | Suspicion::Triads { .. }
+                | Suspicion::TurningTriads { .. }
+        )
+    };
+    let is_axis = |s: &Suspicion| {
+        matches!(
+            s,
+            Suspicion::SpinAxis { .. }
+                | Suspicion::Level { .. }
+                | Suspicion::EarthRate { .. }
+                | Suspicion::Latitude { .. }
+                | Suspicion::Handedness { .. }
+        )
+    };
+    let whole = inspection.turns_whole;
+    let of_gyro = if turns { "the gyros count the table's turn" } else { "gyros not shown" };
+    let of_accel =
+        if rests || whole { "accelerometers show gravity" } else { "accelerometers not shown" };
+    let evidence = format!("{of_gyro}, {of_accel}");
+    let level = (rests || whole) && loaded.rig.attitude.is_some();
+    let earth = if inspection.earth_rate_visible { ", the Earth's rate" } else { "" };
+    let signs = match (level, turns) {
+        (true, true) => {
+            format!("gravity{earth} and the table's turn lie along the axes that are said")
+        }
+        (true, false) => format!("gravity{earth} lies along the axes that are said"),
+        (false, _) => "the table's turn is about z; which way x and y point, nothing tells".into(),
+    };
+    let nothing = "the IMU neither rests nor follows a table";
+    let no_axes = if rests { "needs an [attitude], or a table that turns" } else { nothing };
+    vec![
+        unless_shown(
+            rests || turns,
+            suspected(inspection, "units", is_unit, evidence.clone()),
+            nothing,
+        ),
+        unless_shown(
+            rests || turns,
+            suspected(inspection, "rate or increment", is_unit, evidence),
+            nothing,
+        ),
+        unless_shown(
+            level || turns,
+            suspected(inspection, "signs and axes", is_axis, signs),
+            no_axes,
+        ),
+    ]
+}
+
+fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
+    let Some(ratio) = inspection.spin_ratio else {
+        return vec![verdict("table", Tone::Neutral, "no table that turns was read")];
+    };
+    let mut all = vec![suspected(
+        inspection,
+        "table's motion",
+        |s| matches!(s, Suspicion::SpinProfile { .. }),
+        "the gyro about the axis of rotation and the table turn at the same times",
+    )];
+    let ratio = inspection.table_lag.map_or(ratio, |lag| lag.ratio);
+    all.push(verdict(
+        "clock ratio",
+        Tone::Neutral,
+        format!(
+            "the gyro about the axis of rotation counts {ratio:.7} of the table's turn: its scale and the ratio of their clocks, which nothing \
+             tells apart"
+        ),
+    ));
+    let stated = loaded.rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default();
+    all.push(match inspection.table_lag {
+        None => verdict("latency", Tone::Neutral, "not shown: the table's angle was not read at two rates"),
+        Some(lag) => {
+            let off = (lag.latency - stated).abs();
+            let odd = off > (ODD_SIGMAS * lag.sigma).max(ODD_SHARE * inspection.timing.interval);
+            let (latency, sigma) = estimate(lag.latency * 1e3, lag.sigma * 1e3);
+            verdict(
+                "latency",
+                if odd { Tone::Warning } else { Tone::Good },
+                format!(
+                    "the table's angle is {latency} ms late (1 sigma {sigma} ms), the rig file says {} ms",
+                    figure(stated * 1e3, 4)
+                ),
+            )
+        }
+    });
+    all
+}
+
+fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
+    let temperature = match &loaded.recording.temperature {
+        None => "none was read".into(),
+        Some(list) => {
+            let (least, most) = extremes(list);
+            format!("from {least:.2} to {most:.2} degC")
+        }
+    };
+    let rest = match longest(inspection) {
+        None => verdict("rest", Tone::Warning, "none of a second or more: nothing to align on"),
+        Some(rest) => {
+            let rate = rest.mean.rates.angular_rate.norm();
+            let told = format!(
+                "{} span(s), the longest of {:.1} s at {:.3} deg/h",
+                inspection.rests.len(),
+                rest.mean.duration,
+                rate / DEG_PER_HOUR
+            );
+            let scatter = rest.mean.angular_rate_sigma.norm();
+            // Three biases of the sheet's sigma make as much as their root mean square.
+            let beyond = loaded.rig.imu.filter(|imu| {
+                let expected = (3.0 * imu.gyro.bias_sigma.powi(2) + scatter.powi(2)).sqrt();
+                (rate - EARTH_RATE).abs() > BEYOND_DATA_SHEET * expected
+            });
+            match beyond {
+                Some(imu) => verdict(
+                    "rest",
+                    Tone::Warning,
+                    format!(
+                        "{told}, which is not the Earth's 15.041 to within the data sheet's bias_sigma of {:.3} deg/h",
+                        imu.gyro.bias_sigma / DEG_PER_HOUR
+                    ),
+                ),
+                None => verdict("rest", Tone::Neutral, told),
+            }
+        }
+    };
+    let turns = format!("{:.2}, {:.0} deg either way", inspection.turns, inspection.turns * 360.0);
+    let shows = shows(inspection, loaded);
+    let shows = if shows.is_empty() {
+        verdict("what it can show", Tone::Warning, "neither an alignment nor a calibration")
+    } else {
+        verdict("what it can show", Tone::Neutral, shows.join("; "))
+    };
+    vec![
+        verdict("temperature", Tone::Neutral, temperature),
+        rest,
+        verdict("turns", Tone::Neutral, turns),
+        shows,
+    ]
+}

@@ -1,0 +1,165 @@
+//! Whether a model fits: the verdict in words, and the whitened innovations.
+
+use nalgebra::SVector;
+use rins_calibration::{Consistency, MEASUREMENTS, Verdict};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize, Serializer};
+
+use rins_report::{Cell, Column, Item, Plot, Reference, Section, Series, Style, Table, Tone};
+
+/// What the innovations say of the model.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ConsistencyResult {
+    /// The mean normalized innovation squared of an epoch.
+    pub nis_mean: f64,
+    /// How much it would be if the model were right: the mean number of channels of an epoch.
+    #[serde(serialize_with = "whole")]
+    pub nis_dof: f64,
+    /// The p-value of the mean NIS.
+    pub nis_p: f64,
+    /// The p-value of the whiteness of the innovations.
+    pub whiteness_p: f64,
+    /// The root mean square of each channel of the whitened innovations: 1 if the model is right.
+    pub channel_rms: [f64; MEASUREMENTS],
+    /// Whether the verdict is no misfit.
+    pub model_fits: bool,
+    /// `fits`, `noise_overstated` or `misfit`.
+    pub verdict: String,
+}
+
+/// A number as a whole one where it is one: where all epochs have the same channels.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes by reference")]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most six channels")]
+fn whole<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    if (number.round() - number).abs() < 1e-9 {
+        serializer.serialize_u64(number.round() as u64)
+    } else {
+        serializer.serialize_f64(*number)
+    }
+}
+
+impl From<&Consistency> for ConsistencyResult {
+    fn from(consistency: &Consistency) -> Self {
+        let verdict = match consistency.verdict() {
+            Verdict::Fits => "fits",
+            Verdict::NoiseOverstated => "noise_overstated",
+            Verdict::Misfit => "misfit",
+        };
+        Self {
+            nis_mean: consistency.nis_mean,
+            nis_dof: consistency.nis_dof,
+            nis_p: consistency.nis_p,
+            whiteness_p: consistency.whiteness_p,
+            channel_rms: consistency.channel_rms,
+            model_fits: consistency.verdict() != Verdict::Misfit,
+            verdict: verdict.into(),
+        }
+    }
+}
+
+/// A p-value as a person reads it.
+pub(crate) fn probability(p: f64) -> String {
+    if p < 1e-12 {
+        "below 1e-12".into()
+    } else if p < 0.001 {
+        format!("= {p:.0e}")
+    } else {
+        format!("= {p:.3}")
+    }
+}
+
+/// What the innovations say of the model.
+pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
+    let figures = format!(
+        "mean NIS {:.2} where {} is expected, whiteness p {}",
+        consistency.nis_mean,
+        (100.0 * consistency.nis_dof).round() / 100.0,
+        probability(consistency.whiteness_p)
+    );
+    match consistency.verdict() {
+        Verdict::Fits => {
+            format!("The innovations are what the model says they should be ({figures}).")
+        }
+        Verdict::NoiseOverstated => format!(
+            "The innovations are smaller than the rig's noise figures claim ({figures}): the sigmas are too \
+             large rather than too small."
+        ),
+        Verdict::Misfit => format!(
+            "The model does not fit these data ({figures}): there is more in them than its states, \
+             and the sigmas do not hold what that does to the estimates."
+        ),
+    }
+}
+
+/// Whitened innovations in order of time.
+pub(crate) struct Residuals<'a> {
+    /// What the rows are.
+    pub(crate) channels: [&'static str; MEASUREMENTS],
+    /// When each came \[s\].
+    pub(crate) times: &'a [f64],
+    pub(crate) innovations: &'a [SVector<f64, MEASUREMENTS>],
+}
+
+/// Whether the model fits, with the evidence.
+pub(crate) fn consistency_section(
+    heading: &str,
+    consistency: &Consistency,
+    residuals: &Residuals<'_>,
+) -> Section {
+    let rows = (0..MEASUREMENTS).map(|channel| {
+        vec![
+            Cell::text(residuals.channels[channel]),
+            Cell::Number { value: consistency.channel_rms[channel], decimals: 3 },
+            Cell::Number { value: consistency.periodogram_distance[channel], decimals: 4 },
+        ]
+    });
+    let plots = (0..MEASUREMENTS).map(|channel| {
+        Item::Plot(Plot {
+            title: residuals.channels[channel].into(),
+            x_label: "Time [s]".into(),
+            y_label: "Whitened innovation [σ]".into(),
+            series: vec![Series {
+                name: "innovation".into(),
+                x: residuals.times.to_vec(),
+                y: residuals.innovations.iter().map(|nu| nu[channel]).collect(),
+                style: Style::Line,
+            }],
+            references: [-3.0, 3.0]
+                .map(|value| Reference { name: format!("{value:+.0}σ"), value })
+                .to_vec(),
+            ..Plot::default()
+        })
+    });
+    let tone = match consistency.verdict() {
+        Verdict::Fits => Tone::Good,
+        Verdict::NoiseOverstated => Tone::Neutral,
+        Verdict::Misfit => Tone::Warning,
+    };
+    let verdict = consistency_sentence(consistency);
+    let mut items = vec![
+        Item::Note(tone, verdict),
+        Item::Text(
+            "RMS is 1 for a right model; below 1, more noise was claimed than there is. The last column is the largest \
+             distance of the cumulative periodogram from that of white noise."
+                .into(),
+        ),
+        Item::Table(Table {
+            caption: "Whitened innovations".into(),
+            columns: vec![
+                Column::text("channel"),
+                Column::number("RMS"),
+                Column::number("periodogram distance"),
+            ],
+            rows: rows.collect(),
+        }),
+    ];
+    items.extend(plots);
+    Section {
+        heading: heading.into(),
+        intro: "If it does, each whitened innovation is a draw from N(0, 1) of its own. Structure that you can see is an \
+                effect that the model does not have."
+            .into(),
+        items,
+    }
+}

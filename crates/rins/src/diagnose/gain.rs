@@ -1,0 +1,165 @@
+//! What the causes gain on data that played no part, in words.
+
+use rins_diagnosis::{Drift, Gain, GainVerdict};
+use rins_frames::units::DEG;
+
+use super::measured::{Measured, On};
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Section, Table, Tone};
+
+/// By which factor a drift has to grow for it to be said: it scatters, being that of a few windows.
+const FURTHER: f64 = 1.5;
+
+/// The evidence for a gain.
+pub(super) fn gain_section(measured: &Measured) -> Section {
+    let heading = match measured.on {
+        On::Fastest => "What it gains at a rate that played no part".to_owned(),
+        On::Ends | On::Run(_) => "What it gains on data that played no part".to_owned(),
+    };
+    let intro = "Both models were estimated anew without what is held out, and then foretold every epoch of it from all before. NIS is \
+                 the mean of the squared innovations of an epoch: as many as there are figures, if the model is right."
+        .to_owned();
+    let Ok(gain) = &measured.gain else {
+        let items = vec![Item::Note(Tone::Neutral, gain_sentence(measured))];
+        return Section { heading, intro, items };
+    };
+    let tone = match gain.verdict {
+        GainVerdict::Improved if !drifts_further(gain) => Tone::Good,
+        GainVerdict::Improved => Tone::Warning,
+        GainVerdict::NoImprovement => Tone::Neutral,
+    };
+    let row = |name: String, [before, after]: [f64; 2]| {
+        vec![Cell::text(name), Cell::text(figure(before, 4)), Cell::text(figure(after, 4))]
+    };
+    let per_sample = |score: f64| score / gain.samples as f64;
+    let mut rows = vec![
+        row(
+            "log score of a sample [nats]".into(),
+            [per_sample(gain.before.log_score), per_sample(gain.after.log_score)],
+        ),
+        row(
+            format!("mean NIS, of {} figures", gain.before.nis_dof),
+            [gain.before.nis_mean, gain.after.nis_mean],
+        ),
+    ];
+    for drift in &gain.drifts {
+        let over = format!("after {:.0} s, rms of {} window(s)", drift.after, drift.windows);
+        rows.push(row(format!("velocity {over} [m/s]"), drift.velocity));
+        rows.push(row(format!("attitude {over} [deg]"), drift.attitude.map(|angle| angle / DEG)));
+    }
+    let table = Table {
+        caption: format!(
+            "Held out: {} samples, {} revolutions or pieces of a rest",
+            gain.samples, gain.blocks
+        ),
+        columns: vec![Column::text(""), Column::number("before"), Column::number("after")],
+        rows,
+    };
+    Section {
+        heading,
+        intro,
+        items: vec![Item::Note(tone, gain_sentence(measured)), Item::Table(table)],
+    }
+}
+
+/// What came of it, with the figures.
+pub(super) fn gain_sentence(measured: &Measured) -> String {
+    let gain = match &measured.gain {
+        Ok(gain) => gain,
+        Err(error) => return format!("What this gains could not be measured: {error}."),
+    };
+    let scored = format!(
+        "the log score {} by {} nats (95 %: {} to {})",
+        if gain.rise() < 0.0 { "changes" } else { "goes up" },
+        figure(gain.rise(), 3),
+        figure(gain.interval.0, 3),
+        figure(gain.interval.1, 3)
+    );
+    let over = format!("Foretelling {}", held_out(measured, gain));
+    let drift = gain.drifts.last().map_or_else(String::new, |drift| {
+        let further = if drifts_further(gain) {
+            "; navigation with its errors undone drifts further: "
+        } else {
+            "; "
+        };
+        format!("{further}{}", drifting(drift))
+    });
+    match gain.verdict {
+        GainVerdict::Improved => {
+            format!("{over}, the extended model does better: {scored}{drift}.")
+        }
+        GainVerdict::NoImprovement => {
+            format!("{over}, the extended model does not do better: {scored}{drift}.")
+        }
+    }
+}
+
+/// Whether free navigation ends further off, in velocity or attitude, with what the extended model finds undone.
+fn drifts_further(gain: &Gain) -> bool {
+    let further = |[before, after]: [f64; 2]| after > FURTHER * before;
+    gain.drifts.last().is_some_and(|drift| further(drift.velocity) || further(drift.attitude))
+}
+
+/// What was held out.
+fn held_out(measured: &Measured, gain: &Gain) -> String {
+    let size = format!("{} revolutions or pieces of a rest", gain.blocks);
+    match &measured.on {
+        On::Ends => format!(
+            "the last 30 % of every stretch of constant rate ({size}), which its size was not taken from"
+        ),
+        On::Fastest => format!(
+            "the stretches at the table's fastest rate ({size}), its size taken from the slower ones"
+        ),
+        On::Run(rig) => format!(
+            "the last 30 % of every stretch of {rig} ({size}), which played no part in finding it"
+        ),
+    }
+}
+
+fn drifting(drift: &Drift) -> String {
+    let [before, after] = drift.attitude.map(|angle| figure(angle / DEG, 3));
+    let [without, with] = drift.velocity.map(|velocity| figure(velocity, 3));
+    format!(
+        "after {:.0} s of free inertial navigation the velocity is off by {with} m/s instead of {without}, the attitude by \
+         {after} deg instead of {before}",
+        drift.after
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use rins_diagnosis::Foresight;
+
+    use super::*;
+
+    /// A gain of 30 nats after which the attitude is so many times as far off.
+    fn measured(times: f64) -> Measured {
+        let foresight = |log_score| Foresight { log_score, nis_mean: 6.0, nis_dof: 6 };
+        let drift = Drift {
+            after: 60.0,
+            windows: 3,
+            velocity: [0.02, 0.015],
+            attitude: [0.01 * DEG, times * 0.01 * DEG],
+        };
+        let gain = Gain {
+            spans: vec![vec![0..3000]],
+            samples: 3000,
+            blocks: 6,
+            before: foresight(100.0),
+            after: foresight(130.0),
+            interval: (12.0, 47.0),
+            drifts: vec![drift],
+            verdict: GainVerdict::Improved,
+        };
+        Measured { on: On::Ends, gain: Ok(gain) }
+    }
+
+    #[test]
+    fn drift_that_grows_is_not_passed_over() {
+        let better = gain_sentence(&measured(0.5));
+        assert!(better.contains("does better") && !better.contains("further"), "{better}");
+        let further = gain_sentence(&measured(9.0));
+        assert!(further.contains("; navigation with its errors undone drifts further: after 60 s"));
+        assert!(further.contains("the attitude by 0.0900 deg instead of 0.0100"), "{further}");
+    }
+}

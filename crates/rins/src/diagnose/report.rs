@@ -1,0 +1,267 @@
+//! The page of a diagnosis.
+
+use rins_diagnosis::Limit;
+
+use super::found::{Found, Named};
+use super::gain::gain_section;
+use super::overlay::overlay_sections;
+use super::structure::{size_in_words, structure_in_words};
+use super::words::{next_steps, probability, rivals, summary};
+use crate::settings::settings_in_words;
+use rins_report::number::figure;
+use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
+
+/// The report page.
+pub(super) fn diagnosis_report(found: &Found) -> Report {
+    let certificate = &found.certificate;
+    let samples: usize = certificate.runs.iter().map(|run| run.prepared.samples()).sum();
+    let mut summary = summary(found);
+    summary.extend(next_steps(found));
+    Report {
+        title: found.title(),
+        subtitle: format!(
+            "rins diagnose, model {}: {samples} samples, {:.1} s",
+            certificate.model, found.seconds
+        ),
+        summary,
+        sections: [
+            vec![causes(found), unexplained(found)],
+            overlay_sections(found),
+            std::iter::once(&found.gain).chain(&found.transfer).map(gain_section).collect(),
+            vec![shifts(found), limits(found), untestable(found)],
+        ]
+        .concat(),
+    }
+}
+
+fn causes(found: &Found) -> Section {
+    let rows: Vec<Vec<Cell>> = found.causes.iter().flat_map(cause_rows).collect();
+    let items = if rows.is_empty() {
+        vec![Item::Note(Tone::Good, "Nothing of the catalogue is significant.".into())]
+    } else {
+        vec![Item::Table(Table {
+            caption: "What was found, the strongest evidence first".into(),
+            columns: vec![
+                Column::text("effect"),
+                Column::id("parameter"),
+                Column::number("estimate"),
+                Column::text("unit"),
+                Column::number("size [σ]"),
+                Column::text("odds of chance"),
+                Column::text("cannot be told from"),
+                Column::text("size plausible?"),
+            ],
+            rows,
+        })]
+    };
+    Section {
+        heading: "Causes".into(),
+        intro: "Each effect was estimated with all the others and with the model. The odds of chance are those of finding \
+                anything in the catalogue as strong in a run that holds nothing."
+            .into(),
+        items,
+    }
+}
+
+fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
+    let cause = &named.cause;
+    let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
+    let name = if settings.is_empty() {
+        cause.term.name.to_owned()
+    } else {
+        format!("{}, {settings}", cause.term.name)
+    };
+    let first = |place: usize, cell: Cell| if place == 0 { cell } else { Cell::Empty };
+    cause
+        .parameters
+        .iter()
+        .enumerate()
+        .map(|(place, estimate)| {
+            let unit = estimate.parameter.unit;
+            vec![
+                first(place, Cell::text(&name)),
+                Cell::text(&estimate.parameter.id),
+                Cell::Estimate {
+                    value: estimate.value / unit.factor,
+                    sigma: estimate.sigma / unit.factor,
+                },
+                Cell::text(unit.symbol),
+                first(place, Cell::Number { value: named.sigmas, decimals: 1 }),
+                first(place, Cell::text(probability(cause.ln_p))),
+                first(place, Cell::text(rivals(named))),
+                first(
+                    place,
+                    if named.plausible {
+                        Cell::badge(Tone::Good, "usual")
+                    } else {
+                        Cell::badge(Tone::Warning, "too large")
+                    },
+                ),
+            ]
+        })
+        .collect()
+}
+
+fn unexplained(found: &Found) -> Section {
+    let rows: Vec<Vec<Cell>> = found
+        .unexplained
+        .iter()
+        .map(|one| {
+            vec![
+                Cell::text((one.run + 1).to_string()),
+                Cell::text(one.channel),
+                Cell::text(structure_in_words(one)),
+                Cell::text(size_in_words(one).unwrap_or_default()),
+                Cell::text(probability(one.ln_p)),
+            ]
+        })
+        .collect();
+    let items = if rows.is_empty() {
+        vec![Item::Note(Tone::Good, "What is left looks like noise.".into())]
+    } else {
+        vec![Item::Table(Table {
+            caption: "Structure that no effect of the catalogue explains".into(),
+            columns: vec![
+                Column::number("run"),
+                Column::id("channel"),
+                Column::text("what it looks like"),
+                Column::text("size"),
+                Column::text("odds of chance"),
+            ],
+            rows,
+        })]
+    };
+    Section {
+        heading: "What is left unexplained".into(),
+        intro: "The innovations of the extended model, searched for lines, orders of the table angle, drifts, unequal spread \
+                and outliers; and each cause, held against itself in other parts of the run. Nothing here is forced onto a name."
+            .into(),
+        items,
+    }
+}
+
+fn shifts(found: &Found) -> Section {
+    let rows = found.shifts.iter().map(|shift| {
+        let unit = shift.before.parameter.unit;
+        let estimate = |estimate: &rins_estimation::Estimate| Cell::Estimate {
+            value: estimate.value / unit.factor,
+            sigma: estimate.sigma / unit.factor,
+        };
+        vec![
+            Cell::text(&shift.before.parameter.id),
+            estimate(&shift.before),
+            estimate(&shift.after),
+            Cell::text(unit.symbol),
+            Cell::Number { value: shift.sigmas(), decimals: 1 },
+        ]
+    });
+    let items = if found.shifts.is_empty() {
+        vec![Item::Note(Tone::Neutral, "No estimate moves by so much.".into())]
+    } else {
+        vec![Item::Table(Table {
+            caption: "Estimates without and with the causes".into(),
+            columns: vec![
+                Column::id("parameter"),
+                Column::number("without"),
+                Column::number("with"),
+                Column::text("unit"),
+                Column::number("moved [σ]"),
+            ],
+            rows: rows.collect(),
+        })]
+    };
+    Section {
+        heading: "What it did to the estimates".into(),
+        intro: "Estimates that move by more than the sigma that they had without the causes, and by 3 sigma of such moves by chance."
+            .into(),
+        items,
+    }
+}
+
+fn limits(found: &Found) -> Section {
+    let rows = found.limits.iter().map(|limit| {
+        let parameter = &limit.term.parameters[limit.parameter];
+        let unit = parameter.unit;
+        let (low, high) = parameter.range(&found.certificate.runs[0].prepared.imu);
+        let shown = |value: f64| Cell::text(figure(value / unit.factor, 3));
+        vec![
+            Cell::text(limit.own_id(&found.certificate.fit.run_axes[0])),
+            shown(limit.sigma),
+            shown(limit.detectable),
+            Cell::text(unit.symbol),
+            Cell::text(format!(
+                "{} to {}",
+                figure(low / unit.factor, 2),
+                figure(high / unit.factor, 2)
+            )),
+            if limit.detectable < low {
+                Cell::badge(Tone::Good, "all usual ones")
+            } else if limit.detectable < high {
+                Cell::badge(Tone::Neutral, "large ones")
+            } else {
+                Cell::badge(Tone::Warning, "none")
+            },
+        ]
+    });
+    Section {
+        heading: "What would have been seen".into(),
+        intro: "For each parameter of each effect that the model does not have, the amplitude that this run would have shown with a \
+                probability of 95 %, the parameter alone being there. What is smaller may be there and not be named."
+            .into(),
+        items: [power(&found.limits), vec![Item::Table(Table {
+            caption: "Smallest amplitudes that are found".into(),
+            columns: vec![
+                Column::id("parameter"),
+                Column::number("σ"),
+                Column::number("found from"),
+                Column::text("unit"),
+                Column::text("usual"),
+                Column::text("seen of the usual"),
+            ],
+            rows: rows.collect(),
+        })]].concat(),
+    }
+}
+
+/// How likely an effect would have been found, over its size: the effect that is sought in the fewest ways, and that in
+/// the most.
+fn power(limits: &[Limit]) -> Vec<Item> {
+    let by_ways = |a: &&Limit, b: &&Limit| a.significant.total_cmp(&b.significant);
+    let (Some(fewest), Some(most)) = (limits.iter().min_by(by_ways), limits.iter().max_by(by_ways))
+    else {
+        return Vec::new();
+    };
+    let sigmas: Vec<f64> = (0..=120).map(|step| 0.1 * f64::from(step)).collect();
+    let curve = |limit: &Limit| Series {
+        name: limit.term.name.into(),
+        x: sigmas.clone(),
+        y: sigmas.iter().map(|sigma| 100.0 * limit.power(sigma * limit.sigma)).collect(),
+        ..Series::default()
+    };
+    vec![Item::Plot(Plot {
+        title: "Power of this run".into(),
+        x_label: "True amplitude [σ]".into(),
+        y_label: "Found in [%]".into(),
+        series: vec![curve(fewest), curve(most)],
+        caption: "Effects that may come in one shape only are found sooner than those that are sought at many times, orders or \
+                  parts; all others are between. The σ of each is in the table."
+            .into(),
+        ..Plot::default()
+    })]
+}
+
+fn untestable(found: &Found) -> Section {
+    let rows = found
+        .untestable
+        .iter()
+        .map(|one| vec![Cell::text(one.term.id), Cell::text(one.term.name), Cell::text(&one.why)]);
+    Section {
+        heading: "What could not have been seen".into(),
+        intro: "Effects of which this run would show nothing, however large they are within what is usual.".into(),
+        items: vec![Item::Table(Table {
+            caption: "Not testable".into(),
+            columns: vec![Column::id("effect"), Column::text("what it is"), Column::text("why")],
+            rows: rows.collect(),
+        })],
+    }
+}

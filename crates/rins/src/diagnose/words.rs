@@ -1,0 +1,291 @@
+//! What a diagnosis found, in plain words.
+
+use rins_diagnosis::Unexplained;
+use rins_terms::catalogue;
+
+use super::found::{ByChance, Found, Named, Verdict};
+use super::gain::gain_sentence;
+use super::structure::{size_in_words, structure_in_words};
+use crate::settings::{settings_in_words, symbol};
+use rins_report::number::{estimate, figure};
+
+/// How many of the estimates that moved are told in words.
+const SHIFTS_TOLD: usize = 3;
+
+/// A delay is a convention of time stamps if it is off whole halves of a sample by less than this part of one.
+const CONVENTION: f64 = 0.02;
+
+/// A delay of so many negative sigmas is less than none.
+const AHEAD: f64 = 3.0;
+
+/// The result: what was wrong, by how much, how sure, and what it did.
+pub(super) fn summary(found: &Found) -> Vec<String> {
+    let mut sentences = vec![headline(found)];
+    sentences.extend(found.causes.iter().filter_map(doubt));
+    sentences.extend(found.unexplained.iter().map(|one| remainder(found, one)));
+    if !found.causes.is_empty() {
+        sentences.push(damage(found));
+        sentences.push(gain_sentence(&found.gain));
+        sentences.extend(found.transfer.as_ref().map(gain_sentence));
+    }
+    sentences.extend(found.causes.iter().filter(|named| !named.plausible).map(|named| {
+        format!(
+            "The {} is larger than such an instrument should have: look for another cause that resembles it.",
+            named.cause.term.name
+        )
+    }));
+    if found.causes.iter().any(is_ahead_of_its_time) {
+        sentences.push(
+            "No encoder is read ahead of its time: the gyros and the accelerometers, both late by as much, look the same."
+                .to_owned(),
+        );
+    }
+    if found.causes.iter().any(|named| is_convention(found, named)) {
+        sentences.push(
+            "A latency of whole samples or half ones is a convention of the log: say so by `latency` under [log] table_angle, or by \
+             another `stamp`."
+                .to_owned(),
+        );
+    }
+    if let Some(ByChance { draws, share }) = found.by_chance {
+        sentences.push(format!(
+            "Of {draws} draws of the score of all effects of the catalogue under the extended model, the first search would \
+             have named one in {} %; 1 % is allowed.",
+            figure(100.0 * share, 2)
+        ));
+    }
+    if !found.untestable.is_empty() {
+        sentences.push(format!(
+            "{} effects of the catalogue could not have been seen in this run: that they are not named does not mean that \
+             they are not there.",
+            found.untestable.len()
+        ));
+    }
+    sentences.extend(found.certificate.remarks.iter().cloned());
+    sentences
+}
+
+/// Whether a latency of the table angle is negative, and not by chance.
+fn is_ahead_of_its_time(named: &Named) -> bool {
+    let delay = named.cause.parameters.first();
+    named.cause.term.id == catalogue::ENCODER_LATENCY.id
+        && delay.is_some_and(|delay| delay.value < -AHEAD * delay.sigma)
+}
+
+/// Whether the table's angle is late, or early, by whole samples or by half ones.
+fn is_convention(found: &Found, named: &Named) -> bool {
+    let samples = named.cause.parameters.first().and_then(|delay| found.in_samples(delay));
+    let is = |samples: f64| {
+        let halves = (2.0 * samples).round();
+        halves != 0.0 && (2.0 * samples - halves).abs() < CONVENTION
+    };
+    named.cause.term.id == catalogue::ENCODER_LATENCY.id && samples.is_some_and(is)
+}
+
+fn headline(found: &Found) -> String {
+    if found.verdict == Verdict::Adequate && !found.causes.is_empty() {
+        let supposed: Vec<&str> = found.causes.iter().map(|named| named.cause.term.name).collect();
+        return format!(
+            "The model ({}) does without what was supposed ({}): it explains no more of this run than chance would.",
+            found.certificate.model,
+            supposed.join(", ")
+        );
+    }
+    if found.verdict == Verdict::Adequate {
+        return format!(
+            "The model ({}) is adequate: no effect of the catalogue explains more of this run than chance would, and what is \
+             left looks like noise.",
+            found.certificate.model
+        );
+    }
+    if found.causes.is_empty() {
+        return format!(
+            "Something is missing from the model ({}), and no effect of the catalogue explains it.",
+            found.certificate.model
+        );
+    }
+
+    let effects: Vec<String> = found
+        .causes
+        .iter()
+        .map(|named| {
+            format!(
+                "{} ({}), {}, {:.0} sigma, odds of chance {}",
+                named.cause.term.name,
+                named.cause.term.cause,
+                amplitude(found, named),
+                named.sigmas,
+                probability(named.cause.ln_p)
+            )
+        })
+        .collect();
+    match &effects[..] {
+        [only] => format!("One effect is missing from the model: {only}."),
+        several => {
+            format!("{} effects are missing from the model: {}.", several.len(), several.join("; "))
+        }
+    }
+}
+
+/// What no effect explains, and what harm it may do.
+fn remainder(found: &Found, one: &Unexplained) -> String {
+    let size = size_in_words(one).map_or_else(String::new, |size| format!(", {size}"));
+    let fit = &found.certificate.fit;
+    let worst: Vec<String> = one
+        .worst
+        .iter()
+        .filter_map(|(id, value)| {
+            let unit = fit.parameter(id)?.parameter.unit;
+            Some(format!("{id} by {} {}", figure(value / unit.factor, 2), unit.symbol))
+        })
+        .collect();
+    let harm = if worst.is_empty() {
+        String::new()
+    } else {
+        format!("; at worst it puts off {}", worst.join(", "))
+    };
+    format!(
+        "Unexplained, on {}: {}{size}, odds of chance {}{harm}.",
+        one.channel,
+        structure_in_words(one),
+        probability(one.ln_p)
+    )
+}
+
+/// A cause's amplitude: its parameters that are not zero, with their sigma.
+fn amplitude(found: &Found, named: &Named) -> String {
+    let cause = &named.cause;
+    let largest = cause
+        .parameters
+        .iter()
+        .map(|estimate| (estimate.value / estimate.sigma).abs())
+        .fold(0.0, f64::max);
+    // What is not seen at all would only hide what is.
+    let told = cause.parameters.iter().filter(|estimate| {
+        let size = (estimate.value / estimate.sigma).abs();
+        size > 2.0_f64.min(largest) || size >= largest
+    });
+    let mut parts: Vec<String> = told
+        .map(|own| {
+            let (unit, name) = (own.parameter.unit, &own.parameter.id);
+            let name = name.rsplit('.').next().unwrap_or(name);
+            let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
+            let samples = found
+                .in_samples(own)
+                .map_or_else(String::new, |count| format!(" ({} samples)", figure(count, 3)));
+            let symbol = symbol(unit);
+            format!("{name} = {value} ± {sigma} {symbol}{samples}").trim_end().to_owned()
+        })
+        .collect();
+    let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
+    if !settings.is_empty() {
+        parts.push(settings);
+    }
+    parts.join(", ")
+}
+
+/// What a cause cannot be told from.
+fn doubt(named: &Named) -> Option<String> {
+    let rivals = rivals(named);
+    let next = match (&named.next_test, &named.no_next_test) {
+        (Some(test), _) => format!(
+            " A run of its own would tell it from the {} by {} sigma: {}.",
+            test.from.name,
+            figure(test.sigmas, 2),
+            test.words
+        ),
+        (None, Some(why)) => format!(" No test that would tell can be proposed: {why}."),
+        (None, None) => String::new(),
+    };
+    (!rivals.is_empty()).then(|| {
+        format!("This run cannot tell the {} from: {rivals}.{next}", named.cause.term.name)
+    })
+}
+
+/// The other effects of a cause's set, in words.
+pub(super) fn rivals(named: &Named) -> String {
+    let rivals = named
+        .cause
+        .rivals
+        .iter()
+        .map(|rival| format!("{} ({})", rival.term.name, odds_in_words((-rival.odds).exp())));
+    rivals.collect::<Vec<_>>().join(", ")
+}
+
+fn odds_in_words(odds: f64) -> String {
+    match odds {
+        ..1.05 => "as likely".into(),
+        1.05..9.5 => format!("{odds:.1} times less likely"),
+        _ => format!("{odds:.0} times less likely"),
+    }
+}
+
+/// What the causes did to the estimates as long as they were not in the model.
+fn damage(found: &Found) -> String {
+    if found.shifts.is_empty() {
+        return "No estimate of the model was off by more than its sigma for want of it.".into();
+    }
+    let told: Vec<String> = found
+        .shifts
+        .iter()
+        .take(SHIFTS_TOLD)
+        .map(|shift| {
+            let unit = shift.before.parameter.unit;
+            format!(
+                "{} off by {} {} ({:.0} of its sigmas)",
+                shift.before.parameter.id,
+                figure((shift.before.value - shift.after.value) / unit.factor, 3),
+                unit.symbol,
+                shift.sigmas().abs()
+            )
+        })
+        .collect();
+    let more = found.shifts.len() - told.len();
+    let more = if more == 0 { String::new() } else { format!(", and {more} more") };
+    format!("Left out, it put {}{more}.", told.join(", "))
+}
+
+/// What to do next.
+pub(super) fn next_steps(found: &Found) -> Vec<String> {
+    let mut steps: Vec<String> = found
+        .causes
+        .iter()
+        .filter(|named| !named.cause.rivals.is_empty())
+        .map(|named| {
+            format!(
+                "To tell the {} apart: {}.",
+                named.cause.term.name, named.cause.term.told_apart_by
+            )
+        })
+        .collect();
+    if !found.causes.is_empty() {
+        steps.push(
+            "With -o DIR the extended model is in DIR/model.toml, for rins calibrate --model, and what it estimates in \
+             DIR/calibration.toml, for rins navigate and rins apply."
+                .into(),
+        );
+    }
+    steps
+}
+
+/// A probability, from its logarithm, which may be of any size.
+pub(super) fn probability(ln_p: f64) -> String {
+    let power = ln_p / std::f64::consts::LN_10;
+    if power > -3.0 {
+        return format!("{:.3}", ln_p.exp());
+    }
+    let whole = power.floor();
+    format!("{:.0}e{whole:.0}", 10.0_f64.powf(power - whole).floor().max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_probability_beyond_all_numbers_is_still_told() {
+        assert_eq!(probability((0.25_f64).ln()), "0.250");
+        assert_eq!(probability((3.2e-7_f64).ln()), "3e-7");
+        assert_eq!(probability(-1204.0), "1e-523");
+    }
+}

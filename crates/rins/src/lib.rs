@@ -1,0 +1,103 @@
+//! From the log of an IMU on a rate table to its errors: what a user depends on.
+//!
+//! | question | function | result |
+//! | --- | --- | --- |
+//! | what does this log look like? | [`init`] | [`InitResult`](init::InitResult) |
+//! | what is wrong with this log? | [`check`](check()) | [`CheckResult`](check::CheckResult) |
+//! | how noisy is the IMU? | [`allan`](allan()) | [`AllanResult`](allan::AllanResult) |
+//! | how does it stand? | [`align`](align()) | [`AlignResult`](align::AlignResult) |
+//! | where does free navigation end? | [`navigate`](navigate()) | [`NavigateResult`](navigate::NavigateResult) |
+//! | which errors has the IMU? | [`calibrate`](calibrate()) | [`CalibrateResult`](calibrate::CalibrateResult) |
+//! | what does the model lack? | [`diagnose`](diagnose()) | [`DiagnoseResult`](diagnose::DiagnoseResult) |
+//! | what does a schedule show? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
+//! | what changed between calibrations? | [`compare`](compare()) | [`CompareResult`](compare::CompareResult) |
+//! | do errors scatter as claimed? | [`monte_carlo`], [`merge`] | [`CampaignResult`](campaign::CampaignResult) |
+//! | a run, a log, a compensated log | [`simulate`](simulate()), [`convert`](convert()), [`apply`](apply()) | theirs |
+//!
+//! Every function returns an [`Outcome`]: its text is what the `rins` command prints, its result is a documented struct that
+//! `--json` prints and that reads back, and its page and files are what `-o` writes.
+//!
+//! ```no_run
+//! use rins::{CalibrateOptions, Log, Outcome, Overwrite};
+//!
+//! let log = Log::open("rig.toml")?;
+//! let calibration = rins::calibrate(vec![log], &CalibrateOptions::default())?;
+//! print!("{calibration}");
+//! calibration.write("out".as_ref(), Overwrite::Refuse)?;
+//! # Ok::<(), rins::Error>(())
+//! ```
+//!
+//! Angles, rates and increments are in SI units and radians inside; results name the unit of every number.
+
+pub mod align;
+pub mod allan;
+pub mod apply;
+pub mod calibrate;
+pub mod campaign;
+pub mod check;
+pub mod compare;
+pub mod convert;
+pub mod demo;
+pub mod diagnose;
+pub mod init;
+pub mod navigate;
+pub mod observe;
+pub mod simulate;
+
+mod angles;
+mod consistency;
+mod error;
+mod finite;
+mod free_navigation;
+mod log;
+mod options;
+mod outcome;
+mod preparation;
+mod progress;
+mod schema;
+mod settings;
+mod table;
+mod told;
+
+pub use rins_estimation as estimation;
+pub use rins_frames as frames;
+pub use rins_imu as imu;
+pub use rins_io as io;
+pub use rins_io::Overwrite;
+pub use rins_motion as motion;
+pub use rins_report as report;
+pub use rins_simulation as simulation;
+pub use rins_terms as terms;
+
+pub use align::align;
+pub use allan::allan;
+pub use angles::EulerDegrees;
+pub use apply::{ApplyOptions, apply};
+pub use calibrate::{CalibrateOptions, calibrate};
+pub use campaign::{MonteCarloOptions, merge, monte_carlo};
+pub use check::check;
+pub use compare::compare;
+pub use consistency::ConsistencyResult;
+pub use convert::{ConvertOptions, convert};
+pub use diagnose::{DiagnoseOptions, diagnose};
+pub use error::{Error, Result};
+pub use free_navigation::{BeforeAfterResult, NavigationResult};
+pub use init::init;
+pub use log::{Log, OutsideRange, OutsideRate, OutsideTemperature, StaticIntervalResult};
+pub use navigate::{NavigateOptions, navigate};
+pub use observe::{ObserveOptions, observe};
+pub use options::{ModelChoice, NoiseChoice};
+pub use outcome::Outcome;
+pub use progress::{Progress, Step};
+pub use schema::schemas;
+pub use simulate::simulate;
+pub use told::{
+    GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
+};
+
+/// The version of the results' schema.
+pub const SCHEMA: u32 = 2;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,185 @@
+//! What a calibration covers, and whether another run is within that.
+
+use rins_frames::units::DEG;
+use rins_io::{CalibratedRange, Calibration, Loaded};
+use rins_motion::Recording;
+use rins_terms::{Chosen, Model, Need, Role};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use rins_io::shown;
+use rins_report::number::figure;
+
+/// A rate is the mean over this time \[s\], so that noise does not widen what was covered.
+const MEAN_OVER: f64 = 1.0;
+
+/// A rate that is larger than those calibrated by less than this part of them is one of them.
+const SAME_RATE: f64 = 0.1;
+
+/// What runs cover: temperature, and rate about the axis of rotation.
+pub(crate) fn covered<'r>(recordings: impl IntoIterator<Item = &'r Recording>) -> CalibratedRange {
+    let mut range = CalibratedRange::default();
+    for recording in recordings {
+        let temperatures = recording.temperature.iter().flatten().copied();
+        temperatures.for_each(|value| widen(&mut range.temperature, value));
+        rates(recording).for_each(|rate| widen(&mut range.rate, rate));
+    }
+    range
+}
+
+fn widen(range: &mut Option<[f64; 2]>, value: f64) {
+    let [low, high] = range.unwrap_or([value; 2]);
+    *range = Some([low.min(value), high.max(value)]);
+}
+
+/// The mean rates about the axis of rotation \[rad/s\].
+fn rates(recording: &Recording) -> impl Iterator<Item = f64> {
+    let mut samples = recording.increments.iter();
+    std::iter::from_fn(move || {
+        let (mut angle, mut time) = (0.0, 0.0);
+        for sample in samples.by_ref() {
+            angle += sample.angle.components().z;
+            time += sample.interval;
+            if time >= MEAN_OVER {
+                return Some(angle / time);
+            }
+        }
+        None
+    })
+}
+
+/// Where a run goes beyond what a calibration covers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Beyond {
+    /// In sentences.
+    pub(crate) notes: Vec<String>,
+    /// For a machine; none if there is no calibration.
+    pub(crate) outside: Option<OutsideRange>,
+}
+
+/// What of a log lies outside of what a calibration covers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OutsideRange {
+    /// The temperature, if it does \[°C\].
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub temperature_degc: Option<OutsideTemperature>,
+    /// The rate about the axis of rotation, if it does \[deg/s\].
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub rate_deg_s: Option<OutsideRate>,
+}
+
+/// A temperature outside of what a calibration covers \[°C\].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OutsideTemperature {
+    /// The lowest and the highest of the log.
+    pub log: [f64; 2],
+    /// The lowest and the highest that were calibrated.
+    pub calibrated: [f64; 2],
+    /// By how much it is outside.
+    pub outside: f64,
+}
+
+/// A rate outside of what a calibration covers \[deg/s\].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OutsideRate {
+    /// The fastest of the log.
+    pub log: f64,
+    /// The fastest that was calibrated.
+    pub calibrated: f64,
+}
+
+/// Where a run goes beyond what a calibration covers; `terms` are the calibration's in this run.
+///
+/// # Errors
+/// If a term depends on a temperature that the log does not have, or would be extrapolated further than it was calibrated, unless
+/// `extrapolate`.
+pub(crate) fn beyond(
+    calibration: &Calibration,
+    terms: &Model,
+    loaded: &Loaded,
+    extrapolate: bool,
+) -> anyhow::Result<Beyond> {
+    let (log, file) = (shown(&loaded.rig.log.path), shown(&calibration.path));
+    let here = covered([&loaded.recording]);
+    ensure_temperature(&log, &file, terms, &loaded.recording)?;
+    let mut beyond = Beyond::default();
+    let (temperature, rate) = (calibration.range.temperature, calibration.range.rate);
+    let mut outside = OutsideRange::default();
+    if let Some((range, calibrated)) = here.temperature.zip(temperature) {
+        let by = (range[1] - calibrated[1]).max(calibrated[0] - range[0]);
+        if format!("{by:.1}").parse::<f64>().is_ok_and(|by| by > 0.0) {
+            let degrees = |[low, high]: [f64; 2]| format!("{low:.1} to {high:.1} degC");
+            let mut note = format!(
+                "Temperature {}, calibrated from {}: {by:.1} K outside",
+                degrees(range),
+                degrees(calibrated)
+            );
+            let cost = cost(terms, by);
+            if cost.is_empty() {
+                note += "; the calibration has no coefficient of temperature, so that what this costs is not known.";
+            } else {
+                note += "; the coefficients then add, 1σ, ";
+                note += &cost.join(", ");
+                note.push('.');
+            }
+            let far = !cost.is_empty() && by > calibrated[1] - calibrated[0];
+            anyhow::ensure!(
+                extrapolate || !far,
+                "{log}: {note} That is further than the range that was calibrated is wide: calibrate over more of it, or \
+                 pass --extrapolate"
+            );
+            beyond.notes.push(note);
+            outside.temperature_degc =
+                Some(OutsideTemperature { log: range, calibrated, outside: by });
+        }
+    }
+    let largest = |range: [f64; 2]| range[0].abs().max(range[1].abs());
+    if let Some((range, calibrated)) = here.rate.map(largest).zip(rate.map(largest))
+        && range > (1.0 + SAME_RATE) * calibrated
+    {
+        let [range, calibrated] = [range, calibrated].map(|rate| rate / DEG);
+        beyond.notes.push(format!(
+            "Rate about the axis of rotation up to {} deg/s, calibrated up to {} deg/s: whether scale errors are the same at \
+             higher rates is not known.",
+            figure(range, 4),
+            figure(calibrated, 4)
+        ));
+        outside.rate_deg_s = Some(OutsideRate { log: range, calibrated });
+    }
+    beyond.outside = Some(outside);
+    Ok(beyond)
+}
+
+/// Refuses a model, of which `holder` tells, that depends on a temperature which a log does not have.
+pub(crate) fn ensure_temperature(
+    log: &str,
+    holder: &str,
+    model: &Model,
+    recording: &Recording,
+) -> anyhow::Result<()> {
+    let needs = |chosen: &&Chosen| chosen.term.needs.contains(&Need::Temperature);
+    let needing = model.terms.iter().find(needs).filter(|_| recording.temperature.is_none());
+    if let Some(Chosen { term, .. }) = needing {
+        anyhow::bail!(
+            "{log}: {holder} holds {}, which depends on temperature, and the log has none: declare its column as [log] \
+             temperature",
+            term.id
+        );
+    }
+    Ok(())
+}
+
+/// What coefficients of temperature leave uncertain so many kelvin outside, the largest of each term.
+fn cost(terms: &Model, outside: f64) -> Vec<String> {
+    let of_temperature = terms.terms.iter().filter(|of| of.reference_temperature().is_some());
+    let largest = of_temperature.filter_map(|chosen| {
+        let sigmas = chosen.roles.iter().zip(chosen.term.parameters).map(|(role, parameter)| {
+            let sigma = if let Role::Within(sigma) = role { *sigma } else { 0.0 };
+            (outside * sigma / parameter.unit.factor, parameter.unit.symbol)
+        });
+        let (sigma, unit) = sigmas.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let unit = unit.strip_suffix("/K").unwrap_or(unit);
+        Some(format!("{} {unit} ({})", figure(sigma, 2), chosen.term.id))
+    });
+    largest.collect()
+}

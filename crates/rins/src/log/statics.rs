@@ -1,0 +1,147 @@
+//! The static intervals of a log: one search for all commands, and what they say of it.
+
+use std::ops::Range;
+
+use rins_frames::units::DEG_PER_SECOND;
+use rins_imu::TriadSpec;
+use rins_inspection::{SensorFigures, StaticInterval, StaticIntervals, StaticOptions};
+use rins_io::{Loaded, Rig};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// So many spans are listed in a line.
+const LISTED: usize = 8;
+
+/// What a rig file says of its static intervals and sensors.
+fn options(rig: &Rig) -> StaticOptions {
+    let figures = |of: fn(&rins_imu::ImuSpec) -> &TriadSpec| {
+        rig.imu.as_ref().map(of).map_or_else(SensorFigures::default, |sheet| SensorFigures {
+            bias_sigma: Some(sheet.bias_sigma),
+            noise_density: Some(sheet.noise_density),
+            resolution: sheet.resolution,
+        })
+    };
+    StaticOptions {
+        gyro: figures(|imu| &imu.gyro),
+        accel: figures(|imu| &imu.accel),
+        stated: rig.log.static_spans.clone(),
+        ..StaticOptions::default()
+    }
+}
+
+/// The static intervals of a log, as its rig file states them or as they are found.
+pub(crate) fn static_intervals(loaded: &Loaded) -> StaticIntervals {
+    StaticIntervals::of(&loaded.recording, &options(&loaded.rig))
+}
+
+/// The longest static interval, if one lasts as long as `shortest` \[s\].
+pub(crate) fn longest(loaded: &Loaded, shortest: f64) -> Option<Range<usize>> {
+    let found = static_intervals(loaded);
+    let longest = found.longest()?;
+    (longest.duration() >= shortest * (1.0 - 1e-9)).then(|| longest.span.clone())
+}
+
+/// That there is no static interval of so many seconds, and what was assumed.
+pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
+    let found = static_intervals(loaded);
+    let message = format!("the IMU never stands still for {shortest} s");
+    let rejected: Vec<String> = found
+        .all
+        .iter()
+        .filter(|interval| !interval.used())
+        .take(LISTED)
+        .filter_map(|interval| Some(format!("{}: {}", span(interval), interval.remark()?)))
+        .collect();
+    if rejected.is_empty() { message } else { format!("{message} ({})", rejected.join("; ")) }
+}
+
+fn span(interval: &StaticInterval) -> String {
+    format!("{:.1}-{:.1} s", interval.start, interval.end)
+}
+
+/// A span over which the IMU is static, or might be.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StaticIntervalResult {
+    /// Its start \[s\], in the time of the log.
+    pub start_s: f64,
+    /// Its end \[s\].
+    pub end_s: f64,
+    /// Whether this command uses it as a static interval.
+    pub used: bool,
+    /// Why it is not used, or what is to be known of it.
+    pub why: Option<String>,
+    /// Whether the rig file states it.
+    pub stated: bool,
+    /// The run that it is in, from 1, where a result is of several runs.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub run: Option<usize>,
+}
+
+/// The spans for a machine; `unused` says why a command does not use one that it could.
+pub(crate) fn statics_result(
+    found: &StaticIntervals,
+    unused: impl Fn(&StaticInterval) -> Option<String>,
+) -> Vec<StaticIntervalResult> {
+    let interval = |interval: &StaticInterval| {
+        let why = if interval.used() { unused(interval) } else { None };
+        StaticIntervalResult {
+            start_s: interval.start,
+            end_s: interval.end,
+            used: interval.used() && why.is_none(),
+            why: why.or_else(|| interval.remark()),
+            stated: interval.stated,
+            run: None,
+        }
+    };
+    found.all.iter().map(interval).collect()
+}
+
+/// Why a command that uses the longest interval alone does not use another one.
+pub(crate) fn only(span: &Range<usize>) -> impl Fn(&StaticInterval) -> Option<String> {
+    move |interval| {
+        (interval.span != *span).then(|| "static, but only the longest interval is used".into())
+    }
+}
+
+/// Why a command that uses all intervals of so many seconds does not use one.
+pub(crate) fn lasting(shortest: f64) -> impl Fn(&StaticInterval) -> Option<String> {
+    move |interval| {
+        (interval.duration() < shortest * (1.0 - 1e-9))
+            .then(|| format!("static, but shorter than {shortest} s"))
+    }
+}
+
+/// What a reader must know of the intervals: which are not used and why, what contradicts a statement, what was assumed.
+pub(crate) fn statics_in_words(found: &StaticIntervals, rig: &Rig) -> Vec<String> {
+    let mut lines = Vec::new();
+    let told = |used: bool| {
+        let of: Vec<&StaticInterval> = found
+            .all
+            .iter()
+            .filter(|interval| interval.used() == used && interval.remark().is_some())
+            .collect();
+        let listed = of.iter().take(LISTED).map(|interval| {
+            format!("{} {}", span(interval), interval.remark().unwrap_or_default())
+        });
+        let mut listed: Vec<String> = listed.collect();
+        if of.len() > LISTED {
+            listed.push(format!("and {} more", of.len() - LISTED));
+        }
+        listed.join("; ")
+    };
+    let (used, unused) = (told(true), told(false));
+    if !used.is_empty() {
+        lines.push(format!("Static intervals: {used}."));
+    }
+    if !unused.is_empty() {
+        lines.push(format!("Not used as static intervals: {unused}."));
+        if rig.imu.is_none() {
+            lines.push(format!(
+                "No bias_sigma of the gyros is stated: a constant rate of up to {:.1} deg/s about the vertical is assumed to be \
+                 a bias.",
+                StaticOptions::default().assumed_bias / DEG_PER_SECOND
+            ));
+        }
+    }
+    lines
+}

@@ -1,0 +1,91 @@
+//! What was found of schedules, as a report page.
+
+use super::found::{Found, Observed};
+use super::words::{comparison, pair_sentences, proposal_sentences, row};
+use crate::told::{badge, gauge_sentences, list, rank_sentence};
+use rins_report::{Cell, Column, Item, Report, Section, Table, Tone};
+
+pub(super) fn report(found: &Found) -> Report {
+    let names: Vec<String> =
+        found.observed.iter().map(|observed| observed.schedule.name.clone()).collect();
+    let first = &found.observed[0];
+    let mut summary = Vec::new();
+    if found.observed.len() == 1 {
+        summary.extend(proposal_sentences(found));
+        summary.push(rank_sentence(&first.told));
+        summary.extend(first.pair.iter().flat_map(|pair| pair_sentences(pair, found)));
+    } else {
+        summary.extend(found.observed.iter().map(|observed| {
+            format!("{}: {}", observed.schedule.name, rank_sentence(&observed.told))
+        }));
+    }
+    let mut sections = Vec::new();
+    if found.observed.len() > 1 {
+        sections.push(comparison_section(found));
+    }
+    sections.extend(found.observed.iter().map(schedule_section));
+    Report {
+        title: format!("Observability under {}", list(&names)),
+        subtitle: format!("rins observe, model {}", found.model),
+        summary,
+        sections,
+    }
+}
+
+fn comparison_section(found: &Found) -> Section {
+    let mut rows = comparison(found).into_iter();
+    let heads = rows.next().unwrap_or_default();
+    let columns = heads.iter().take(heads.len() - 1).enumerate();
+    let columns = columns
+        .map(|(place, head)| if place == 0 { Column::id("") } else { Column::number(head.clone()) })
+        .collect();
+    let rows = rows.map(|row| row.into_iter().map(Cell::text).collect()).collect();
+    Section {
+        heading: "Side by side".into(),
+        intro: "1σ of each parameter with what is known beforehand; a star marks what is not observable by itself."
+            .into(),
+        items: vec![Item::Table(Table { caption: "Schedules".into(), columns, rows })],
+    }
+}
+
+fn schedule_section(observed: &Observed) -> Section {
+    let told = &observed.told;
+    let rows = (0..told.unknowns.len()).map(|place| {
+        let [id, unit, known, data, both, meaning] = row(told, place);
+        vec![
+            Cell::text(id),
+            Cell::text(known),
+            Cell::text(data),
+            Cell::text(both),
+            Cell::text(unit),
+            badge(told, place),
+            Cell::text(meaning),
+        ]
+    });
+    let mut items = vec![Item::Table(Table {
+        caption: "Predicted 1σ".into(),
+        columns: vec![
+            Column::id("parameter"),
+            Column::number("known before"),
+            Column::number("data alone"),
+            Column::number("with both"),
+            Column::text("unit"),
+            Column::text("under this schedule"),
+            Column::text("observability"),
+        ],
+        rows: rows.collect(),
+    })];
+    let gauges = gauge_sentences(told).into_iter();
+    items.extend(gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
+    Section {
+        heading: observed.schedule.name.clone(),
+        intro: format!(
+            "{:.0} s. {} Of its information the least observable combination has {:.0e} for itself, the null space {:.0e}.",
+            observed.schedule.duration(),
+            rank_sentence(told),
+            told.rank.least_told,
+            told.rank.most_null
+        ),
+        items,
+    }
+}

@@ -1,0 +1,67 @@
+//! What every job delivers.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use rins_io::{IoError, Overwrite, write_folder};
+use rins_report::{Report, render};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::Result;
+
+/// What a job delivers: its text is what the command prints, its result is what `--json` prints, and its page and files are
+/// what `-o` writes.
+pub trait Outcome: Display {
+    /// The result for a machine: a documented struct, of which `docs/schema` has the JSON schema.
+    type Result: Serialize + DeserializeOwned + JsonSchema;
+
+    /// The result for a machine.
+    fn result(&self) -> Self::Result;
+
+    /// The page for a browser, if there is one.
+    fn report(&self) -> Option<Report> {
+        None
+    }
+
+    /// Further files for the folder of the results: their names and contents.
+    fn files(&self) -> Vec<(String, Vec<u8>)> {
+        Vec::new()
+    }
+
+    /// Writes the further files into a folder that is being made.
+    ///
+    /// # Errors
+    /// [`IoError`] if a file cannot be written.
+    fn fill(&self, folder: &Path) -> Result<(), IoError> {
+        self.files().iter().try_for_each(|(name, content)| put(folder, name, content))
+    }
+
+    /// Why the data are at fault, although there is a result.
+    fn failure(&self) -> Option<String> {
+        None
+    }
+
+    /// Writes `result.json`, `report.html` and the further files into a folder, all or none.
+    ///
+    /// # Errors
+    /// If the folder exists and must not be overwritten, or cannot be written.
+    fn write(&self, folder: &Path, overwrite: Overwrite) -> Result<()> {
+        let json = serde_json::to_string_pretty(&self.result()).map_err(anyhow::Error::from)?;
+        let page = self.report().map(|report| render(&report));
+        write_folder(folder, overwrite, |folder| {
+            put(folder, "result.json", json.as_bytes())?;
+            if let Some(page) = &page {
+                put(folder, "report.html", page.as_bytes())?;
+            }
+            self.fill(folder)
+        })?;
+        Ok(())
+    }
+}
+
+fn put(folder: &Path, name: &str, content: &[u8]) -> Result<(), IoError> {
+    let path = folder.join(name);
+    std::fs::write(&path, content).map_err(|source| IoError::File { action: "write", path, source })
+}

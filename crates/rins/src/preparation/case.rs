@@ -1,0 +1,189 @@
+//! Runs of one IMU, and the model that is to be estimated from them.
+
+use std::collections::BTreeSet;
+
+use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths};
+use rins_frames::EARTH_RATE;
+use rins_frames::units::DEG_PER_HOUR;
+use rins_imu::ImuSpec;
+use rins_report::number::figure;
+use rins_terms::{Chosen, Model, Role, catalogue};
+
+use super::prepared::Prepared;
+use crate::log::ensure_temperature;
+use crate::options::{NamedModel, NoiseChoice};
+
+/// What is estimated, from what, and what is known beforehand.
+pub(crate) struct Case {
+    /// The runs, in the order in which they were given.
+    pub(crate) runs: Vec<Prepared>,
+    /// What the model is called.
+    pub(crate) name: String,
+    /// The model, with what is known of these runs.
+    pub(crate) model: Model,
+    /// Whether the noise is found, or given.
+    pub(crate) noise: NoiseChoice,
+    /// What else a reader must know.
+    pub(crate) remarks: Vec<String>,
+}
+
+impl Case {
+    /// A model on runs, if these are of one IMU.
+    pub(crate) fn of(
+        runs: Vec<Prepared>,
+        named: NamedModel,
+        noise: NoiseChoice,
+    ) -> anyhow::Result<Self> {
+        let mut remarks: Vec<String> = match &runs[..] {
+            [only] => only.remarks.clone(),
+            several => several
+                .iter()
+                .flat_map(|run| run.remarks.iter().map(|told| format!("{}: {told}", run.name)))
+                .collect(),
+        };
+        let spins: BTreeSet<String> =
+            runs.iter().map(|run| run.loaded.rig.spin.spin_name()).collect();
+        if spins.len() > 1 {
+            let spins: Vec<String> = spins.into_iter().collect();
+            remarks.push(format!(
+                "The runs turn about different axes of the IMU ({}): errors of its sensors are estimated along the sensors' own \
+                 axes from all runs together.",
+                spins.join(", ")
+            ));
+        }
+        let preset = named.name == "full";
+        let model = on_these_runs(named.model, &runs, preset, &mut remarks);
+        let case = Self { runs, name: named.name, model, noise, remarks };
+        case.runs.iter().try_for_each(|run| case.ensure_same_imu(run))?;
+        let has_temperature = |run: &Prepared| {
+            ensure_temperature(&run.name, "the model", &case.model, &run.run.recording)
+        };
+        case.runs.iter().try_for_each(has_temperature)?;
+        Ok(case)
+    }
+
+    /// Refuses a run of another IMU.
+    pub(crate) fn ensure_same_imu(&self, other: &Prepared) -> anyhow::Result<()> {
+        anyhow::ensure!(
+            other.imu == *self.imu(),
+            "{} and {} have different data sheets: several runs must be of one IMU",
+            self.runs[0].name,
+            other.name
+        );
+        Ok(())
+    }
+
+    /// What the data sheet says.
+    pub(crate) fn imu(&self) -> &ImuSpec {
+        &self.runs[0].imu
+    }
+
+    /// The runs as the estimator takes them: one of each log, and then the other rests of the first, of the second ...
+    pub(crate) fn given(&self) -> Vec<Run> {
+        let of_log = |(log, prepared): (usize, &Prepared), run: &Run| match &prepared.others[..] {
+            [] => run.clone(),
+            _ => run.clone().since(log),
+        };
+        let logs = || self.runs.iter().enumerate();
+        let first = logs().map(|log| of_log(log, &log.1.run));
+        let others = logs().flat_map(|log| log.1.others.iter().map(move |run| of_log(log, run)));
+        first.chain(others).collect()
+    }
+
+    /// Of each log which of the runs given are its own, in order of time.
+    pub(crate) fn given_of_logs(&self) -> Vec<Vec<usize>> {
+        let mut next = self.runs.len();
+        let of_log = |(log, prepared): (usize, &Prepared)| {
+            let mut places = vec![log];
+            places.extend(next..next + prepared.others.len());
+            next += prepared.others.len();
+            let starts: Vec<f64> = prepared.rests().map(|run| run.recording.times[0]).collect();
+            let mut order: Vec<usize> = (0..places.len()).collect();
+            order.sort_by(|&a, &b| starts[a].total_cmp(&starts[b]));
+            order.into_iter().map(|rest| places[rest]).collect()
+        };
+        self.runs.iter().enumerate().map(of_log).collect()
+    }
+
+    /// What is known of the random errors: what the sheet says, and what of them is in the model.
+    pub(crate) fn knowledge(&self) -> NoiseKnowledge {
+        let sheet = Strengths::of(self.imu()).with(&self.model);
+        match self.noise {
+            NoiseChoice::Likely => NoiseKnowledge::Likely(sheet),
+            NoiseChoice::Given => NoiseKnowledge::Given(sheet),
+        }
+    }
+
+    /// The names of the runs, in a row.
+    pub(crate) fn names(&self) -> String {
+        self.runs.iter().map(|run| run.name.as_str()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The model with the Earth's horizontal rate, if there are runs whose azimuth is not known.
+fn with_azimuth(
+    mut model: Model,
+    runs: &[Prepared],
+    preset: bool,
+    remarks: &mut Vec<String>,
+) -> Model {
+    let rate = |run: &Prepared| EARTH_RATE * run.loaded.station.site.latitude.cos();
+    let of_run =
+        |run: &Prepared| Some(run.attitude.horizontal_rate()?.map(|part| part * rate(run)));
+    let sigmas: Vec<[f64; 2]> = runs.iter().filter_map(of_run).collect();
+    // One prior for all runs: the widest.
+    let Some([north, east]) = sigmas.into_iter().reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])
+    else {
+        return model;
+    };
+    let azimuth = &catalogue::AXIS_AZIMUTH;
+    if preset && !model.terms.iter().any(|chosen| chosen.term.id == azimuth.id) {
+        model = model.with(Chosen::new(azimuth).estimated());
+        remarks.push(format!(
+            "The azimuth of the axis is not known: what the Earth's horizontal rate differs by from that of the assumed one is \
+             estimated too ({}; a priori 0 ± {} deg/h north, 0 ± {} deg/h east).",
+            azimuth.id,
+            figure(north / DEG_PER_HOUR, 2),
+            figure(east / DEG_PER_HOUR, 2)
+        ));
+    }
+    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == azimuth.id);
+    let roles = chosen.flat_map(|chosen| chosen.roles.iter_mut().zip([north, east]));
+    for (role, sigma) in roles.filter(|(role, _)| **role == Role::Free) {
+        *role = Role::Within(sigma);
+    }
+    model
+}
+
+/// The model with what is known of these runs: how their axes stand, and where gravity is the angle
+/// reference, a lever arm.
+fn on_these_runs(
+    mut model: Model,
+    runs: &[Prepared],
+    preset: bool,
+    remarks: &mut Vec<String>,
+) -> Model {
+    let by_gravity = runs.iter().any(|run| run.run.rig.reference == Reference::Gravity);
+    let arm = &catalogue::ACCEL_LEVER_ARM;
+    if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.id == arm.id) {
+        model = model.with(Chosen::new(arm).estimated());
+        remarks.push(
+            "The accelerometers' lever arm is estimated too: without it gravity's turning would not tell the angle."
+                .into(),
+        );
+    }
+    let mut model = with_azimuth(model, runs, preset, remarks);
+    let chosen =
+        model.terms.iter_mut().filter(|chosen| chosen.term.id == catalogue::AXIS_ATTITUDE.id);
+    for (axis, role) in chosen.flat_map(|chosen| chosen.roles.iter_mut().enumerate()) {
+        if *role != Role::Free {
+            continue;
+        }
+        // One prior for all runs: the widest.
+        let sigmas = runs.iter().map(|run| run.attitude.sigma[axis]);
+        *role = sigmas
+            .collect::<Option<Vec<f64>>>()
+            .map_or(Role::Held, |all| Role::Within(all.into_iter().fold(0.0, f64::max)));
+    }
+    model
+}

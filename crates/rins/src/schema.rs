@@ -1,0 +1,51 @@
+//! The JSON schemas of the results.
+
+use schemars::{JsonSchema, schema_for};
+use serde_json::Value;
+
+use crate::{
+    align, allan, apply, calibrate, campaign, check, compare, convert, demo, diagnose, init,
+    navigate, observe, simulate,
+};
+
+/// The JSON schema of every command's result, by the name of the command; `merge` has that of `monte-carlo`.
+///
+/// ```
+/// let schemas = rins::schemas();
+/// let (_, calibrate) = schemas.iter().find(|(command, _)| *command == "calibrate").unwrap();
+/// assert!(calibrate["properties"]["parameters"]["description"].is_string());
+/// ```
+pub fn schemas() -> [(&'static str, Value); 14] {
+    [
+        ("align", schema::<align::AlignResult>()),
+        ("allan", schema::<allan::AllanResult>()),
+        ("apply", schema::<apply::ApplyResult>()),
+        ("calibrate", schema::<calibrate::CalibrateResult>()),
+        ("check", schema::<check::CheckResult>()),
+        ("compare", schema::<compare::CompareResult>()),
+        ("convert", schema::<convert::ConvertResult>()),
+        ("demo", schema::<demo::DemoResult>()),
+        ("diagnose", schema::<diagnose::DiagnoseResult>()),
+        ("init", schema::<init::InitResult>()),
+        ("monte-carlo", schema::<campaign::CampaignResult>()),
+        ("navigate", schema::<navigate::NavigateResult>()),
+        ("observe", schema::<observe::ObserveResult>()),
+        ("simulate", schema::<simulate::SimulateResult>()),
+    ]
+}
+
+fn schema<T: JsonSchema>() -> Value {
+    let mut schema = schema_for!(T).to_value();
+    unescape(&mut schema);
+    schema
+}
+
+/// Brackets around units are escaped in the documentation, and not in a schema.
+fn unescape(value: &mut Value) {
+    match value {
+        Value::String(text) => *text = text.replace("\\[", "[").replace("\\]", "]"),
+        Value::Array(list) => list.iter_mut().for_each(unescape),
+        Value::Object(map) => map.values_mut().for_each(unescape),
+        _ => {}
+    }
+}

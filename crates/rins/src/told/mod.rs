@@ -1,0 +1,187 @@
+//! What data tell of parameters, in words.
+
+mod result;
+
+use std::fmt::Write as _;
+
+use rins_estimation::{Alias, Gauge, Identifiability, Shown};
+
+pub use self::result::{
+    GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
+};
+use rins_report::number::figure;
+use rins_report::{Cell, Tone};
+
+/// How many of those that are unobservable are named in a sentence.
+const MOST_NAMED: usize = 12;
+
+/// What stands beside a parameter in a combination.
+pub(crate) struct Summand<'a> {
+    /// How much one of its unit counts, in the parameter's unit.
+    pub(crate) coefficient: f64,
+    /// Its unit.
+    pub(crate) unit: &'a str,
+    /// What it is called.
+    pub(crate) name: String,
+}
+
+/// A combination as a person reads it, such as `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`.
+pub(crate) fn sum_in_words<'a>(
+    name: &str,
+    unit: &str,
+    others: impl IntoIterator<Item = Summand<'a>>,
+) -> String {
+    let mut sum = name.to_owned();
+    for other in others {
+        let sign = if other.coefficient < 0.0 { '-' } else { '+' };
+        let size = figure(other.coefficient.abs(), 3);
+        // Writing to a string cannot fail.
+        let _ = write!(sum, " {sign} ");
+        if other.unit != unit {
+            let _ = write!(sum, "{size} {unit}/({}) × ", other.unit);
+        } else if size != "1.00" {
+            let _ = write!(sum, "{size} × ");
+        }
+        sum.push_str(&other.name);
+    }
+    sum
+}
+
+/// The observability of a parameter that the data show by itself.
+pub(crate) const OBSERVABLE: &str = "observable";
+
+/// The observability of a parameter that only this combination shows, and what the combination was found to be.
+pub(crate) fn only_in(combination: &str, found: Option<(f64, f64, &str)>) -> String {
+    let found = found.map(|(value, sigma, unit)| {
+        format!(" = {} ± {} {unit} (1σ)", figure(value, 4), figure(sigma, 2))
+    });
+    format!("observable only in the combination {combination}{}", found.unwrap_or_default())
+}
+
+/// The name of an unknown, with its run if there are several.
+pub(crate) fn name(told: &Identifiability, place: usize) -> String {
+    let unknown = &told.unknowns[place];
+    match unknown.run {
+        Some(run) => format!("{} of run {}", unknown.id, run + 1),
+        None => unknown.id.clone(),
+    }
+}
+
+/// The observability of an unknown, as a person reads it.
+pub(crate) fn meaning(told: &Identifiability, place: usize) -> String {
+    observability(told, place, None)
+}
+
+/// The same with what the combination was found to be, if one is what is observable: value and 1σ in SI units.
+pub(crate) fn observability(
+    told: &Identifiability,
+    place: usize,
+    found: Option<(f64, f64)>,
+) -> String {
+    let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+    match seen.shown {
+        _ if seen.identifiable => OBSERVABLE.into(),
+        Shown::Alone => "prior-dominated, hardly better known than before".into(),
+        Shown::Nothing => "unobservable (prior-dominated)".into(),
+        Shown::Combination | Shown::Part { .. } => {
+            let summand = |alias: &Alias| Summand {
+                coefficient: coefficient(told, place, alias),
+                unit: told.unknowns[alias.unknown].unit.symbol,
+                name: name(told, alias.unknown),
+            };
+            let others = seen.aliases.iter().map(summand);
+            let sum = sum_in_words(&name(told, place), unknown.unit.symbol, others);
+            let unit = unknown.unit;
+            let found =
+                found.map(|(value, sigma)| (value / unit.factor, sigma / unit.factor, unit.symbol));
+            let gauge = seen.gauge.map(|gauge| format!("; a choice of {}", gauge.name));
+            only_in(&sum, found) + &gauge.unwrap_or_default()
+        }
+    }
+}
+
+/// What one of an alias' unit counts, in the unit of the parameter beside which it stands.
+pub(crate) fn coefficient(told: &Identifiability, place: usize, alias: &Alias) -> f64 {
+    let factor = |place: usize| told.unknowns[place].unit.factor;
+    alias.coefficient * factor(alias.unknown) / factor(place)
+}
+
+/// The observability as a badge.
+pub(crate) fn badge(told: &Identifiability, place: usize) -> Cell {
+    let seen = &told.seen[place];
+    match seen.shown {
+        _ if seen.identifiable => Cell::badge(Tone::Good, OBSERVABLE),
+        Shown::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
+        Shown::Combination | Shown::Part { .. } => Cell::badge(Tone::Warning, "combination"),
+        Shown::Alone | Shown::Nothing => Cell::badge(Tone::Neutral, "unobservable"),
+    }
+}
+
+/// Which unknowns are observable, which only in combinations, and which not.
+struct Sorted {
+    observable: Vec<usize>,
+    in_combination: Vec<usize>,
+    unobservable: Vec<usize>,
+}
+
+impl Sorted {
+    fn of(told: &Identifiability) -> Self {
+        let (observable, others): (Vec<usize>, Vec<usize>) =
+            (0..told.seen.len()).partition(|&place| told.seen[place].identifiable);
+        let in_combination =
+            others.into_iter().filter(|&place| !told.seen[place].aliases.is_empty()).collect();
+        Self { observable, in_combination, unobservable: told.unobservable() }
+    }
+}
+
+/// How many are told how, in a sentence or two.
+pub(crate) fn rank_sentence(told: &Identifiability) -> String {
+    let Sorted { observable, in_combination, unobservable } = Sorted::of(told);
+    let (n, rank) = (told.unknowns.len(), told.rank.rank());
+    let mut text = format!(
+        "Of {n} parameters {} are observable and {} only in combinations",
+        observable.len(),
+        in_combination.len()
+    );
+    if !unobservable.is_empty() {
+        let mut names: Vec<String> =
+            unobservable.iter().take(MOST_NAMED).map(|&place| name(told, place)).collect();
+        if unobservable.len() > MOST_NAMED {
+            names.push(format!("{} others", unobservable.len() - MOST_NAMED));
+        }
+        let verb = if unobservable.len() == 1 { "is" } else { "are" };
+        let _ = write!(text, "; {} {verb} unobservable", list(&names));
+    }
+    let lost = match n - rank {
+        0 => "there is no null space".to_string(),
+        1 => "the null space has one dimension".to_string(),
+        lost => format!("the null space has {lost} dimensions"),
+    };
+    format!("{text}; {lost}.")
+}
+
+pub(crate) fn list(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [before @ .., last] => format!("{} and {last}", before.join(", ")),
+    }
+}
+
+/// The gauges met, each once.
+fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
+    let mut met: Vec<&'static Gauge> = Vec::new();
+    for gauge in told.seen.iter().filter_map(|seen| seen.gauge) {
+        if !met.contains(&gauge) {
+            met.push(gauge);
+        }
+    }
+    met
+}
+
+/// What no schedule tells, a sentence for each gauge met.
+pub(crate) fn gauge_sentences(told: &Identifiability) -> Vec<String> {
+    let sentence =
+        |gauge: &Gauge| format!("Gauge, under every schedule: {}: {}.", gauge.name, gauge.why);
+    gauges(told).into_iter().map(sentence).collect()
+}
