@@ -63,7 +63,7 @@ pub struct ApplyResult {
     /// How many samples were written.
     pub samples: usize,
     /// The ids of the terms that were compensated.
-    pub undone: Vec<String>,
+    pub compensated: Vec<String>,
     /// What of the log lies outside of what the calibration covers.
     pub outside_calibrated_range: Option<OutsideRange>,
     /// The same in sentences.
@@ -100,7 +100,7 @@ pub struct ApplyResult {
 ///         overwrite: Overwrite::Refuse,
 ///     },
 /// )?;
-/// assert!(applied.result().undone.contains(&"gyro.misalignment".to_owned()));
+/// assert!(applied.result().compensated.contains(&"gyro.misalignment".to_owned()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn apply(rig: &Path, options: ApplyOptions) -> Result<Applied> {
@@ -157,7 +157,7 @@ impl Outcome for Applied {
             new_rig: shown(&converted.rig),
             format: format.name().into(),
             samples: converted.samples,
-            undone: undone.iter().map(|id| (*id).to_owned()).collect(),
+            compensated: undone.iter().map(|id| (*id).to_owned()).collect(),
             outside_calibrated_range: beyond.outside.clone(),
             notes: beyond.notes.clone(),
             exact: converted.differences.is_empty(),

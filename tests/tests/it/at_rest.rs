@@ -62,24 +62,22 @@ fn gyro_that_gravity_does_not_show_is_told_by_the_heading() {
     for (bias, expected) in [("0 deg/h", 0.0), ("1 deg/h", 1.0), ("-0.5 deg/h", -0.5)] {
         let folder = rest(bias);
         let result = result_in(folder.path(), "align run/rig.toml");
-        let (found, sigma) = (
-            numbers(&result, "/gyro_bias_found_deg_h"),
-            numbers(&result, "/gyro_bias_sigma_deg_h"),
-        );
+        let (found, sigma) =
+            (numbers(&result, "/gyro_bias_deg_h"), numbers(&result, "/gyro_bias_sigma_deg_h"));
         assert!(
             (found[2] - expected).abs() < 4.0 * sigma[2] && sigma[2] < 0.02,
             "{found:?} {sigma:?}"
         );
-        let earth_rate = number(&result, "/seen/earth_rate_deg_h");
+        let earth_rate = number(&result, "/apparent/earth_rate_deg_h");
         // The Earth's rate along north and up of the station's latitude.
         let [north, up] = {
-            let rate = number(&result, "/expected/earth_rate_deg_h");
-            let latitude = number(&result, "/expected/latitude_deg").to_radians();
+            let rate = number(&result, "/site/earth_rate_deg_h");
+            let latitude = number(&result, "/site/latitude_deg").to_radians();
             [rate * latitude.cos(), rate * latitude.sin()]
         };
-        let sigma = number(&result, "/seen/earth_rate_sigma_deg_h");
+        let sigma = number(&result, "/apparent/earth_rate_sigma_deg_h");
         assert!((earth_rate - north.hypot(up + expected)).abs() < 4.0 * sigma, "{earth_rate}");
-        let shown: Vec<bool> = list(&result, "/gyro_bias_shown")
+        let shown: Vec<bool> = list(&result, "/gyro_bias_observable")
             .iter()
             .map(|shown| shown.as_bool().unwrap())
             .collect();
@@ -126,12 +124,12 @@ fn line_is_no_quantisation() {
     fs::write(&log, disturbed).unwrap();
     let result = result_in(folder.path(), "allan run/rig.toml");
     let channel = &list(&result, "/channels")[3];
-    let lines = list(channel, "/lines");
+    let lines = list(channel, "/spectral_lines");
     assert!(!lines.is_empty(), "{channel}");
     assert_close!(number(&lines[0], "/frequency_hz"), 0.565, 0.02);
     let noise = number(channel, "/terms/1/value");
     assert_close!(noise, 20.0, 1.0);
-    assert_eq!(channel["terms"][0]["seen"], false);
+    assert_eq!(channel["terms"][0]["significant"], false);
     let text = rins_in(folder.path(), "allan run/rig.toml").out;
     assert!(text.contains("In accelerometer x there is a line at 0.56"), "{text}");
 }

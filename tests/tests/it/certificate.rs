@@ -121,7 +121,7 @@ fn one_rate_after_a_rest_shows_the_rest_in_combinations() {
     let scale = parameter(&result, "accel.scale.x");
     assert_eq!(scale["identifiable"], false, "{scale}");
     assert_eq!(texts(scale, "/aliases"), ["accel.scale.y"]);
-    assert!(number(scale, "/sigma") < 0.1 * number(scale, "/alone/sigma"), "{scale}");
+    assert!(number(scale, "/sigma") < 0.1 * number(scale, "/marginal/sigma"), "{scale}");
     // The minute of rest tells gyro bias from what turns with the table, and says how well.
     let alone = number(parameter(&result, "gyro.misalignment.xz"), "/sigma");
     let paper = result_in(&run, "calibrate rig.toml --model paper12");
@@ -209,7 +209,7 @@ fn a_hidden_lever_arm_is_estimated_written_and_undone() {
         "apply a/rig.toml --calibration out/calibration.toml -o clean.csv",
     );
     assert_eq!(applied["exact"], true, "{applied}");
-    assert!(texts(&applied, "/undone").contains(&"accel_lever_arm"));
+    assert!(texts(&applied, "/compensated").contains(&"accel_lever_arm"));
     let clean = result_in(folder.path(), "navigate clean.toml");
     let velocities =
         [compensated, &list(&clean, "/runs")[0]].map(|run| numbers(run, "/velocity_m_s"));
@@ -234,9 +234,9 @@ fn what_was_calibrated_is_the_next_model() {
         // The same data a second time: the same value, and a sigma that is less by the root of two, or by more
         // where what goes together with it is known better.
         let [a, b] = [&first, &again].map(|result| parameter(result, id));
-        let moved = (number(a, "/alone/value") - number(b, "/alone/value")).abs();
-        assert!(moved < 0.2 * number(a, "/alone/sigma"), "{id}: {a} {b}");
-        let ratio = number(a, "/alone/sigma") / number(b, "/alone/sigma");
+        let moved = (number(a, "/marginal/value") - number(b, "/marginal/value")).abs();
+        assert!(moved < 0.2 * number(a, "/marginal/sigma"), "{id}: {a} {b}");
+        let ratio = number(a, "/marginal/sigma") / number(b, "/marginal/sigma");
         assert!((1.3..4.0).contains(&ratio), "{id}: {ratio}");
     }
 }
@@ -256,7 +256,7 @@ fn two_tilts_share_the_sensors_and_show_more() {
     assert_found(&both, "gyro.scale.z", 300.0);
     assert_found(&both, "gyro.misalignment.xz", 60.0);
     // The Earth turns about another axis of the body at the other tilt.
-    let sigma = |result: &Value| number(parameter(result, "gyro.scale.x"), "/alone/sigma");
+    let sigma = |result: &Value| number(parameter(result, "gyro.scale.x"), "/marginal/sigma");
     assert!(sigma(&both) < 0.6 * sigma(&one), "{} of {}", sigma(&both), sigma(&one));
     for name in ["calibration.toml", "calibration-2.toml", "model.toml", "report.html"] {
         assert!(folder.path().join("out").join(name).is_file(), "{name}");
@@ -301,7 +301,7 @@ fn the_model_is_said_where_it_is_not_given() {
     assert_eq!(one["model"], "paper12");
     let two = rins_in(folder.path(), "calibrate a/rig.toml b/rig.toml --json --noise given");
     assert!(
-        two.out.contains(r#""model":"full""#) && two.out.contains(r#""found":false"#),
+        two.out.contains(r#""model":"full""#) && two.out.contains(r#""estimated":false"#),
         "{two:?}"
     );
 }

@@ -45,7 +45,7 @@ fn what_has_no_room_is_told() {
         assert_eq!(texts(&done, "/left_out"), ["table_angle"], "{format}");
         let check = result_in(folder.path(), &format!("check {format}.toml"));
         assert_eq!(check["samples"], done["samples"]);
-        let rest = &list(&check, "/rests")[0];
+        let rest = &list(&check, "/static_means")[0];
         assert!((number(rest, "/gravity_m_s2") - 9.795).abs() < 0.01, "{rest}");
     }
     let told = rins_in(folder.path(), "convert rig.toml -o a.bin").out;

@@ -141,7 +141,7 @@ fn a_read_out_that_lags_by_half_a_sample_is_told_in_samples() {
     assert_eq!(cause["effect"], "encoder_latency");
     let samples = number(cause, "/parameters/0/samples");
     assert!((samples - 0.5).abs() < 1e-3, "{samples}");
-    assert!(number(&result, "/chance/named") < 0.03, "{}", result["chance"]);
+    assert!(number(&result, "/false_alarms/rate") < 0.03, "{}", result["false_alarms"]);
     let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     assert!(page.contains("(0.500 samples)") && page.contains("Order of the table angle"));
 }

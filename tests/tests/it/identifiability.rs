@@ -233,7 +233,10 @@ fn identifiability_page_is_what_the_schedules_tell() {
     let baseline = compared(&format!("{SCHEDULES} --model baseline"));
     let full = compared(SCHEDULES);
     let losses = |told: &Value| -> Vec<f64> {
-        list(told, "/schedules").iter().map(|schedule| number(schedule, "/rank_loss")).collect()
+        list(told, "/schedules")
+            .iter()
+            .map(|schedule| number(schedule, "/null_space_dimension"))
+            .collect()
     };
     let cells =
         |losses: &[f64]| losses.iter().fold(String::new(), |row, loss| row + &format!(" {loss} |"));
@@ -246,9 +249,9 @@ fn identifiability_page_is_what_the_schedules_tell() {
             let parameters = list(schedule, "/parameters");
             let parameter = parameters.iter().find(|parameter| parameter["id"] == id);
             let parameter = parameter.unwrap_or_else(|| panic!("{id}"));
-            match &parameter["shown"] {
-                shown if shown == "alone" => format!(" {:.2e} |", number(parameter, "/data_sigma")),
-                shown if shown == "nothing" => " nothing |".to_string(),
+            match parameter["observability"].as_str() {
+                Some("observable") => format!(" {:.2e} |", number(parameter, "/data_sigma")),
+                Some("prior_dominated") => " nothing |".to_string(),
                 _ => format!(" with `{}` |", parameter["aliases"][0].as_str().unwrap_or("?")),
             }
         });

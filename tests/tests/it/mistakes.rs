@@ -161,7 +161,7 @@ fn replaced(rig: &str, key: &str, from: &str, to: &str) -> String {
 
 /// What `rins check --json` says is to be written as axes, where the table's sense is right.
 fn mend(gyro: Option<[&str; 3]>, accel: Option<[&str; 3]>) -> Value {
-    json!({"gyro_axes": gyro, "accel_axes": accel, "table_sense": null})
+    json!({"gyro_axes": gyro, "accel_axes": accel, "table_direction": null})
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn every_order_and_sign_of_axes_is_told_with_the_lines_that_undo_it() {
                     wrong = replaced(&wrong, sensor, " }", &format!(", axes = {axes:?} }}"));
                 }
                 let check = checked(folder.path(), &wrong);
-                assert_eq!(check["mends"], json!([mend]), "{sensors:?} {axes:?}: {check:#}");
+                assert_eq!(check["corrections"], json!([mend]), "{sensors:?} {axes:?}: {check:#}");
             }
         }
     }
@@ -198,7 +198,7 @@ fn a_mend_takes_account_of_axes_and_spin_that_are_there() {
     assert_eq!(checked(folder.path(), &turned)["suspicions"], json!([]));
     let wrong = replaced(&turned, "gyro", "\"z\", \"x\", \"y\"", "\"z\", \"-y\", \"x\"");
     let mend = mend(Some(["z", "x", "y"]), None);
-    assert_eq!(checked(folder.path(), &wrong)["mends"], json!([mend]));
+    assert_eq!(checked(folder.path(), &wrong)["corrections"], json!([mend]));
 }
 
 /// What computes something from a log, before the rig file's name.
@@ -280,14 +280,15 @@ fn exchanged_columns_and_a_table_of_the_other_sense_are_told() {
         let check = checked(folder.path(), &rig);
         let told = texts(&check, "/suspicions");
         assert!(told[0].contains("the table's sense is opposite to the gyro's"), "{told:?}");
-        let sense = |name| json!([{"gyro_axes": null, "accel_axes": null, "table_sense": name}]);
-        assert_eq!(check["mends"], sense("reversed"), "{told:?}");
+        let sense =
+            |name| json!([{"gyro_axes": null, "accel_axes": null, "table_direction": name}]);
+        assert_eq!(check["corrections"], sense("reversed"), "{told:?}");
 
         // What is to be written is what undoes it, and is as wrong where it is not needed.
         let mended = replaced(&rig, "table_angle", " }", ", sense = \"reversed\" }");
         assert_eq!(checked(folder.path(), &mended)["suspicions"], json!([]));
         fs::write(folder.path().join("run/run.csv"), log).unwrap();
-        assert_eq!(checked(folder.path(), &mended)["mends"], sense("forward"));
+        assert_eq!(checked(folder.path(), &mended)["corrections"], sense("forward"));
         let aligned = rins_in(folder.path(), "navigate run/wrong.toml");
         assert_eq!(aligned.code, Some(1), "{}", aligned.out);
         let words = r#"set sense = "forward" under [log] table_angle"#;
@@ -302,12 +303,12 @@ fn a_profile_of_the_other_sense_is_told() {
         let commanded: String =
             rig.split_inclusive('\n').filter(|line| !line.starts_with("table_angle")).collect();
         assert_ne!(rig, commanded);
-        assert_eq!(checked(folder.path(), &commanded)["mends"], json!([]));
+        assert_eq!(checked(folder.path(), &commanded)["corrections"], json!([]));
         let reversed = commanded.replacen("[table]\n", "[table]\nsense = \"reversed\"\n", 1);
         assert_ne!(reversed, commanded);
         let check = checked(folder.path(), &reversed);
-        let mend = json!([{"gyro_axes": null, "accel_axes": null, "table_sense": "forward"}]);
-        assert_eq!(check["mends"], mend, "{check:#}");
+        let mend = json!([{"gyro_axes": null, "accel_axes": null, "table_direction": "forward"}]);
+        assert_eq!(check["corrections"], mend, "{check:#}");
         let aligned = rins_in(folder.path(), "navigate run/wrong.toml");
         assert_eq!(aligned.code, Some(1), "{}", aligned.out);
         let words = r#"set sense = "forward" under [table]"#;

@@ -102,7 +102,7 @@ fn a_campaign_says_whether_covariances_are_honest() {
         assert!(number(cell, "/parameters/2/coverage_95") > 0.85);
     }
     // A misalignment shows as the rate does: half the rate, twice the sigma.
-    let claimed = |cell: usize| number(&cells[cell], "/parameters/0/claimed");
+    let claimed = |cell: usize| number(&cells[cell], "/parameters/0/sigma_rms");
     assert!((claimed(0) / claimed(1) - 2.0).abs() < 0.1);
 }
 

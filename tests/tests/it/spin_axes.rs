@@ -150,7 +150,7 @@ fn assert_same(plain: &Value, own: &Value, mounting: Mounting) {
         close("value", sign);
         close("sigma", 1.0);
         assert_eq!(before["identifiable"], after["identifiable"], "{mounting:?}: {id}");
-        assert_eq!(before["shown"], after["shown"], "{mounting:?}: {id}");
+        assert_eq!(before["observability"], after["observability"], "{mounting:?}: {id}");
     }
 }
 
@@ -237,7 +237,7 @@ fn channels_are_named_as_the_sensors_are() {
             assert!((seen / value - 1.0).abs() < 1e-9, "{mounting:?}: {own_channel}");
         }
         let aligned = |rig: &str| {
-            numbers(&result_in(folder.path(), &format!("align {rig}")), "/accel_bias_found_ug")
+            numbers(&result_in(folder.path(), &format!("align {rig}")), "/accel_bias_ug")
         };
         let (before, after) = (aligned("run/rig.toml"), aligned(&rig));
         for (place, (own, sign)) in mounting.axes.into_iter().enumerate() {

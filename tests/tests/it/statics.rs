@@ -189,9 +189,12 @@ fn what_is_rocked_there_and_back_is_motion_to_every_command() {
         let checked = check(folder.path());
         assert_spans(&used(&checked), &truth);
         let aligned = result_in(folder.path(), "align rig.toml");
-        assert!(within(&numbers(&aligned, "/rest_s"), &truth[1..]), "{half} s: {aligned:#}");
+        assert!(
+            within(&numbers(&aligned, "/static_interval_s"), &truth[1..]),
+            "{half} s: {aligned:#}"
+        );
         let allan = result_in(folder.path(), "allan rig.toml");
-        assert!(within(&numbers(&allan, "/rest_s"), &truth), "{half} s: {allan:#}");
+        assert!(within(&numbers(&allan, "/static_interval_s"), &truth), "{half} s: {allan:#}");
         let calibrated = rins_in(folder.path(), "calibrate rig.toml --json");
         let calibrated: Value = serde_json::from_str(&calibrated.out).unwrap();
         assert!(used(&calibrated).iter().all(|span| within(span, &truth)), "{half} s");
@@ -277,7 +280,10 @@ fn the_noise_of_a_log_that_loses_single_samples_is_that_of_all_of_it() {
     let motions = [still(1200.0)];
     let folder = log_of(&MEMS, 10.0, &motions, "", |sample| sample % 600 == 300);
     let result = result_in(folder.path(), "allan rig.toml");
-    assert_spans(&[[number(&result, "/rest_s/0"), number(&result, "/rest_s/1")]], &[[0.0, 1200.0]]);
+    assert_spans(
+        &[[number(&result, "/static_interval_s/0"), number(&result, "/static_interval_s/1")]],
+        &[[0.0, 1200.0]],
+    );
     assert_eq!(result["lost_samples"], 20);
     let complete = whole(&MEMS, 10.0, &motions);
     let complete = result_in(complete.path(), "allan rig.toml");

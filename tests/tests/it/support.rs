@@ -47,7 +47,7 @@ pub(crate) fn object(finished: &Finished) -> Value {
     value
 }
 
-/// The number at `pointer`, as in `/seen/latitude_deg`.
+/// The number at `pointer`, as in `/apparent/latitude_deg`.
 pub(crate) fn number(value: &Value, pointer: &str) -> f64 {
     let found = value.pointer(pointer).and_then(Value::as_f64);
     found.unwrap_or_else(|| panic!("no number at {pointer} of {value:#}"))

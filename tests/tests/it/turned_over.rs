@@ -92,14 +92,14 @@ fn every_rest_is_used_and_told_of_in_a_line() {
     let folder = tempfile::tempdir().unwrap();
     turned_over(folder.path(), "rig", BIASES[0], 13, 1);
     let result = result_in(folder.path(), "calibrate rig.toml");
-    assert_eq!(result["runs"][0]["rests"], 14);
+    assert_eq!(result["runs"][0]["static_intervals_used"], 14);
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         let bias = shown(&result, &format!("accel.bias.{name}"), None);
         assert_found(bias, BIASES[0][axis], MICRO_G);
         let scale = shown(&result, &format!("accel.scale.{name}"), None);
         assert_found(scale, SHAPE[(axis, axis)], 1e-6);
     }
-    assert!(texts(&result, "/identifiability/not_shown").contains(&"gyro.scale.x"));
+    assert!(texts(&result, "/identifiability/unobservable").contains(&"gyro.scale.x"));
     let told = rins_in(folder.path(), "calibrate rig.toml").out;
     assert_eq!(told.matches("14 rests").count(), 1, "{told}");
     assert!(!told.contains("axis.attitude"), "{told}");
@@ -131,6 +131,6 @@ fn a_log_of_few_attitudes_is_calibrated_on_its_longest_rest() {
     let folder = tempfile::tempdir().unwrap();
     turned_over(folder.path(), "rig", BIASES[0], 1, 4);
     let result = result_in(folder.path(), "calibrate rig.toml");
-    assert!(result["runs"][0]["rests"].is_null(), "{result:#}");
+    assert!(result["runs"][0]["static_intervals_used"].is_null(), "{result:#}");
     assert!(texts(&result, "/notes")[0].contains("longest rest"), "{result:#}");
 }

@@ -106,7 +106,7 @@ fn what_a_turn_about_z_does_not_show_is_not_compensated() {
         let folder = folder.path();
         simulated(folder, given);
         let result = result_in(folder, "calibrate run/rig.toml --model full -o cal");
-        let hidden = texts(&result, "/identifiability/not_shown");
+        let hidden = texts(&result, "/identifiability/unobservable");
         let file = fs::read_to_string(folder.join("cal/calibration.toml")).unwrap();
         let (_, gyro) = file.split_once("[gyro]").unwrap();
         let (gyro, _) = gyro.split_once("[accel]").unwrap();

@@ -35,7 +35,7 @@ const ITEMS: [&str; 19] = [
 fn verdict<'v>(check: &'v Value, item: &str) -> (&'v str, &'v str) {
     let found = list(check, "/verdicts").iter().find(|verdict| verdict["check"] == item);
     let found = found.unwrap_or_else(|| panic!("no verdict on {item} in {check:#}"));
-    (found["verdict"].as_str().unwrap(), found["says"].as_str().unwrap())
+    (found["verdict"].as_str().unwrap(), found["finding"].as_str().unwrap())
 }
 
 /// The demo's run, with something replaced in its rig file and in its log.

@@ -114,7 +114,7 @@ fn its_azimuth_is_a_parameter_and_its_rests_are_used() {
         let folder = tempfile::tempdir().unwrap();
         let truth = wheel(folder.path(), seed);
         let result = result_in(folder.path(), "calibrate rig.toml");
-        assert_eq!(result["runs"][0]["rests"], 2, "{seed}");
+        assert_eq!(result["runs"][0]["static_intervals_used"], 2, "{seed}");
         // The rate as it is where the axis leans to where it was taken to.
         let angle = |name: &str| number(&result["runs"][0]["axis_attitude_deg"], name).to_radians();
         let [roll, pitch, yaw] = ["/roll", "/pitch", "/yaw"].map(angle);

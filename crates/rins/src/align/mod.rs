@@ -10,7 +10,7 @@ use rins_inspection::StaticIntervals;
 use rins_io::shown;
 
 pub(crate) use self::found::{ANY_AZIMUTH, Found, found, found_over};
-pub use self::result::{AboutAxes, AlignResult, ExpectedSite, LeveledDegrees, SeenSite};
+pub use self::result::{AboutAxes, AlignResult, ApparentSite, ExpectedSite, LeveledDegrees};
 use crate::check::refuse_mistaken;
 use crate::error::Result;
 use crate::log::{Log, static_intervals};

@@ -20,7 +20,7 @@ pub struct AlignResult {
     /// The rig file.
     pub rig: String,
     /// Start and end of the static interval that was used \[s\].
-    pub rest_s: [f64; 2],
+    pub static_interval_s: [f64; 2],
     /// The static intervals of the log.
     pub static_intervals: Vec<StaticIntervalResult>,
     /// The attitude of the body frame \[deg\].
@@ -28,17 +28,17 @@ pub struct AlignResult {
     /// The 1σ of the attitude error \[deg\].
     pub sigma_deg: AboutAxes,
     /// What the sensors show of the site.
-    pub seen: SeenSite,
+    pub apparent: ApparentSite,
     /// What the rig file says of it.
-    pub expected: ExpectedSite,
+    pub site: ExpectedSite,
     /// The gyro biases along the sensor's own axes \[deg/h\]; null if north was not found.
-    pub gyro_bias_found_deg_h: Option<[f64; 3]>,
+    pub gyro_bias_deg_h: Option<[f64; 3]>,
     /// The 1σ of these \[deg/h\].
     pub gyro_bias_sigma_deg_h: Option<[f64; 3]>,
     /// Whether the static interval shows each, or it is what was assumed.
-    pub gyro_bias_shown: Option<[bool; 3]>,
+    pub gyro_bias_observable: Option<[bool; 3]>,
     /// The accelerometer biases along the sensor's own axes, as far as gravity shows them \[µg\].
-    pub accel_bias_found_ug: [f64; 3],
+    pub accel_bias_ug: [f64; 3],
     /// The attitude that the header of a PSINS log has \[deg\].
     pub header_attitude_deg: Option<EulerDegrees>,
     /// What reading the log has repaired or left out.
@@ -69,7 +69,7 @@ pub struct AboutAxes {
 
 /// What the sensors show of the site.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SeenSite {
+pub struct ApparentSite {
     /// The magnitude of the mean specific force \[m/s²\].
     pub gravity_m_s2: f64,
     /// The magnitude of the mean angular rate \[deg/h\].
@@ -111,7 +111,7 @@ impl AlignResult {
             schema: crate::SCHEMA,
             command: "align".into(),
             rig: log.name.clone(),
-            rest_s: [found.start, loaded.recording.times[found.span.end - 1]],
+            static_interval_s: [found.start, loaded.recording.times[found.span.end - 1]],
             static_intervals: statics_result(statics, only(&found.span)),
             attitude_deg: LeveledDegrees {
                 roll: angles.roll / DEG,
@@ -123,22 +123,22 @@ impl AlignResult {
                 north: north / DEG,
                 up: up.map(|up| up / DEG),
             },
-            seen: SeenSite {
+            apparent: ApparentSite {
                 gravity_m_s2: place.gravity,
                 earth_rate_deg_h: place.earth_rate / DEG_PER_HOUR,
                 earth_rate_sigma_deg_h: rate_sigma / DEG_PER_HOUR,
                 latitude_deg: up.map(|_| place.latitude / DEG),
                 latitude_sigma_deg: up.map(|_| latitude_sigma / DEG),
             },
-            expected: ExpectedSite {
+            site: ExpectedSite {
                 gravity_m_s2: loaded.station.gravity,
                 earth_rate_deg_h: site.earth_rate().norm() / DEG_PER_HOUR,
                 latitude_deg: site.latitude / DEG,
             },
-            gyro_bias_found_deg_h: up.map(|_| bias.into()),
+            gyro_bias_deg_h: up.map(|_| bias.into()),
             gyro_bias_sigma_deg_h: bias_sigma.map(Vector3::into),
-            gyro_bias_shown: bias_sigma.map(|_| found.bias_shown(&own_axes)),
-            accel_bias_found_ug: accel.into(),
+            gyro_bias_observable: bias_sigma.map(|_| found.bias_shown(&own_axes)),
+            accel_bias_ug: accel.into(),
             header_attitude_deg: loaded.psins_header.map(|header| header.attitude.into()),
             repairs: log.repairs(),
         }

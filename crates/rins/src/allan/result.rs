@@ -17,7 +17,7 @@ pub struct AllanResult {
     /// The rig file.
     pub rig: String,
     /// Start and end of the static interval that was used \[s\].
-    pub rest_s: [f64; 2],
+    pub static_interval_s: [f64; 2],
     /// The mean interval between samples \[s\].
     pub interval_s: f64,
     /// How many lost samples were filled in.
@@ -52,7 +52,7 @@ pub struct ChannelResult {
     /// By what share of the variance the terms disagree with the deviation.
     pub disagreement: f64,
     /// The spectral lines that were taken out before.
-    pub lines: Vec<LineResult>,
+    pub spectral_lines: Vec<LineResult>,
     /// The shortest averaging time from which on the terms explain the deviation \[s\].
     pub explained_from_s: f64,
     /// The noise terms.
@@ -82,19 +82,19 @@ pub struct NoiseTermResult {
     /// `Q`, `N`, `B` or `K` of IEEE Std 952.
     pub symbol: String,
     /// Whether it is significant.
-    pub seen: bool,
+    pub significant: bool,
     /// Its value; null if it is not significant.
     pub value: Option<f64>,
     /// The 1σ of that.
     pub sigma: Option<f64>,
     /// The bound, where it is not significant.
-    pub below: Option<f64>,
+    pub upper_bound: Option<f64>,
     /// The unit of all three.
     pub unit: String,
     /// The ids of the terms from which this static interval does not distinguish it.
     pub cannot_tell_from: Vec<String>,
     /// What the data sheet says of it.
-    pub sheet: Option<f64>,
+    pub data_sheet: Option<f64>,
 }
 
 impl AllanResult {
@@ -103,7 +103,7 @@ impl AllanResult {
             schema: crate::SCHEMA,
             command: "allan".into(),
             rig: log.name.clone(),
-            rest_s: [rest.span.0, rest.span.1],
+            static_interval_s: [rest.span.0, rest.span.1],
             interval_s: rest.interval,
             lost_samples: rest.lost,
             static_intervals: rest.statics.clone(),
@@ -142,7 +142,7 @@ impl From<&Channel> for ChannelResult {
             high: column(|point| point.bounds.1),
             fitted: column(|point| point.fitted),
             disagreement: channel.seen.disagreement,
-            lines: lines.collect(),
+            spectral_lines: lines.collect(),
             explained_from_s: channel.seen.explained_from,
             terms: terms
                 .map(|(law, strength)| NoiseTermResult::of(channel, *law, strength))
@@ -165,13 +165,13 @@ impl NoiseTermResult {
         Self {
             id: id.into(),
             symbol: symbol.into(),
-            seen: value.is_some(),
+            significant: value.is_some(),
             value,
             sigma,
-            below,
+            upper_bound: below,
             unit: unit.symbol.into(),
             cannot_tell_from: rivals.collect(),
-            sheet: sheet.map(|sheet| sheet / unit.factor),
+            data_sheet: sheet.map(|sheet| sheet / unit.factor),
         }
     }
 }

@@ -79,7 +79,7 @@ pub struct ParameterResult {
     /// The unit.
     pub unit: String,
     /// The estimate of the parameter itself, which what was known beforehand bounds.
-    pub alone: Option<EstimateResult>,
+    pub marginal: Option<EstimateResult>,
     /// The 1σ known beforehand.
     pub prior_sigma: Option<f64>,
     /// The 1σ by the data alone; null if they do not bound it.
@@ -123,7 +123,7 @@ pub struct IterationResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NoiseResult {
     /// Whether it was estimated, or is the data sheet's.
-    pub found: bool,
+    pub estimated: bool,
     /// The gyros.
     pub gyro: GyroNoiseResult,
     /// The accelerometers.
@@ -136,7 +136,7 @@ pub struct GyroNoiseResult {
     /// White noise \[deg/h/√Hz\].
     pub white_deg_h_sqrt_hz: f64,
     /// Bias instability \[deg/h\].
-    pub flicker_deg_h: f64,
+    pub bias_instability_deg_h: f64,
     /// Rate random walk \[deg/h/√h\].
     pub random_walk_deg_h_sqrt_h: f64,
 }
@@ -147,7 +147,7 @@ pub struct AccelNoiseResult {
     /// White noise \[µg/√Hz\].
     pub white_ug_sqrt_hz: f64,
     /// Bias instability \[µg\].
-    pub flicker_ug: f64,
+    pub bias_instability_ug: f64,
     /// Acceleration random walk \[µg/√h\].
     pub random_walk_ug_sqrt_h: f64,
 }
@@ -157,14 +157,14 @@ pub struct AccelNoiseResult {
 pub struct RunResult {
     /// The rig file.
     pub rig: String,
-    /// What shows the table's angle: `table_angle`, `table_rate`, `gravity` or `rest`.
+    /// What shows the table's angle: `table_angle`, `table_rate`, `gravity` or `static`.
     pub reference: String,
     /// How many samples were used.
     pub samples: usize,
     /// The static intervals.
     pub static_intervals: Vec<StaticIntervalResult>,
     /// How many static intervals were used; null if the log was used as a whole.
-    pub rests: Option<usize>,
+    pub static_intervals_used: Option<usize>,
     /// The attitude of the axis frame, as estimated \[deg\].
     pub axis_attitude_deg: EulerDegrees,
     /// How much of gravity turns in the plane of rotation \[m/s²\].
@@ -276,7 +276,7 @@ impl ParameterResult {
             value: value / factor,
             sigma: sigma / factor,
             unit: unknown.unit.symbol.into(),
-            alone: Some(EstimateResult {
+            marginal: Some(EstimateResult {
                 value: estimate.value / factor,
                 sigma: estimate.sigma / factor,
             }),
@@ -300,15 +300,15 @@ impl From<&Certificate> for NoiseResult {
     fn from(certificate: &Certificate) -> Self {
         let imu = certificate.fit.noise[0].imu;
         Self {
-            found: certificate.noise == NoiseChoice::Likely,
+            estimated: certificate.noise == NoiseChoice::Likely,
             gyro: GyroNoiseResult {
                 white_deg_h_sqrt_hz: imu.gyro.white / DEG_PER_HOUR,
-                flicker_deg_h: imu.gyro.flicker / DEG_PER_HOUR,
+                bias_instability_deg_h: imu.gyro.flicker / DEG_PER_HOUR,
                 random_walk_deg_h_sqrt_h: imu.gyro.walk * 60.0 / DEG_PER_HOUR,
             },
             accel: AccelNoiseResult {
                 white_ug_sqrt_hz: imu.accel.white / MICRO_G,
-                flicker_ug: imu.accel.flicker / MICRO_G,
+                bias_instability_ug: imu.accel.flicker / MICRO_G,
                 random_walk_ug_sqrt_h: imu.accel.walk * 60.0 / MICRO_G,
             },
         }
@@ -324,7 +324,7 @@ impl RunResult {
             Reference::Encoder { .. } => "table_angle",
             Reference::Command { .. } => "table_rate",
             Reference::Gravity => "gravity",
-            Reference::Rest => "rest",
+            Reference::Rest => "static",
         };
         let others = &run.prepared.others;
         Self {
@@ -332,7 +332,7 @@ impl RunResult {
             reference: name.into(),
             samples: run.prepared.samples(),
             static_intervals: run.prepared.static_intervals.clone(),
-            rests: (!others.is_empty())
+            static_intervals_used: (!others.is_empty())
                 .then_some(others.len() + usize::from(reference == Reference::Rest)),
             axis_attitude_deg: run.nav_from_table.euler_angles().into(),
             gravity_across_axis_m_s2: across_axis(

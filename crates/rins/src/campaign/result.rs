@@ -50,7 +50,7 @@ pub struct CellResult {
     /// The mean normalized innovation squared over its degrees of freedom.
     pub nis_ratio: Option<f64>,
     /// Whether the NEES is within its bounds.
-    pub honest: Option<bool>,
+    pub consistent: Option<bool>,
     /// The parameters.
     pub parameters: Vec<ScatterResult>,
 }
@@ -67,9 +67,9 @@ pub struct ScatterResult {
     /// The mean error.
     pub mean_error: f64,
     /// The standard deviation of the errors.
-    pub spread: f64,
+    pub error_std: f64,
     /// The root mean square of the sigmas claimed.
-    pub claimed: f64,
+    pub sigma_rms: f64,
     /// The share of the 95 % intervals that hold the true value.
     pub coverage_95: f64,
 }
@@ -84,7 +84,7 @@ impl CellResult {
             nees_dof: None,
             nees_bounds_99: None,
             nis_ratio: None,
-            honest: None,
+            consistent: None,
             parameters: Vec::new(),
         }
     }
@@ -100,8 +100,8 @@ impl CellResult {
             unit: unit.into(),
             truth: truth[row],
             mean_error: honesty.mean_error,
-            spread: honesty.spread,
-            claimed: honesty.claimed,
+            error_std: honesty.spread,
+            sigma_rms: honesty.claimed,
             coverage_95: honesty.coverage,
         });
         Self {
@@ -110,7 +110,7 @@ impl CellResult {
             nees_dof: Some(PARAMETERS.len()),
             nees_bounds_99: Some(statistics.nees_bounds),
             nis_ratio: Some(statistics.nis_ratio),
-            honest: Some(statistics.is_honest()),
+            consistent: Some(statistics.is_honest()),
             parameters: parameters.collect(),
             ..Self::too_few(grid, statistics.runs)
         }

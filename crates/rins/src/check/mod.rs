@@ -19,7 +19,7 @@ pub(crate) use self::inspected::inspected;
 use self::mends::{Mend, mends};
 use self::oddities::oddities;
 pub(crate) use self::refusal::refuse_mistaken;
-pub use self::result::{CheckResult, GapResult, MendResult, RestResult, VerdictResult};
+pub use self::result::{CheckResult, CorrectionResult, GapResult, StaticMeanResult, VerdictResult};
 pub(crate) use self::shows::steady_rates;
 use self::verdicts::{Verdict, verdicts};
 use crate::log::Log;

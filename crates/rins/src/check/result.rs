@@ -29,7 +29,7 @@ pub struct CheckResult {
     /// The gaps.
     pub gaps: Vec<GapResult>,
     /// The static intervals of a second or more, with what they show.
-    pub rests: Vec<RestResult>,
+    pub static_means: Vec<StaticMeanResult>,
     /// All static intervals, stated or found, and why one is not used.
     pub static_intervals: Vec<StaticIntervalResult>,
     /// How often the IMU turns about its axis of rotation, either way.
@@ -47,9 +47,9 @@ pub struct CheckResult {
     /// Likely mistakes of units, signs and axes, each in a sentence.
     pub suspicions: Vec<String>,
     /// Changes of the rig file of which one would put these right.
-    pub mends: Vec<MendResult>,
+    pub corrections: Vec<CorrectionResult>,
     /// What is odd, each in a sentence; mistakes first.
-    pub oddities: Vec<String>,
+    pub remarks: Vec<String>,
     /// A verdict on each thing that can be wrong with a log.
     pub verdicts: Vec<VerdictResult>,
     /// What reading the log has repaired or left out.
@@ -67,7 +67,7 @@ pub struct GapResult {
 
 /// A static interval, with what it shows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RestResult {
+pub struct StaticMeanResult {
     /// The time of its first sample \[s\].
     pub from_s: f64,
     /// The time of its last sample \[s\].
@@ -80,13 +80,13 @@ pub struct RestResult {
 
 /// A change of the rig file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct MendResult {
+pub struct CorrectionResult {
     /// `axes` under `[log] gyro`, if it is to change.
     pub gyro_axes: Option<[String; 3]>,
     /// `axes` under `[log] accel`, if it is to change.
     pub accel_axes: Option<[String; 3]>,
     /// The direction of rotation in which the table's angle is counted, if it is to change.
-    pub table_sense: Option<String>,
+    pub table_direction: Option<String>,
 }
 
 /// A verdict on one thing that can be wrong with a log.
@@ -97,23 +97,23 @@ pub struct VerdictResult {
     /// `good`, `fact`, `odd` or `bad`.
     pub verdict: String,
     /// What was found, in a sentence.
-    pub says: String,
+    pub finding: String,
 }
 
 impl From<&Verdict> for VerdictResult {
     fn from(verdict: &Verdict) -> Self {
         let (check, word) = (verdict.item.into(), verdict.word().into());
-        Self { check, verdict: word, says: verdict.says.clone() }
+        Self { check, verdict: word, finding: verdict.says.clone() }
     }
 }
 
-impl From<&Mend> for MendResult {
+impl From<&Mend> for CorrectionResult {
     fn from(mend: &Mend) -> Self {
         let names = |axes: &Option<Axes>| axes.map(|axes| axes.names());
         Self {
             gyro_axes: names(&mend.gyro),
             accel_axes: names(&mend.accel),
-            table_sense: mend.table.map(|sense| sense.name().to_owned()),
+            table_direction: mend.table.map(|sense| sense.name().to_owned()),
         }
     }
 }
@@ -122,7 +122,7 @@ impl CheckResult {
     pub(super) fn of(check: &Check<'_>) -> Self {
         let Check { log, inspection, oddities, mends, verdicts } = check;
         let times = &log.loaded.recording.times;
-        let rests = inspection.rests.iter().map(|rest| RestResult {
+        let rests = inspection.rests.iter().map(|rest| StaticMeanResult {
             from_s: times[rest.span.start],
             to_s: times[rest.span.end - 1],
             gravity_m_s2: rest.mean.rates.specific_force.norm(),
@@ -140,7 +140,7 @@ impl CheckResult {
             gaps: gaps
                 .map(|(index, length)| GapResult { at_s: times[*index], length_s: *length })
                 .collect(),
-            rests: rests.collect(),
+            static_means: rests.collect(),
             static_intervals: statics_result(&inspection.static_intervals, |_| None),
             turns: inspection.turns,
             spin_ratio: inspection.spin_ratio,
@@ -149,8 +149,8 @@ impl CheckResult {
             earth_rate_visible: inspection.earth_rate_visible,
             expected_gravity_m_s2: log.loaded.station.gravity,
             suspicions: inspection.suspicions.iter().map(suspicion_in_words).collect(),
-            mends: mends.iter().map(MendResult::from).collect(),
-            oddities: oddities.clone(),
+            corrections: mends.iter().map(CorrectionResult::from).collect(),
+            remarks: oddities.clone(),
             verdicts: verdicts.iter().map(VerdictResult::from).collect(),
             repairs: log.repairs(),
         }

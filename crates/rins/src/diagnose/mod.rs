@@ -20,7 +20,7 @@ use rins_terms::Chosen;
 use self::found::{Asked, Found};
 pub use self::measured::{DriftPairResult, GainResult, PairResult};
 pub use self::result::{
-    AlternativeResult, CauseParameterResult, CauseResult, ChanceResult, DiagnoseResult,
+    AlternativeResult, CauseParameterResult, CauseResult, DiagnoseResult, FalseAlarmsResult,
     NextTestResult, SettingResult, ShiftResult, UnexplainedResult, UntestableResult, WorstResult,
 };
 use crate::error::Result;

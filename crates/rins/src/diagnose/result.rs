@@ -41,7 +41,7 @@ pub struct DiagnoseResult {
     /// The effects that these runs cannot show.
     pub not_testable: Vec<UntestableResult>,
     /// How often the first search names an effect by chance, if it was asked.
-    pub chance: Option<ChanceResult>,
+    pub false_alarms: Option<FalseAlarmsResult>,
     /// The noise.
     pub noise: NoiseResult,
     /// What the innovations say of the extended model.
@@ -88,7 +88,7 @@ pub struct CauseResult {
     /// The ids of the effects from which these runs do not distinguish it.
     pub cannot_tell_from: Vec<String>,
     /// These with their odds.
-    pub rivals: Vec<AlternativeResult>,
+    pub alternatives: Vec<AlternativeResult>,
     /// What would distinguish it, by the catalogue.
     pub tell_apart_by: String,
     /// The run that would distinguish it from the likeliest of these.
@@ -122,7 +122,7 @@ pub struct CauseParameterResult {
     /// The unit.
     pub unit: String,
     /// The typical range of its magnitude.
-    pub usual: [f64; 2],
+    pub typical_range: [f64; 2],
     /// The same in samples, if it is a time.
     pub samples: Option<f64>,
 }
@@ -135,7 +135,7 @@ pub struct AlternativeResult {
     /// Its name.
     pub name: String,
     /// The logarithm of its posterior odds against the cause.
-    pub ln_odds: f64,
+    pub ln_posterior_odds: f64,
 }
 
 /// The run that would distinguish a cause from an alternative.
@@ -211,11 +211,11 @@ pub struct UntestableResult {
 
 /// How often the first search names an effect by chance.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ChanceResult {
+pub struct FalseAlarmsResult {
     /// How many draws were made.
     pub draws: u32,
     /// In which share of them an effect would have been named.
-    pub named: f64,
+    pub rate: f64,
     /// The share that is allowed.
     pub allowed: f64,
 }
@@ -254,9 +254,9 @@ impl DiagnoseResult {
             transfer: found.transfer.as_ref().map(GainResult::from),
             shifts: found.shifts.iter().map(ShiftResult::from).collect(),
             not_testable: not_testable.collect(),
-            chance: found.by_chance.as_ref().map(|chance| ChanceResult {
+            false_alarms: found.by_chance.as_ref().map(|chance| FalseAlarmsResult {
                 draws: chance.draws,
-                named: chance.share,
+                rate: chance.share,
                 allowed: FALSE_ALARMS,
             }),
             noise: certificate.into(),
@@ -282,7 +282,7 @@ impl CauseResult {
                 value: estimate.value / unit.factor,
                 sigma: estimate.sigma / unit.factor,
                 unit: unit.symbol.into(),
-                usual: [low / unit.factor, high / unit.factor],
+                typical_range: [low / unit.factor, high / unit.factor],
                 samples: found.in_samples(estimate),
             }
         });
@@ -300,7 +300,7 @@ impl CauseResult {
         let rivals = cause.rivals.iter().map(|rival| AlternativeResult {
             effect: rival.term.id.into(),
             name: rival.term.name.into(),
-            ln_odds: rival.odds,
+            ln_posterior_odds: rival.odds,
         });
         Self {
             effect: cause.term.id.into(),
@@ -317,7 +317,7 @@ impl CauseResult {
             plausible: named.plausible,
             parameters: parameters.collect(),
             cannot_tell_from: cause.rivals.iter().map(|rival| rival.term.id.into()).collect(),
-            rivals: rivals.collect(),
+            alternatives: rivals.collect(),
             tell_apart_by: cause.term.told_apart_by.into(),
             next_test: named.next_test.as_ref().map(|test| NextTestResult {
                 schedule: test.words.clone(),

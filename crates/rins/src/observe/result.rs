@@ -50,9 +50,9 @@ pub struct ScheduleResult {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SeparationsResult {
     /// By how many sigmas the two must differ.
-    pub enough_sigma: f64,
+    pub required_sigma: f64,
     /// Whether they do, each of its typical size.
-    pub told: bool,
+    pub separated: bool,
     /// The first effect against the second, and the second against the first.
     pub each: [SeparationResult; 2],
 }
@@ -67,7 +67,7 @@ pub struct SeparationResult {
     /// By what the other effect increases its 1σ in its worst direction; null if it is not separated at all.
     pub kappa: Option<f64>,
     /// By how many sigmas it differs from the other in its worst direction.
-    pub told_sigma: f64,
+    pub separation_sigma: f64,
     /// Its directions that have a counterpart in the other, the most alike first.
     pub directions: Vec<DirectionResult>,
     /// How many of its directions the model absorbs.
@@ -80,9 +80,9 @@ pub struct DirectionResult {
     /// By what the other effect increases its 1σ; null if it is not separated at all.
     pub kappa: Option<f64>,
     /// By how many sigmas it is seen without the other.
-    pub seen_sigma: f64,
+    pub detection_sigma: f64,
     /// By how many it differs from the other.
-    pub told_sigma: f64,
+    pub separation_sigma: f64,
     /// The direction, in units of the priors.
     pub along: Vec<f64>,
 }
@@ -112,9 +112,9 @@ pub struct ProposalResult {
     /// The attitude of the axis frame in each run \[deg\].
     pub attitude_deg: Vec<EulerDegrees>,
     /// Whether it reaches what was asked for.
-    pub enough: bool,
+    pub sufficient: bool,
     /// By how many sigmas the two effects differ.
-    pub told_sigma: Option<f64>,
+    pub separation_sigma: Option<f64>,
     /// The 1σ of the parameter that was asked for, in its unit.
     pub sigma: Option<f64>,
     /// How well it separates the two effects.
@@ -178,20 +178,20 @@ impl SeparationsResult {
             let separation: &Separation = &pair.separations[place];
             let directions = separation.directions.iter().map(|direction| DirectionResult {
                 kappa: finite(direction.kappa),
-                seen_sigma: direction.seen,
-                told_sigma: direction.told,
+                detection_sigma: direction.seen,
+                separation_sigma: direction.told,
                 along: direction.along.as_slice().to_vec(),
             });
             SeparationResult {
                 effect: name(place),
                 from: name(1 - place),
                 kappa: finite(separation.kappa()),
-                told_sigma: pair.told[place],
+                separation_sigma: pair.told[place],
                 directions: directions.collect(),
                 absorbed: separation.absorbed[0],
             }
         };
-        Self { enough_sigma: ENOUGH, told: pair.is_separated(), each: [of(0), of(1)] }
+        Self { required_sigma: ENOUGH, separated: pair.is_separated(), each: [of(0), of(1)] }
     }
 }
 
@@ -215,8 +215,8 @@ impl ProposalResult {
             duration_s: candidate.duration,
             profile: profile.collect(),
             attitude_deg: attitudes.collect(),
-            enough: proposal.enough,
-            told_sigma: found.effects.as_ref().map(|_| proposal.reached),
+            sufficient: proposal.enough,
+            separation_sigma: found.effects.as_ref().map(|_| proposal.reached),
             sigma,
             separation: pair.map(|pair| SeparationsResult::of(pair, found)),
             files: files.collect(),

@@ -14,19 +14,19 @@ pub struct IdentifiabilityResult {
     /// The rank of the information of the data alone.
     pub rank: Option<usize>,
     /// How many dimensions the null space has.
-    pub rank_loss: Option<usize>,
+    pub null_space_dimension: Option<usize>,
     /// How many directions the data determine better than what was known beforehand.
-    pub told_better_than_known: Option<usize>,
+    pub better_than_prior: Option<usize>,
     /// The information that the least observable direction has for itself, in units of the prior.
-    pub least_told: Option<f64>,
+    pub least_information: Option<f64>,
     /// That of the null space, which is rounding.
-    pub most_null: Option<f64>,
+    pub null_information: Option<f64>,
     /// The ids of the parameters that are observable.
-    pub alone: Vec<String>,
+    pub observable: Vec<String>,
     /// Those that are observable only in combinations.
-    pub in_combination: Vec<String>,
+    pub combination: Vec<String>,
     /// Those that are unobservable.
-    pub not_shown: Vec<String>,
+    pub unobservable: Vec<String>,
     /// The gauges: combinations that no schedule shows.
     pub gauges: Vec<GaugeResult>,
 }
@@ -58,13 +58,13 @@ impl IdentifiabilityResult {
         Self {
             unknowns: told.unknowns.len(),
             rank: Some(rank),
-            rank_loss: Some(told.unknowns.len() - rank),
-            told_better_than_known: Some(told.rank.kept.len()),
-            least_told: Some(told.rank.least_told),
-            most_null: Some(told.rank.most_null),
-            alone: ids(&observable),
-            in_combination: ids(&in_combination),
-            not_shown: ids(&unobservable),
+            null_space_dimension: Some(told.unknowns.len() - rank),
+            better_than_prior: Some(told.rank.kept.len()),
+            least_information: Some(told.rank.least_told),
+            null_information: Some(told.rank.most_null),
+            observable: ids(&observable),
+            combination: ids(&in_combination),
+            unobservable: ids(&unobservable),
             gauges: gauges.collect(),
         }
     }
@@ -90,8 +90,6 @@ pub struct ObservabilityResult {
     pub observability: String,
     /// Whether it is observable by itself.
     pub identifiable: bool,
-    /// How the data show it: `alone`, `combination`, `part` of one, or `nothing`.
-    pub shown: String,
     /// Whether some combination is all that shows it.
     pub exactly: Option<bool>,
     /// The ids of the other parameters of its combination.
@@ -125,12 +123,6 @@ pub struct PredictedResult {
 impl ObservabilityResult {
     pub(crate) fn of(told: &Identifiability, place: usize) -> Self {
         let seen = &told.seen[place];
-        let shown = match seen.shown {
-            Shown::Alone => "alone",
-            Shown::Combination => "combination",
-            Shown::Part { .. } => "part",
-            Shown::Nothing => "nothing",
-        };
         let observability = match seen.shown {
             _ if seen.identifiable => OBSERVABLE,
             Shown::Combination | Shown::Part { .. } => "combination",
@@ -149,7 +141,6 @@ impl ObservabilityResult {
         Self {
             observability: observability.into(),
             identifiable: seen.identifiable,
-            shown: shown.into(),
             exactly: Some(seen.aliases.iter().any(|alias| alias.exactly)),
             aliases: aliases.collect(),
             combination: combination.collect(),

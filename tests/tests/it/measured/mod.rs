@@ -32,7 +32,7 @@ fn checked(folder: &TempDir) -> Value {
 
 /// Whether an oddity is told in these words.
 fn is_odd(check: &Value, words: &str) -> bool {
-    texts(check, "/oddities").iter().any(|oddity| oddity.contains(words))
+    texts(check, "/remarks").iter().any(|oddity| oddity.contains(words))
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn laser_gyro_is_at_rest_and_sees_the_earth_turn() {
     assert!(texts(&check, "/suspicions").is_empty(), "{check}");
     assert_eq!(check["earth_rate_visible"], true);
     assert!(is_odd(&check, "no time column"), "{check}");
-    let rests = list(&check, "/rests");
+    let rests = list(&check, "/static_means");
     assert_eq!(rests.len(), 1);
     // But for the last part of a second, it rests throughout.
     assert!(number(&rests[0], "/to_s") - number(&rests[0], "/from_s") > 1846.0);
@@ -60,13 +60,13 @@ fn laser_gyro_is_at_rest_and_sees_the_earth_turn() {
 fn laser_gyro_finds_its_latitude_and_north() {
     let folder = rig("psins_lasergyro");
     let align = result_in(folder.path(), "align rig.toml");
-    let latitude_sigma = number(&align, "/seen/latitude_sigma_deg");
-    let rate_sigma = number(&align, "/seen/earth_rate_sigma_deg_h");
+    let latitude_sigma = number(&align, "/apparent/latitude_sigma_deg");
+    let rate_sigma = number(&align, "/apparent/earth_rate_sigma_deg_h");
     // A sigma that covers anything would be no finding.
     assert!((1e-3..0.2).contains(&latitude_sigma), "{latitude_sigma} deg");
     assert!((1e-4..0.1).contains(&rate_sigma), "{rate_sigma} deg/h");
-    assert_close!(number(&align, "/seen/latitude_deg"), 34.246048, 4.0 * latitude_sigma);
-    assert_close!(number(&align, "/seen/earth_rate_deg_h"), 15.041067, 4.0 * rate_sigma);
+    assert_close!(number(&align, "/apparent/latitude_deg"), 34.246048, 4.0 * latitude_sigma);
+    assert_close!(number(&align, "/apparent/earth_rate_deg_h"), 15.041067, 4.0 * rate_sigma);
     // The header gives the heading to a tenth of a degree and leaves level at zero.
     assert_close!(number(&align, "/header_attitude_deg/yaw"), -90.6, 1e-9);
     let heading = number(&align, "/attitude_deg/yaw");
@@ -124,7 +124,7 @@ fn wheel_has_gaps_and_no_rest() {
     let scatter = ((gaps.iter().copied().map(off).sum::<f64>() + others) / count).sqrt();
     assert_close!(scatter, 0.516e-3, 0.01e-3);
 
-    assert!(list(&check, "/rests").is_empty());
+    assert!(list(&check, "/static_means").is_empty());
     assert!(is_odd(&check, "251 gap(s)") && is_odd(&check, "never at rest"), "{check}");
     // About 16 turns of the wheel, and the swaying about its axis before and after.
     assert!((16.0..24.0).contains(&number(&check, "/turns")), "{check}");
@@ -144,7 +144,7 @@ fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
     assert_eq!(check["samples"], 10376);
     assert_close!(number(&check, "/rate_hz"), 102.4, 1e-6);
     assert!(list(&check, "/gaps").is_empty() && number(&check, "/jitter_rms_s") < 1e-9);
-    let rests = list(&check, "/rests");
+    let rests = list(&check, "/static_means");
     assert_eq!(rests.len(), 13);
     let gravity: Vec<f64> = rests.iter().map(|rest| number(rest, "/gravity_m_s2")).collect();
     let (least, most) = (
@@ -158,7 +158,7 @@ fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
     assert_eq!(check["earth_rate_visible"], false);
 
     let align = result_in(folder.path(), "align rig.toml");
-    assert!(align["attitude_deg"]["yaw"].is_null() && align["seen"]["latitude_deg"].is_null());
+    assert!(align["attitude_deg"]["yaw"].is_null() && align["apparent"]["latitude_deg"].is_null());
     let rins = rins_in(folder.path(), "align rig.toml");
     assert!(rins.out.contains("the gyros do not show north"), "{}", rins.out);
 }
@@ -181,7 +181,7 @@ fn xsens_is_read_from_two_files_of_counts() {
 fn xsens_rests_38_times_and_reads_gravity_each_time() {
     let folder = rig("imu_tk_xsens");
     let check = checked(&folder);
-    let rests = list(&check, "/rests");
+    let rests = list(&check, "/static_means");
     assert!((36..=40).contains(&rests.len()), "{} rests", rests.len());
     // The first lasts 52 s.
     assert!(number(&rests[0], "/to_s") - number(&rests[0], "/from_s") > 45.0, "{}", rests[0]);
@@ -214,7 +214,7 @@ fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
     let across = number(&result, "/runs/0/gravity_across_axis_m_s2");
     assert!((8.5..9.81).contains(&across), "{across}");
     let scale = parameter(&result, "gyro.scale.y");
-    let (value, sigma) = (number(scale, "/alone/value"), number(scale, "/alone/sigma"));
+    let (value, sigma) = (number(scale, "/marginal/value"), number(scale, "/marginal/sigma"));
     // A consumer gyro's scale error, told to a part in a thousand and not better: the chair turns too.
     assert!((300.0..10000.0).contains(&sigma) && value.abs() < 2e4, "{scale}");
     assert!(texts(&result, "/notes").iter().any(|note| note.contains("lever arm")), "{result}");
@@ -240,7 +240,7 @@ fn laser_gyro_is_quiet_on_a_base_that_sways() {
     assert_eq!(result["consistency"]["verdict"], "misfit");
     let after = magnitude(&result, "/navigation/after/velocity_m_s");
     assert!(after < 0.5, "{after} m/s after half an hour");
-    let hidden = texts(&result, "/identifiability/not_shown");
+    let hidden = texts(&result, "/identifiability/unobservable");
     for id in ["gyro.scale.x", "gyro.scale.z", "gyro.misalignment.xy", "accel.misalignment.xy"] {
         assert!(hidden.contains(&id), "{id} is not named: {hidden:?}");
     }
@@ -260,7 +260,7 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
     let folder = rig("imu_tk_xsens");
     let result = result_in(folder.path(), "calibrate rig.toml");
     assert_eq!(result["runs"][0]["reference"], "rest");
-    assert_eq!(result["runs"][0]["rests"], 38);
+    assert_eq!(result["runs"][0]["static_intervals_used"], 38);
     let fitted = [
         ("accel.bias.x", 411.3, 60.7),
         ("accel.bias.y", -756.5, 34.2),
@@ -288,7 +288,7 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
 fn xsens_names_what_its_rests_do_not_show() {
     let folder = rig("imu_tk_xsens");
     let result = result_in(folder.path(), "calibrate rig.toml");
-    let hidden = texts(&result, "/identifiability/not_shown");
+    let hidden = texts(&result, "/identifiability/unobservable");
     for axis in ["x", "y", "z"] {
         assert!(hidden.contains(&format!("gyro.scale.{axis}").as_str()), "{hidden:?}");
         let bias = parameter(&result, &format!("gyro.bias.{axis}"));
@@ -339,11 +339,11 @@ fn laser_gyro_shows_its_noise_beyond_its_dither() {
         let terms = list(channel, "/terms");
         assert_eq!(terms.len(), 4);
         for term in terms {
-            if term["seen"] == true {
+            if term["significant"] == true {
                 let (value, sigma) = (number(term, "/value"), number(term, "/sigma"));
                 assert!(0.0 < sigma && sigma < value, "{term}");
             } else {
-                assert!(number(term, "/below") > 0.0, "{term}");
+                assert!(number(term, "/upper_bound") > 0.0, "{term}");
             }
         }
     }

@@ -60,24 +60,19 @@ fn parameter(parameter: &Parameter) -> ParameterResult {
         coefficient: *coefficient,
         exactly: None,
     });
-    let (observability, shown) = if parameter.identifiable() {
-        (OBSERVABLE, "alone")
-    } else {
-        ("combination", "combination")
-    };
+    let observability = if parameter.identifiable() { OBSERVABLE } else { "combination" };
     ParameterResult {
         id: parameter.id.clone(),
         run: None,
         value: parameter.value / factor,
         sigma: parameter.sigma / factor,
         unit: parameter.kind.unit().into(),
-        alone: None,
+        marginal: None,
         prior_sigma: None,
         data_sigma: None,
         observability: ObservabilityResult {
             observability: observability.into(),
             identifiable: parameter.identifiable(),
-            shown: shown.into(),
             exactly: None,
             aliases: parameter.partners.iter().map(|partner| partner.id.clone()).collect(),
             combination: combination.collect(),
@@ -96,13 +91,13 @@ fn identifiability(parameters: &[Parameter]) -> IdentifiabilityResult {
     IdentifiabilityResult {
         unknowns: parameters.len(),
         rank: None,
-        rank_loss: None,
-        told_better_than_known: None,
-        least_told: None,
-        most_null: None,
-        alone: ids(true),
-        in_combination: ids(false),
-        not_shown: Vec::new(),
+        null_space_dimension: None,
+        better_than_prior: None,
+        least_information: None,
+        null_information: None,
+        observable: ids(true),
+        combination: ids(false),
+        unobservable: Vec::new(),
         gauges: Vec::new(),
     }
 }
