@@ -59,45 +59,45 @@ pub(crate) enum Command {
     Demo(Demo),
     /// Draft a rig file from a log; guesses are marked for you to confirm
     Init(Init),
-    /// Write a measured-looking run (run.csv, rig.toml, truth.json) from a scenario
+    /// Write a simulated data set (run.csv, rig.toml, truth.json) from a scenario
     Simulate(Simulate),
     /// Write a log in another format, with the rig file that reads it
     Convert(Convert),
-    /// Say what is in a run: rate, gaps, rest, gravity, Earth rate, suspected mistakes
+    /// Inspect a run: rate, gaps, static intervals, gravity, Earth rate, likely mistakes of units, signs and axes
     Check(Input),
-    /// Say what noise a rest shows: Allan deviations with bounds, and the terms that make them
+    /// Identify the noise over a static interval: Allan deviations with bounds, and noise terms
     Allan(Input),
-    /// Find the attitude from a rest: level from gravity, north from the Earth's rotation
+    /// Align over a static interval: level from gravity, north from the Earth's rotation
     Align(Input),
-    /// Navigate freely from rest, with or without a calibration
+    /// Free inertial navigation from rest, with or without a calibration
     Navigate(Navigate),
-    /// Estimate sensor errors from runs on the table, and show what compensating them gains
+    /// Estimate sensor errors from runs on the table, with navigation before and after compensation
     Calibrate(Calibrate),
-    /// Say what a model leaves unexplained in a run, and which physical effect explains it
+    /// Find the physical effects that a model lacks in a run, and measure the predictive gain
     ///
-    /// The model is estimated; then every effect of the catalogue is tried on what is left, at any time and of any order, and
-    /// the one that explains it best joins the model, with the odds that it is nothing and the effects that this run cannot
-    /// tell from it; then the next, until nothing significant is left. Nothing is named by force. Mistakes of units, signs and
-    /// axes are refused first, with what would mend them.
+    /// The model is estimated. Every effect of the catalogue is then tested on the residuals, at all event times and
+    /// harmonic orders. The best one joins the model, with its p-value and the alternatives that this run does not
+    /// distinguish from it. The search ends when no effect is significant; residual structure that no effect explains is
+    /// reported as such. Mistakes of units, signs and axes are an error, with the correction.
     Diagnose(Diagnose),
-    /// Say what a rotation schedule tells apart before it is run, and which one to run next
+    /// Predict what a rotation schedule makes observable, and propose the schedule to run next
     ///
-    /// The information that a run would hold on the parameters of a model is reckoned from the scenario's motion, site
-    /// and IMU figures, without noise and without errors. What the data tell is said of every parameter: itself, or a
-    /// combination with others; its sigma by the data alone, and with the figures of the IMU known beforehand.
+    /// The information of a run on the parameters of a model is computed from the scenario's motion, site and data sheet,
+    /// without noise and without errors. For each parameter the result is its observability (by itself, or in a
+    /// combination), its sigma by the data alone, and its sigma with the data sheet as prior.
     ///
-    /// Several scenarios are runs of one IMU: what belongs to the sensors is shared, attitude, turn-on biases and the
-    /// like are each run's own. An effect is named by its id, or by that of one of its parameters
-    /// (accel.bias.x). Two effects are told apart if each, where it looks most like the other and is as large
-    /// as is usual, differs from any amount of the other by 6 sigma, the model's parameters being estimated along.
+    /// Several scenarios are runs of one IMU: parameters of the sensors are shared; attitude, turn-on biases and the like
+    /// belong to one run. An effect is named by its id, or by that of one of its parameters (accel.bias.x). Two effects
+    /// are separated if each, at its typical size and in its most similar direction, differs from any amount of the other
+    /// by 6 sigma, with the model's parameters estimated too.
     Observe(Observe),
-    /// Simulate and calibrate a scenario thousands of times: do estimates scatter as claimed?
+    /// Simulate and calibrate a scenario many times: are the covariances consistent with the errors?
     MonteCarlo(MonteCarlo),
     /// Join the shards of a campaign
     Merge(Merge),
-    /// Write a log without the errors that a calibration has found, with the rig file that reads it
+    /// Write a log compensated by a calibration, with the rig file that reads it
     Apply(Apply),
-    /// Say what moved between two calibrations of one IMU
+    /// Compare two calibrations of one IMU: changes in sigmas
     Compare(Compare),
 }
 
@@ -136,7 +136,7 @@ pub(crate) struct Convert {
     /// The new log; its rig file lies beside it and ends in .toml
     #[arg(short, long, value_name = "LOG")]
     pub(crate) output: PathBuf,
-    /// How to write it; by default .csv, .parquet, .mat, .imu (psins) and .bin (psins-bin) tell
+    /// The format; by default the extension decides: .csv, .parquet, .mat, .imu (psins) or .bin (psins-bin)
     #[arg(long, value_enum)]
     pub(crate) format: Option<Format>,
 }
@@ -190,7 +190,7 @@ pub(crate) struct Navigate {
     /// Compensate the readings with this calibration first
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: Option<PathBuf>,
-    /// Compensate at temperatures far outside those that were calibrated too
+    /// Compensate also at temperatures far outside the calibrated range
     #[arg(long, requires = "calibration")]
     pub(crate) extrapolate: bool,
 }
@@ -208,7 +208,7 @@ pub(crate) struct Calibrate {
     /// table reading, and full otherwise
     #[arg(long, value_parser = ModelChoice::parse)]
     pub(crate) model: Option<ModelChoice>,
-    /// Whether the data sheet's noise is found anew from the data or trusted; paper12 trusts it
+    /// Estimate the noise from the data, or use that of the data sheet; paper12 uses the data sheet
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
 }
@@ -221,24 +221,23 @@ pub(crate) struct Diagnose {
     /// Folder for result.json, report.html, model.toml (the extended model) and calibration.toml
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Measure the gain on this run, which plays no part otherwise; by default on the last 30 % of every stretch of
-    /// constant rate
+    /// Measure the predictive gain on this held-out run; by default on the last 30 % of every segment of constant rate
     #[arg(long, value_name = "RIG")]
     pub(crate) held_out: Option<PathBuf>,
-    /// Measure the gain at the table's fastest rate too, with what was found at slower ones
+    /// Measure the predictive gain also at the table's fastest rate, with estimates from the slower rates
     #[arg(long)]
     pub(crate) transfer: bool,
-    /// What the run is taken to hold: full (biases, scale errors, misalignments, the axis' attitude), or a model file
+    /// The model: full (biases, scale errors, misalignments, the axis' attitude), or a model file
     #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
     pub(crate) model: ModelChoice,
-    /// Search for nothing, and evaluate the effects of this model file: what they explain and gain
+    /// Evaluate the effects of this model file instead of a search
     #[arg(long, alias = "suppose", value_name = "FILE")]
     pub(crate) hypothesis: Option<PathBuf>,
-    /// Whether the data sheet's noise is found anew from the data or trusted
+    /// Estimate the noise from the data, or use that of the data sheet
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
-    /// Draw the score of all effects of the catalogue so often under the extended model, and say in how many draws the
-    /// first search would have named one; the search is not repeated on simulated runs
+    /// Draw the score of all effects of the catalogue so many times under the extended model, and count the draws in which
+    /// the first search names an effect; the search is not repeated on simulated runs
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) bootstrap: Option<u32>,
 }
@@ -313,9 +312,9 @@ fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, Stri
 /// What is known of the random errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Noise {
-    /// The data sheet is a first guess; the most likely strengths are found
+    /// Estimate it; the data sheet is the first guess
     Likely,
-    /// The data sheet is right
+    /// Use the data sheet
     Given,
 }
 
@@ -338,10 +337,10 @@ pub(crate) struct Apply {
     /// The new log; its rig file lies beside it and ends in .toml
     #[arg(short, long, value_name = "LOG")]
     pub(crate) output: PathBuf,
-    /// How to write it; by default .csv, .parquet, .mat, .imu (psins) and .bin (psins-bin) tell
+    /// The format; by default the extension decides: .csv, .parquet, .mat, .imu (psins) or .bin (psins-bin)
     #[arg(long, value_enum)]
     pub(crate) format: Option<Format>,
-    /// Compensate at temperatures far outside those that were calibrated too
+    /// Compensate also at temperatures far outside the calibrated range
     #[arg(long)]
     pub(crate) extrapolate: bool,
 }

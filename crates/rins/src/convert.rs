@@ -143,7 +143,7 @@ pub(crate) fn format_of(output: &Path, said: Option<LogFile>) -> anyhow::Result<
     LogFile::of(output).ok_or_else(|| {
         let names: Vec<&str> = LogFile::ALL.iter().map(|format| format.name()).collect();
         anyhow::anyhow!(
-            "{}: the name does not tell a format; say --format, one of {}",
+            "{}: the file name has no known extension; state --format, one of {}",
             shown(output),
             names.join(", ")
         )

@@ -16,13 +16,13 @@ pub(crate) struct Observe {
     /// full, but with --separate baseline: biases, attitude, mounting and the gyro errors tied to the spin axis
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<String>,
-    /// Look at each scenario for itself, side by side; A+B are two runs of one schedule
+    /// Compare the scenarios side by side; A+B are two runs of one schedule
     #[arg(long)]
     pub(crate) compare: bool,
-    /// Two effects to be told apart, and the shortest schedule that does
+    /// Two effects to separate; the shortest schedule that separates them is proposed
     #[arg(long, value_name = "A,B", value_parser = pair)]
     pub(crate) separate: Option<[String; 2]>,
-    /// A parameter and the 1σ wanted of it, such as gyro.scale.z=0.1ppm, and the shortest schedule
+    /// A parameter and its required 1σ, such as gyro.scale.z=0.1ppm; the shortest schedule is proposed
     #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate", value_parser = want)]
     pub(crate) want: Option<Want>,
     /// The table's fastest rate; by default the scenario's fastest, or 10 deg/s if it rests

@@ -77,7 +77,7 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
 pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<Found> {
     let recording = &loaded.recording;
     let mean = RestMean::of(recording, span.clone())
-        .ok_or_else(|| anyhow::anyhow!("the rest holds no samples"))?;
+        .ok_or_else(|| anyhow::anyhow!("the static interval holds no samples"))?;
     let uncertainty = uncertainty(loaded, &mean);
     let figures = loaded.rig.imu.map(|imu| GyroFigures {
         bias_sigma: imu.gyro.bias_sigma,

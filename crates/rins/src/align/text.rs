@@ -19,8 +19,8 @@ pub(super) fn sentences(found: &Found, loaded: &Loaded) -> Vec<String> {
     let to = loaded.recording.times[found.span.end - 1];
     let mut sentences = vec![match found.sigma.2 {
         Some(azimuth) => format!(
-            "Over {:.0} s of rest the body stands at roll {:.4}, pitch {:.4}, yaw {:.3} deg, level to {:.1}″ and in azimuth to \
-             {:.0}″ (1σ).",
+            "Over a static interval of {:.0} s the attitude is roll {:.4}, pitch {:.4}, yaw {:.3} deg; 1σ is {:.1}″ in tilt and \
+             {:.0}″ in azimuth.",
             to - from,
             angles.roll / DEG,
             angles.pitch / DEG,
@@ -29,7 +29,7 @@ pub(super) fn sentences(found: &Found, loaded: &Loaded) -> Vec<String> {
             azimuth / ARCSEC,
         ),
         None => format!(
-            "Over {:.0} s of rest the body stands at roll {:.3}, pitch {:.3} deg; the gyros do not show north.",
+            "Over a static interval of {:.0} s the attitude is roll {:.3}, pitch {:.3} deg; the gyros do not show north.",
             to - from,
             angles.roll / DEG,
             angles.pitch / DEG,

@@ -105,7 +105,7 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     let log = shown(&loaded.rig.log.path);
     let still = longest(loaded, SHORTEST_REST).ok_or_else(|| {
         let none = none_found(loaded, SHORTEST_REST);
-        anyhow::anyhow!("{log}: {none}, and what it reads on the move is no noise")
+        anyhow::anyhow!("{log}: {none}; noise is identified over static intervals only")
     })?;
     let accumulated = matches!(
         &loaded.rig.log.format,
@@ -198,7 +198,7 @@ fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -
             *strength = Strength::NotSeen { below: most };
             let (_, _, unit) = term(triad, NoiseLaw::Quantisation);
             Some(format!(
-                "What looks like quantisation of {} {} in {triad} {axis} is more than its resolution makes, {}: vibration, or a filter.",
+                "An apparent quantization noise of {} {} in {triad} {axis} is more than the resolution makes, {}: vibration, or a filter.",
                 figure(value / unit.factor, 3),
                 unit.symbol,
                 figure(most / unit.factor, 3)

@@ -34,7 +34,7 @@ pub(super) fn allan_report(rest: &Rest, title: String, log: &str) -> Report {
             Section {
                 heading: "Allan deviation".into(),
                 intro: format!(
-                    "A slope of −1 is quantisation, of −½ white noise, a floor flicker noise, and a slope of +½ a random \
+                    "A slope of −1 is quantization, of −½ white noise, a floor is bias instability, and a slope of +½ a random \
                      walk. The bands hold the true deviation with {:.0} %.",
                     CONFIDENCE * 100.0
                 ),
@@ -42,7 +42,7 @@ pub(super) fn allan_report(rest: &Rest, title: String, log: &str) -> Report {
             },
             Section {
                 heading: "Noise terms".into(),
-                intro: "A term that chance may have made is not seen, and bounded.".into(),
+                intro: "Of a term that is not significant the upper bound is given.".into(),
                 items: vec![Item::Table(report_table(&rows(&rest.channels)))],
             },
         ],
@@ -53,7 +53,7 @@ fn sentences(rest: &Rest) -> Vec<String> {
     let times = rest.channels[0].seen.points.iter().map(|point| point.time);
     let longest = times.fold(0.0, f64::max);
     let mut sentences = vec![format!(
-        "Over {:.0} s of rest, from {} to {} s, averaged over {} to {} s.",
+        "Over a static interval of {:.0} s, from {} to {} s; averaging times from {} to {} s.",
         rest.span.1 - rest.span.0,
         figure(rest.span.0, 6),
         figure(rest.span.1, 6),
@@ -86,7 +86,7 @@ fn lines(channel: &Channel) -> Option<String> {
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "In {} {} there is a line at {}: it is taken out before, as no law of noise makes it.",
+            "{} {} has a spectral line at {}: it is removed before the noise is estimated.",
             channel.triad,
             channel.axis,
             told.join(", at ")
@@ -100,7 +100,7 @@ fn off_the_laws(channel: &Channel) -> Option<String> {
     let sensor = format!("{} {}", channel.triad, channel.axis);
     if seen.disagreement >= 1.0 {
         return Some(format!(
-            "No sum of the four laws is near the deviation of {sensor}: what is said of it is an order of magnitude."
+            "No sum of the four noise terms is near the deviation of {sensor}: its values are orders of magnitude."
         ));
     }
     let from = (seen.explained_from > seen.points[0].time)
@@ -109,15 +109,16 @@ fn off_the_laws(channel: &Channel) -> Option<String> {
         .then(|| format!("to within {} % of the variance", figure(seen.disagreement * 100.0, 2)));
     let limits: Vec<String> = from.into_iter().chain(within).collect();
     let explain =
-        format!("The four laws explain the deviation of {sensor} {}", limits.join(" and "));
+        format!("The four noise terms explain the deviation of {sensor} {}", limits.join(" and "));
     (!limits.is_empty()).then(|| {
-        explain + ": dither, vibration, a filter or a base that sways is in it; the sigmas allow for it."
+        explain
+            + ": it also holds dither, vibration, a filter or base motion; the sigmas allow for it."
     })
 }
 
 /// A row for each sensor and law, below their heading.
 fn rows(channels: &[Channel]) -> Vec<Vec<String>> {
-    let head = ["noise", "strength", "1 sigma", "unit", "remark"].map(String::from).to_vec();
+    let head = ["noise", "value", "1 sigma", "unit", "remark"].map(String::from).to_vec();
     let rows = channels.iter().flat_map(|channel| {
         let laws = NoiseLaw::ALL.into_iter().zip(&channel.seen.strengths);
         laws.map(move |(law, strength)| row(channel, law, strength))
@@ -134,10 +135,10 @@ fn row(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Vec<String> {
             let rivals: Vec<&str> = rivals.iter().map(|rival| words(*rival)).collect();
             let mut remarks = Vec::new();
             if !rivals.is_empty() {
-                remarks.push(format!("or {}: this rest does not tell", rivals.join(" or ")));
+                remarks.push(format!("not distinguishable from {} here", rivals.join(" or ")));
             }
             if let Some(sheet) = channel.sheet(law).filter(|sheet| *sheet > 0.0) {
-                remarks.push(format!("{} times the data sheet's", figure(value / sheet, 3)));
+                remarks.push(format!("{} times the data sheet's value", figure(value / sheet, 3)));
             }
             if (channel.triad, law) == (Triad::Gyro, NoiseLaw::White) {
                 let walk = value / rins_frames::units::DEG_PER_ROOT_HOUR;
@@ -146,7 +147,7 @@ fn row(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Vec<String> {
             (shown, sigma, remarks.join("; "))
         }
         Strength::NotSeen { below } => {
-            (format!("< {}", figure(below / unit.factor, 2)), "–".into(), "not seen".into())
+            (format!("< {}", figure(below / unit.factor, 2)), "–".into(), "not significant".into())
         }
     };
     vec![format!("{sensor}, {} {symbol}", words(law)), value, sigma, unit.symbol.into(), remark]
@@ -155,7 +156,7 @@ fn row(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Vec<String> {
 /// The name of a law.
 const fn words(law: NoiseLaw) -> &'static str {
     match law {
-        NoiseLaw::Quantisation => "quantisation",
+        NoiseLaw::Quantisation => "quantization",
         NoiseLaw::White => "white noise",
         NoiseLaw::Flicker => "bias instability",
         NoiseLaw::RandomWalk => "random walk",
@@ -168,7 +169,7 @@ fn plot(channels: &[&Channel]) -> Plot {
         x_label: "Averaging time [s]".into(),
         x_scale: Scale::Logarithmic,
         y_scale: Scale::Logarithmic,
-        caption: "Broken: the sum of the laws that are seen.".into(),
+        caption: "Broken: the sum of the significant terms.".into(),
         ..Plot::default()
     };
     for channel in channels {
@@ -195,7 +196,7 @@ fn plot(channels: &[&Channel]) -> Plot {
         // Where the laws were not compared with the deviation, their curve has a gap.
         fitted[..unexplained].fill(f64::NAN);
         plot.series.push(series(channel.axis.to_string(), found, Style::Line));
-        plot.series.push(series(format!("{}, laws", channel.axis), fitted, Style::Dashed));
+        plot.series.push(series(format!("{}, fitted", channel.axis), fitted, Style::Dashed));
     }
     plot
 }

@@ -227,7 +227,7 @@ fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
 /// How a run moved that consists of so many rests, or turns.
 fn motion(prepared: &Prepared, nav_from_table: &Dcm<Nav, Table>, rests: usize) -> String {
     if rests > 1 {
-        return format!("{rests} rests");
+        return format!("{rests} static intervals");
     }
     let rates = steady_rates(&prepared.run.recording);
     let tilt = nav_from_table.matrix()[(2, 2)].clamp(-1.0, 1.0).acos() / DEG;

@@ -12,12 +12,12 @@ use rins_report::{Cell, Column, Item, Section, Table};
 pub(super) fn noise_sentence(certificate: &Certificate) -> String {
     let imu = certificate.fit.noise[0].imu;
     let how = match certificate.noise {
-        NoiseChoice::Likely => "Most likely noise",
-        NoiseChoice::Given => "Noise as given",
+        NoiseChoice::Likely => "Estimated noise",
+        NoiseChoice::Given => "Noise of the data sheet",
     };
     let triad = |white: f64, flicker: f64, unit: f64, white_unit: &str, flicker_unit: &str| {
         format!(
-            "{} {white_unit} and {} {flicker_unit} of flicker",
+            "white noise {} {white_unit} and bias instability {} {flicker_unit}",
             figure(white / unit, 4),
             figure(flicker / unit, 4)
         )
@@ -26,7 +26,7 @@ pub(super) fn noise_sentence(certificate: &Certificate) -> String {
     let sways = if base.sway.iter().any(|sway| *sway > 0.0) {
         let about = base.sway.map(|sway| figure(sway / ARCSEC, 3));
         format!(
-            "; the base moves by {} mm/s and sways by {} arcsec/√s about x, y and z",
+            "; base motion: velocity {} mm/s, sway {} arcsec/√s about x, y and z",
             figure(base.velocity * 1e3, 3),
             about.join(", ")
         )
@@ -122,17 +122,16 @@ pub(super) fn noise_section(certificate: &Certificate) -> Section {
     });
     let intro = match certificate.noise {
         NoiseChoice::Likely => {
-            "The strengths under which the data are most probable, all parameters left open; the data sheet was the first \
-             guess."
+            "The noise parameters of greatest restricted likelihood; the data sheet was the first guess."
         }
-        NoiseChoice::Given => "The strengths of the data sheet, taken as they are.",
+        NoiseChoice::Given => "The noise parameters of the data sheet.",
     };
     Section {
         heading: "Noise and iteration".into(),
         intro: intro.into(),
         items: vec![
             Item::Table(Table {
-                caption: "Strength of the noise".into(),
+                caption: "Noise parameters".into(),
                 columns: vec![
                     Column::text("noise"),
                     Column::number("used"),

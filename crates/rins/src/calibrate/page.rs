@@ -214,7 +214,7 @@ fn correlation_section(certificate: &Certificate) -> Section {
     });
     Section {
         heading: "Correlations".into(),
-        intro: "Strong shades are pairs that the data tell apart badly. The covariance itself stands in calibration.toml, \
+        intro: "Strong shades are pairs of strongly correlated estimates. The covariance itself stands in calibration.toml, \
                 the correlations in result.json."
             .into(),
         items: vec![Item::Matrix(Matrix {

@@ -21,7 +21,7 @@ pub(super) fn compensation_section(model: &Model) -> Section {
             Cell::text(chosen.term.id),
             Cell::text(chosen.term.equation),
             Cell::text(if of_table {
-                "not undone: it is the table's".into()
+                "not compensated: it belongs to the table".into()
             } else {
                 settings_in_words(chosen.term, &chosen.settings, None)
             }),
@@ -72,9 +72,9 @@ pub(super) fn budget_section(heading: &str, ids: &[&str], budget: &Budget) -> Se
     Section {
         heading: heading.into(),
         intro: format!(
-            "What each error does to free inertial navigation over the first {:.0} s of this run, from rest: left in as it \
-             is, and by the 1σ that stays after compensation. Parameters that the run shows only together have large sigmas \
-             alone and little in all.",
+            "The effect of each error on free inertial navigation over the first {:.0} s of this run, from rest: uncompensated, \
+             and by the 1σ that remains after compensation. Parameters that are observable only in a combination have large \
+             sigmas alone and small ones together.",
             budget.after
         ),
         items: vec![Item::Table(Table {

@@ -145,7 +145,7 @@ fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> String {
         let [least, most] = statistics.nees_bounds;
         let _ = writeln!(
             text,
-            "\n  {}: {} runs, {} failed; errors are {}\n    NEES {:.3} (honest from {least:.3} to {most:.3}), NIS {:.4} of 1",
+            "\n  {}: {} runs, {} failed; errors are {}\n    NEES {:.3} (consistent from {least:.3} to {most:.3}), NIS {:.4} of 1",
             label(&heading.keys, cell.values),
             statistics.runs,
             statistics.failed,
@@ -180,7 +180,7 @@ fn report(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Report {
     let honest = honest.filter(|statistics| statistics.is_honest()).count();
     let failed: usize = scored.iter().filter_map(|cell| cell.statistics).map(|s| s.failed).sum();
     let mut summary = vec![format!(
-        "In {honest} of {} scenarios the errors scatter as the covariances claim.",
+        "In {honest} of {} scenarios the covariances are consistent with the errors.",
         scored.len()
     )];
     if failed > 0 {
@@ -227,7 +227,7 @@ fn overview(heading: &Heading, scored: &[Scored<'_>]) -> Section {
     Section {
         heading: "Scenarios".into(),
         intro: "The mean normalised squared error of the three parameters is 3 where the \
-                covariances are honest; 99 % of such campaigns lie within the bounds."
+                covariances are consistent; 99 % of such campaigns lie within the bounds."
             .into(),
         items: vec![Item::Table(Table {
             caption: "What the runs say together".into(),
@@ -262,7 +262,7 @@ fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
     let reference = |value: f64, name: &str| rins_report::Reference { name: name.into(), value };
     Section {
         heading: id.into(),
-        intro: "Where covariances are honest, one run in 20 lies beyond ±1.96.".into(),
+        intro: "Where covariances are consistent, one run in 20 lies beyond ±1.96.".into(),
         items: vec![
             Item::Plot(Plot {
                 title: "Errors over the sigma claimed".into(),

@@ -24,7 +24,7 @@ pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> 
         let off = rest.mean.rates.specific_force.norm() / loaded.station.gravity - 1.0;
         if off.abs() > LARGEST_GRAVITY_ERROR {
             found.push(format!(
-                "gravity is {:+.1} % off in the longest rest: the accelerometers are not calibrated",
+                "gravity is {:+.1} % off in the longest static interval: the accelerometers are not calibrated",
                 off * 100.0
             ));
         }
@@ -36,12 +36,12 @@ pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> 
         && (ratio - 1.0).abs() > LARGEST_SPIN_ERROR
     {
         found.push(format!(
-            "the turn of the gyro about the axis of rotation is {:+.1} % off the table's: its scale, or the table's unit or profile, is wrong",
+            "the rotation by the gyro about the axis of rotation is {:+.1} % off the table's: its scale, or the table's unit or profile, is wrong",
             (ratio - 1.0) * 100.0
         ));
     }
     if inspection.rests.is_empty() {
-        found.push("never at rest for a second: nothing to align on".into());
+        found.push("never static for a second: nothing to align on".into());
     }
     for (channel, &run) in inspection.longest_repeat.iter().enumerate() {
         if run > 20 && run < loaded.recording.len() && inspection.resolution[channel].is_none() {

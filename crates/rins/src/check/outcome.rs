@@ -42,7 +42,7 @@ impl fmt::Display for Check<'_> {
         let (inspection, loaded) = (&self.inspection, &self.log.loaded);
         write!(f, "{}\n\n{}", self.title(), aligned(&rows(inspection, loaded)))?;
         if inspection.rests.len() > 1 {
-            writeln!(f, "\n  rests\n{}", aligned(&rests(inspection, loaded)))?;
+            writeln!(f, "\n  static intervals\n{}", aligned(&rests(inspection, loaded)))?;
         }
         writeln!(f, "\n{}", aligned(&judged(&self.verdicts)[1..]))?;
         for line in statics_in_words(&inspection.static_intervals, &loaded.rig) {

@@ -33,7 +33,7 @@ pub(super) fn page(check: &Check<'_>) -> Report {
         .map(|suspicion| Item::Note(Tone::Bad, suspicion_in_words(suspicion)))
         .collect();
     if let Some(mend) = mends_in_words(mends) {
-        items.push(Item::Note(Tone::Bad, format!("To mend it: {mend}.")));
+        items.push(Item::Note(Tone::Bad, format!("Correction: {mend}.")));
     }
     items.push(Item::Table(report_table(&rows)));
     if inspection.rests.len() > 1 {

@@ -27,7 +27,7 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     let rest = longest(inspection).map_or(0.0, |rest| rest.mean.duration);
     if rest >= SHORTEST_REST {
         let north = if inspection.earth_rate_visible { " and north" } else { ", not north" };
-        found.push(format!("rins align: level{north}, over a rest of {rest:.0} s"));
+        found.push(format!("rins align: level{north}, over a static interval of {rest:.0} s"));
     }
     let recording = &loaded.recording;
     if recording.table_angle.is_some() || recording.table_rate.is_some() {

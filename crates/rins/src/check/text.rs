@@ -20,7 +20,7 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
             format!("{:.3} Hz, jitter {:.3} ms rms", 1.0 / timing.interval, timing.jitter * 1e3),
         ),
         row("gaps", gaps(inspection, loaded)),
-        row("rest", rest(inspection)),
+        row("static intervals", rest(inspection)),
         row(
             "turns",
             format!(
@@ -35,18 +35,18 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
         rows.push(row(
             "gravity",
             format!(
-                "{seen:.5} m/s^2 in the longest rest, {:+.0} ppm of the station's {:.5}",
+                "{seen:.5} m/s^2 in the longest static interval, {:+.0} ppm off the site's {:.5}",
                 (seen / loaded.station.gravity - 1.0) * 1e6,
                 loaded.station.gravity
             ),
         ));
         let rate = rest.mean.rates.angular_rate.norm() / DEG_PER_HOUR;
         rows.push(row(
-            "rate at rest",
+            "static rate",
             if inspection.earth_rate_visible {
                 format!("{rate:.3} deg/h in the longest one; that of the Earth is 15.041")
             } else {
-                format!("{rate:.0} deg/h, in which the Earth's 15.041 does not show")
+                format!("{rate:.0} deg/h; the Earth's 15.041 is not visible in it")
             },
         ));
     }
@@ -60,8 +60,9 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
     }
     rows.push(row("table", table_in_words(loaded)));
     if let Some(ratio) = inspection.spin_ratio {
-        let value =
-            format!("the gyro about the axis of rotation counts {ratio:.6} of the table's turn");
+        let value = format!(
+            "the gyro about the axis of rotation measures {ratio:.6} of the table's rotation"
+        );
         rows.push(row("spin", value));
     }
     if let (Some(first), Some(last)) = (

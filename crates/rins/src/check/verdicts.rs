@@ -122,9 +122,9 @@ fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         })
         .collect();
     let quantised = if steps.is_empty() {
-        verdict("quantised", Tone::Good, "no least bit is seen")
+        verdict("quantization", Tone::Good, "no quantization grid is visible")
     } else {
-        verdict("quantised", Tone::Neutral, format!("the least bits are {}", steps.join(", ")))
+        verdict("quantization", Tone::Neutral, format!("the LSBs are {}", steps.join(", ")))
     };
     vec![
         suspected(
@@ -154,7 +154,7 @@ fn unless_shown(shown: bool, verdict: Verdict, why: &str) -> Verdict {
     if shown || verdict.tone == Tone::Bad {
         verdict
     } else {
-        Verdict { tone: Tone::Neutral, says: format!("not shown: {why}"), ..verdict }
+        Verdict { tone: Tone::Neutral, says: format!("not observable: {why}"), ..verdict }
     }
 }
 
@@ -181,7 +181,7 @@ fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         )
     };
     let whole = inspection.turns_whole;
-    let of_gyro = if turns { "the gyros count the table's turn" } else { "gyros not shown" };
+    let of_gyro = if turns { "the gyros measure the table's rotation" } else { "gyros not shown" };
     let of_accel =
         if rests || whole { "accelerometers show gravity" } else { "accelerometers not shown" };
     let evidence = format!("{of_gyro}, {of_accel}");
@@ -189,12 +189,14 @@ fn meaning(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     let earth = if inspection.earth_rate_visible { ", the Earth's rate" } else { "" };
     let signs = match (level, turns) {
         (true, true) => {
-            format!("gravity{earth} and the table's turn lie along the axes that are said")
+            format!("gravity{earth} and the table's rotation lie along the stated axes")
         }
-        (true, false) => format!("gravity{earth} lies along the axes that are said"),
-        (false, _) => "the table's turn is about z; which way x and y point, nothing tells".into(),
+        (true, false) => format!("gravity{earth} lies along the stated axes"),
+        (false, _) => {
+            "the table turns about z; the directions of x and y are not observable".into()
+        }
     };
-    let nothing = "the IMU neither rests nor follows a table";
+    let nothing = "the IMU is neither static nor follows a table";
     let no_axes = if rests { "needs an [attitude], or a table that turns" } else { nothing };
     vec![
         unless_shown(
@@ -230,13 +232,13 @@ fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         "clock ratio",
         Tone::Neutral,
         format!(
-            "the gyro about the axis of rotation counts {ratio:.7} of the table's turn: its scale and the ratio of their clocks, which nothing \
-             tells apart"
+            "the gyro about the axis of rotation measures {ratio:.7} of the table's rotation: the product of its scale and the ratio of \
+             the clocks"
         ),
     ));
     let stated = loaded.rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default();
     all.push(match inspection.table_lag {
-        None => verdict("latency", Tone::Neutral, "not shown: the table's angle was not read at two rates"),
+        None => verdict("latency", Tone::Neutral, "not observable: the table's angle was not read at two rates"),
         Some(lag) => {
             let off = (lag.latency - stated).abs();
             let odd = off > (ODD_SIGMAS * lag.sigma).max(ODD_SHARE * inspection.timing.interval);
@@ -245,7 +247,7 @@ fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
                 "latency",
                 if odd { Tone::Warning } else { Tone::Good },
                 format!(
-                    "the table's angle is {latency} ms late (1 sigma {sigma} ms), the rig file says {} ms",
+                    "the latency of the table's angle is {latency} ms (1 sigma {sigma} ms), the rig file states {} ms",
                     figure(stated * 1e3, 4)
                 ),
             )
@@ -263,7 +265,11 @@ fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         }
     };
     let rest = match longest(inspection) {
-        None => verdict("rest", Tone::Warning, "none of a second or more: nothing to align on"),
+        None => verdict(
+            "static intervals",
+            Tone::Warning,
+            "none of a second or more: nothing to align on",
+        ),
         Some(rest) => {
             let rate = rest.mean.rates.angular_rate.norm();
             let told = format!(
@@ -280,14 +286,14 @@ fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
             });
             match beyond {
                 Some(imu) => verdict(
-                    "rest",
+                    "static intervals",
                     Tone::Warning,
                     format!(
                         "{told}, which is not the Earth's 15.041 to within the data sheet's bias_sigma of {:.3} deg/h",
                         imu.gyro.bias_sigma / DEG_PER_HOUR
                     ),
                 ),
-                None => verdict("rest", Tone::Neutral, told),
+                None => verdict("static intervals", Tone::Neutral, told),
             }
         }
     };

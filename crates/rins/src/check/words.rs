@@ -26,7 +26,7 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
         ),
         Suspicion::SpinScale { ratio, cause } => {
             format!(
-                "the gyro about the axis of rotation counts {ratio:.5} of the table's turn: {}",
+                "the gyro about the axis of rotation measures {ratio:.5} of the table's rotation: {}",
                 because(cause)
             )
         }
@@ -41,12 +41,12 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
             accel * 100.0
         ),
         Suspicion::SpinAxis { channel, ratio } => format!(
-            "{channel} counts {ratio:.4} of the table's turn and the gyro about [axis] spin does not: the axes are exchanged; set `axes` \
+            "{channel} measures {ratio:.4} of the table's rotation and the gyro about [axis] spin does not: the axes are exchanged; set `axes` \
              under [log] gyro, or [axis] spin"
         ),
         Suspicion::SpinProfile { apart, time } => format!(
-            "the turn of the gyro about the axis of rotation and the table's come apart by {:.2} deg within the ten seconds before {time:.1} s: the \
-             table moved otherwise or at another time than is said; check the profile's start, its acceleration, or \
+            "the rotation by the gyro about the axis of rotation and that of the table differ by {:.2} deg within the ten seconds before {time:.1} s: the \
+             table moved differently, or at another time, than stated; check the profile's start, its acceleration, or \
              the encoder",
             apart / DEG
         ),
@@ -85,7 +85,7 @@ pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
             limit / DEG_PER_HOUR
         ),
         Suspicion::Latitude { seen, expected, .. } => format!(
-            "the Earth's rate and gravity at rest are those of latitude {:.2} deg where [site] has {:.2} deg (a gyro bias of \
+            "the static Earth rate and gravity are those of latitude {:.2} deg where [site] has {:.2} deg (a gyro bias of \
              {:.2} deg/h or more would explain it too)",
             seen / DEG,
             expected / DEG,
@@ -125,7 +125,7 @@ fn corrections(corrections: &[Correction]) -> String {
         0 => "no single sign or exchange of axes explains it; check `axes`, [attitude] and [site]"
             .into(),
         1 => format!("that is as if {}", words[0]),
-        _ => format!("that is as if {}; this log does not tell which", words.join(", or ")),
+        _ => format!("that is as if {}; this log does not distinguish them", words.join(", or ")),
     }
 }
 

@@ -52,10 +52,10 @@ fn summary(comparison: &Comparison) -> Vec<String> {
         comparison.moved.iter().filter(|m| has_moved(m)).map(|m| m.id.as_str()).collect();
     let total = comparison.moved.len();
     let mut sentences = vec![if moved.is_empty() {
-        format!("None of {total} parameters moved by more than {MOVED} sigma of the difference.")
+        format!("None of {total} parameters changed by more than {MOVED} sigma of the difference.")
     } else {
         format!(
-            "{} of {total} parameters moved by more than {MOVED} sigma of the difference: {}.",
+            "{} of {total} parameters changed by more than {MOVED} sigma of the difference: {}.",
             moved.len(),
             moved.join(", ")
         )
@@ -85,7 +85,7 @@ pub(super) fn comparison_report(comparison: &Comparison) -> Report {
     let rows = comparison.moved.iter().map(|moved| {
         let off = moved.sigmas_moved();
         let badge = if has_moved(moved) {
-            Cell::badge(Tone::Warning, "moved")
+            Cell::badge(Tone::Warning, "changed")
         } else {
             Cell::badge(Tone::Good, "as before")
         };
@@ -105,7 +105,7 @@ pub(super) fn comparison_report(comparison: &Comparison) -> Report {
         subtitle: "rins compare".into(),
         summary: summary(comparison),
         sections: vec![Section {
-            heading: "What moved".into(),
+            heading: "Changes".into(),
             intro: "Differences are after minus before, their sigmas those of both together. Bars reach to ten sigmas."
                 .into(),
             items: vec![Item::Table(Table {

@@ -13,11 +13,11 @@ const FURTHER: f64 = 1.5;
 /// The evidence for a gain.
 pub(super) fn gain_section(measured: &Measured) -> Section {
     let heading = match measured.on {
-        On::Fastest => "What it gains at a rate that played no part".to_owned(),
-        On::Ends | On::Run(_) => "What it gains on data that played no part".to_owned(),
+        On::Fastest => "Predictive gain at a held-out rate".to_owned(),
+        On::Ends | On::Run(_) => "Predictive gain on held-out data".to_owned(),
     };
-    let intro = "Both models were estimated anew without what is held out, and then foretold every epoch of it from all before. NIS is \
-                 the mean of the squared innovations of an epoch: as many as there are figures, if the model is right."
+    let intro = "Both models were estimated again without the held-out data, and then predicted every epoch of it from all before. The mean NIS is \
+                 the number of channels if the model is right."
         .to_owned();
     let Ok(gain) = &measured.gain else {
         let items = vec![Item::Note(Tone::Neutral, gain_sentence(measured))];
@@ -38,7 +38,7 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
             [per_sample(gain.before.log_score), per_sample(gain.after.log_score)],
         ),
         row(
-            format!("mean NIS, of {} figures", gain.before.nis_dof),
+            format!("mean NIS, of {} channels", gain.before.nis_dof),
             [gain.before.nis_mean, gain.after.nis_mean],
         ),
     ];
@@ -49,7 +49,7 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
     }
     let table = Table {
         caption: format!(
-            "Held out: {} samples, {} revolutions or pieces of a rest",
+            "Held out: {} samples, {} revolutions or parts of a static interval",
             gain.samples, gain.blocks
         ),
         columns: vec![Column::text(""), Column::number("before"), Column::number("after")],
@@ -66,30 +66,27 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
 pub(super) fn gain_sentence(measured: &Measured) -> String {
     let gain = match &measured.gain {
         Ok(gain) => gain,
-        Err(error) => return format!("What this gains could not be measured: {error}."),
+        Err(error) => return format!("The predictive gain could not be measured: {error}."),
     };
     let scored = format!(
         "the log score {} by {} nats (95 %: {} to {})",
-        if gain.rise() < 0.0 { "changes" } else { "goes up" },
+        if gain.rise() < 0.0 { "changes" } else { "rises" },
         figure(gain.rise(), 3),
         figure(gain.interval.0, 3),
         figure(gain.interval.1, 3)
     );
-    let over = format!("Foretelling {}", held_out(measured, gain));
+    let over = format!("On {}", held_out(measured, gain));
     let drift = gain.drifts.last().map_or_else(String::new, |drift| {
-        let further = if drifts_further(gain) {
-            "; navigation with its errors undone drifts further: "
-        } else {
-            "; "
-        };
+        let further =
+            if drifts_further(gain) { "; compensated navigation drifts further: " } else { "; " };
         format!("{further}{}", drifting(drift))
     });
     match gain.verdict {
         GainVerdict::Improved => {
-            format!("{over}, the extended model does better: {scored}{drift}.")
+            format!("{over}, the extended model predicts better: {scored}{drift}.")
         }
         GainVerdict::NoImprovement => {
-            format!("{over}, the extended model does not do better: {scored}{drift}.")
+            format!("{over}, the extended model does not predict better: {scored}{drift}.")
         }
     }
 }
@@ -102,17 +99,13 @@ fn drifts_further(gain: &Gain) -> bool {
 
 /// What was held out.
 fn held_out(measured: &Measured, gain: &Gain) -> String {
-    let size = format!("{} revolutions or pieces of a rest", gain.blocks);
+    let size = format!("{} revolutions or parts of a static interval", gain.blocks);
     match &measured.on {
-        On::Ends => format!(
-            "the last 30 % of every stretch of constant rate ({size}), which its size was not taken from"
-        ),
-        On::Fastest => format!(
-            "the stretches at the table's fastest rate ({size}), its size taken from the slower ones"
-        ),
-        On::Run(rig) => format!(
-            "the last 30 % of every stretch of {rig} ({size}), which played no part in finding it"
-        ),
+        On::Ends => {
+            format!("held-out data (the last 30 % of every segment of constant rate: {size})")
+        }
+        On::Fastest => format!("held-out data (the segments at the table's fastest rate: {size})"),
+        On::Run(rig) => format!("held-out data (the last 30 % of every segment of {rig}: {size})"),
     }
 }
 
@@ -120,7 +113,7 @@ fn drifting(drift: &Drift) -> String {
     let [before, after] = drift.attitude.map(|angle| figure(angle / DEG, 3));
     let [without, with] = drift.velocity.map(|velocity| figure(velocity, 3));
     format!(
-        "after {:.0} s of free inertial navigation the velocity is off by {with} m/s instead of {without}, the attitude by \
+        "after {:.0} s of free inertial navigation the velocity error is {with} m/s instead of {without}, the attitude error \
          {after} deg instead of {before}",
         drift.after
     )
@@ -157,9 +150,9 @@ mod tests {
     #[test]
     fn drift_that_grows_is_not_passed_over() {
         let better = gain_sentence(&measured(0.5));
-        assert!(better.contains("does better") && !better.contains("further"), "{better}");
+        assert!(better.contains("predicts better") && !better.contains("further"), "{better}");
         let further = gain_sentence(&measured(9.0));
-        assert!(further.contains("; navigation with its errors undone drifts further: after 60 s"));
-        assert!(further.contains("the attitude by 0.0900 deg instead of 0.0100"), "{further}");
+        assert!(further.contains("; compensated navigation drifts further: after 60 s"));
+        assert!(further.contains("the attitude error 0.0900 deg instead of 0.0100"), "{further}");
     }
 }

@@ -112,14 +112,14 @@ fn hypothesis(file: &Path, case: &Case) -> anyhow::Result<Vec<Chosen>> {
     let silent = terms.iter().find(|chosen| !chosen.term.is_signal());
     if let Some(chosen) = silent {
         anyhow::bail!(
-            "{}: {} adds nothing to any signal: what noise there is, is found beside every model",
+            "{}: {} adds to no signal: noise is estimated with every model",
             shown(file),
             chosen.term.id
         );
     }
     anyhow::ensure!(
         !terms.is_empty(),
-        "{}: there is nothing to suppose: it holds no term that the model has not",
+        "{}: no hypothesis to evaluate: it holds no term that the model does not have",
         shown(file)
     );
     Ok(terms)

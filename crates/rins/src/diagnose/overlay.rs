@@ -29,9 +29,9 @@ pub(super) fn overlay_sections(found: &Found) -> Vec<Section> {
     let runs = &found.certificate.runs;
     let sections = runs.iter().zip(&found.overlays).map(|(run, overlays)| {
         let heading = if runs.len() > 1 {
-            format!("What is left of the measurement: {}", run.prepared.name)
+            format!("Residuals: {}", run.prepared.name)
         } else {
-            "What is left of the measurement".to_owned()
+            "Residuals".to_owned()
         };
         Section {
             heading,
@@ -42,11 +42,11 @@ pub(super) fn overlay_sections(found: &Found) -> Vec<Section> {
     sections.collect()
 }
 
-const INTRO: &str = "The run was simulated with the model as it was given and with the extended one, along the way that the \
-                     table went, and taken from what was measured: first in time, then in table angle while the table turns. \
-                     Each point is a mean. A right model leaves noise around zero, a constant offset in body axes included. Last, the \
-                     amplitude of each order of the table angle: what stands still in the body has order 0, in the axis \
-                     frame -1, and what differs between x and y shows at +1.";
+const INTRO: &str = "Measured readings less those simulated with the given and with the extended model, along the trajectory of the \
+                     table: over time, and over table angle while the table turns. Each point is a mean. The residuals of an adequate \
+                     model are noise around zero or around a constant offset in body axes. Last, the amplitude at each harmonic order \
+                     of the table angle: order 0 is constant in the body frame, order -1 in the axis frame, and a difference \
+                     between x and y is at +1.";
 
 fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
     let from = times.first().copied().unwrap_or_default();
@@ -94,7 +94,7 @@ fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
     items
 }
 
-/// What is left across the axis at each order of the table angle, with its sense.
+/// The residuals across the axis at each harmonic order of the table angle, with its sense.
 fn order_spectra(overlays: &[Overlay; 2]) -> Vec<Item> {
     let halves = i32::from(2 * HIGHEST_ORDER);
     let orders: Vec<f64> = (-halves..=halves).map(|half| 0.5 * f64::from(half)).collect();
@@ -111,7 +111,7 @@ fn order_spectra(overlays: &[Overlay; 2]) -> Vec<Item> {
         });
         Item::Plot(Plot {
             title: name.into(),
-            x_label: "Order of the table angle".into(),
+            x_label: "Harmonic order of the table angle".into(),
             y_label: format!("Amplitude [{unit}]"),
             series: series.collect(),
             ..Plot::default()

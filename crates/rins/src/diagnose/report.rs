@@ -40,24 +40,24 @@ fn causes(found: &Found) -> Section {
         vec![Item::Note(Tone::Good, "Nothing of the catalogue is significant.".into())]
     } else {
         vec![Item::Table(Table {
-            caption: "What was found, the strongest evidence first".into(),
+            caption: "Causes, the strongest evidence first".into(),
             columns: vec![
                 Column::text("effect"),
                 Column::id("parameter"),
                 Column::number("estimate"),
                 Column::text("unit"),
                 Column::number("size [σ]"),
-                Column::text("odds of chance"),
-                Column::text("cannot be told from"),
-                Column::text("size plausible?"),
+                Column::text("p"),
+                Column::text("not distinguished from"),
+                Column::text("plausible magnitude"),
             ],
             rows,
         })]
     };
     Section {
         heading: "Causes".into(),
-        intro: "Each effect was estimated with all the others and with the model. The odds of chance are those of finding \
-                anything in the catalogue as strong in a run that holds nothing."
+        intro: "Each effect was estimated with all the others and with the model. p is family-wise over the catalogue: the \
+                probability of evidence as strong in a run without any of its effects."
             .into(),
         items,
     }
@@ -92,7 +92,7 @@ fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
                 first(
                     place,
                     if named.plausible {
-                        Cell::badge(Tone::Good, "usual")
+                        Cell::badge(Tone::Good, "typical")
                     } else {
                         Cell::badge(Tone::Warning, "too large")
                     },
@@ -117,24 +117,24 @@ fn unexplained(found: &Found) -> Section {
         })
         .collect();
     let items = if rows.is_empty() {
-        vec![Item::Note(Tone::Good, "What is left looks like noise.".into())]
+        vec![Item::Note(Tone::Good, "The residuals are noise.".into())]
     } else {
         vec![Item::Table(Table {
-            caption: "Structure that no effect of the catalogue explains".into(),
+            caption: "Residual structure that no effect of the catalogue explains".into(),
             columns: vec![
                 Column::number("run"),
                 Column::id("channel"),
-                Column::text("what it looks like"),
+                Column::text("structure"),
                 Column::text("size"),
-                Column::text("odds of chance"),
+                Column::text("p"),
             ],
             rows,
         })]
     };
     Section {
-        heading: "What is left unexplained".into(),
-        intro: "The innovations of the extended model, searched for lines, orders of the table angle, drifts, unequal spread \
-                and outliers; and each cause, held against itself in other parts of the run. Nothing here is forced onto a name."
+        heading: "Unexplained residual structure".into(),
+        intro: "The innovations of the extended model, searched for spectral lines, harmonic orders of the table angle, drifts, unequal \
+                spread and outliers; and each cause, compared between parts of the run."
             .into(),
         items,
     }
@@ -156,7 +156,7 @@ fn shifts(found: &Found) -> Section {
         ]
     });
     let items = if found.shifts.is_empty() {
-        vec![Item::Note(Tone::Neutral, "No estimate moves by so much.".into())]
+        vec![Item::Note(Tone::Neutral, "No estimate changes by so much.".into())]
     } else {
         vec![Item::Table(Table {
             caption: "Estimates without and with the causes".into(),
@@ -165,14 +165,15 @@ fn shifts(found: &Found) -> Section {
                 Column::number("without"),
                 Column::number("with"),
                 Column::text("unit"),
-                Column::number("moved [σ]"),
+                Column::number("change [σ]"),
             ],
             rows: rows.collect(),
         })]
     };
     Section {
-        heading: "What it did to the estimates".into(),
-        intro: "Estimates that move by more than the sigma that they had without the causes, and by 3 sigma of such moves by chance."
+        heading: "Effect on the estimates".into(),
+        intro: "Estimates that change by more than the sigma that they had without the causes, and by more than 3 sigma of the change \
+                that the added parameters make by chance (Hausman 1978)."
             .into(),
         items,
     }
@@ -195,28 +196,28 @@ fn limits(found: &Found) -> Section {
                 figure(high / unit.factor, 2)
             )),
             if limit.detectable < low {
-                Cell::badge(Tone::Good, "all usual ones")
+                Cell::badge(Tone::Good, "all of the range")
             } else if limit.detectable < high {
-                Cell::badge(Tone::Neutral, "large ones")
+                Cell::badge(Tone::Neutral, "its upper part")
             } else {
                 Cell::badge(Tone::Warning, "none")
             },
         ]
     });
     Section {
-        heading: "What would have been seen".into(),
-        intro: "For each parameter of each effect that the model does not have, the amplitude that this run would have shown with a \
-                probability of 95 %, the parameter alone being there. What is smaller may be there and not be named."
+        heading: "Minimum detectable effects".into(),
+        intro: "For each parameter of each effect that the model does not have: the amplitude that this run detects with 95 % power, \
+                the parameter alone being present. Smaller effects may be present and not be named."
             .into(),
         items: [power(&found.limits), vec![Item::Table(Table {
-            caption: "Smallest amplitudes that are found".into(),
+            caption: "Minimum detectable amplitudes".into(),
             columns: vec![
                 Column::id("parameter"),
                 Column::number("σ"),
-                Column::number("found from"),
+                Column::number("detectable from"),
                 Column::text("unit"),
-                Column::text("usual"),
-                Column::text("seen of the usual"),
+                Column::text("typical range"),
+                Column::text("detectable part"),
             ],
             rows: rows.collect(),
         })]].concat(),
@@ -239,11 +240,11 @@ fn power(limits: &[Limit]) -> Vec<Item> {
         ..Series::default()
     };
     vec![Item::Plot(Plot {
-        title: "Power of this run".into(),
+        title: "Detection power of this run".into(),
         x_label: "True amplitude [σ]".into(),
-        y_label: "Found in [%]".into(),
+        y_label: "Detected [%]".into(),
         series: vec![curve(fewest), curve(most)],
-        caption: "Effects that may come in one shape only are found sooner than those that are sought at many times, orders or \
+        caption: "Effects of one shape are detected at smaller amplitudes than those that are searched over many times, orders or \
                   parts; all others are between. The σ of each is in the table."
             .into(),
         ..Plot::default()
@@ -256,8 +257,8 @@ fn untestable(found: &Found) -> Section {
         .iter()
         .map(|one| vec![Cell::text(one.term.id), Cell::text(one.term.name), Cell::text(&one.why)]);
     Section {
-        heading: "What could not have been seen".into(),
-        intro: "Effects of which this run would show nothing, however large they are within what is usual.".into(),
+        heading: "Not testable".into(),
+        intro: "Effects that this run cannot show at any amplitude of their typical range.".into(),
         items: vec![Item::Table(Table {
             caption: "Not testable".into(),
             columns: vec![Column::id("effect"), Column::text("what it is"), Column::text("why")],

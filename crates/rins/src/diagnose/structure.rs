@@ -10,23 +10,23 @@ const NEARLY: f64 = 5e-3;
 /// What it looks like.
 pub(super) fn structure_in_words(one: &Unexplained) -> String {
     match one.structure {
-        Structure::Line(frequency) => format!("line of {} Hz", figure(frequency, 4)),
+        Structure::Line(frequency) => format!("spectral line of {} Hz", figure(frequency, 4)),
         Structure::Chirp(from, to) => {
-            format!("line that goes from {} to {} Hz", figure(from, 3), figure(to, 3))
+            format!("spectral line that moves from {} to {} Hz", figure(from, 3), figure(to, 3))
         }
         Structure::Order(order) => order_in_words(order),
-        Structure::Modulated(order) => format!("{}, which comes and goes", order_in_words(order)),
-        Structure::Drift => "drift, slower than three times in the run".into(),
+        Structure::Modulated(order) => format!("{}, modulated", order_in_words(order)),
+        Structure::Drift => "drift, slower than three periods in the run".into(),
         Structure::Waveform(frequency) => {
-            format!("repeats every {} s, and is no sine", figure(1.0 / frequency, 3))
+            format!("periodic with {} s, not sinusoidal", figure(1.0 / frequency, 3))
         }
         Structure::EveryTurn(highest) => {
-            format!("comes back every turn, and is no sine: orders 2 to {highest}")
+            format!("periodic with one revolution, not sinusoidal: harmonic orders 2 to {highest}")
         }
         Structure::Switching(times) => format!("switches between two levels, {times} times"),
-        Structure::Spread(along) => format!("spread that changes with {}", along_in_words(along)),
+        Structure::Spread(along) => format!("spread that depends on {}", along_in_words(along)),
         Structure::Noisier(times) => {
-            format!("noise {} times that of the other across the axis", figure(times, 3))
+            format!("noise {} times that of the other sensor across the axis", figure(times, 3))
         }
         Structure::Tails => "more outliers than normal noise has".into(),
         Structure::Shocks(1, at) => format!("shock at {at:.1} s"),
@@ -35,7 +35,7 @@ pub(super) fn structure_in_words(one: &Unexplained) -> String {
         }
         Structure::Inconstant(along) => {
             let of = one.of.unwrap_or("a cause");
-            format!("{of} is not the same: it changes with {}", along_in_words(along))
+            format!("{of} is not constant: it depends on {}", along_in_words(along))
         }
     }
 }
@@ -66,7 +66,7 @@ fn order_in_words(order: f64) -> String {
 const fn along_in_words(along: Along) -> &'static str {
     match along {
         Along::Time => "time",
-        Along::Sense => "the sense of rotation",
+        Along::Sense => "the direction of rotation",
         Along::Rate => "the table's rate",
     }
 }

@@ -41,11 +41,11 @@ fn unseen_for(term: &Term) -> String {
     let needs: Vec<&str> = term.needs.iter().map(|need| in_words(*need)).collect();
     if needs.is_empty() {
         format!(
-            "under this schedule it is what the model already holds; to see it: {}",
+            "under this schedule it is equivalent to terms of the model; to separate it: {}",
             term.told_apart_by
         )
     } else {
-        format!("it would take {}", needs.join(" and "))
+        format!("it requires {}", needs.join(" and "))
     }
 }
 
@@ -57,7 +57,7 @@ fn missing(runs: &[Run], term: &Term) -> String {
         _ => false,
     };
     match term.needs.iter().find(lacks) {
-        Some(need) => format!("it would take {}", in_words(*need)),
+        Some(need) => format!("it requires {}", in_words(*need)),
         None if term.needs.contains(&Need::Temperature) => "the temperature did not change".into(),
         None => term.told_apart_by.into(),
     }

@@ -30,34 +30,33 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     }
     sentences.extend(found.causes.iter().filter(|named| !named.plausible).map(|named| {
         format!(
-            "The {} is larger than such an instrument should have: look for another cause that resembles it.",
+            "The {} is larger than is plausible for such an instrument: look for another cause with a similar signature.",
             named.cause.term.name
         )
     }));
     if found.causes.iter().any(is_ahead_of_its_time) {
         sentences.push(
-            "No encoder is read ahead of its time: the gyros and the accelerometers, both late by as much, look the same."
+            "A negative latency of an encoder is not plausible: a latency of gyros and accelerometers of the same size has the same signature."
                 .to_owned(),
         );
     }
     if found.causes.iter().any(|named| is_convention(found, named)) {
         sentences.push(
-            "A latency of whole samples or half ones is a convention of the log: say so by `latency` under [log] table_angle, or by \
+            "A latency of whole or half samples is a convention of the log: state it by `latency` under [log] table_angle, or by \
              another `stamp`."
                 .to_owned(),
         );
     }
     if let Some(ByChance { draws, share }) = found.by_chance {
         sentences.push(format!(
-            "Of {draws} draws of the score of all effects of the catalogue under the extended model, the first search would \
-             have named one in {} %; 1 % is allowed.",
+            "In {draws} draws of the score of all effects of the catalogue under the extended model, the first search names an effect \
+             in {} %; 1 % is allowed.",
             figure(100.0 * share, 2)
         ));
     }
     if !found.untestable.is_empty() {
         sentences.push(format!(
-            "{} effects of the catalogue could not have been seen in this run: that they are not named does not mean that \
-             they are not there.",
+            "{} effects of the catalogue are not testable with this run: they may be present although they are not named.",
             found.untestable.len()
         ));
     }
@@ -86,21 +85,20 @@ fn headline(found: &Found) -> String {
     if found.verdict == Verdict::Adequate && !found.causes.is_empty() {
         let supposed: Vec<&str> = found.causes.iter().map(|named| named.cause.term.name).collect();
         return format!(
-            "The model ({}) does without what was supposed ({}): it explains no more of this run than chance would.",
+            "The model ({}) is adequate without the hypothesis ({}), which is not significant in this run.",
             found.certificate.model,
             supposed.join(", ")
         );
     }
     if found.verdict == Verdict::Adequate {
         return format!(
-            "The model ({}) is adequate: no effect of the catalogue explains more of this run than chance would, and what is \
-             left looks like noise.",
+            "The model ({}) is adequate: no effect of the catalogue is significant in this run, and the residuals are noise.",
             found.certificate.model
         );
     }
     if found.causes.is_empty() {
         return format!(
-            "Something is missing from the model ({}), and no effect of the catalogue explains it.",
+            "The model ({}) does not explain this run, and no effect of the catalogue does either.",
             found.certificate.model
         );
     }
@@ -110,7 +108,7 @@ fn headline(found: &Found) -> String {
         .iter()
         .map(|named| {
             format!(
-                "{} ({}), {}, {:.0} sigma, odds of chance {}",
+                "{} ({}), {}, {:.0} sigma, p {}",
                 named.cause.term.name,
                 named.cause.term.cause,
                 amplitude(found, named),
@@ -120,9 +118,9 @@ fn headline(found: &Found) -> String {
         })
         .collect();
     match &effects[..] {
-        [only] => format!("One effect is missing from the model: {only}."),
+        [only] => format!("The model lacks one effect: {only}."),
         several => {
-            format!("{} effects are missing from the model: {}.", several.len(), several.join("; "))
+            format!("The model lacks {} effects: {}.", several.len(), several.join("; "))
         }
     }
 }
@@ -142,10 +140,10 @@ fn remainder(found: &Found, one: &Unexplained) -> String {
     let harm = if worst.is_empty() {
         String::new()
     } else {
-        format!("; at worst it puts off {}", worst.join(", "))
+        format!("; at worst it biases {}", worst.join(", "))
     };
     format!(
-        "Unexplained, on {}: {}{size}, odds of chance {}{harm}.",
+        "Unexplained residual structure, on {}: {}{size}, p {}{harm}.",
         one.channel,
         structure_in_words(one),
         probability(one.ln_p)
@@ -189,16 +187,16 @@ fn doubt(named: &Named) -> Option<String> {
     let rivals = rivals(named);
     let next = match (&named.next_test, &named.no_next_test) {
         (Some(test), _) => format!(
-            " A run of its own would tell it from the {} by {} sigma: {}.",
+            " A run that separates it from the {}, by {} sigma: {}.",
             test.from.name,
             figure(test.sigmas, 2),
             test.words
         ),
-        (None, Some(why)) => format!(" No test that would tell can be proposed: {why}."),
+        (None, Some(why)) => format!(" No discriminating test can be proposed: {why}."),
         (None, None) => String::new(),
     };
     (!rivals.is_empty()).then(|| {
-        format!("This run cannot tell the {} from: {rivals}.{next}", named.cause.term.name)
+        format!("This run does not distinguish the {} from: {rivals}.{next}", named.cause.term.name)
     })
 }
 
@@ -214,16 +212,16 @@ pub(super) fn rivals(named: &Named) -> String {
 
 fn odds_in_words(odds: f64) -> String {
     match odds {
-        ..1.05 => "as likely".into(),
-        1.05..9.5 => format!("{odds:.1} times less likely"),
-        _ => format!("{odds:.0} times less likely"),
+        ..1.05 => "equally probable".into(),
+        1.05..9.5 => format!("{odds:.1} times less probable"),
+        _ => format!("{odds:.0} times less probable"),
     }
 }
 
 /// What the causes did to the estimates as long as they were not in the model.
 fn damage(found: &Found) -> String {
     if found.shifts.is_empty() {
-        return "No estimate of the model was off by more than its sigma for want of it.".into();
+        return "It biases no estimate of the model by more than its sigma.".into();
     }
     let told: Vec<String> = found
         .shifts
@@ -232,7 +230,7 @@ fn damage(found: &Found) -> String {
         .map(|shift| {
             let unit = shift.before.parameter.unit;
             format!(
-                "{} off by {} {} ({:.0} of its sigmas)",
+                "{} by {} {} ({:.0} of its sigmas)",
                 shift.before.parameter.id,
                 figure((shift.before.value - shift.after.value) / unit.factor, 3),
                 unit.symbol,
@@ -242,7 +240,7 @@ fn damage(found: &Found) -> String {
         .collect();
     let more = found.shifts.len() - told.len();
     let more = if more == 0 { String::new() } else { format!(", and {more} more") };
-    format!("Left out, it put {}{more}.", told.join(", "))
+    format!("Without it the model biases {}{more}.", told.join(", "))
 }
 
 /// What to do next.
@@ -253,7 +251,7 @@ pub(super) fn next_steps(found: &Found) -> Vec<String> {
         .filter(|named| !named.cause.rivals.is_empty())
         .map(|named| {
             format!(
-                "To tell the {} apart: {}.",
+                "To distinguish the {}: {}.",
                 named.cause.term.name, named.cause.term.told_apart_by
             )
         })

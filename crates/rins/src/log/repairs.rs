@@ -45,8 +45,8 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
     }
     if summary.ramps > 0 {
         told.push(format!(
-            "over {} change(s) of rate the table's way is as the gyro about the axis of rotation shows it, and as far as [table] profile says, which \
-             tells the ramps otherwise or not at all",
+            "over {} change(s) of rate the table's trajectory is taken from the gyro about the axis of rotation: [table] profile states other \
+             ramps, or none",
             summary.ramps
         ));
     }

@@ -44,7 +44,7 @@ pub(crate) fn longest(loaded: &Loaded, shortest: f64) -> Option<Range<usize>> {
 /// That there is no static interval of so many seconds, and what was assumed.
 pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
     let found = static_intervals(loaded);
-    let message = format!("the IMU never stands still for {shortest} s");
+    let message = format!("the IMU is never static for {shortest} s");
     let rejected: Vec<String> = found
         .all
         .iter()

@@ -54,8 +54,8 @@ pub(super) fn start(loaded: &Loaded) -> anyhow::Result<Start> {
         nav_from_table: found.nav_from_body * table_from_body.inverse(),
         gyro_bias: found.north_found().then(|| ImuError { gyro, ..ImuError::default() }),
         source: format!(
-            "the attitude{} found over the rest from {:.0} s to {:.0} s, which is part of what is navigated",
-            if found.north_found() { " and the gyro bias" } else { ", its yaw any," },
+            "the attitude{} found over the static interval from {:.0} s to {:.0} s, which is part of the navigated span",
+            if found.north_found() { " and the gyro bias" } else { " (yaw arbitrary)" },
             found.start,
             recording.times[found.span.end - 1]
         ),

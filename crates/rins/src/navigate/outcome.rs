@@ -87,10 +87,10 @@ impl Outcome for Navigation<'_> {
 
     fn report(&self) -> Option<Report> {
         let intro = if has_table(&self.start.recording) {
-            "The truth is a base that does not move; attitude is told of the axis frame."
+            "The truth is a base that does not move; the attitude is that of the axis frame."
         } else {
-            "The truth is a base that does not leave its place. Attitude is told against that at the \
-             start, so that the base's own sway is in it."
+            "The truth is a base that stays in its place. Attitude errors are relative to the attitude at the start, and hold \
+             the sway of the base."
         };
         let named: Vec<(&str, &FreeNavigation)> =
             self.runs.iter().map(|(name, run)| (*name, run)).collect();

@@ -95,7 +95,7 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Foun
         let shared = first.ids.iter().find(|id| second.ids.contains(id));
         anyhow::ensure!(
             shared.is_none(),
-            "{} and {} are to be told apart, and both hold {}",
+            "{} and {} cannot be separated: both hold {}",
             first.name,
             second.name,
             shared.map_or("", String::as_str)

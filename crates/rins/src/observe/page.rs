@@ -80,7 +80,7 @@ fn schedule_section(observed: &Observed) -> Section {
     Section {
         heading: observed.schedule.name.clone(),
         intro: format!(
-            "{:.0} s. {} Of its information the least observable combination has {:.0e} for itself, the null space {:.0e}.",
+            "{:.0} s. {} The least observable direction has an information of {:.0e}, the null space {:.0e}.",
             observed.schedule.duration(),
             rank_sentence(told),
             told.rank.least_told,

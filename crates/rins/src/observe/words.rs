@@ -24,13 +24,13 @@ pub(super) fn pair_sentences(pair: &Pair, found: &Found) -> Vec<String> {
     for (place, separation) in pair.separations.iter().enumerate() {
         let (own, other) = (&effects[place].name, &effects[1 - place].name);
         let Some(worst) = separation.directions.first() else {
-            sentences.push(format!("{own} does not show beside what the model estimates."));
+            sentences.push(format!("{own} is not observable beside the parameters of the model."));
             continue;
         };
         let weakest =
             separation.directions.iter().min_by(|a, b| a.told.total_cmp(&b.told)).unwrap_or(worst);
         sentences.push(format!(
-            "{own} of its usual size is seen by {} sigma and told from {other} by {} ({ENOUGH} needed); kappa is {}.",
+            "{own} of typical size is detected with {} sigma and separated from {other} by {} ({ENOUGH} required); kappa is {}.",
             short(weakest.seen),
             short(weakest.told),
             short(worst.kappa)
@@ -57,10 +57,13 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
     let Some(proposal) = &found.proposal else {
         return match (&found.effects, &given.pair, &found.wanted) {
             (Some([first, second]), Some(pair), _) if pair.is_separated() => {
-                vec![format!("This schedule tells {} from {}.", first.name, second.name)]
+                vec![format!("This schedule separates {} from {}.", first.name, second.name)]
             }
             (_, _, Some((effect, sigma))) if given.knows(effect, *sigma) => {
-                vec![format!("This schedule brings {} to the sigma that is wanted.", effect.name)]
+                vec![format!(
+                    "This schedule brings {} to the sigma that was asked for.",
+                    effect.name
+                )]
             }
             _ => Vec::new(),
         };
@@ -89,7 +92,7 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
         )]
     } else {
         vec![format!(
-            "No schedule of the library does it {within}; the nearest is {}: {figure}.",
+            "No schedule of the library reaches it {within}; the nearest is {}: {figure}.",
             candidate.words
         )]
     };
@@ -100,17 +103,12 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
     if let Some([first, second]) = &found.effects {
         let ids: Vec<&str> = first.ids.iter().chain(&second.ids).map(String::as_str).collect();
         if let Some(gauge) = gauge_of(&ids).filter(|_| !proposal.enough) {
-            sentences.push(format!(
-                "None ever will: {} is a matter of choice. In short: {}.",
-                gauge.name, gauge.why
-            ));
+            sentences.push(format!("No schedule will: {} is a gauge. {}.", gauge.name, gauge.why));
         }
         for (own, other) in [(first, second), (second, first)] {
             if own.term.partners.contains(&other.term.id) {
-                sentences.push(format!(
-                    "Of {} the catalogue says: {}.",
-                    own.name, own.term.told_apart_by
-                ));
+                sentences
+                    .push(format!("The catalogue on {}: {}.", own.name, own.term.told_apart_by));
             }
         }
     }
@@ -196,7 +194,7 @@ pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
                 .map(|pair| pair.separations[0].kappa().max(pair.separations[1].kappa()));
             worst.map_or_else(String::new, short)
         }));
-        rows.push(line("pair told by [sigma]", &|observed| {
+        rows.push(line("separation [sigma]", &|observed| {
             observed
                 .pair
                 .as_ref()

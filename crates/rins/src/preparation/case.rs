@@ -168,7 +168,7 @@ fn on_these_runs(
     if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.id == arm.id) {
         model = model.with(Chosen::new(arm).estimated());
         remarks.push(
-            "The accelerometers' lever arm is estimated too: without it gravity's turning would not tell the angle."
+            "The accelerometers' lever arm is estimated too: without it the rotation of gravity would not show the angle."
                 .into(),
         );
     }

@@ -177,7 +177,7 @@ impl Prepared {
         self.others.clear();
         if self.run.rig.reference == Reference::Gravity {
             self.attitude.sigma[2] = None;
-            self.remarks.push("The rests are not used here.".into());
+            self.remarks.push("The static intervals are not used here.".into());
         } else {
             self.remarks.push("Of these only the longest is used here.".into());
         }
@@ -215,7 +215,7 @@ pub(crate) fn repeats_in_words(Repeats { samples, rows, alone, .. }: Repeats) ->
         _ => format!("all six readings, or that of {},", channels.join(" or ")),
     };
     format!(
-        "{samples} samples, in {rows} row(s), repeat {which} of the one before: they are taken for lost."
+        "{samples} samples, in {rows} row(s), repeat {which} of the one before: they are treated as lost."
     )
 }
 
@@ -243,7 +243,7 @@ fn axis(loaded: &Loaded, setup: &Setup, statics: &StaticIntervals) -> anyhow::Re
     let azimuth = (!is_shown).then_some(ANY_AZIMUTH);
     let attitude = Attitude { azimuth, ..aligned(&nav_from_table, (east, north, about_up)) };
     let remarks = vec![format!(
-        "The attitude of the axis was found over the rest from {:.0} s to {:.0} s.",
+        "The attitude of the axis was found over the static interval from {:.0} s to {:.0} s.",
         rest.start,
         loaded.recording.times[rest.span.end - 1]
     )];
@@ -262,7 +262,7 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     {
         let angles = nav_from_table.euler_angles();
         let mut remarks = vec![format!(
-            "Nothing reads the table: gravity, {:.2} m/s² of it across the axis (roll {:.1}, pitch {:.1} deg), is the angle \
+            "The log has no table angle: gravity, {:.2} m/s² of it across the axis (roll {:.1}, pitch {:.1} deg), is the angle \
              reference from {:.1} s to {:.1} s, {:.1} turns. The table angle is zero where it begins.",
             across_axis(loaded.station.gravity, &nav_from_table),
             angles.roll / DEG,
@@ -308,9 +308,9 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
         return Ok(turned_over(loaded, &rests));
     }
     let rest = found(loaded)
-        .context("nothing reads the table, and there are no two turns about its axis that gravity would show")?;
+        .context("the log has no table angle, and there are no two turns about the axis that gravity would show")?;
     let remarks = vec![format!(
-        "Nothing reads a table and nothing turns about the axis: only the longest rest, from {:.0} s to {:.0} s, is used.",
+        "The log has no table angle and no rotation about the axis: only the longest static interval, from {:.0} s to {:.0} s, is used.",
         rest.start,
         recording.times[rest.span.end - 1]
     )];

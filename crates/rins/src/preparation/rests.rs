@@ -101,8 +101,8 @@ impl Rests {
     pub(super) fn in_words(&self) -> String {
         let [from, to] = self.lasting;
         format!(
-            "Nothing reads a table and nothing turns about the axis: {} rests in {} attitudes, from {from:.0} s to {to:.0} s, \
-             are used. How each stands is estimated too, and not listed.",
+            "The log has no table angle and no rotation about the axis: {} static intervals in {} attitudes, from {from:.0} s to {to:.0} s, \
+             are used. The attitude in each is estimated too, and not listed.",
             self.found.len(),
             self.attitudes
         )

@@ -70,7 +70,8 @@ fn summary(calibration: &Calibration) -> Vec<String> {
     }
     if calibration.attitude_source == AttitudeSource::Aligned {
         sentences.push(
-            "The attitude at the start was found from the rest before the table turned.".into(),
+            "The attitude at the start was found over the static interval before the table turned."
+                .into(),
         );
     }
     sentences
@@ -225,7 +226,7 @@ fn history_section(calibration: &Calibration) -> Section {
         ..Plot::default()
     });
     Section {
-        heading: "How the estimates settle".into(),
+        heading: "Convergence of the estimates".into(),
         intro: format!(
             "Each estimate with its 3σ band, from where its sigma has come down to {SETTLED} times the last."
         ),
