@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix3xX, Vector3};
 use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::{Navigator, Recording, Station, VerticalChannel};
-use rins_terms::{Acting, Chosen, Model, Moment, Track, derivatives};
+use rins_terms::{Acting, Chosen, Model, Moment, Track, catalogue, derivatives};
 
 /// How long is navigated \[s\]: the time of the paper's tables.
 const LASTING: f64 = 360.0;
@@ -112,7 +112,7 @@ fn worth(truth: &Truth<'_>, moments: &[Moment], asked: &Asked<'_>, without: &End
         .collect();
     let felt = effect.iter().any(|[gyro, accel, _]| gyro.norm() > 0.0 || accel.norm() > 0.0);
     // Navigation starts from the attitude of the axis, without this error in it.
-    let start = if asked.chosen.term.id == "axis.attitude" {
+    let start = if asked.chosen.term.is(&catalogue::AXIS_ATTITUDE) {
         effect.first().map_or(Vector3::zeros(), |[.., tilt]| *tilt)
     } else {
         Vector3::zeros()

@@ -173,7 +173,7 @@ fn on_these_runs(
         );
     }
     let mut model = with_azimuth(model, runs, preset, remarks);
-    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == "axis.attitude");
+    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.is(&catalogue::AXIS_ATTITUDE));
     for (axis, role) in chosen.flat_map(|chosen| chosen.roles.iter_mut().enumerate()) {
         if *role != Role::Free {
             continue;
