@@ -18,7 +18,11 @@ const SHOWN: [&str; 6] =
     ["attitude.x", "attitude.y", "attitude.z", "velocity.x", "velocity.y", "velocity.z"];
 
 /// The figures that the paper is about.
-const OF_INTEREST: [&str; 3] = ["gyro.misalignment.xz", "gyro.misalignment.yz", "gyro.scale.z"];
+static OF_INTEREST: [(&Term, &str); 3] = [
+    (&catalogue::GYRO_MISALIGNMENT, "xz"),
+    (&catalogue::GYRO_MISALIGNMENT, "yz"),
+    (&catalogue::GYRO_SCALE, "z"),
+];
 
 /// The steps of either triad's biases, by what its channels begin with.
 static STEPS: [(&str, &Term); 2] =
@@ -278,7 +282,11 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 /// How far a disturbance of this square may have put off what is of interest: no estimate by more of its own sigmas
 /// than the disturbance has.
 pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(String, f64)> {
-    let of = |id: &&str| Some(((*id).to_owned(), after.parameter(id)?.sigma * statistic.sqrt()));
+    let of = |(term, name): &(&Term, &str)| {
+        let id = format!("{}.{name}", term.id);
+        let sigma = after.parameter(&id)?.sigma;
+        Some((id, sigma * statistic.sqrt()))
+    };
     OF_INTEREST.iter().filter_map(of).collect()
 }
 
