@@ -12,7 +12,7 @@ use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_io::ModelFile;
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, NotUndone, Owner, Role, Surroundings, compensated};
+use rins_terms::{Chosen, Model, NotUndone, Owner, Role, Surroundings, catalogue, compensated};
 
 use crate::args::NoiseChoice;
 use crate::commands::calibrate::budget::{Asked, Budget, Truth};
@@ -96,10 +96,11 @@ impl Certificate {
     /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
     pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
         let given = case.given_of_logs();
+        let azimuth = format!("{}.z", catalogue::AXIS_ATTITUDE.id);
         // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
         let is_kept = |run: usize, id: &str| match case.runs.get(run) {
             Some(log) if log.others.is_empty() => true,
-            Some(log) => log.run.rig.reference != Reference::Rest && id != "axis.attitude.z",
+            Some(log) => log.run.rig.reference != Reference::Rest && id != azimuth,
             None => false,
         };
         let fit = fit.marginal(|Estimate { parameter, run, .. }| {
@@ -317,6 +318,7 @@ fn undone(run: &Run, model: &Model) -> Result<Recording, NotUndone> {
 
 /// The rotation by which a model says that the axis frame differs from the survey.
 fn attitude_of(model: &Model) -> Dcm<Table, Table> {
-    let axes = ["x", "y", "z"].map(|axis| model.value(&format!("axis.attitude.{axis}")));
+    let id = catalogue::AXIS_ATTITUDE.id;
+    let axes = ["x", "y", "z"].map(|axis| model.value(&format!("{id}.{axis}")));
     Dcm::from_rotation_vector(&axes.map(Option::unwrap_or_default).into())
 }
