@@ -36,6 +36,17 @@ struct Names {
     settings: BTreeSet<String>,
 }
 
+impl Names {
+    /// Whether this is the id of a term or of one of its parameters.
+    fn is_of_term(&self, word: &str) -> bool {
+        let is_parameter = |id: &String| {
+            let name = word.strip_prefix(id).and_then(|rest| rest.strip_prefix('.'));
+            name.is_some_and(|name| !name.is_empty() && !name.contains(char::is_whitespace))
+        };
+        self.terms.contains(word) || self.terms.iter().any(is_parameter)
+    }
+}
+
 /// Every literal in the sources of the crates at `root` that is a term's id or a setting's name, outside tests, in the crates that
 /// use the catalogue.
 pub(super) fn findings(root: &Path) -> Result<Vec<Finding>> {
@@ -165,8 +176,8 @@ impl Literals<'_> {
     fn see(&mut self, literal: &LitStr) {
         let word = literal.value();
         let is_other = |(name, other, _): &(&str, &str, &str)| *name == self.name && *other == word;
-        let what = if self.names.terms.contains(&word) {
-            format!("`{word}` is a term's id: use its constant in `rins_terms::catalogue`")
+        let what = if self.names.is_of_term(&word) {
+            format!("`{word}` has a term's id: use its constant in `rins_terms::catalogue`")
         } else if self.names.settings.contains(&word)
             && self.name != FILES
             && !OTHER_WORDS.iter().any(is_other)

@@ -280,7 +280,7 @@ fn term_told_by_its_id_is_found() {
     let found = |text: &str| found_beside_catalogue("rins-estimation", &[("a.rs", text)]);
     let breach = |word: &str| {
         format!(
-            "crates/rins-estimation/src/a.rs:2: `{word}` is a term's id: use its constant in \
+            "crates/rins-estimation/src/a.rs:2: `{word}` has a term's id: use its constant in \
              `rins_terms::catalogue`"
         )
     };
@@ -289,6 +289,8 @@ fn term_told_by_its_id_is_found() {
     assert_eq!(found("fn f(id: &str) -> bool { matches!(id, \"gyro_lag\") }"), [breach(id)]);
     assert_eq!(found("const IDS: [&str; 2] = [\"x\", \"gyro_lag\"];"), [breach(id)]);
     assert_eq!(found("const ID: &str = \"readout_lag\";"), [breach("readout_lag")]);
+    assert_eq!(found("const ID: &str = \"gyro_lag.delay\";"), [breach("gyro_lag.delay")]);
+    assert_eq!(found("const ID: &str = \"gyro_lag. It is late\";"), NOTHING);
     assert_eq!(found("/// gyro_lag\nconst WORDS: &str = \"the gyro_lag\";"), NOTHING);
 }
 
