@@ -6,6 +6,7 @@ use std::process::Command;
 
 use crate::Result;
 
+mod catalogue;
 mod crates;
 mod cycles;
 mod references;
@@ -52,6 +53,7 @@ fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     findings.extend(references::findings(root, files)?);
     findings.extend(crates::findings(root)?);
     findings.extend(cycles::findings(root, IN_CIRCLES)?);
+    findings.extend(catalogue::findings(root)?);
     findings.sort_by(|a, b| (&a.path, a.line).cmp(&(&b.path, b.line)));
     Ok(findings)
 }

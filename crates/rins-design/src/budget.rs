@@ -121,7 +121,7 @@ fn worth(truth: &Truth<'_>, moments: &[Moment], asked: &Asked<'_>, without: &End
         .collect();
     let felt = effect.iter().any(|[gyro, accel, _]| gyro.norm() > 0.0 || accel.norm() > 0.0);
     // Navigation starts from the attitude of the axis, without this error in it.
-    let start = if asked.chosen.term.id == catalogue::AXIS_ATTITUDE.id {
+    let start = if asked.chosen.term.is(&catalogue::AXIS_ATTITUDE) {
         effect.first().map_or(Vector3::zeros(), |[.., tilt]| *tilt)
     } else {
         Vector3::zeros()

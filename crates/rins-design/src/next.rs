@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use rins_estimation::{Noise, Reference, Run};
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Need, Term};
+use rins_terms::{Chosen, Model, Need, SettingKind, Term};
 
 use crate::effect::Effect;
 use crate::error::DesignError;
@@ -91,7 +91,7 @@ pub fn next_test(
 
 /// Whether an effect would be there again in a run of its own, whatever the temperature does.
 fn comes_again(term: &Term) -> bool {
-    let in_time = ["time", "time_constant", "frequency"];
-    !term.settings.iter().any(|setting| in_time.contains(&setting.name))
+    let in_time = [SettingKind::Time, SettingKind::TimeConstant, SettingKind::Frequency];
+    !term.settings.iter().any(|setting| in_time.contains(&setting.kind))
         && !term.needs.contains(&Need::Temperature)
 }

@@ -1,5 +1,7 @@
 //! Lines that are one: a line that comes and goes stands between others.
 
+use rins_terms::SettingKind;
+
 use crate::diagnosis::Cause;
 use crate::structure::{Along, Structure};
 use crate::unexplained::Unexplained;
@@ -55,8 +57,8 @@ pub(crate) fn gathered(mut causes: Vec<Cause>, duration: f64) -> (Vec<Cause>, Ve
 /// How much higher the frequency of one line is than that of another beside it \[Hz\].
 fn apart(line: &Cause, other: &Cause) -> Option<f64> {
     let run = |cause: &Cause| cause.parameters.first().and_then(|estimate| estimate.run);
-    if line.term.setting("frequency") != Some(0)
-        || line.term.id != other.term.id
+    if line.term.setting(SettingKind::Frequency) != Some(0)
+        || !line.term.is(other.term)
         || line.settings == other.settings
     {
         return None;

@@ -1,35 +1,20 @@
 //! The effects that are tried on runs: every term of the catalogue, in every shape that could differ.
 
 use rins_estimation::{Reference, Run};
-use rins_terms::{Chosen, Model, Need, Setting, Term, catalogue};
+use rins_terms::{Chosen, GridPoint, Model, Need, Setting, SettingKind, Term, catalogue};
 
 use crate::dead_zone;
 use crate::timing::has_frequency;
 
 /// Choices of a frame, of which a baseline holds all that shows, and the heading, which a survey tells or a baseline estimates.
-const NEVER_TRIED: [&str; 3] = ["mounting", "encoder.zero", "axis.azimuth"];
-
-/// How many times of an event are tried over a run.
-pub(crate) const EVENTS: u32 = 16;
+static NEVER_TRIED: [&Term; 3] =
+    [&catalogue::MOUNTING, &catalogue::ENCODER_ZERO, &catalogue::AXIS_AZIMUTH];
 
 /// No more events of one kind are taken for such: what happens again and again is something else.
 const MOST_ALIKE: usize = 2;
 
-/// The time constants that are tried, as parts of the run.
-const TIME_CONSTANTS: [f64; 4] = [0.02, 0.06, 0.18, 0.5];
-
-/// The orders of the table angle that are tried, signed where a term takes both signs. The first is an
-/// effect of its own or a choice of the frame.
-const ORDERS: [f64; 20] = [
-    -6.0, -5.0, -4.0, -3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0,
-    16.0, 18.0, 24.0,
-];
-
 /// A warm-up with two time constants is two effects if one is so many times the other at least.
 const APART: f64 = 3.0;
-
-/// The powers of the rate that are tried.
-const EXPONENTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 
 /// A temperature that changes by less \[K\] shows no effect of temperature.
 const LEAST_WARMING: f64 = 0.05;
@@ -56,7 +41,7 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
     catalogue::CATALOGUE
         .iter()
         .copied()
-        .filter(|term| term.is_signal() && !NEVER_TRIED.contains(&term.id))
+        .filter(|term| term.is_signal() && !NEVER_TRIED.iter().any(|other| other.is(term)))
         .filter(|term| term.needs.iter().all(|need| offer(runs, *need)))
         .flat_map(|term| shapes(duration(runs), term))
         .map(|candidate| candidate.about(runs))
@@ -73,27 +58,26 @@ fn is_latency(runs: &[Run], chosen: &Chosen) -> bool {
         Some(times[first] - times[0] < time)
     };
     let time = chosen.settings.first();
-    chosen.term.id == catalogue::DROPPED_SAMPLES.id
+    chosen.term.is(&catalogue::DROPPED_SAMPLES)
         && time.is_some_and(|time| runs.iter().all(|run| turns_by(run, *time) == Some(false)))
 }
 
 /// Whether a model leaves room for an effect beside those of its kind: two orders are two effects, and what happens twice
 /// two events, if they are not one whose time is a little off. A base that steps time and again is no step.
 pub(crate) fn has_room(model: &Model, other: &Chosen, duration: f64) -> bool {
-    let alike: Vec<&Chosen> =
-        model.terms.iter().filter(|own| own.term.id == other.term.id).collect();
-    if other.term.setting("order").is_some() {
+    let alike: Vec<&Chosen> = model.terms.iter().filter(|own| own.term.is(other.term)).collect();
+    if other.term.setting(SettingKind::Order).is_some() {
         return alike.iter().all(|own| own.settings != other.settings);
     }
-    let follows_heat = other.term.id == catalogue::THERMAL_ONE_PER_TURN.id;
-    if let Some(place) = other.term.setting("time_constant").filter(|_| !follows_heat) {
+    let follows_heat = other.term.is(&catalogue::THERMAL_ONE_PER_TURN);
+    if let Some(place) = other.term.setting(SettingKind::TimeConstant).filter(|_| !follows_heat) {
         let apart = |own: &&Chosen| (own.settings[place] / other.settings[place]).ln().abs();
         return alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > APART.ln());
     }
-    match other.term.setting("time") {
-        Some(place) if other.term.id != catalogue::BASE_TILT_STEP.id => {
+    match other.term.setting(SettingKind::Time) {
+        Some(place) if !other.term.is(&catalogue::BASE_TILT_STEP) => {
             let apart = |own: &&Chosen| (own.settings[place] - other.settings[place]).abs();
-            let least = duration / f64::from(EVENTS);
+            let least = duration / f64::from(SettingKind::EVENT_TIMES);
             alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > least)
         }
         _ => alike.is_empty(),
@@ -125,46 +109,26 @@ fn offer(runs: &[Run], need: Need) -> bool {
 /// A term in each of its shapes.
 fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
     let chosen = Chosen::new(term).estimated();
-    // A shape is looked for the more, the more is expected of it.
-    let of = |place: usize,
-              values: &[f64],
-              expected: &dyn Fn(f64) -> f64,
-              step: &dyn Fn(f64) -> Option<f64>| {
-        let fits = |value: &&f64| allows(&term.settings[place], **value);
-        let fitting: Vec<f64> = values.iter().filter(fits).copied().collect();
-        let all: f64 = fitting.iter().map(|value| expected(*value)).sum();
-        let candidate = |value: f64| {
-            let mut chosen = chosen.clone();
-            chosen.settings[place] = value;
-            let step = step(value).map(|step| (place, step));
-            Candidate { chosen, looks: all / expected(value), step }
-        };
-        fitting.into_iter().map(candidate).collect()
-    };
-    let alike = |_: f64| 1.0;
+    let grid =
+        |(place, setting): (usize, &'static Setting)| Some((place, setting.search_grid(duration)?));
     if dead_zone::is_true(&chosen) {
         dead_zone::shapes()
     } else if has_frequency(term) {
         Vec::new()
-    } else if let Some(place) = term.setting("time") {
-        let step = duration / f64::from(EVENTS);
-        let times: Vec<f64> = (0..EVENTS).map(|event| step * (f64::from(event) + 0.5)).collect();
-        of(place, &times, &alike, &|_| Some(step))
-    } else if let Some(place) = term.setting("time_constant") {
-        of(place, &TIME_CONSTANTS.map(|part| part * duration), &alike, &Some)
-    } else if let Some(place) = term.setting("exponent") {
-        of(place, &EXPONENTS, &alike, &|_| None)
-    } else if let Some(place) = term.setting("order") {
-        // Of a bearing or a disc the higher orders are the weaker ones.
-        of(place, &ORDERS, &|order| 1.0 / order.abs(), &|_| None)
+    } else if let Some((place, grid)) = term.settings.iter().enumerate().find_map(grid) {
+        let grid: Vec<GridPoint> = grid.collect();
+        let all: f64 = grid.iter().map(|point| point.weight).sum();
+        let candidate = |point: &GridPoint| {
+            let mut chosen = chosen.clone();
+            chosen.settings[place] = point.value;
+            let step = point.spacing.map(|spacing| (place, spacing));
+            // A shape is looked for the more, the more is expected of it.
+            Candidate { chosen, looks: all / point.weight, step }
+        };
+        grid.iter().map(candidate).collect()
     } else {
         vec![Candidate { chosen, looks: 1.0, step: None }]
     }
-}
-
-/// Whether a setting may have this value.
-fn allows(setting: &Setting, value: f64) -> bool {
-    (setting.within.0..=setting.within.1).contains(&value)
 }
 
 impl Candidate {
@@ -172,7 +136,7 @@ impl Candidate {
     /// true of the runs, whatever its coefficient.
     fn about(mut self, runs: &[Run]) -> Self {
         let first = |run: &Run| run.recording.temperature.as_ref()?.first().copied();
-        let place = self.chosen.term.setting(catalogue::REFERENCE_TEMPERATURE.name);
+        let place = self.chosen.term.setting(SettingKind::ReferenceTemperature);
         if let Some((place, start)) = place.zip(runs.iter().find_map(first)) {
             self.chosen.settings[place] = start;
         }
@@ -195,15 +159,15 @@ impl Candidate {
             other.chosen.settings[place] += f64::from(by) * step * part;
             other
         };
-        (-4..=4).map(moved).filter(|other| allows(setting, other.chosen.settings[place])).collect()
+        (-4..=4).map(moved).filter(|other| setting.allows(other.chosen.settings[place])).collect()
     }
 
     /// The same effect when another one happens, or as slowly, if both are events or settle.
     pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
-        ["time", "time_constant"].into_iter().find_map(|name| {
-            let own = self.chosen.term.setting(name)?;
+        [SettingKind::Time, SettingKind::TimeConstant].into_iter().find_map(|kind| {
+            let own = self.chosen.term.setting(kind)?;
             let mut moved = self.clone();
-            moved.chosen.settings[own] = other.settings[other.term.setting(name)?];
+            moved.chosen.settings[own] = other.setting(kind)?;
             Some(moved)
         })
     }

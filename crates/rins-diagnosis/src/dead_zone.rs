@@ -2,7 +2,7 @@
 
 use rins_frames::units::DEG_PER_HOUR;
 use rins_terms::{
-    Action, Chosen, Dual64, DualVector, Moment, Role, Setting, Signals, Term, Unit,
+    Action, Chosen, Dual64, DualVector, Moment, Role, Setting, SettingKind, Signals, Term, Unit,
     catalogue::GYRO_DEAD_ZONE,
 };
 
@@ -35,8 +35,14 @@ const AXES: [f64; 2] = [0.0, 1.0];
 const OWN: f64 = 0.9;
 
 const fn width(name: &'static str) -> Setting {
-    let meaning = "below which rate the gyro shows nothing";
-    Setting { name, meaning, unit: Unit::DEG_PER_HOUR, default: 0.0, within: (0.0, WIDTHS[0]) }
+    Setting {
+        kind: SettingKind::RateThreshold,
+        name,
+        meaning: "below which rate the gyro shows nothing",
+        unit: Unit::DEG_PER_HOUR,
+        default: 0.0,
+        within: (0.0, WIDTHS[0]),
+    }
 }
 
 /// The dead zone of given widths, of any depth: linear, and at a depth that is the width the true one.
@@ -115,12 +121,12 @@ fn tried(shape: Chosen) -> Candidate {
 
 /// Whether this is a dead zone of given widths.
 pub(crate) fn is_of_widths(chosen: &Chosen) -> bool {
-    chosen.term.id == OF_WIDTHS.id && chosen.settings.len() > GYRO_DEAD_ZONE.settings.len()
+    chosen.term.is(&OF_WIDTHS) && chosen.settings.len() > GYRO_DEAD_ZONE.settings.len()
 }
 
 /// Whether this is a dead zone whose widths are its parameters.
 pub(crate) fn is_true(chosen: &Chosen) -> bool {
-    chosen.term.id == GYRO_DEAD_ZONE.id && !is_of_widths(chosen)
+    chosen.term.is(&GYRO_DEAD_ZONE) && !is_of_widths(chosen)
 }
 
 /// What stands for a dead zone of these widths where a model has to be linear from there down to nothing.

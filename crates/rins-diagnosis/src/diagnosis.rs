@@ -2,7 +2,7 @@
 
 use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Term};
+use rins_terms::{Chosen, Model, SettingKind, Term};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
@@ -91,7 +91,7 @@ impl Diagnosis {
     /// The model with the causes in it, without what has no name.
     pub fn extended(&self) -> Model {
         let mut model = self.after.model().clone();
-        model.terms.retain(|chosen| chosen.term.id != disturbance::ID);
+        model.terms.retain(|chosen| !disturbance::is_one(chosen.term));
         model
     }
 }
@@ -181,7 +181,7 @@ impl Case<'_> {
         let mut doubtful: Vec<&str> = found.unexplained.iter().filter_map(inconstant).collect();
         // What has not settled when the run ends follows slow effects of any kind.
         let never_settles = |cause: &&Cause| {
-            let place = cause.term.setting("time_constant");
+            let place = cause.term.setting(SettingKind::TimeConstant);
             let time_constant = place.map_or(0.0, |place| cause.settings[place]);
             cause.term.parameters.len() > MOST_SIMPLE && time_constant > NEVER * self.duration()
         };
@@ -278,7 +278,7 @@ impl Case<'_> {
         }
         let (after, causes) = case.settled(before, present, found, Found::Searched)?;
         let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
-            causes.into_iter().partition(|cause| cause.term.id == disturbance::ID);
+            causes.into_iter().partition(|cause| disturbance::is_one(cause.term));
         let mut unexplained: Vec<Unexplained> =
             unknown.iter().map(|cause| described(cause, &after)).collect();
         unexplained.extend(case.unexplained((before, &after), &causes)?);
@@ -377,8 +377,8 @@ fn beside(
 /// Whether the last effect of some settles in another time than one of its kind before.
 fn settles_twice(found: &[Chosen]) -> bool {
     found.split_last().is_some_and(|(last, before)| {
-        let settles = last.term.setting("time_constant").is_some();
-        settles && before.iter().any(|one| one.term.id == last.term.id)
+        let settles = last.term.setting(SettingKind::TimeConstant).is_some();
+        settles && before.iter().any(|one| one.term.is(last.term))
     })
 }
 

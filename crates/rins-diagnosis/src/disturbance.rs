@@ -1,11 +1,9 @@
 //! Signals of no known cause, to say how large is what was found: of a frequency, or of an order of the table angle.
 
 use rins_terms::{
-    Action, Dual64, Moment, Owner, Parameter, Parity, Prior, Setting, Signals, Term, Unit, sin_cos,
+    Action, Dual64, Moment, Owner, Parameter, Parity, Prior, Setting, SettingKind, Signals, Term,
+    Unit, sin_cos,
 };
-
-/// What a disturbance is called where only a name will do.
-pub(crate) const ID: &str = "disturbance";
 
 /// The channels on which a disturbance may be, each with a cosine and a sine.
 pub(crate) const CHANNELS: [&str; 7] =
@@ -42,7 +40,7 @@ const fn disturbance(
     act: fn(&[Dual64], &[f64], &Moment, &mut Signals),
 ) -> Term {
     Term {
-        id: ID,
+        id: "disturbance",
         also: &[],
         name,
         cause: "unknown",
@@ -63,6 +61,7 @@ const fn disturbance(
 pub(crate) static IN_TIME: Term = disturbance(
     "line of unknown cause",
     &[Setting {
+        kind: SettingKind::Frequency,
         name: "frequency",
         meaning: "how often it comes back",
         unit: Unit::HERTZ,
@@ -79,6 +78,7 @@ pub(crate) static IN_TIME: Term = disturbance(
 pub(crate) static IN_ANGLE: Term = disturbance(
     "order of unknown cause",
     &[Setting {
+        kind: SettingKind::Order,
         name: "order",
         meaning: "how often it comes back in a turn",
         unit: Unit::ONE,
@@ -89,6 +89,12 @@ pub(crate) static IN_ANGLE: Term = disturbance(
         act(p, settings[0] * moment.mean.angle, settings[0] * moment.end.angle, out);
     },
 );
+
+/// Whether a term describes a signal of no known cause.
+pub(crate) fn is_one(term: &Term) -> bool {
+    // Both forms have one id.
+    term.is(&IN_TIME)
+}
 
 fn act(p: &[Dual64], mean: f64, end: f64, out: &mut Signals) {
     let (sin, cos) = sin_cos(mean);

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rins_estimation::{Estimate, Fit};
-use rins_terms::{Chosen, Term, catalogue};
+use rins_terms::{Chosen, SettingKind, Term, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::Cause;
@@ -59,7 +59,7 @@ impl Case<'_> {
             own.iter().flat_map(|one| orders(one.term, &one.settings)).collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
-        let wave = |order: f64| Chosen::new(&IN_ANGLE).with_setting("order", order);
+        let wave = |order: f64| Chosen::new(&IN_ANGLE).with_setting(SettingKind::Order, order);
         model.extend(all.into_iter().map(|order| wave(order).estimating(&OF_GYRO)));
         let as_one = self.fit_near(after, &model).ok()?;
         if as_one.log_likelihood - after.log_likelihood + saved < 0.0 {
@@ -132,12 +132,12 @@ fn orders(term: &Term, settings: &[f64]) -> Vec<f64> {
     if is_harmonic(term) {
         return vec![settings[0].abs()];
     }
-    let part = PARTS.iter().find(|(part, _)| part.id == term.id);
+    let part = PARTS.iter().find(|(part, _)| part.is(term));
     part.map_or_else(Vec::new, |(_, orders)| orders.to_vec())
 }
 
 fn is_harmonic(term: &Term) -> bool {
-    term.id == catalogue::ENCODER_HARMONIC.id
+    term.is(&catalogue::ENCODER_HARMONIC)
 }
 
 #[cfg(test)]

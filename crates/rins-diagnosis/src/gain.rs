@@ -231,7 +231,7 @@ fn take_back(model: &mut Model, fit: &Fit) {
 
 /// A disturbance without a name foretells nothing.
 fn without_nameless(mut model: Model) -> Model {
-    model.terms.retain(|chosen| chosen.term.id != disturbance::ID);
+    model.terms.retain(|chosen| !disturbance::is_one(chosen.term));
     model
 }
 

@@ -28,8 +28,8 @@ impl Overlay {
         let track = fit.linear[place].track();
         let mut model = fit.models[place].clone();
         // They are in the track's surroundings.
-        let around = [catalogue::AXIS_ATTITUDE.id, catalogue::AXIS_AZIMUTH.id];
-        model.terms.retain(|chosen| !around.contains(&chosen.term.id));
+        let around = [&catalogue::AXIS_ATTITUDE, &catalogue::AXIS_AZIMUTH];
+        model.terms.retain(|chosen| !around.iter().any(|term| term.is(chosen.term)));
         let errors: Vec<f64> = readings(&model, track).map(|reading| reading.1).collect();
         let first = errors.first().copied().unwrap_or_default();
         let errors = std::iter::once(first).chain(errors);

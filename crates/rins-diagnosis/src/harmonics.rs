@@ -1,7 +1,7 @@
 //! Harmonics of the encoder that are higher than those that are always tried: marks of a disc, teeth of a gear.
 
 use rins_estimation::{Fit, Reference};
-use rins_terms::{Chosen, catalogue};
+use rins_terms::{Chosen, SettingKind, catalogue};
 use rustfft::num_complex::Complex;
 
 use crate::candidates::{Candidate, has_room};
@@ -80,6 +80,10 @@ impl Candidate {
     pub(crate) fn high_harmonic(order: f64) -> Self {
         let chosen = Chosen::new(&catalogue::ENCODER_HARMONIC).estimated();
         let all: f64 = (1..=HIGHEST).map(|order| 1.0 / f64::from(order)).sum();
-        Self { chosen: chosen.with_setting("order", order), looks: all * order, step: None }
+        Self {
+            chosen: chosen.with_setting(SettingKind::Order, order),
+            looks: all * order,
+            step: None,
+        }
     }
 }

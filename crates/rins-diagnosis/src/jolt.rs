@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rins_estimation::Fit;
-use rins_terms::{Chosen, Need, Track, catalogue};
+use rins_terms::{Chosen, Need, SettingKind, Track, catalogue};
 
 use crate::case::Case;
 use crate::median::median;
@@ -93,12 +93,14 @@ impl Jolts {
 
     /// Puts an event of the base or of the encoder to where single samples show it, if they do so within an epoch of it.
     pub(crate) fn pin(&self, event: &mut Chosen) {
-        let Some(place) = event.term.setting("time") else { return };
+        let Some(place) = event.term.setting(SettingKind::Time) else { return };
         let time = event.settings[place];
-        if event.term.id == catalogue::BASE_TILT_STEP.id {
+        if event.term.is(&catalogue::BASE_TILT_STEP) {
             if let Some((middle, duration)) = self.about(time) {
-                *event =
-                    event.clone().with_setting("time", middle).with_setting("duration", duration);
+                *event = event
+                    .clone()
+                    .with_setting(SettingKind::Time, middle)
+                    .with_setting(SettingKind::Duration, duration);
             }
         } else if event.term.needs.contains(&Need::TableAngle) {
             let near = |shown: &Shown| {

@@ -80,7 +80,7 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
             }
             let limit = Limit { term, parameter, sigma, detectable, significant };
             let same =
-                |other: &&mut Limit| other.term.id == limit.term.id && other.parameter == parameter;
+                |other: &&mut Limit| other.term.is(limit.term) && other.parameter == parameter;
             match limits.iter_mut().find(same) {
                 Some(other) if other.detectable <= limit.detectable => {}
                 Some(other) => *other = limit,

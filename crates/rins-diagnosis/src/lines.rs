@@ -1,7 +1,7 @@
 //! Lines that are faster than an epoch, sample by sample.
 
 use rins_estimation::{Fit, Run};
-use rins_terms::{Chosen, catalogue};
+use rins_terms::{Chosen, SettingKind, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS, Rival};
@@ -80,7 +80,7 @@ impl Case<'_> {
     ) -> (Vec<FastLine>, Vec<Chosen>) {
         let slowest = |run: usize| 0.5 / fit.linear[run].mean_epoch();
         let fast = |one: &Chosen| {
-            let frequency = one.settings[one.term.setting("frequency")?];
+            let frequency = one.setting(SettingKind::Frequency)?;
             let is_fast = (0..self.runs.len()).all(|run| frequency > slowest(run));
             place_of(one).filter(|_| is_fast).map(|place| (place, frequency))
         };
@@ -143,8 +143,7 @@ impl Case<'_> {
         let is_there = |(line, _): &&FastLine| {
             again.iter().any(|(other, _)| {
                 let apart = other.settings[0] - line.settings[0];
-                let alike =
-                    other.term.id == line.term.id && other.settings[1..] == line.settings[1..];
+                let alike = other.term.is(line.term) && other.settings[1..] == line.settings[1..];
                 alike && apart.abs() * self.duration() < 1.0
             })
         };
@@ -153,7 +152,7 @@ impl Case<'_> {
 
     /// Whether a run hardly tells one line from another.
     fn is_beside(&self, line: &Chosen, other: &Chosen) -> bool {
-        other.term.id == line.term.id
+        other.term.is(line.term)
             && other.settings[1..] == line.settings[1..]
             && (other.settings[0] - line.settings[0]).abs() * self.duration() < BESIDE
     }
@@ -305,20 +304,22 @@ fn middles(run: &Run) -> Vec<Option<f64>> {
 
 /// Where an effect is a line.
 fn place_of(line: &Chosen) -> Option<Place> {
-    if line.term.id == catalogue::BASE_SWAY.id {
+    if line.term.is(&catalogue::BASE_SWAY) {
         return Some(Place::Base);
     }
-    let axis = line.settings[line.term.setting("axis")?];
+    let axis = line.setting(SettingKind::Axis)?;
     [1.0, 2.0, 3.0].iter().position(|other| (axis - other).abs() < 0.5).map(Place::Axis)
 }
 
 /// The effect that a line is.
 fn effect(place: Place, frequency: f64) -> Chosen {
     match place {
-        Place::Base => Chosen::new(&catalogue::BASE_SWAY).with_setting("frequency", frequency),
+        Place::Base => {
+            Chosen::new(&catalogue::BASE_SWAY).with_setting(SettingKind::Frequency, frequency)
+        }
         Place::Axis(axis) => Chosen::new(&catalogue::INTERFERENCE_LINE)
-            .with_setting("frequency", frequency)
-            .with_setting("axis", [1.0, 2.0, 3.0][axis]),
+            .with_setting(SettingKind::Frequency, frequency)
+            .with_setting(SettingKind::Axis, [1.0, 2.0, 3.0][axis]),
     }
 }
 

@@ -67,7 +67,7 @@ pub(crate) fn modulated(after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
 
 /// Whether a cause is a line of one axis.
 pub(crate) fn is_line(cause: &Cause) -> bool {
-    cause.term.id == catalogue::INTERFERENCE_LINE.id
+    cause.term.is(&catalogue::INTERFERENCE_LINE)
 }
 
 /// Lines of one axis, two and two.

@@ -83,7 +83,7 @@ pub(crate) fn choices(term: &Term) -> Vec<Choice> {
         let flat = parameters.into_iter().flat_map(|unit: usize| units[unit].clone());
         Choice { parameters: flat.collect(), unlikely }
     };
-    let tilts = term.id == catalogue::BASE_TILT_STEP.id;
+    let tilts = term.is(&catalogue::BASE_TILT_STEP);
     let mut list: Vec<Choice> = choices_of(units.len()).into_iter().map(of_parameters).collect();
     list.retain(|choice| !(tilts && choice.parameters == [ABOUT_AXIS]));
     list

@@ -1,7 +1,7 @@
 //! A last look at every cause beside the others.
 
 use rins_estimation::Fit;
-use rins_terms::{Chosen, Role, catalogue};
+use rins_terms::{Chosen, Role, SettingKind, catalogue};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
@@ -83,7 +83,8 @@ impl Case<'_> {
                 changes = MOST_CHANGES;
             }
             let list = self.with_events(&present, &found);
-            let later = settling_later(&found);
+            let epoch = present.linear[0].mean_epoch();
+            let later = settling_later(&found, self.duration(), epoch);
             let all: Vec<Candidate> =
                 list.iter().chain(later.iter().map(|(_, later)| later)).cloned().collect();
             let noises = self.between(before, &present);
@@ -107,9 +108,10 @@ impl Case<'_> {
                     if dead_zone::is_of_widths(own) && dead_zone::is_true(found) {
                         return dead_zone::is_shape_of(own, &self.causes_in(&present)[index]);
                     }
-                    let is_sought = |name: &str| ["time", "exponent"].contains(&name);
-                    own.term.settings.iter().any(|setting| is_sought(setting.name))
-                        && own.term.id == found.term.id
+                    let is_sought =
+                        |kind| [SettingKind::Time, SettingKind::Exponent].contains(&kind);
+                    own.term.settings.iter().any(|setting| is_sought(setting.kind))
+                        && own.term.is(found.term)
                         && own.settings == found.settings
                 };
                 let as_found = list.iter().position(is_found).and_then(|at| {
@@ -182,7 +184,7 @@ impl Case<'_> {
         let mut list = candidates(self.runs, self.given);
         for (index, cause) in found.iter().enumerate() {
             if dead_zone::is_true(cause) {
-                list.retain(|other| other.chosen.term.id != cause.term.id);
+                list.retain(|other| !other.chosen.term.is(cause.term));
                 let zone = &self.causes_in(present)[index];
                 list.extend(dead_zone::with_another(zone));
             }
@@ -193,14 +195,14 @@ impl Case<'_> {
                     list.push(candidate);
                 }
             }
-            if cause.term.id == disturbance::ID {
+            if disturbance::is_one(cause.term) {
                 let chosen = cause.clone().with_values(&vec![0.0; cause.values.len()]).estimated();
                 list.push(Candidate { chosen, looks: 1.0, step: None });
             }
             let is_listed = |other: &Candidate| {
-                other.chosen.term.id == cause.term.id && other.chosen.settings == cause.settings
+                other.chosen.term.is(cause.term) && other.chosen.settings == cause.settings
             };
-            if cause.term.id == catalogue::ENCODER_HARMONIC.id && !list.iter().any(is_listed) {
+            if cause.term.is(&catalogue::ENCODER_HARMONIC) && !list.iter().any(is_listed) {
                 list.push(Candidate::high_harmonic(cause.settings[0]));
             }
             if has_frequency(cause.term) {
@@ -311,7 +313,7 @@ impl Question<'_> {
                 continue;
             }
             for rival in self.rivals_among(&tried) {
-                if rivals.iter().all(|other| other.term.id != rival.term.id) {
+                if rivals.iter().all(|other| !other.term.is(rival.term)) {
                     rivals.push(rival);
                 }
             }

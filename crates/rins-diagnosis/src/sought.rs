@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 use rins_estimation::{Fit, Indefinite};
-use rins_terms::Chosen;
+use rins_terms::{Chosen, SettingKind};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
@@ -20,10 +20,6 @@ const LESS: f64 = 0.3;
 
 /// ... unless it has come to less than this part of it.
 const LEAST_PART: f64 = 0.2;
-
-/// Derivatives by a setting are taken over so many periods of the lowest frequency that the runs show, as phases; over
-/// this part of a time constant or an exponent; over one epoch for the time of an event.
-const APART: f64 = 0.02;
 
 /// A setting that was sought, where the model is linear in it.
 pub(crate) struct Sought {
@@ -94,14 +90,9 @@ impl Case<'_> {
     pub(crate) fn sought_from(&self, causes: &[Cause]) -> f64 {
         let of = |cause: &Cause| {
             let (place, sigma) = cause.sought?;
-            let value = cause.settings[place];
-            let range = match cause.term.settings[place].name {
-                // Any of a decade.
-                "time_constant" => value * std::f64::consts::LN_10,
-                "time" => self.duration(),
-                _ => value,
-            };
-            Some((range / (sigma * std::f64::consts::TAU.sqrt())).ln().max(0.0))
+            let kind = cause.term.settings[place].kind;
+            let prior = kind.prior(cause.settings[place], self.duration())?;
+            Some((prior.range / (sigma * std::f64::consts::TAU.sqrt())).ln().max(0.0))
         };
         causes.iter().filter_map(of).sum()
     }
@@ -144,7 +135,7 @@ impl Case<'_> {
                 place,
                 sigma: information.sqrt().recip(),
                 step: slope.score / information,
-                is_smooth: found[cause].term.settings[place].name != "time",
+                is_smooth: found[cause].term.settings[place].kind.is_smooth(),
                 shift: slope.shift,
             })
         });
@@ -154,23 +145,26 @@ impl Case<'_> {
     /// The setting of an effect that comes from a continuum, how far apart its values are that tell a derivative, and
     /// how far it may be off before it is another effect.
     fn continuum(&self, present: &Fit, chosen: &Chosen) -> Option<(usize, f64, f64)> {
-        let duration = self.duration();
-        chosen.term.settings.iter().enumerate().find_map(|(place, setting)| match setting.name {
-            "frequency" => Some((place, APART / duration, 0.5 / duration)),
-            "time_constant" | "exponent" => {
-                Some((place, APART * chosen.settings[place], chosen.settings[place]))
-            }
-            "time" => Some((place, present.linear[0].mean_epoch(), 0.1 * duration)),
-            _ => None,
+        let (duration, epoch) = (self.duration(), present.linear[0].mean_epoch());
+        let settings = chosen.term.settings.iter().zip(&chosen.settings).enumerate();
+        settings.into_iter().find_map(|(place, (setting, &value))| {
+            let step = setting.kind.derivative_step(value, duration, epoch)?;
+            Some((place, step, setting.kind.prior(value, duration)?.sigma))
         })
     }
 }
 
 /// Of every effect that settles in some time the same in a little longer: with both in a model it may settle in any time.
-pub(crate) fn settling_later(found: &[Chosen]) -> Vec<(usize, Candidate)> {
+pub(crate) fn settling_later(
+    found: &[Chosen],
+    duration: f64,
+    epoch: f64,
+) -> Vec<(usize, Candidate)> {
     let later = |(cause, chosen): (usize, &Chosen)| {
-        let place = chosen.term.setting("time_constant")?;
-        Some((cause, Candidate::beside(chosen, place, APART * chosen.settings[place])))
+        let place = chosen.term.setting(SettingKind::TimeConstant)?;
+        let setting = &chosen.term.settings[place];
+        let step = setting.kind.derivative_step(chosen.settings[place], duration, epoch)?;
+        Some((cause, Candidate::beside(chosen, place, step)))
     };
     found.iter().enumerate().filter_map(later).collect()
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 use rins_estimation::{Fit, Reference};
-use rins_terms::{Chosen, Need, Term, catalogue};
+use rins_terms::{Chosen, Need, SettingKind, Term, catalogue};
 
 use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
@@ -76,8 +76,7 @@ impl Case<'_> {
     /// Whether a line can be told from the table's motion: about an axis that only a command tells of it cannot.
     fn shows(&self, run: usize, line: &Chosen) -> bool {
         let commanded = matches!(self.runs[run].rig.reference, Reference::Command { .. });
-        let axis = line.term.setting("axis");
-        !commanded || axis.is_none_or(|place| line.settings[place] < 3.0)
+        !commanded || line.setting(SettingKind::Axis).is_none_or(|axis| axis < 3.0)
     }
 
     /// Every event where the innovations of some epochs, in the axis frame or in the body, are largest together: what is
@@ -97,13 +96,13 @@ impl Case<'_> {
         let mut list = Vec::new();
         let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
         for chosen in terms.map(|term| Chosen::new(term).estimated()) {
-            let Some(place) = chosen.term.setting("time") else { continue };
+            let Some(place) = chosen.term.setting(SettingKind::Time) else { continue };
             let earlier = list.len();
             for outlier in &outliers {
                 let mut chosen = chosen.clone();
                 let within = ends[outlier.start] - begin - 0.5 * epoch;
                 chosen.settings[place] = within;
-                if chosen.term.id == catalogue::BASE_TILT_STEP.id {
+                if chosen.term.is(&catalogue::BASE_TILT_STEP) {
                     jolts.pin(&mut chosen);
                 }
                 let step = 2.0 * outlier.len() as f64 * epoch;
@@ -161,10 +160,11 @@ fn outliers(innovations: [&[SVector<f64, CHANNELS>]; 2]) -> Vec<Range<usize>> {
 
 /// Every term that has a frequency, at this one.
 pub(crate) fn at_frequency(frequency: f64) -> Vec<Chosen> {
-    let with =
-        |term: &'static Term| Chosen::new(term).estimated().with_setting("frequency", frequency);
+    let with = |term: &'static Term| {
+        Chosen::new(term).estimated().with_setting(SettingKind::Frequency, frequency)
+    };
     let line = || with(&catalogue::INTERFERENCE_LINE);
-    let axes = [1.0, 2.0, 3.0].map(|axis| line().with_setting("axis", axis));
+    let axes = [1.0, 2.0, 3.0].map(|axis| line().with_setting(SettingKind::Axis, axis));
     axes.into_iter().chain([with(&catalogue::BASE_SWAY)]).collect()
 }
 

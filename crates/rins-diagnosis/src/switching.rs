@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use rins_estimation::{Evidence, Fit, Indefinite};
+use rins_terms::{Term, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::FALSE_ALARMS;
@@ -12,9 +13,11 @@ use crate::structure::Structure;
 use crate::survey::Survey;
 use crate::unexplained::{Unexplained, worst};
 
-/// The biases that may switch.
-const BIASES: [&str; 6] =
-    ["gyro.bias.x", "gyro.bias.y", "gyro.bias.z", "accel.bias.x", "accel.bias.y", "accel.bias.z"];
+/// The biases that may switch, of three channels each.
+static BIASES: [&Term; 2] = [&catalogue::GYRO_BIAS, &catalogue::ACCEL_BIAS];
+
+/// How many channels these are.
+const SWITCHES: usize = 6;
 
 /// Into how many parts a run is divided, in each of which a bias is on one level.
 const PARTS: usize = 96;
@@ -38,7 +41,7 @@ impl Case<'_> {
         explained: f64,
     ) -> Result<Vec<Unexplained>, Indefinite> {
         let places: Vec<(usize, usize)> = (0..self.runs.len())
-            .flat_map(|run| (0..BIASES.len()).map(move |channel| (run, channel)))
+            .flat_map(|run| (0..SWITCHES).map(move |channel| (run, channel)))
             .collect();
         let each = places.into_par_iter().map(|(run, channel)| self.switches(fit, run, channel));
         let found: Result<Vec<_>, Indefinite> = each.collect();
@@ -55,7 +58,10 @@ impl Case<'_> {
     ) -> Result<Option<Unexplained>, Indefinite> {
         let linear = &fit.linear[run];
         let known = self.of_run(fit, run);
-        let own = known.iter().position(|estimate| estimate.parameter.id == BIASES[channel]);
+        let own = known.iter().position(|estimate| {
+            let (term, parameter) = (estimate.parameter.term, estimate.parameter.parameter);
+            fit.models[run].terms[term].term.is(BIASES[channel / 3]) && parameter == channel % 3
+        });
         let epochs = linear.ends().len();
         let parts = PARTS.min(epochs / LEAST_EPOCHS);
         let Some(own) = own.filter(|_| parts > 1) else { return Ok(None) };
@@ -83,7 +89,7 @@ impl Case<'_> {
                 }
             }
         }
-        let tests = (self.runs.len() * BIASES.len()) as f64;
+        let tests = (self.runs.len() * SWITCHES) as f64;
         Ok(best.map(|(with, path)| {
             let parameter = &known[own].parameter;
             Unexplained {

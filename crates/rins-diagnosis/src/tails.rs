@@ -98,7 +98,7 @@ pub(crate) fn jolted(fit: &Fit, run: usize) -> Vec<Range<usize>> {
     let linear = &fit.linear[run];
     let steps = fit.models[run].terms.iter();
     steps
-        .filter(|chosen| chosen.term.id == catalogue::BASE_TILT_STEP.id)
+        .filter(|chosen| chosen.term.is(&catalogue::BASE_TILT_STEP))
         .map(|step| jolt::around(step, linear.track(), linear.mean_epoch()))
         .collect()
 }

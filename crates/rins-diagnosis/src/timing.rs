@@ -2,9 +2,9 @@
 
 use nalgebra::{Cholesky, DMatrix};
 use rins_estimation::{Fit, Indefinite};
-use rins_terms::{Chosen, Term};
+use rins_terms::{Chosen, SettingKind, Term};
 
-use crate::candidates::{Candidate, EVENTS};
+use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::suggested::LOOKS;
 
@@ -22,7 +22,7 @@ impl Case<'_> {
         };
         let mut among: Vec<f64> = found.iter().map(of_lines).collect();
         let events: Vec<(usize, usize)> = (0..found.len())
-            .filter_map(|index| Some((index, found[index].term.setting("time")?)))
+            .filter_map(|index| Some((index, found[index].term.setting(SettingKind::Time)?)))
             .collect();
         if events.is_empty() {
             return Ok(among);
@@ -34,7 +34,7 @@ impl Case<'_> {
         };
         let list: Vec<Candidate> = events.iter().flat_map(twice).collect();
         let survey = self.survey(present, &list, std::slice::from_ref(&present.noise))?;
-        let always = f64::from(EVENTS);
+        let always = f64::from(SettingKind::EVENT_TIMES);
         for (event, (index, _)) in events.into_iter().enumerate() {
             let own = survey.of_term(self.given.terms.len() + index).concat();
             let likeness = survey.left(0, &own, &[]).and_then(|left| {
@@ -50,7 +50,7 @@ impl Case<'_> {
 
 /// Whether an effect is a line of any frequency.
 pub(crate) fn has_frequency(term: &Term) -> bool {
-    term.setting("frequency").is_some()
+    term.setting(SettingKind::Frequency).is_some()
 }
 
 /// The correlation of what is shown of the first half of some parameters with what is of the second, root mean square over their

@@ -165,7 +165,7 @@ struct Prior {
 
 impl Prior {
     fn of(term: &Term) -> Self {
-        let is_known = term.id != disturbance::ID;
+        let is_known = !disturbance::is_one(term);
         let is_line = has_frequency(term);
         Self {
             unlikely: if is_known { 0.0 } else { UNKNOWN },
@@ -208,7 +208,7 @@ pub(crate) fn best_pair<'a>(
 impl Survey {
     /// Whether a shape can have these amplitudes, in SI units.
     fn allows(&self, shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
-        let tilts = shape.chosen.term.id == catalogue::BASE_TILT_STEP.id;
+        let tilts = shape.chosen.term.is(&catalogue::BASE_TILT_STEP);
         let is_rounding = tilts && amplitudes.amax() < self.least_tilt;
         // What turns the base about the table's axis tilts it too.
         let across = parameters.iter().zip(amplitudes).filter(|(of, _)| **of != ABOUT_AXIS);

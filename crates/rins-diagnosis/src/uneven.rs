@@ -39,8 +39,7 @@ impl Case<'_> {
         sheet.jitter = encoder / fastest;
         let uneven = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let mut other = search(&uneven)?;
-        let is_named =
-            other.causes.iter().any(|cause| cause.term.id == catalogue::TIMESTAMP_JITTER.id);
+        let is_named = other.causes.iter().any(|cause| cause.term.is(&catalogue::TIMESTAMP_JITTER));
         if !is_named {
             return Ok((*self, found));
         }

@@ -1,7 +1,7 @@
 //! What no effect of the catalogue explains: found, described, and given no name.
 
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
-use rins_terms::{Chosen, Unit};
+use rins_terms::{Chosen, Term, Unit, catalogue};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
@@ -18,7 +18,15 @@ const SHOWN: [&str; 6] =
     ["attitude.x", "attitude.y", "attitude.z", "velocity.x", "velocity.y", "velocity.z"];
 
 /// The figures that the paper is about.
-const OF_INTEREST: [&str; 3] = ["gyro.misalignment.xz", "gyro.misalignment.yz", "gyro.scale.z"];
+static OF_INTEREST: [(&Term, &str); 3] = [
+    (&catalogue::GYRO_MISALIGNMENT, "xz"),
+    (&catalogue::GYRO_MISALIGNMENT, "yz"),
+    (&catalogue::GYRO_SCALE, "z"),
+];
+
+/// The steps of either triad's biases, by what its channels begin with.
+static STEPS: [(&str, &Term); 2] =
+    [("gyro.", &catalogue::GYRO_BIAS_STEP), ("accel.", &catalogue::ACCEL_BIAS_STEP)];
 
 /// In so many ways something is looked for: structure in what is shown, sensors that are noisier, heavy tails, causes that
 /// change, and biases that switch. They share the false alarms.
@@ -109,12 +117,11 @@ impl Case<'_> {
             switching.retain(|one| one.structure != Structure::Switching(1));
         }
         // A bias that switches once is one that stepped.
-        let stepped =
-            |triad: &str| causes.iter().any(|cause| cause.term.id == format!("{triad}_bias_step"));
-        switching.retain(|one| {
-            one.structure != Structure::Switching(1)
-                || !one.channel.split('.').next().is_some_and(stepped)
-        });
+        let stepped = |channel: &str| {
+            let step = STEPS.iter().find(|(triad, _)| channel.starts_with(triad));
+            step.is_some_and(|(_, step)| causes.iter().any(|cause| cause.term.is(step)))
+        };
+        switching.retain(|one| one.structure != Structure::Switching(1) || !stepped(one.channel));
         found.extend(switching);
         let is_described = found.iter().any(is_significant);
         found.extend(self.waves(after, causes, is_described)?);
@@ -172,7 +179,7 @@ impl Case<'_> {
         let ways = [Along::Time, Along::Sense, Along::Rate];
         // All of one term are asked together.
         let first = |(place, cause): &(usize, &Cause)| {
-            causes[..*place].iter().all(|earlier| earlier.term.id != cause.term.id)
+            causes[..*place].iter().all(|earlier| !earlier.term.is(cause.term))
         };
         let causes: Vec<&Cause> =
             causes.iter().enumerate().filter(first).map(|(_, cause)| cause).collect();
@@ -215,7 +222,7 @@ impl Case<'_> {
         let own: Vec<usize> = (0..of_run.len())
             .filter(|&place| {
                 let parameter = &of_run[place].parameter;
-                after.models[run].terms[parameter.term].term.id == cause.term.id
+                after.models[run].terms[parameter.term].term.is(cause.term)
             })
             .collect();
         if last == 0 || own.is_empty() {
@@ -275,7 +282,11 @@ pub(crate) fn described(cause: &Cause, after: &Fit) -> Unexplained {
 /// How far a disturbance of this square may have put off what is of interest: no estimate by more of its own sigmas
 /// than the disturbance has.
 pub(crate) fn worst(after: &Fit, statistic: f64) -> Vec<(String, f64)> {
-    let of = |id: &&str| Some(((*id).to_owned(), after.parameter(id)?.sigma * statistic.sqrt()));
+    let of = |(term, name): &(&Term, &str)| {
+        let id = format!("{}.{name}", term.id);
+        let sigma = after.parameter(&id)?.sigma;
+        Some((id, sigma * statistic.sqrt()))
+    };
     OF_INTEREST.iter().filter_map(of).collect()
 }
 

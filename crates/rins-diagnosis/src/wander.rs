@@ -10,9 +10,26 @@ use crate::periodic::{is_line, strongest};
 use crate::settling::RIVALS;
 use crate::structure::Structure;
 
-/// The effects of a triad that change its biases slowly.
-const SLOW: [&str; 6] =
-    ["bias_ramp", "bias_step", "warmup", "thermal_bias", "hysteresis", "bias_instability"];
+/// The effects of either triad that change its biases slowly.
+static SLOW: [&[&Term]; 2] = [
+    &[
+        &catalogue::GYRO_BIAS_RAMP,
+        &catalogue::GYRO_BIAS_STEP,
+        &catalogue::GYRO_WARMUP,
+        &catalogue::GYRO_THERMAL_BIAS,
+        &catalogue::GYRO_HYSTERESIS,
+        &catalogue::GYRO_BIAS_INSTABILITY,
+        // What follows heat slowly goes on for long after a rest or a reversal.
+        &catalogue::THERMAL_ONE_PER_TURN,
+    ],
+    &[
+        &catalogue::ACCEL_BIAS_RAMP,
+        &catalogue::ACCEL_BIAS_STEP,
+        &catalogue::ACCEL_WARMUP,
+        &catalogue::ACCEL_THERMAL_BIAS,
+        &catalogue::ACCEL_BIAS_INSTABILITY,
+    ],
+];
 
 /// A line of fewer cycles in a run is slow.
 const SLOW_CYCLES: f64 = 20.0;
@@ -33,7 +50,7 @@ const UNHEARD_OF: f64 = 100.0;
 /// The terms of the walks of either triad.
 const WALKS: [&Term; 2] = [&catalogue::GYRO_RATE_RANDOM_WALK, &catalogue::ACCEL_RATE_RANDOM_WALK];
 
-/// The triads by what their effects and channels begin with.
+/// The triads by what their channels begin with.
 const TRIADS: [&str; 2] = ["gyro", "accel"];
 
 /// Slow effects, and how much better a walk of the biases explains the run.
@@ -53,14 +70,14 @@ impl Instead {
     /// Whether a walk of this triad is named among what is `walked`; if so, with those of the slow effects `found` that explain
     /// as much.
     fn told_as_walk(&self, found: &Diagnosis, walked: &mut Diagnosis) -> bool {
-        let own = walked.causes.iter_mut().find(|cause| cause.term.id == WALKS[self.triad].id);
+        let own = walked.causes.iter_mut().find(|cause| cause.term.is(WALKS[self.triad]));
         let Some(own) = own else { return false };
         // A walk has one parameter that is open, a few effects have many: that alone does not rule them out.
         let least = (self.odds - self.open).max(0.0);
         if least < RIVALS {
             for slow in self.slow.iter().map(|&place| &found.causes[place]) {
                 // Several steps are one effect.
-                if own.rivals.iter().all(|other| other.term.id != slow.term.id) {
+                if own.rivals.iter().all(|other| !other.term.is(slow.term)) {
                     let (term, settings) = (slow.term, slow.settings.clone());
                     own.rivals.push(Rival { term, settings, odds: -least });
                 }
@@ -122,12 +139,7 @@ impl Case<'_> {
     fn instead(&self, found: &Diagnosis, which: usize, mut sheet: Strengths) -> Option<Instead> {
         let name = TRIADS[which];
         self.walk(triad(&mut sheet, which));
-        let is_slow = |id: &str| {
-            let of_triad = id.strip_prefix(name).and_then(|rest| rest.strip_prefix('_'));
-            // What follows heat slowly goes on for long after a rest or a reversal.
-            let follows = which == 0 && id == catalogue::THERMAL_ONE_PER_TURN.id;
-            of_triad.is_some_and(|rest| SLOW.contains(&rest)) || follows
-        };
+        let is_slow = |id: &str| SLOW[which].iter().any(|slow| slow.id == id);
         let is_slow_line = |one: &Cause| {
             one.settings.first().is_some_and(|frequency| frequency * self.duration() < SLOW_CYCLES)
                 && strongest(one).is_some_and(|(channel, ..)| channel.starts_with(name))

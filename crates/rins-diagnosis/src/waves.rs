@@ -1,7 +1,7 @@
 //! Slow waves that are no sines: steps of one height that undo a drift, and multiples of a line that do not stand out one by one.
 
 use rins_estimation::{Estimate, Fit, Indefinite, NoiseKnowledge};
-use rins_terms::{Chosen, Term, catalogue};
+use rins_terms::{Chosen, SettingKind, Term, catalogue};
 
 use crate::candidates::Candidate;
 use crate::case::{Case, gained};
@@ -63,18 +63,17 @@ impl Case<'_> {
     fn sawtooths(&self, after: &Fit, causes: &[Cause]) -> Vec<Unexplained> {
         let drifts = |which: usize| {
             let walk = |mut of| triad(&mut of, which).walk;
-            let drifts =
-                |cause: &Cause| DRIFTS[which].iter().any(|drift| drift.id == cause.term.id);
+            let drifts = |cause: &Cause| DRIFTS[which].iter().any(|drift| drift.is(cause.term));
             walk(after.noise[0].imu) > walk(self.sheet) || causes.iter().any(drifts)
         };
         let of_triad = |which: usize| {
             let term = [&catalogue::GYRO_BIAS_STEP, &catalogue::ACCEL_BIAS_STEP][which];
-            let mut steps = causes.iter().filter(|cause| cause.term.id == term.id);
+            let mut steps = causes.iter().filter(|cause| cause.term.is(term));
             let (one, other) = (steps.next()?, steps.next()?);
             are_alike(&one.parameters, &other.parameters).then_some(())?;
             let size = |estimate: &&Estimate| (estimate.value / estimate.sigma).abs();
             let largest = one.parameters.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
-            let time = term.setting("time")?;
+            let time = term.setting(SettingKind::Time)?;
             let period = (one.settings[time] - other.settings[time]).abs();
             Some(Unexplained {
                 run: largest.run.unwrap_or_default(),

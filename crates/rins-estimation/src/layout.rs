@@ -1,7 +1,7 @@
 //! Where the parameters of several runs stand among all.
 
 use rins_imu::ImuSpec;
-use rins_terms::{Free, Model, Owner};
+use rins_terms::{Chosen, Free, Model, Owner, catalogue};
 
 use crate::fit_error::FitError;
 use crate::run::Run;
@@ -128,7 +128,8 @@ pub(crate) fn attitude_of(
     free: &[(usize, usize)],
     places: &[usize],
 ) -> Option<[usize; 3]> {
-    let of = |id: &str| free.iter().position(|at| model.find(id).as_ref() == Some(at));
-    let [x, y, z] = ["axis.attitude.x", "axis.attitude.y", "axis.attitude.z"].map(of);
+    let is_attitude = |chosen: &Chosen| chosen.term.is(&catalogue::AXIS_ATTITUDE);
+    let term = model.terms.iter().position(is_attitude)?;
+    let [x, y, z] = [0, 1, 2].map(|angle| free.iter().position(|at| *at == (term, angle)));
     Some([places[x?], places[y?], places[z?]])
 }

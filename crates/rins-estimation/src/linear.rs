@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Nav, Table};
-use rins_terms::{Model, Surroundings, Track, catalogue};
+use rins_terms::{Model, SettingKind, Surroundings, Track, catalogue};
 
 use crate::build::{Build, Compared};
 use crate::epoch::{Epoch, SHORTEST_EPOCH, Span, whole};
@@ -58,13 +58,13 @@ pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
     let mut nav_from_table = run.rig.nav_from_table;
     let mut horizontal = InFrame::<Nav>::new(0.0, 0.0, 0.0);
     for chosen in &mut rest.terms {
-        if chosen.term.id == catalogue::AXIS_ATTITUDE.id {
+        if chosen.term.is(&catalogue::AXIS_ATTITUDE) {
             let tilt = InFrame::<Table>::new(chosen.values[0], chosen.values[1], chosen.values[2]);
             nav_from_table =
                 nav_from_table * Dcm::<Table, Table>::from_rotation_vector(tilt.components());
             chosen.values.fill(0.0);
         }
-        if chosen.term.id == catalogue::AXIS_AZIMUTH.id {
+        if chosen.term.is(&catalogue::AXIS_AZIMUTH) {
             horizontal = InFrame::new(chosen.values[1], chosen.values[0], 0.0);
             chosen.values.fill(0.0);
         }
@@ -196,8 +196,7 @@ fn cut(samples: &Range<usize>, piece: usize, events: &[usize]) -> Vec<usize> {
 
 /// The samples in which a model's events happen.
 fn events(model: &Model, track: &Track) -> Vec<usize> {
-    let times =
-        model.terms.iter().filter_map(|chosen| Some(chosen.settings[chosen.term.setting("time")?]));
+    let times = model.terms.iter().filter_map(|chosen| chosen.setting(SettingKind::Time));
     let sample = |time: f64| track.times().partition_point(|end| end - track.start() < time);
     let mut events: Vec<usize> = times.map(sample).collect();
     events.sort_unstable();

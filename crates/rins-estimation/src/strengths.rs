@@ -1,7 +1,7 @@
 //! How strong the random errors are.
 
 use rins_imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
-use rins_terms::{Model, Noises};
+use rins_terms::{Model, Noises, catalogue};
 
 /// The random errors of one triad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,7 +61,8 @@ impl Strengths {
         };
         let imu = ImuNoise { gyro: noise(&self.gyro), accel: noise(&self.accel) };
         let Noises { imu, .. } = model.stirred(Noises { imu, encoder: 0.0 });
-        let jitter = model.value("timestamp_jitter.sigma").unwrap_or_default();
+        let of_jitter = model.terms.iter().find(|one| one.term.is(&catalogue::TIMESTAMP_JITTER));
+        let jitter = of_jitter.map_or(0.0, |one| one.values[0]);
         Self {
             gyro: strengths(&imu.gyro),
             accel: strengths(&imu.accel),

@@ -166,5 +166,5 @@ impl ModelFile {
 
 /// Whether both are one effect: the same term with the same settings.
 fn same(a: &Chosen, b: &Chosen) -> bool {
-    a.term.id == b.term.id && a.settings == b.settings
+    a.term.is(b.term) && a.settings == b.settings
 }

@@ -10,7 +10,7 @@ use rins_imu::{
 };
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
-use rins_terms::{Model, Role};
+use rins_terms::{Model, Role, catalogue};
 
 use crate::error::ReproductionError;
 
@@ -211,7 +211,8 @@ pub fn coverage(
 /// All of eq. (1) and the attitude of the axis, the latter known to what the survey says.
 fn model() -> Model {
     ["x", "y", "z"].iter().fold(Model::full(), |model, axis| {
-        model.with_role(&format!("axis.attitude.{axis}"), Role::Within(ATTITUDE_SIGMA))
+        let id = format!("{}.{axis}", catalogue::AXIS_ATTITUDE.id);
+        model.with_role(&id, Role::Within(ATTITUDE_SIGMA))
     })
 }
 

@@ -4,8 +4,9 @@ use num_dual::Dual64;
 use rins_imu::{ImuSpec, Seed};
 use rins_motion::Recording;
 
-use crate::catalogue::{self, REFERENCE_TEMPERATURE};
+use crate::catalogue;
 use crate::moment::Moment;
+use crate::setting::SettingKind;
 use crate::signals::Signals;
 use crate::term::{Action, Noises, Owner, Term};
 use crate::unit::Unit;
@@ -36,7 +37,7 @@ pub enum Role {
 
 impl PartialEq for Chosen {
     fn eq(&self, other: &Self) -> bool {
-        self.term.id == other.term.id
+        self.term.is(other.term)
             && self.settings == other.settings
             && self.values == other.values
             && self.roles == other.roles
@@ -55,20 +56,25 @@ impl Chosen {
         }
     }
 
-    /// The same with another setting, in SI units; a name that the term does not have changes nothing.
+    /// The same with another setting, in SI units; a kind that the term does not have changes nothing.
     #[must_use]
-    pub fn with_setting(mut self, name: &str, value: f64) -> Self {
+    pub fn with_setting(mut self, kind: SettingKind, value: f64) -> Self {
         for (setting, slot) in self.term.settings.iter().zip(&mut self.settings) {
-            if setting.name == name {
+            if setting.kind == kind {
                 *slot = value;
             }
         }
         self
     }
 
+    /// The value of its setting of this kind, in SI units, if it has one.
+    pub fn setting(&self, kind: SettingKind) -> Option<f64> {
+        self.term.setting(kind).map(|place| self.settings[place])
+    }
+
     /// The temperature at which it is zero \[°C\], if it depends on temperature.
     pub fn reference_temperature(&self) -> Option<f64> {
-        self.term.setting(REFERENCE_TEMPERATURE.name).map(|place| self.settings[place])
+        self.setting(SettingKind::ReferenceTemperature)
     }
 
     /// The same with these parameters, in SI units.
@@ -171,7 +177,7 @@ impl Model {
     #[must_use]
     pub fn about_temperature(mut self, reference: f64) -> Self {
         for chosen in &mut self.terms {
-            if let Some(place) = chosen.term.setting(REFERENCE_TEMPERATURE.name) {
+            if let Some(place) = chosen.term.setting(SettingKind::ReferenceTemperature) {
                 chosen.settings[place] = reference;
             }
         }

@@ -8,7 +8,8 @@
 use rins_frames::SignedAxes;
 
 use crate::model::{Chosen, Model};
-use crate::term::{Parity, SENSOR_AXIS, Term};
+use crate::setting::SettingKind;
+use crate::term::{Parity, Term};
 
 const LETTERS: [&str; 3] = ["x", "y", "z"];
 
@@ -108,7 +109,7 @@ impl Term {
     /// `settings` are those of the run, or its own: both name the axis, if they name one, by the sign that it has here.
     fn own_sign(&self, parameter: usize, settings: &[f64], axes: &SignedAxes) -> f64 {
         if self.parity == Parity::OfSetting {
-            let axis = self.setting(SENSOR_AXIS).map(|place| axis_of(settings[place]));
+            let axis = self.setting(SettingKind::Axis).map(|place| axis_of(settings[place]));
             return axis.map_or(1.0, |axis| axes.sign[axis]);
         }
         sign_of(self.parameters[parameter].name, self.parity, axes)
@@ -117,7 +118,7 @@ impl Term {
     /// Its own settings, where those of a run with these axes are `settings`.
     pub fn own_settings(&self, settings: &[f64], axes: &SignedAxes) -> Vec<f64> {
         let mut own = settings.to_vec();
-        if let (Parity::OfSetting, Some(place)) = (self.parity, self.setting(SENSOR_AXIS)) {
+        if let (Parity::OfSetting, Some(place)) = (self.parity, self.setting(SettingKind::Axis)) {
             let axis = axis_of(settings[place]);
             if axes.source[axis] != axis {
                 own[place] = (axes.source[axis] + 1) as f64;

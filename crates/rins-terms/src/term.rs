@@ -8,11 +8,9 @@ use rins_motion::Recording;
 use crate::following::settled;
 use crate::grade::Grade;
 use crate::moment::Moment;
+use crate::setting::{Setting, SettingKind};
 use crate::signals::{DualVector, Signals};
 use crate::unit::Unit;
-
-/// The name of the setting by which a term is on one of the sensors' axes.
-pub(crate) const SENSOR_AXIS: &str = "axis";
 
 /// One physical effect: what it is, how large it is, and what it does.
 ///
@@ -108,21 +106,6 @@ impl Parameter {
         };
         (low * self.unit.factor, high * self.unit.factor)
     }
-}
-
-/// A number that chooses a term's shape.
-#[derive(Clone, Copy, Debug)]
-pub struct Setting {
-    /// Its name, such as `order`.
-    pub name: &'static str,
-    /// What it means, in words.
-    pub meaning: &'static str,
-    /// Its unit.
-    pub unit: Unit,
-    /// What it is where nothing is said, in SI units.
-    pub default: f64,
-    /// The least and the largest it may be, in SI units.
-    pub within: (f64, f64),
 }
 
 /// What a run must offer for a term to have a meaning.
@@ -222,9 +205,14 @@ impl Term {
         self.parameters.iter().map(|parameter| format!("{}.{}", self.id, parameter.name))
     }
 
-    /// The place of a setting among all, if it has one of this name.
-    pub fn setting(&self, name: &str) -> Option<usize> {
-        self.settings.iter().position(|setting| setting.name == name)
+    /// Whether it is the effect that `other` is: the same entry of the catalogue, or a form of it with its id.
+    pub fn is(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+
+    /// The place of a setting among all, if it has one of this kind.
+    pub fn setting(&self, kind: SettingKind) -> Option<usize> {
+        self.settings.iter().position(|setting| setting.kind == kind)
     }
 
     /// The settings where nothing is said of them.

@@ -46,7 +46,7 @@ impl Model {
     pub fn split(&self) -> (ImuError, Self) {
         let (mut error, mut others) = (ImuError::default(), Self::default());
         for chosen in &self.terms {
-            let is = |term: &Term| term.id == chosen.term.id;
+            let is = |term: &Term| term.is(chosen.term);
             let triad = TERMS.iter().position(|terms| terms.iter().any(|term| is(term)));
             match triad {
                 Some(0) => add(&mut error.gyro, chosen),
@@ -61,7 +61,7 @@ impl Model {
 /// Adds a term of eq. (1) to a triad's errors.
 fn add(triad: &mut TriadError, chosen: &Chosen) {
     let values = &chosen.values;
-    let kind = TERMS.iter().find_map(|terms| terms.iter().position(|t| t.id == chosen.term.id));
+    let kind = TERMS.iter().find_map(|terms| terms.iter().position(|term| term.is(chosen.term)));
     match kind {
         Some(0) => values.iter().zip(triad.bias.iter_mut()).for_each(|(value, to)| *to += value),
         Some(1) => (0..3).for_each(|axis| triad.matrix[(axis, axis)] += values[axis]),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use rins_terms::SettingKind;
 use rins_terms::catalogue::BASE_TILT_STEP;
 
 use crate::draw::Kind;
@@ -112,16 +113,16 @@ pub(crate) fn faint(page: &mut String, records: &[&Record]) {
 fn expected(record: &Record, hidden: &Hidden) -> f64 {
     let terms = crate::hide::hideable();
     let settings = terms.iter().find(|term| term.id == hidden.id).map_or(&[][..], |t| t.settings);
-    let looks = |name: &str| match name {
+    let looks = |kind| match kind {
         // All of a base's tilt, as gyros see it, is in one sample.
-        "time" if hidden.id == BASE_TILT_STEP.id => record.duration / record.interval,
-        "time" => 16.0,
-        "order" => 9.0,
-        "time_constant" | "axis" => 3.0,
-        "frequency" => HIGHEST * record.duration,
+        SettingKind::Time if hidden.id == BASE_TILT_STEP.id => record.duration / record.interval,
+        SettingKind::Time => 16.0,
+        SettingKind::Order => 9.0,
+        SettingKind::TimeConstant | SettingKind::Axis => 3.0,
+        SettingKind::Frequency => HIGHEST * record.duration,
         _ => 1.0,
     };
-    let looks: f64 = settings.iter().map(|setting| looks(setting.name)).product();
+    let looks: f64 = settings.iter().map(|setting| looks(setting.kind)).product();
     let limit = threshold(FALSE_ALARMS / terms.len() as f64 / looks, hidden.dof);
     power(hidden.strength, hidden.dof, limit)
 }

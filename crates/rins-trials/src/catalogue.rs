@@ -1,21 +1,21 @@
 //! The catalogue's effects as hidden ones, and as their rivals.
 
 use rins_blind::Effect;
-use rins_terms::{Chosen, Term, catalogue};
+use rins_terms::{Chosen, SettingKind, Term, catalogue};
 
 /// What the baseline holds anyway, what is a choice of frame, and what leaves nothing behind.
-const NEVER_HIDDEN: [&str; 11] = [
-    "gyro.bias",
-    "gyro.scale",
-    "gyro.misalignment",
-    "accel.bias",
-    "accel.scale",
-    "accel.misalignment",
-    "axis.attitude",
-    "axis.azimuth",
-    "mounting",
-    "encoder.zero",
-    "table_rate_ripple",
+static NEVER_HIDDEN: [&Term; 11] = [
+    &catalogue::GYRO_BIAS,
+    &catalogue::GYRO_SCALE,
+    &catalogue::GYRO_MISALIGNMENT,
+    &catalogue::ACCEL_BIAS,
+    &catalogue::ACCEL_SCALE,
+    &catalogue::ACCEL_MISALIGNMENT,
+    &catalogue::AXIS_ATTITUDE,
+    &catalogue::AXIS_AZIMUTH,
+    &catalogue::MOUNTING,
+    &catalogue::ENCODER_ZERO,
+    &catalogue::TABLE_RATE_RIPPLE,
 ];
 
 /// The orders of the table angle at which rivals are tried.
@@ -26,7 +26,7 @@ const PARTS: u32 = 16;
 
 /// Whether a term is a signal that can be hidden in a run.
 pub fn is_hideable(term: &Term) -> bool {
-    term.is_signal() && !NEVER_HIDDEN.contains(&term.id)
+    term.is_signal() && !NEVER_HIDDEN.iter().any(|never| never.is(term))
 }
 
 /// A term with its numbers, as the generator takes it.
@@ -39,23 +39,23 @@ pub(crate) fn rivals(duration: f64) -> Vec<Chosen> {
     let mut rivals = Vec::new();
     for term in catalogue::CATALOGUE.iter().copied().filter(|term| is_hideable(term)) {
         let chosen = Chosen::new(term).estimated();
-        let with = |name: &str, values: &[f64]| -> Vec<Chosen> {
-            let setting = term.settings.iter().find(|setting| setting.name == name);
-            let fits =
-                |value: &&f64| setting.is_some_and(|s| (s.within.0..=s.within.1).contains(*value));
-            values.iter().filter(fits).map(|&v| chosen.clone().with_setting(name, v)).collect()
+        let with = |kind: SettingKind, values: &[f64]| -> Vec<Chosen> {
+            let setting = term.setting(kind).map(|place| &term.settings[place]);
+            let fits = |value: &&f64| setting.is_some_and(|setting| setting.allows(**value));
+            values.iter().filter(fits).map(|&v| chosen.clone().with_setting(kind, v)).collect()
         };
-        let has = |name: &str| term.settings.iter().any(|setting| setting.name == name);
-        if has("frequency") {
+        let has = |kind: SettingKind| term.setting(kind).is_some();
+        if has(SettingKind::Frequency) {
             continue;
         }
-        if has("time") {
+        if has(SettingKind::Time) {
             let part = |number| duration * (f64::from(number) + 0.5) / f64::from(PARTS);
-            rivals.extend(with("time", &(0..PARTS).map(part).collect::<Vec<_>>()));
-        } else if has("time_constant") {
-            rivals.extend(with("time_constant", &[0.03, 0.1, 0.3].map(|part| part * duration)));
-        } else if has("order") {
-            rivals.extend(with("order", &ORDERS));
+            rivals.extend(with(SettingKind::Time, &(0..PARTS).map(part).collect::<Vec<_>>()));
+        } else if has(SettingKind::TimeConstant) {
+            let values = [0.03, 0.1, 0.3].map(|part| part * duration);
+            rivals.extend(with(SettingKind::TimeConstant, &values));
+        } else if has(SettingKind::Order) {
+            rivals.extend(with(SettingKind::Order, &ORDERS));
         } else {
             rivals.push(chosen);
         }
@@ -68,13 +68,13 @@ pub(crate) fn alike(chosen: &Chosen) -> Vec<Chosen> {
     let own = chosen.term.settings.iter().zip(&chosen.settings);
     own.flat_map(|(setting, &value)| {
         let has = move |term: &&'static Term| {
-            let same = term.settings.iter().find(|other| other.name == setting.name);
-            same.is_some_and(|s| (s.within.0..=s.within.1).contains(&value))
+            let same = term.setting(setting.kind).map(|place| &term.settings[place]);
+            same.is_some_and(|same| same.allows(value))
         };
         let terms = catalogue::CATALOGUE.iter().copied().filter(|term| is_hideable(term));
         terms
             .filter(has)
-            .map(move |term| Chosen::new(term).estimated().with_setting(setting.name, value))
+            .map(move |term| Chosen::new(term).estimated().with_setting(setting.kind, value))
     })
     .collect()
 }

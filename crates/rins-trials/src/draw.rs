@@ -151,7 +151,7 @@ impl Trial {
 
     fn clean(kind: Kind, schedule: Schedule, level: Level, laboratory: &Laboratory) -> Self {
         let worn = laboratory.experiment.effects.iter().map(|effect| effect.id.clone());
-        let scatter = level.scatter().iter().map(|id| (*id).to_owned());
+        let scatter = level.scatter().iter().map(|term| term.id.to_owned());
         Self {
             kind,
             schedule,

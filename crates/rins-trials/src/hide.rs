@@ -5,15 +5,12 @@ use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rins_blind::{Random, record};
 use rins_estimation::Run;
-use rins_terms::{Chosen, Term, catalogue};
+use rins_terms::{Chosen, SettingKind, Term, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::{alike, hidden, is_hideable, rivals};
 use crate::laboratory::{Laboratory, log_uniform};
 use crate::stand::{Stand, StandError, Told};
-
-/// The one effect that is not linear in its parameters.
-const DEAD_ZONE: &str = "gyro_dead_zone";
 
 /// How many widths of a dead zone are tried, and how near one has to come to what was meant.
 const MOST_WIDTHS: usize = 16;
@@ -82,7 +79,7 @@ impl Ground {
         let Some((values, dof)) = sized(&told, meant, random) else { return Ok(None) };
         let mut bounds = bounds(&told);
         chosen.values = values;
-        if term.id == DEAD_ZONE {
+        if is_nonlinear(term) {
             let Some(wide) = self.widened(&chosen, meant)? else { return Ok(None) };
             chosen = wide;
             bounds = self::bounds(&self.stand.told(&self.plain, std::slice::from_ref(&chosen))?);
@@ -146,23 +143,23 @@ impl Ground {
     fn shaped(&self, term: &'static Term, random: &mut Random) -> Chosen {
         let mut chosen = Chosen::new(term).estimated();
         for setting in term.settings {
-            let value = match setting.name {
-                "time" => self.duration * (0.1 + 0.8 * random.random::<f64>()),
-                "time_constant" => self.duration * log_uniform(random, 0.02, 0.4),
+            let value = match setting.kind {
+                SettingKind::Time => self.duration * (0.1 + 0.8 * random.random::<f64>()),
+                SettingKind::TimeConstant => self.duration * log_uniform(random, 0.02, 0.4),
                 // Slow enough for an epoch of the estimator to show it: its strength is told by that.
-                "frequency" => log_uniform(random, 0.02, 0.8),
-                "axis" => f64::from(random.random_range(1..=3_u8)),
-                "exponent" => 0.5 * 6_f64.powf(random.random()),
-                "order" if setting.within.0 < 0.0 => {
+                SettingKind::Frequency => log_uniform(random, 0.02, 0.8),
+                SettingKind::Axis => f64::from(random.random_range(1..=3_u8)),
+                SettingKind::Exponent => 0.5 * 6_f64.powf(random.random()),
+                SettingKind::Order if setting.within.0 < 0.0 => {
                     [-4.0, -3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 12.0]
                         [random.random_range(0..10)]
                 }
-                "order" => f64::from(random.random_range(2..=12_u8)),
+                SettingKind::Order => f64::from(random.random_range(2..=12_u8)),
                 _ => setting.default,
             };
-            chosen = chosen.with_setting(setting.name, value);
+            chosen = chosen.with_setting(setting.kind, value);
         }
-        if term.id == DEAD_ZONE {
+        if is_nonlinear(term) {
             // Its square counts: it is looked at where it is as wide as usual.
             let wide = |p: &rins_terms::Parameter| p.range(&self.stand.imu).1;
             chosen.values = term.parameters.iter().map(wide).collect();
@@ -179,7 +176,7 @@ impl Ground {
     ) -> Result<Vec<(String, f64)>, StandError> {
         let mut others = rivals(self.duration);
         others.extend(alike(chosen));
-        others.retain(|rival| rival.term.id != chosen.term.id);
+        others.retain(|rival| !rival.term.is(chosen.term));
         let told = self.stand.told(run, &others)?;
         let mut least: Vec<(String, f64)> = Vec::new();
         for (number, rival) in others.iter().enumerate() {
@@ -248,6 +245,11 @@ pub(crate) fn explained(told: &Told, rival: usize) -> f64 {
         information[(place, place)] += RIVAL.powi(-2);
     }
     information.cholesky().map_or(0.0, |factor| score.dot(&factor.solve(&score)))
+}
+
+/// Whether an effect is the one that is not linear in its parameters.
+fn is_nonlinear(term: &Term) -> bool {
+    term.is(&catalogue::GYRO_DEAD_ZONE)
 }
 
 /// The effects that may be hidden.

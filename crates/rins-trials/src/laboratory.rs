@@ -10,6 +10,7 @@ use rins_blind::{
     Drive, Effect, Encoder, Experiment, Known, Noise, Place, Random, Ripple, Rounding, Segment,
     Sensors, SensorsKnown, Temperature,
 };
+use rins_terms::{Term, catalogue};
 use serde::{Deserialize, Serialize};
 
 const DEGREE: f64 = PI / 180.0;
@@ -57,19 +58,26 @@ impl Schedule {
     }
 }
 
+/// The flicker of both triads.
+static FLICKER: [&Term; 2] =
+    [&catalogue::GYRO_BIAS_INSTABILITY, &catalogue::ACCEL_BIAS_INSTABILITY];
+
+/// The flicker of both triads, their least bits, and jitter.
+static COARSE: [&Term; 5] = [
+    &catalogue::GYRO_BIAS_INSTABILITY,
+    &catalogue::ACCEL_BIAS_INSTABILITY,
+    &catalogue::GYRO_QUANTISATION,
+    &catalogue::ACCEL_QUANTISATION,
+    &catalogue::TIMESTAMP_JITTER,
+];
+
 impl Level {
-    /// What the data sheet does not say of the noise, by the catalogue's ids.
-    pub(crate) const fn scatter(self) -> &'static [&'static str] {
+    /// What the data sheet does not say of the noise.
+    pub(crate) const fn scatter(self) -> &'static [&'static Term] {
         match self {
             Self::White => &[],
-            Self::Flicker | Self::Table => &["gyro_bias_instability", "accel_bias_instability"],
-            Self::Coarse => &[
-                "gyro_bias_instability",
-                "accel_bias_instability",
-                "gyro_quantisation",
-                "accel_quantisation",
-                "timestamp_jitter",
-            ],
+            Self::Flicker | Self::Table => &FLICKER,
+            Self::Coarse => &COARSE,
         }
     }
 
@@ -185,15 +193,15 @@ impl Laboratory {
 
     /// A bearing that wobbles and an encoder that is off centre.
     fn wear(&mut self, random: &mut Random) {
-        let mut effect = |id: &str, settings: &[f64], low: f64, high: f64| {
+        let mut effect = |term: &Term, settings: &[f64], low: f64, high: f64| {
             let (size, phase) = (log_uniform(random, low, high), uniform(random, -PI, PI));
             let parameters = [size * phase.cos() * ARCSECOND, size * phase.sin() * ARCSECOND];
-            self.experiment.effects.push(Effect::new(id, &parameters, settings));
+            self.experiment.effects.push(Effect::new(term.id, &parameters, settings));
             size * ARCSECOND
         };
-        let wobble = effect("table_wobble", &[2.0], 0.02, 0.5);
-        effect("encoder_eccentricity", &[], 0.1, 5.0);
-        effect("encoder_harmonic", &[2.0], 0.02, 1.0);
+        let wobble = effect(&catalogue::TABLE_WOBBLE, &[2.0], 0.02, 0.5);
+        effect(&catalogue::ENCODER_ECCENTRICITY, &[], 0.1, 5.0);
+        effect(&catalogue::ENCODER_HARMONIC, &[2.0], 0.02, 1.0);
         self.known.wobble = Some(wobble);
     }
 
@@ -205,7 +213,7 @@ impl Laboratory {
         self.experiment.accel.rounding = bit(self.known.accel.noise);
         self.experiment.encoder.resolution = 0.05 * ARCSECOND;
         let jitter = log_uniform(random, 0.1e-6, 1e-6);
-        self.experiment.effects.push(Effect::new("timestamp_jitter", &[jitter], &[]));
+        self.experiment.effects.push(Effect::new(catalogue::TIMESTAMP_JITTER.id, &[jitter], &[]));
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use rand::RngExt;
 use rins_blind::{Channel, Random, Shape, Unknown, record};
-use rins_terms::{Chosen, catalogue};
+use rins_terms::{Chosen, SettingKind, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::rivals;
@@ -87,8 +87,8 @@ impl Ground {
         let line = |frequency: f64| {
             Chosen::new(&catalogue::INTERFERENCE_LINE)
                 .estimated()
-                .with_setting("frequency", frequency)
-                .with_setting("axis", axis as f64 + 1.0)
+                .with_setting(SettingKind::Frequency, frequency)
+                .with_setting(SettingKind::Axis, axis as f64 + 1.0)
         };
         frequencies.into_iter().filter(|frequency| *frequency > 0.0).map(line).collect()
     }

@@ -1,6 +1,6 @@
 //! What a record says of the program.
 
-use rins_terms::catalogue;
+use rins_terms::{Term, catalogue};
 
 use crate::answer::Named;
 use crate::draw::Kind;
@@ -79,49 +79,94 @@ impl Hidden {
 }
 
 /// Effects that act alike; what is named within a class is nearly right.
-const CLASSES: [(&str, &[&str]); 11] = [
+static CLASSES: [(&str, &[&Term]); 11] = [
     (
         "gyro in time and temperature",
-        &["gyro_bias_step", "gyro_bias_ramp", "gyro_warmup", "gyro_thermal_bias", "gyro_shupe"],
+        &[
+            &catalogue::GYRO_BIAS_STEP,
+            &catalogue::GYRO_BIAS_RAMP,
+            &catalogue::GYRO_WARMUP,
+            &catalogue::GYRO_THERMAL_BIAS,
+            &catalogue::GYRO_SHUPE,
+        ],
     ),
     (
         "gyro with the rate",
         &[
-            "gyro_rate_dependent_bias",
-            "gyro_scale_asymmetry",
-            "gyro_scale_nonlinearity",
-            "gyro_hysteresis",
-            "gyro_thermal_scale",
-            "gyro_scale_ramp",
+            &catalogue::GYRO_RATE_DEPENDENT_BIAS,
+            &catalogue::GYRO_SCALE_ASYMMETRY,
+            &catalogue::GYRO_SCALE_NONLINEARITY,
+            &catalogue::GYRO_HYSTERESIS,
+            &catalogue::GYRO_THERMAL_SCALE,
+            &catalogue::GYRO_SCALE_RAMP,
         ],
     ),
     (
         "gyro with the turn",
         &[
-            "gyro_g_sensitivity",
-            "gyro_g2_sensitivity",
-            "gyro_magnetic",
-            "gyro_dead_zone",
-            "thermal_one_per_turn",
+            &catalogue::GYRO_G_SENSITIVITY,
+            &catalogue::GYRO_G2_SENSITIVITY,
+            &catalogue::GYRO_MAGNETIC,
+            &catalogue::GYRO_DEAD_ZONE,
+            &catalogue::THERMAL_ONE_PER_TURN,
         ],
     ),
     (
         "accelerometer in time and temperature",
-        &["accel_bias_step", "accel_bias_ramp", "accel_warmup", "accel_thermal_bias"],
+        &[
+            &catalogue::ACCEL_BIAS_STEP,
+            &catalogue::ACCEL_BIAS_RAMP,
+            &catalogue::ACCEL_WARMUP,
+            &catalogue::ACCEL_THERMAL_BIAS,
+        ],
     ),
     (
         "accelerometer with force",
-        &["accel_quadratic", "accel_cubic", "accel_asymmetry", "accel_cross_coupling"],
+        &[
+            &catalogue::ACCEL_QUADRATIC,
+            &catalogue::ACCEL_CUBIC,
+            &catalogue::ACCEL_ASYMMETRY,
+            &catalogue::ACCEL_CROSS_COUPLING,
+        ],
     ),
     (
         "accelerometer with the rate",
-        &["accel_lever_arm", "accel_size_effect", "accel_vibration_rectification"],
+        &[
+            &catalogue::ACCEL_LEVER_ARM,
+            &catalogue::ACCEL_SIZE_EFFECT,
+            &catalogue::ACCEL_VIBRATION_RECTIFICATION,
+        ],
     ),
-    ("delays", &["gyro_lag", "accel_latency", "encoder_latency", "clock_drift", "dropped_samples"]),
-    ("encoder", &["encoder_eccentricity", "encoder_harmonic", "encoder_backlash", "encoder_slip"]),
-    ("axis and base", &["table_wobble", "cable_torque_tilt", "base_tilt_ramp", "base_tilt_step"]),
-    ("lines", &["base_sway", "interference_line"]),
-    ("place", &["base_rotation", "wrong_latitude", "wrong_gravity"]),
+    (
+        "delays",
+        &[
+            &catalogue::GYRO_LAG,
+            &catalogue::ACCEL_LATENCY,
+            &catalogue::ENCODER_LATENCY,
+            &catalogue::CLOCK_DRIFT,
+            &catalogue::DROPPED_SAMPLES,
+        ],
+    ),
+    (
+        "encoder",
+        &[
+            &catalogue::ENCODER_ECCENTRICITY,
+            &catalogue::ENCODER_HARMONIC,
+            &catalogue::ENCODER_BACKLASH,
+            &catalogue::ENCODER_SLIP,
+        ],
+    ),
+    (
+        "axis and base",
+        &[
+            &catalogue::TABLE_WOBBLE,
+            &catalogue::CABLE_TORQUE_TILT,
+            &catalogue::BASE_TILT_RAMP,
+            &catalogue::BASE_TILT_STEP,
+        ],
+    ),
+    ("lines", &[&catalogue::BASE_SWAY, &catalogue::INTERFERENCE_LINE]),
+    ("place", &[&catalogue::BASE_ROTATION, &catalogue::WRONG_LATITUDE, &catalogue::WRONG_GRAVITY]),
 ];
 
 /// The names of all classes.
@@ -131,7 +176,10 @@ pub(crate) fn classes() -> impl Iterator<Item = &'static str> {
 
 /// The class of an effect.
 pub(crate) fn class(id: &str) -> &'static str {
-    CLASSES.iter().find(|(_, ids)| ids.contains(&id)).map_or("other", |(name, _)| *name)
+    CLASSES
+        .iter()
+        .find(|(_, terms)| terms.iter().any(|term| term.id == id))
+        .map_or("other", |(name, _)| *name)
 }
 
 /// Whether a level is one of those that the targets are about.
@@ -225,7 +273,8 @@ mod tests {
     #[test]
     fn every_effect_has_one_class() {
         for term in catalogue::CATALOGUE.iter().filter(|term| is_hideable(term)) {
-            let times = CLASSES.iter().filter(|(_, ids)| ids.contains(&term.id)).count();
+            let times =
+                CLASSES.iter().filter(|(_, own)| own.iter().any(|one| one.is(term))).count();
             assert_eq!(times, 1, "{}", term.id);
         }
     }

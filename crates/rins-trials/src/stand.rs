@@ -9,7 +9,7 @@ use rins_estimation::{
 use rins_frames::{Dcm, EulerAngles, InFrame, Increments, Nav, Site, Table};
 use rins_imu::{ImuSpec, TriadSpec};
 use rins_motion::{Recording, Station};
-use rins_terms::{Chosen, Free, Model};
+use rins_terms::{Chosen, Free, Model, catalogue};
 
 /// The velocity of a table on its base, 1σ \[m/s\].
 const VELOCITY: f64 = 1e-6;
@@ -180,23 +180,29 @@ fn baseline(experiment: &Experiment) -> Model {
         let matrix = (Matrix3::identity() + sensors.matrix) * turned.to_rotation_matrix().matrix();
         matrix - Matrix3::identity()
     };
-    let (gyro, accel) = (of_table(&experiment.gyro), of_table(&experiment.accel));
+    let triads = [
+        (
+            &experiment.gyro,
+            [&catalogue::GYRO_BIAS, &catalogue::GYRO_SCALE, &catalogue::GYRO_MISALIGNMENT],
+        ),
+        (
+            &experiment.accel,
+            [&catalogue::ACCEL_BIAS, &catalogue::ACCEL_SCALE, &catalogue::ACCEL_MISALIGNMENT],
+        ),
+    ];
     let mut model = Model::full();
-    for chosen in &mut model.terms {
-        let (sensors, matrix) = if chosen.term.id.starts_with("gyro") {
-            (&experiment.gyro, &gyro)
-        } else {
-            (&experiment.accel, &accel)
-        };
-        let m = matrix;
-        chosen.values = match chosen.term.id {
-            "gyro.bias" | "accel.bias" => sensors.bias.as_slice().to_vec(),
-            "gyro.scale" | "accel.scale" => m.diagonal().as_slice().to_vec(),
-            "gyro.misalignment" | "accel.misalignment" => {
-                vec![m[(0, 1)], m[(0, 2)], m[(1, 0)], m[(1, 2)], m[(2, 0)], m[(2, 1)]]
+    for (sensors, [bias, scale, misalignment]) in triads {
+        let m = of_table(sensors);
+        for chosen in &mut model.terms {
+            if chosen.term.is(bias) {
+                chosen.values = sensors.bias.as_slice().to_vec();
+            } else if chosen.term.is(scale) {
+                chosen.values = m.diagonal().as_slice().to_vec();
+            } else if chosen.term.is(misalignment) {
+                chosen.values =
+                    vec![m[(0, 1)], m[(0, 2)], m[(1, 0)], m[(1, 2)], m[(2, 0)], m[(2, 1)]];
             }
-            _ => continue,
-        };
+        }
     }
     model
 }

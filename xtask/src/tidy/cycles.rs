@@ -106,7 +106,7 @@ fn files(source: &Path) -> Result<BTreeMap<Module, File>> {
     Ok(files)
 }
 
-fn module_of(path: &Path) -> Module {
+pub(super) fn module_of(path: &Path) -> Module {
     let mut module: Module =
         path.with_extension("").iter().map(|part| part.to_string_lossy().into_owned()).collect();
     if module.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
@@ -212,7 +212,7 @@ impl<'a> Visit<'a> for Reader {
     }
 }
 
-fn is_for_tests(item: &Item) -> bool {
+pub(super) fn is_for_tests(item: &Item) -> bool {
     let attributes: &[Attribute] = match item {
         Item::Mod(item) => &item.attrs,
         Item::Use(item) => &item.attrs,

@@ -253,3 +253,71 @@ fn what_a_published_crate_lacks_is_found() {
         ]
     );
 }
+
+/// What is found where a crate that uses the catalogue has these files, beside a catalogue of one term with one setting.
+fn found_beside_catalogue(name: &str, files: &[(&str, &str)]) -> Vec<String> {
+    let mut planted = Planted::new();
+    let uses = "[dependencies]\nrins-terms.workspace = true\n";
+    for (name, dependencies) in [("rins-terms", ""), (name, uses)] {
+        planted.write(&format!("crates/{name}/Cargo.toml"), &manifest(name, dependencies));
+        planted.write(&format!("crates/{name}/src/lib.rs"), "//! A crate.\n");
+        planted.write(&format!("crates/{name}/README.md"), "```\nlet one = 1;\n```\n");
+        planted.write(&format!("crates/{name}/examples/one.rs"), "//! One.\nfn main() {}\n");
+    }
+    let term = "Term { id: \"gyro_lag\", also: &[\"readout_lag\"], settings: &[ORDER] }";
+    let setting = "Setting { name: \"order\", meaning: \"turns\" }";
+    let catalogue =
+        format!("//! Terms.\nconst ORDER: Setting = {setting};\npub static LAG: Term = {term};\n");
+    planted.write("crates/rins-terms/src/catalogue.rs", &catalogue);
+    for (file, text) in files {
+        planted.write(&format!("crates/{name}/src/{file}"), &format!("//! A file.\n{text}\n"));
+    }
+    planted.found()
+}
+
+#[test]
+fn term_told_by_its_id_is_found() {
+    let found = |text: &str| found_beside_catalogue("rins-estimation", &[("a.rs", text)]);
+    let breach = |word: &str| {
+        format!(
+            "crates/rins-estimation/src/a.rs:2: `{word}` has a term's id: use its constant in \
+             `rins_terms::catalogue`"
+        )
+    };
+    let id = "gyro_lag";
+    assert_eq!(found("fn f(id: &str) -> bool { id == \"gyro_lag\" }"), [breach(id)]);
+    assert_eq!(found("fn f(id: &str) -> bool { matches!(id, \"gyro_lag\") }"), [breach(id)]);
+    assert_eq!(found("const IDS: [&str; 2] = [\"x\", \"gyro_lag\"];"), [breach(id)]);
+    assert_eq!(found("const ID: &str = \"readout_lag\";"), [breach("readout_lag")]);
+    assert_eq!(found("const ID: &str = \"gyro_lag.delay\";"), [breach("gyro_lag.delay")]);
+    assert_eq!(found("const ID: &str = \"gyro_lag. It is late\";"), NOTHING);
+    assert_eq!(found("/// gyro_lag\nconst WORDS: &str = \"the gyro_lag\";"), NOTHING);
+}
+
+#[test]
+fn setting_told_by_its_name_is_found() {
+    let found = |text: &str| found_beside_catalogue("rins-estimation", &[("a.rs", text)]);
+    let expected =
+        "crates/rins-estimation/src/a.rs:2: `order` is a setting's name: use its `SettingKind`";
+    assert_eq!(found("fn f(s: &str) { match s { \"order\" => {} _ => {} } }"), [expected]);
+    assert_eq!(found("fn f() { dbg!([\"order\"]); }"), [expected]);
+    // A key of a result is written, not read; and what is no entry of the catalogue is defined somewhere.
+    assert_eq!(found("fn f() { json!({\"order\": 1}); }"), NOTHING);
+    assert_eq!(found("const S: Setting = Setting { name: \"order\", meaning: \"\" };"), NOTHING);
+    assert_eq!(found("const T: Term = Term { id: \"gyro_lag\", also: &[] };"), NOTHING);
+}
+
+#[test]
+fn tests_and_readers_of_files_may_name_settings() {
+    let found = |name: &str, text: &str| found_beside_catalogue(name, &[("a.rs", text)]);
+    let (order, id) = ("const KEY: &str = \"order\";", "const ID: &str = \"gyro_lag\";");
+    assert_eq!(found("rins-estimation", order).len(), 1);
+    assert_eq!(found("rins-io", order), NOTHING);
+    assert_eq!(found("rins-io", id).len(), 1);
+    let within = format!("#[cfg(test)]\nmod tests {{ {order} {id} }}");
+    assert_eq!(found("rins-estimation", &within), NOTHING);
+    let parent = ("a.rs", "#[cfg(test)]\nmod tests;");
+    let apart = [parent, ("a/tests.rs", order), ("a/tests/more.rs", id)];
+    assert_eq!(found_beside_catalogue("rins-estimation", &apart), NOTHING);
+    assert_eq!(found_beside_catalogue("rins-estimation", &apart[1..]).len(), 2);
+}

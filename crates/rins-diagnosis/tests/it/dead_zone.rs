@@ -2,13 +2,13 @@
 
 use rins_estimation::NoiseKnowledge;
 use rins_frames::units::DEG_PER_HOUR;
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::support::run;
 
 fn zones(widths: [f64; 3], axes: f64) -> Model {
-    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_setting("axes", axes);
+    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_setting(SettingKind::RateAxes, axes);
     Model { terms: vec![zone.with_values(&widths.map(|width| width * DEG_PER_HOUR))] }
 }
 

@@ -4,7 +4,7 @@ use rins_diagnosis::{Gain, GainError, GainVerdict, Overlay};
 use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
 use rins_frames::EulerAngles;
 use rins_frames::units::{ARCSEC, DEG, PPM};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, catalogue};
 
 use crate::support::{fibre, run, run_at};
 
@@ -142,7 +142,7 @@ fn what_one_run_does_not_show_is_not_held_against_another() {
 /// Navigation starts from where the base is by then. Level to 60 seconds of arc it would gain 3 mm/s every second.
 #[test]
 fn base_that_gave_way_is_where_navigation_starts() {
-    let step = || Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 80.0);
+    let step = || Chosen::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 80.0);
     let hidden = Model { terms: vec![step().with_values(&[60.0 * ARCSEC, 0.0, 0.0])] };
     let run = run(&RATES, hidden, 0.0, 101);
     let model = Model::full();
@@ -168,7 +168,7 @@ fn too_short_a_run_holds_nothing_to_measure_by() {
 /// Of an eccentric encoder the second harmonic stays in gyro z, in the table angle, until the model has it.
 #[test]
 fn what_the_model_lacks_stays_in_the_residual() {
-    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 2.0);
+    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 2.0);
     let hidden = Model { terms: vec![harmonic.clone().with_values(&[2.0 * ARCSEC, 0.0])] };
     let run = run(&RATES, hidden, 0.0, 99);
     let amplitude = |model: &Model| {

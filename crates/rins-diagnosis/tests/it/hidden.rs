@@ -7,7 +7,7 @@ use rins_estimation::{NoiseKnowledge, Run, Strengths};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::Seed;
-use rins_terms::{Chosen, Model, Term, Unit, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, Term, Unit, catalogue};
 
 use crate::support::{fibre, run};
 
@@ -68,7 +68,7 @@ fn the_power_of_the_rate_is_estimated_and_its_uncertainty_is_in_the_amplitudes()
     const EXPONENT: f64 = 1.4;
     let values = [0.0, 12.0 * MICRO_G, -8.0 * MICRO_G];
     let shaken = Chosen::new(&catalogue::ACCEL_VIBRATION_RECTIFICATION);
-    let shaken = shaken.with_setting("exponent", EXPONENT).with_values(&values);
+    let shaken = shaken.with_setting(SettingKind::Exponent, EXPONENT).with_values(&values);
     for seed in 430..434 {
         let run = run(&RATES, Model::default().with(shaken.clone()), 0.0, seed);
         let diagnosis = found(&run, NoiseKnowledge::Given);

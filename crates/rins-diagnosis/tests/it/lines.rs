@@ -3,7 +3,7 @@
 use rins_diagnosis::{Along, Cause, Diagnosis, Structure, suppose};
 use rins_estimation::{NoiseKnowledge, Strengths};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::outside::with;
@@ -11,15 +11,17 @@ use crate::support::{fibre, run};
 
 fn line(frequency: f64, axis: f64, values: &[f64]) -> Chosen {
     Chosen::new(&catalogue::INTERFERENCE_LINE)
-        .with_setting("frequency", frequency)
-        .with_setting("axis", axis)
+        .with_setting(SettingKind::Frequency, frequency)
+        .with_setting(SettingKind::Axis, axis)
         .with_values(values)
 }
 
 /// With these amplitudes \[arcsec\].
 fn sway(frequency: f64, values: &[f64; 6]) -> Chosen {
     let values = values.map(|value| value * ARCSEC);
-    Chosen::new(&catalogue::BASE_SWAY).with_setting("frequency", frequency).with_values(&values)
+    Chosen::new(&catalogue::BASE_SWAY)
+        .with_setting(SettingKind::Frequency, frequency)
+        .with_values(&values)
 }
 
 fn hiding(terms: &[Chosen], rates: &[f64], seed: u64) -> Diagnosis {

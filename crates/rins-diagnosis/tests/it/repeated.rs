@@ -3,7 +3,7 @@
 use rins_diagnosis::Cause;
 use rins_estimation::NoiseKnowledge;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
-use rins_terms::{Chosen, Model, Term, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, Term, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::support::run;
@@ -12,7 +12,7 @@ use crate::support::run;
 #[test]
 fn a_high_harmonic_of_the_encoder_is_named_with_its_order() {
     let values = [0.2 * ARCSEC, -0.3 * ARCSEC];
-    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 37.0);
+    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 37.0);
     let hidden = Model { terms: vec![harmonic.with_values(&values)] };
     let diagnosis = found(&run(&RATES, hidden, 0.0, 96), NoiseKnowledge::Given);
     let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
@@ -40,7 +40,9 @@ fn what_happens_twice_is_named_twice() {
     ];
     for (term, times, values) in cases {
         let at = |event: usize| {
-            Chosen::new(term).with_setting("time", times[event]).with_values(values[event])
+            Chosen::new(term)
+                .with_setting(SettingKind::Time, times[event])
+                .with_values(values[event])
         };
         let run = run(&RATES, Model { terms: vec![at(0), at(1)] }, 0.0, 95);
         let diagnosis = found(&run, NoiseKnowledge::Given);
@@ -63,8 +65,8 @@ fn what_happens_twice_is_named_twice() {
 #[test]
 fn warm_up_of_two_time_constants_is_two() {
     let warm_up = |values: [f64; 3], time_constant: f64| {
-        let chosen =
-            Chosen::new(&catalogue::GYRO_WARMUP).with_setting("time_constant", time_constant);
+        let chosen = Chosen::new(&catalogue::GYRO_WARMUP)
+            .with_setting(SettingKind::TimeConstant, time_constant);
         chosen.with_values(&values.map(|value| value * DEG_PER_HOUR))
     };
     let both = [warm_up([0.0, 0.5, 0.0], 15.0), warm_up([0.0, 0.4, 0.0], 130.0)];

@@ -1,14 +1,17 @@
 //! What no schedule can tell apart, since it is a matter of definition.
 
+use rins_terms::{Term, catalogue};
+
 /// Parameters of which a combination is a choice of axes, of units or of an origin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Gauge {
     /// What is chosen, such as "the zero of the table's angle".
     pub name: &'static str,
     /// Why no schedule tells it, and what to do.
     pub why: &'static str,
-    /// Its parameters: of each of these one at least must be free, or else the choice is made.
-    pub members: &'static [&'static [&'static str]],
+    /// Its parameters, each as its term and its name there: of each of these one at least must be free, or else the choice is
+    /// made.
+    pub members: &'static [&'static [(&'static Term, &'static str)]],
 }
 
 const MOUNTING: &str = "gyros and accelerometers tilted alike are an IMU that is tilted; hold the mounting, or the \
@@ -19,67 +22,85 @@ pub static GAUGES: &[Gauge] = &[
     Gauge {
         name: "the zero of the table's angle",
         why: "the encoder's zero and the axis frame's turn about its own axis are one number; hold one",
-        members: &[&["encoder.zero.angle"], &["axis.attitude.z"]],
+        members: &[&[(&catalogue::ENCODER_ZERO, "angle")], &[(&catalogue::AXIS_ATTITUDE, "z")]],
     },
     Gauge {
         name: "the origin of time",
         why: "only two of the three delays, of gyros, accelerometers and encoder, exist; hold one",
-        members: &[&["gyro_lag.delay"], &["accel_latency.delay"], &["encoder_latency.delay"]],
+        members: &[
+            &[(&catalogue::GYRO_LAG, "delay")],
+            &[(&catalogue::ACCEL_LATENCY, "delay")],
+            &[(&catalogue::ENCODER_LATENCY, "delay")],
+        ],
     },
     Gauge {
         name: "the unit of force",
         why: "gravity that is wrong is a scale error common to the accelerometers; survey gravity",
         members: &[
-            &["wrong_gravity.gravity"],
-            &["accel.scale.x"],
-            &["accel.scale.y"],
-            &["accel.scale.z"],
+            &[(&catalogue::WRONG_GRAVITY, "gravity")],
+            &[(&catalogue::ACCEL_SCALE, "x")],
+            &[(&catalogue::ACCEL_SCALE, "y")],
+            &[(&catalogue::ACCEL_SCALE, "z")],
         ],
     },
     Gauge {
         name: "the body axes about the spin axis",
         why: "gyros and accelerometers turned about it alike are other body axes; hold accel.misalignment.xy or yx",
         members: &[
-            &["gyro.misalignment.xy"],
-            &["gyro.misalignment.yx"],
-            &["accel.misalignment.xy"],
-            &["accel.misalignment.yx"],
-            &["encoder.zero.angle", "axis.attitude.z"],
+            &[(&catalogue::GYRO_MISALIGNMENT, "xy")],
+            &[(&catalogue::GYRO_MISALIGNMENT, "yx")],
+            &[(&catalogue::ACCEL_MISALIGNMENT, "xy")],
+            &[(&catalogue::ACCEL_MISALIGNMENT, "yx")],
+            &[(&catalogue::ENCODER_ZERO, "angle"), (&catalogue::AXIS_ATTITUDE, "z")],
         ],
     },
     Gauge {
         name: "the mounting of the IMU on the table about x",
         why: MOUNTING,
         members: &[
-            &["mounting.x"],
-            &["gyro.misalignment.yz"],
-            &["gyro.misalignment.zy"],
-            &["accel.misalignment.yz"],
-            &["accel.misalignment.zy"],
+            &[(&catalogue::MOUNTING, "x")],
+            &[(&catalogue::GYRO_MISALIGNMENT, "yz")],
+            &[(&catalogue::GYRO_MISALIGNMENT, "zy")],
+            &[(&catalogue::ACCEL_MISALIGNMENT, "yz")],
+            &[(&catalogue::ACCEL_MISALIGNMENT, "zy")],
         ],
     },
     Gauge {
         name: "the mounting of the IMU on the table about y",
         why: MOUNTING,
         members: &[
-            &["mounting.y"],
-            &["gyro.misalignment.xz"],
-            &["gyro.misalignment.zx"],
-            &["accel.misalignment.xz"],
-            &["accel.misalignment.zx"],
+            &[(&catalogue::MOUNTING, "y")],
+            &[(&catalogue::GYRO_MISALIGNMENT, "xz")],
+            &[(&catalogue::GYRO_MISALIGNMENT, "zx")],
+            &[(&catalogue::ACCEL_MISALIGNMENT, "xz")],
+            &[(&catalogue::ACCEL_MISALIGNMENT, "zx")],
         ],
     },
 ];
 
+impl PartialEq for Gauge {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Gauge {}
+
+/// Whether this is the id of a member.
+fn is_id_of(id: &str, (term, name): (&Term, &str)) -> bool {
+    id.strip_prefix(term.id).and_then(|rest| rest.strip_prefix('.')) == Some(name)
+}
+
 impl Gauge {
     /// Whether a parameter takes part.
     pub fn holds(&self, id: &str) -> bool {
-        self.members.iter().any(|member| member.contains(&id))
+        self.members.iter().any(|member| member.iter().any(|one| is_id_of(id, *one)))
     }
 
     /// Whether the choice is left open where these parameters are free.
     pub fn is_open(&self, free: &[&str]) -> bool {
-        self.members.iter().all(|member| member.iter().any(|id| free.contains(id)))
+        let is_free = |one: &(&'static Term, &str)| free.iter().any(|id| is_id_of(id, *one));
+        self.members.iter().all(|member| member.iter().any(is_free))
     }
 }
 

@@ -141,22 +141,28 @@ fn gauges_stay_lost_under_a_rich_schedule() {
     assert!(told_well.iter().all(|id| told.seen[told.find(id).unwrap()].identifiable));
 }
 
+#[test]
+fn members_of_gauges_are_parameters_of_their_terms() {
+    for (term, name) in GAUGES.iter().flat_map(|gauge| gauge.members).copied().flatten() {
+        assert!(term.parameters.iter().any(|p| p.name == *name), "{}.{name}", term.id);
+        let id = format!("{}.{name}", term.id);
+        assert!(GAUGES.iter().any(|gauge| gauge.holds(&id)), "{id}");
+    }
+    assert!(!GAUGES.iter().any(|gauge| gauge.holds("gyro.scale.z") || gauge.holds("mounting")));
+}
+
 /// Each gauge is a direction among its own parameters of which a rich schedule tells nothing.
 #[test]
 fn gauges_are_null_directions() {
     let rates = [(0.0, 10.0), (10.0, 40.0), (-10.0, 40.0), (20.0, 20.0)];
     let runs = [(25.0, 0.0), (60.0, 120.0)].map(|(tilt, azimuth)| run(&rates, tilt, azimuth));
     for gauge in GAUGES {
-        let ids: Vec<&str> = gauge.members.iter().map(|member| member[0]).collect();
         let mut model = Model::default();
-        for id in &ids {
-            let (term, name) = id.rsplit_once('.').unwrap();
-            let found = model.terms.iter_mut().find(|chosen| chosen.term.id == term);
+        for (term, name) in gauge.members.iter().map(|member| member[0]) {
+            let found = model.terms.iter_mut().find(|chosen| chosen.term.is(term));
             match found {
                 Some(chosen) => *chosen = chosen.clone().estimating(&[name]),
-                None => model
-                    .terms
-                    .push(Chosen::new(catalogue::term(term).unwrap()).estimating(&[name])),
+                None => model.terms.push(Chosen::new(term).estimating(&[name])),
             }
         }
         let joint = joint(&runs, &model, &IMU, &Strengths::of(&IMU)).unwrap();

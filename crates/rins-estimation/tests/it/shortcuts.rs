@@ -6,7 +6,7 @@ use rins_estimation::{
 };
 use rins_frames::units::PPM;
 use rins_imu::{Axis, ImuError, TriadError};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -23,14 +23,14 @@ fn many() -> Model {
     let mut model = Model::full();
     let terms = [
         Chosen::new(&catalogue::GYRO_THERMAL_BIAS),
-        Chosen::new(&catalogue::GYRO_BIAS_STEP).with_setting("time", 71.3),
+        Chosen::new(&catalogue::GYRO_BIAS_STEP).with_setting(SettingKind::Time, 71.3),
         Chosen::new(&catalogue::GYRO_G_SENSITIVITY),
         Chosen::new(&catalogue::ACCEL_LEVER_ARM),
         Chosen::new(&catalogue::ACCEL_LATENCY),
         Chosen::new(&catalogue::ENCODER_LATENCY),
-        Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting("order", 6.0),
-        Chosen::new(&catalogue::TABLE_WOBBLE).with_setting("order", 3.0),
-        Chosen::new(&catalogue::BASE_TILT_STEP).with_setting("time", 88.9),
+        Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 6.0),
+        Chosen::new(&catalogue::TABLE_WOBBLE).with_setting(SettingKind::Order, 3.0),
+        Chosen::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 88.9),
     ];
     model.terms.extend(terms.map(Chosen::estimated));
     model

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use rins_estimation::{NoiseKnowledge, Run, Strengths, fit, joint};
 use rins_imu::ImuError;
-use rins_terms::{Chosen, Model, Role, Term, catalogue};
+use rins_terms::{Chosen, Model, Role, SettingKind, Term, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -52,8 +52,9 @@ fn foreseen(chosen: &Chosen, runs: &[Run]) -> Vec<Option<f64>> {
 /// A term as it is made here: within the run, and where its derivative is not zero.
 fn shaped(term: &'static Term) -> Chosen {
     let imu = fibre();
-    let mut chosen =
-        Chosen::new(term).with_setting("time", 70.0).with_setting("time_constant", 40.0);
+    let mut chosen = Chosen::new(term)
+        .with_setting(SettingKind::Time, 70.0)
+        .with_setting(SettingKind::TimeConstant, 40.0);
     for (role, parameter) in chosen.roles.iter_mut().zip(term.parameters) {
         // Weaker than is usual: what the data do not show must not be shown by the prior.
         *role = Role::Within(30.0 * parameter.sigma(&imu));

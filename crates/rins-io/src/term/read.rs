@@ -1,7 +1,7 @@
 //! Terms read from files.
 
 use rins_frames::SignedAxes;
-use rins_terms::{Chosen, Role, Term, Unit, catalogue};
+use rins_terms::{Chosen, Role, SettingKind, Term, Unit, catalogue};
 
 use crate::document::{Entry, Node};
 use crate::error::{IoError, KeyProblem};
@@ -102,10 +102,11 @@ pub(crate) fn read_about(
     axes: &SignedAxes,
     reference: Option<f64>,
 ) -> Result<Chosen, IoError> {
-    let name = catalogue::REFERENCE_TEMPERATURE.name;
     let chosen = read(section, use_, axes)?;
-    let reference = reference.filter(|_| !section.has(name));
-    Ok(reference.map_or(chosen.clone(), |reference| chosen.with_setting(name, reference)))
+    let reference = reference.filter(|_| !section.has(catalogue::REFERENCE_TEMPERATURE.name));
+    let about =
+        |reference| chosen.clone().with_setting(SettingKind::ReferenceTemperature, reference);
+    Ok(reference.map_or(chosen.clone(), about))
 }
 
 /// The term whose id a section gives.

@@ -3,8 +3,9 @@
 use rins_frames::units::DEG_PER_SECOND;
 
 use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, TIME, TIME_CONSTANT, per_axis, usual};
+use crate::setting::{Setting, SettingKind};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parity, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
 /// Accelerometer biases that jump.
@@ -104,6 +105,7 @@ pub static ACCEL_VIBRATION_RECTIFICATION: Term = Term {
     source: "the mean of a quadratic error under vibration whose variance goes with a power of the rate",
     parameters: &per_axis(Unit::MICRO_G, usual((1.0, 50.0), (1.0, 10.0), (10.0, 2000.0))),
     settings: &[Setting {
+        kind: SettingKind::Exponent,
         name: "exponent",
         meaning: "the power of the rate with which the vibration's variance grows",
         unit: Unit::ONE,

@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 use rins_frames::{Body, InFrame};
 
 use crate::catalogue::parameters::parameter;
-use crate::term::{Action, Owner, Parity, Prior, Setting, Term};
+use crate::setting::{Setting, SettingKind};
+use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
 /// Degrees that are radians, and the like.
@@ -52,6 +53,7 @@ pub static AXIS_CONVENTION: Term = Term {
         parameter("z", Unit::ONE, Prior::Anywhere(1.0, 2.0)),
     ],
     settings: &[Setting {
+        kind: SettingKind::Triads,
         name: "sensors",
         meaning: "0: both triads; 1: gyros; 2: accelerometers",
         unit: Unit::ONE,

@@ -1,7 +1,8 @@
 //! What an encoder reads wrong.
 
 use crate::catalogue::parameters::{TIME, cos_sin, parameter};
-use crate::term::{Action, Need, Owner, Parity, Prior, Setting, Term};
+use crate::setting::{Setting, SettingKind};
+use crate::term::{Action, Need, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -36,6 +37,7 @@ pub static ENCODER_HARMONIC: Term = Term {
     source: "the Fourier series of an encoder's error",
     parameters: &cos_sin(Unit::ARCSEC, Prior::Anywhere(0.1, 10.0)),
     settings: &[Setting {
+        kind: SettingKind::Order,
         name: "order",
         meaning: "how often a turn it repeats",
         unit: Unit::ONE,

@@ -3,8 +3,9 @@
 use crate::catalogue::parameters::{
     REFERENCE_TEMPERATURE, TIME, TIME_CONSTANT, named, per_axis, usual,
 };
+use crate::setting::Setting;
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parity, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
 /// Gyro biases that jump.

@@ -5,7 +5,8 @@
 use num_dual::Dual64;
 
 use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, parameter, per_axis, usual};
-use crate::term::{Action, Need, Owner, Parity, Setting, Term};
+use crate::setting::{Setting, SettingKind};
+use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
 /// A scale error that changes sign with the rate.
@@ -144,6 +145,7 @@ pub static GYRO_DEAD_ZONE: Term = Term {
     source: "the lock-in equation, titterton2004",
     parameters: &per_axis(Unit::DEG_PER_HOUR, usual((0.01, 0.5), (0.001, 0.05), (0.1, 20.0))),
     settings: &[Setting {
+        kind: SettingKind::RateAxes,
         name: "axes",
         meaning: "about which axes the rate is: 0 the gyros' own, 1 the body's",
         unit: Unit::ONE,

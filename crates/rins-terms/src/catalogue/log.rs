@@ -6,7 +6,8 @@ use rins_frames::{Body, InFrame};
 use rins_imu::{NormalStream, Seed, Sensor};
 
 use crate::catalogue::parameters::{parameter, usual};
-use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Setting, Term};
+use crate::setting::{Setting, SettingKind};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
 
 /// Random numbers that no sensor's noise has.
@@ -34,6 +35,7 @@ pub static STUCK_SAMPLES: Term = Term {
     source: "the definition of a held reading",
     parameters: &[share(0.05)],
     settings: &[Setting {
+        kind: SettingKind::SampleCount,
         name: "length",
         meaning: "how many samples in a row are stuck",
         unit: Unit::ONE,

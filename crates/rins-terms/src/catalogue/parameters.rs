@@ -1,6 +1,7 @@
 //! Parameters and settings as the catalogue's files write them.
 
-use crate::term::{Parameter, Prior, SENSOR_AXIS, Setting};
+use crate::setting::{Setting, SettingKind};
+use crate::term::{Parameter, Prior};
 use crate::unit::Unit;
 
 /// Usual magnitudes with fibre gyros, laser gyros and MEMS; with pendulous accelerometers, vibrating
@@ -46,6 +47,7 @@ pub(super) const fn named<const N: usize>(
 
 /// When a step happens \[s\]; five minutes into the run where nothing is said.
 pub(super) const TIME: Setting = Setting {
+    kind: SettingKind::Time,
     name: "time",
     meaning: "when it happens, since the run began",
     unit: Unit::SECOND,
@@ -55,6 +57,7 @@ pub(super) const TIME: Setting = Setting {
 
 /// How long a step takes \[s\]; none where nothing is said.
 pub(super) const DURATION: Setting = Setting {
+    kind: SettingKind::Duration,
     name: "duration",
     meaning: "how long it takes, evenly, that time being its middle",
     unit: Unit::SECOND,
@@ -64,6 +67,7 @@ pub(super) const DURATION: Setting = Setting {
 
 /// Over how long something settles \[s\].
 pub(super) const TIME_CONSTANT: Setting = Setting {
+    kind: SettingKind::TimeConstant,
     name: "time_constant",
     meaning: "the time over which it falls by e",
     unit: Unit::SECOND,
@@ -73,6 +77,7 @@ pub(super) const TIME_CONSTANT: Setting = Setting {
 
 /// How often a second something comes back \[Hz\].
 pub(super) const FREQUENCY: Setting = Setting {
+    kind: SettingKind::Frequency,
     name: "frequency",
     meaning: "how often it comes back, whatever the table's rate",
     unit: Unit::HERTZ,
@@ -82,7 +87,8 @@ pub(super) const FREQUENCY: Setting = Setting {
 
 /// On which of the sensors' axes something is.
 pub(super) const AXIS: Setting = Setting {
-    name: SENSOR_AXIS,
+    kind: SettingKind::Axis,
+    name: "axis",
     meaning: "the axis on which it is: 1, 2, 3 for x, y, z",
     unit: Unit::ONE,
     default: 3.0,
@@ -91,6 +97,7 @@ pub(super) const AXIS: Setting = Setting {
 
 /// The temperature at which what depends on temperature is zero, and at which biases and scale errors beside it are given.
 pub const REFERENCE_TEMPERATURE: Setting = Setting {
+    kind: SettingKind::ReferenceTemperature,
     name: "reference_temperature",
     meaning: "temperature T_ref at which the effect is zero",
     unit: Unit::CELSIUS,

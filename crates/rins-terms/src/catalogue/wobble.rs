@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{cos_sin, named};
+use crate::setting::{Setting, SettingKind};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parity, Prior, Setting, Term};
+use crate::term::{Action, Need, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -18,6 +19,7 @@ pub static TABLE_WOBBLE: Term = Term {
     source: "the Fourier series of a bearing's error motion",
     parameters: &cos_sin(Unit::ARCSEC, Prior::Anywhere(0.1, 10.0)),
     settings: &[Setting {
+        kind: SettingKind::Order,
         name: "order",
         meaning: "how often a turn it repeats; negative: against the table's sense",
         unit: Unit::ONE,
@@ -49,6 +51,7 @@ pub static TABLE_RATE_RIPPLE: Term = Term {
     source: "the Fourier series of a motor's torque",
     parameters: &cos_sin(Unit::PPM, Prior::Anywhere(10.0, 1000.0)),
     settings: &[Setting {
+        kind: SettingKind::Order,
         name: "order",
         meaning: "how often a turn it repeats",
         unit: Unit::ONE,

@@ -4,6 +4,7 @@ use super::*;
 use crate::catalogue;
 use crate::making::Making;
 use crate::model::Chosen;
+use crate::setting::SettingKind;
 use crate::term::Term;
 use proptest::prelude::*;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
@@ -109,7 +110,7 @@ proptest! {
 fn largest_usual(term: &'static Term) -> Chosen {
     let values = term.parameters.iter().map(|parameter| parameter.range(&sheet()).1);
     // Steps come in the middle of the run.
-    Chosen::new(term).with_values(&values.collect::<Vec<_>>()).with_setting("time", 18.0)
+    Chosen::new(term).with_values(&values.collect::<Vec<_>>()).with_setting(SettingKind::Time, 18.0)
 }
 
 /// Whether a term moves the table at any time of the run.

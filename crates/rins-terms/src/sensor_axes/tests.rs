@@ -11,6 +11,7 @@ use super::{own_channel, sign_of};
 use crate::catalogue::{self, CATALOGUE};
 use crate::model::{Chosen, Model, Role};
 use crate::moment::{Instant, Moment, Surroundings};
+use crate::setting::SettingKind;
 use crate::signals::values;
 use crate::term::Parity;
 
@@ -91,7 +92,7 @@ proptest! {
         let (rate, force) = (Vector3::from(rate), Vector3::from(force));
         for chosen in of_the_sensors() {
             let n = chosen.values.len();
-            let chosen = chosen.with_values(&numbers[..n]).with_setting("axis", f64::from(axis));
+            let chosen = chosen.with_values(&numbers[..n]).with_setting(SettingKind::Axis, f64::from(axis));
             let carried = chosen.carried(&axes);
             let there = carried.signals(&moment(axes.apply(&rate), axes.apply(&force)), None);
             let here = chosen.signals(&moment(rate, force), None);

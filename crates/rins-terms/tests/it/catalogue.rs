@@ -6,7 +6,9 @@ use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
 use rins_imu::{NoiseModel, Seed};
 use rins_terms::catalogue::{CATALOGUE, MOST_PARAMETERS, term};
-use rins_terms::{Action, Chosen, Model, Noises, Parameter, Prior, Signals, Term, values};
+use rins_terms::{
+    Action, Chosen, Model, Noises, Parameter, Prior, SettingKind, Signals, Term, values,
+};
 
 use crate::support::{run, sheet};
 
@@ -80,7 +82,7 @@ fn largest(parameter: &Parameter) -> Vec<f64> {
 
 /// The settings with which a term acts within the run of these tests.
 fn chosen(term: &'static Term) -> Chosen {
-    Chosen::new(term).with_setting("time", 50.0)
+    Chosen::new(term).with_setting(SettingKind::Time, 50.0)
 }
 
 /// Whether a sensor of navigation grade could ever notice.

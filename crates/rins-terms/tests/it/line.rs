@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rins_terms::{Chosen, catalogue, values};
+use rins_terms::{Chosen, SettingKind, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
@@ -13,8 +13,8 @@ fn line_is_integrated_over_its_sample() {
     let track = run().track;
     for frequency in [0.3, 7.0, 24.9, 60.0] {
         let line = Chosen::new(&catalogue::INTERFERENCE_LINE)
-            .with_setting("frequency", frequency)
-            .with_setting("axis", 2.0)
+            .with_setting(SettingKind::Frequency, frequency)
+            .with_setting(SettingKind::Axis, 2.0)
             .with_values(&[1.0, 0.5, 0.2, -3.0]);
         for moment in track.moments().step_by(371) {
             let start = moment.mean.time - INTERVAL / 2.0;
@@ -39,7 +39,7 @@ fn line_is_integrated_over_its_sample() {
 fn line_of_a_whole_turn_a_sample_is_not_seen() {
     let track = run().track;
     let line = Chosen::new(&catalogue::INTERFERENCE_LINE)
-        .with_setting("frequency", 1.0 / INTERVAL)
+        .with_setting(SettingKind::Frequency, 1.0 / INTERVAL)
         .with_values(&[1.0; 4]);
     for moment in track.moments().step_by(371) {
         assert_close!(values(&line.signals(&moment, None).gyro).z, 0.0, 1e-9);

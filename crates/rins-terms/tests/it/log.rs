@@ -3,7 +3,7 @@
 use rins_frames::units::{ARCSEC, DEG_PER_SECOND, MICRO_G};
 use rins_imu::Seed;
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Chosen, Model, SettingKind, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
@@ -17,8 +17,9 @@ fn distorted(chosen: Chosen) -> (Recording, Recording) {
 
 #[test]
 fn stuck_samples_come_in_runs_and_are_as_many_as_said() {
-    let stuck =
-        Chosen::new(&catalogue::STUCK_SAMPLES).with_values(&[0.1]).with_setting("length", 4.0);
+    let stuck = Chosen::new(&catalogue::STUCK_SAMPLES)
+        .with_values(&[0.1])
+        .with_setting(SettingKind::SampleCount, 4.0);
     // While the table rests samples repeat anyway: count where it turns.
     let (before, after) = distorted(stuck);
     let turning: Vec<usize> =
@@ -93,7 +94,7 @@ fn readings_end_at_the_range() {
 #[test]
 fn axes_and_senses_are_exchanged() {
     let axes = Chosen::new(&catalogue::AXIS_CONVENTION)
-        .with_setting("sensors", 1.0)
+        .with_setting(SettingKind::Triads, 1.0)
         .with_values(&[-2.0, 1.0, 0.0]);
     let (before, after) = distorted(axes);
     for (was, is) in before.increments.iter().zip(&after.increments) {

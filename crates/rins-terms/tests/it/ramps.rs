@@ -1,6 +1,6 @@
 //! What is read while the table speeds up or slows down, against the motion itself.
 
-use rins_terms::{Chosen, catalogue, values};
+use rins_terms::{Chosen, SettingKind, catalogue, values};
 
 use crate::support::{INTERVAL, run};
 
@@ -39,7 +39,7 @@ fn late_readings_are_earlier_ones_in_every_sample() {
     let late = |term, delay: f64| Chosen::new(term).with_values(&[delay]);
     let lag = late(&catalogue::GYRO_LAG, LATE);
     let latency = late(&catalogue::ENCODER_LATENCY, LATE);
-    let lost = late(&catalogue::DROPPED_SAMPLES, LATE).with_setting("time", 0.0);
+    let lost = late(&catalogue::DROPPED_SAMPLES, LATE).with_setting(SettingKind::Time, 0.0);
     for moment in run.track.moments().skip(3).take(5990) {
         let end = moment.end.time;
         let turned = |by: f64| angle(end + by) - angle(end);

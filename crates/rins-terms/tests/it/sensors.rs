@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EulerAngles, Site};
 use rins_motion::Station;
-use rins_terms::{Acting, Chosen, Model, Moment, Surroundings, catalogue, values};
+use rins_terms::{Acting, Chosen, Model, Moment, SettingKind, Surroundings, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
@@ -109,7 +109,8 @@ fn dead_zone_is_about_the_gyros_own_axis_or_the_bodys() {
     let misalignment = Chosen::new(&catalogue::GYRO_MISALIGNMENT).with_values(&misalignment);
     let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
     let lost = |axes: f64, in_order: bool| {
-        let mut terms = vec![misalignment.clone(), zone.clone().with_setting("axes", axes)];
+        let mut terms =
+            vec![misalignment.clone(), zone.clone().with_setting(SettingKind::RateAxes, axes)];
         if !in_order {
             terms.reverse();
         }
@@ -131,7 +132,7 @@ fn dead_zone_is_about_the_gyros_own_axis_or_the_bodys() {
 fn step_falls_within_a_sample_by_its_share() {
     let run = run();
     let step = Chosen::new(&catalogue::GYRO_BIAS_STEP)
-        .with_setting("time", 50.0 + 0.25 * INTERVAL)
+        .with_setting(SettingKind::Time, 50.0 + 0.25 * INTERVAL)
         .with_values(&[1.0, 0.0, 0.0]);
     let read: Vec<f64> =
         run.track.moments().map(|moment| values(&step.signals(&moment, None).gyro).x).collect();
@@ -153,7 +154,7 @@ fn ramp_and_warm_up_go_with_time() {
     let ramp = Chosen::new(&catalogue::GYRO_BIAS_RAMP).with_values(&[0.0, 0.0, 2.0]);
     assert_close!(at(&ramp, 2000) - at(&ramp, 1000), 2.0 * 1000.0 * INTERVAL, 1e-9);
     let warm_up = Chosen::new(&catalogue::GYRO_WARMUP)
-        .with_setting("time_constant", 20.0)
+        .with_setting(SettingKind::TimeConstant, 20.0)
         .with_values(&[0.0, 0.0, 1.0]);
     assert_close!(at(&warm_up, 3000) / at(&warm_up, 2000), (-1.0_f64).exp(), 1e-9);
     assert_close!(at(&warm_up, 0), 1.0, 1e-3);
@@ -186,7 +187,7 @@ fn heat_from_one_side_lags_and_fades() {
     let run = run();
     let heat = Model::default().with(
         Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
-            .with_setting("time_constant", LAG)
+            .with_setting(SettingKind::TimeConstant, LAG)
             .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]),
     );
     let ends: Vec<usize> = (5..run.track.len()).step_by(5).collect();
@@ -229,7 +230,7 @@ fn heat_from_one_side_settles() {
     const LAG: f64 = 4.0;
     let moment = moment();
     let heat = Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
-        .with_setting("time_constant", LAG)
+        .with_setting(SettingKind::TimeConstant, LAG)
         .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]);
     let got = values(&heat.signals(&moment, None).gyro);
     let late = (moment.mean.rate * LAG).atan();
@@ -278,7 +279,7 @@ fn encoder_reads_its_harmonics_by_cosine_and_sine() {
     let mut moment = moment();
     let eccentric = Chosen::new(&catalogue::ENCODER_ECCENTRICITY).with_values(&[3.0, 4.0]);
     let oval = Chosen::new(&catalogue::ENCODER_HARMONIC)
-        .with_setting("order", 3.0)
+        .with_setting(SettingKind::Order, 3.0)
         .with_values(&[1.0, 2.0]);
     for (angle, one, three) in [(0.0, 3.0, 1.0), (FRAC_PI_2, 4.0, -2.0), (PI, -3.0, -1.0)] {
         moment.end.angle = angle;

@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rins_frames::units::{ARCSEC, DEG_PER_SECOND};
 use rins_frames::{Body, Dcm, EARTH_RATE};
 use rins_motion::Segment;
-use rins_terms::{Chosen, Making, Model, catalogue};
+use rins_terms::{Chosen, Making, Model, SettingKind, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, Run, run, turning};
@@ -64,7 +64,7 @@ fn tilting_table_is_felt_as_differenced_attitudes_are() {
 #[test]
 fn wobble_of_order_one_is_the_mounting() {
     let wobble = Chosen::new(&catalogue::TABLE_WOBBLE)
-        .with_setting("order", 1.0)
+        .with_setting(SettingKind::Order, 1.0)
         .with_values(&[30.0 * ARCSEC, -20.0 * ARCSEC]);
     let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&[30.0 * ARCSEC, -20.0 * ARCSEC]);
     let run = run();

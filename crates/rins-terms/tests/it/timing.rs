@@ -1,6 +1,6 @@
 //! Late readings against the same motion read earlier.
 
-use rins_terms::{Chosen, Making, Model, catalogue};
+use rins_terms::{Chosen, Making, Model, SettingKind, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{ACCELERATION, INTERVAL, Run, run};
@@ -50,8 +50,9 @@ fn drifting_clock_reads_later_and_later() {
 
 #[test]
 fn dropped_samples_leave_later_angles() {
-    let dropped =
-        Chosen::new(&catalogue::DROPPED_SAMPLES).with_setting("time", 47.0).with_values(&[0.01]);
+    let dropped = Chosen::new(&catalogue::DROPPED_SAMPLES)
+        .with_setting(SettingKind::Time, 47.0)
+        .with_values(&[0.01]);
     let shifted = |time: f64| if time < 47.0 { time } else { time + 0.01 };
     check_angle(&Model::default().with(dropped), shifted, 0.01);
 }

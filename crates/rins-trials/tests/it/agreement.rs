@@ -5,7 +5,7 @@ use rins_blind::{Experiment, LAWS, Log, record};
 use rins_frames::{Body, InFrame};
 use rins_motion::{Profile, Segment};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
-use rins_terms::{Chosen, Making, Model, Surroundings, Term, Track, catalogue};
+use rins_terms::{Chosen, Making, Model, SettingKind, Surroundings, Term, Track, catalogue};
 use rins_trials::{Stand, hidden, is_hideable, recording};
 
 use crate::bench::{DEGREE, experiment, known};
@@ -33,7 +33,7 @@ fn sized(term: &'static Term, experiment: &Experiment) -> Chosen {
     let part = |place: usize| [0.3, -0.2, 0.25][place % 3];
     let size = |(place, p): (usize, &rins_terms::Parameter)| p.range(&imu).1 * part(place);
     let values: Vec<f64> = term.parameters.iter().enumerate().map(size).collect();
-    Chosen::new(term).with_values(&values).with_setting("time", 77.7)
+    Chosen::new(term).with_values(&values).with_setting(SettingKind::Time, 77.7)
 }
 
 /// What `effect` adds, by the catalogue, to a run whose log without it is `plain`.
@@ -131,7 +131,9 @@ fn apart(zone: Chosen, mounting: [f64; 2]) -> f64 {
 fn a_dead_zone_is_about_the_gyros_own_axis() {
     let zone = |axes: f64| {
         let widths = [1.0, 2.0, 0.0].map(|width| width * DEGREE / 3600.0);
-        Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_values(&widths).with_setting("axes", axes)
+        Chosen::new(&catalogue::GYRO_DEAD_ZONE)
+            .with_values(&widths)
+            .with_setting(SettingKind::RateAxes, axes)
     };
     let mounted = [2e-4, -1e-4];
     assert!(apart(zone(0.0), mounted) < 0.02);

@@ -11,7 +11,7 @@ use rins_imu::{
 use rins_inspection::Combs;
 use rins_io::{Gaps, Loaded, LogFormat, shown};
 use rins_report::number::figure;
-use rins_terms::Unit;
+use rins_terms::{Unit, catalogue};
 
 use super::filled::{Filled, MOST_FILLED, unbroken};
 use crate::log::{
@@ -77,24 +77,30 @@ impl Channel {
 /// The effect of the catalogue that a law is, the letter of its strength, and the unit of that.
 pub(super) const fn term(triad: Triad, law: NoiseLaw) -> (&'static str, &'static str, Unit) {
     match (triad, law) {
-        (Triad::Gyro, NoiseLaw::Quantisation) => ("gyro_quantisation", "Q", Unit::ARCSEC),
+        (Triad::Gyro, NoiseLaw::Quantisation) => {
+            (catalogue::GYRO_QUANTISATION.id, "Q", Unit::ARCSEC)
+        }
         (Triad::Gyro, NoiseLaw::White) => {
             let unit = Unit::new("deg/h/sqrt(Hz)", Unit::DEG_PER_HOUR.factor);
-            ("gyro_noise_level", "N", unit)
+            (catalogue::GYRO_NOISE_LEVEL.id, "N", unit)
         }
-        (Triad::Gyro, NoiseLaw::Flicker) => ("gyro_bias_instability", "B", Unit::DEG_PER_HOUR),
+        (Triad::Gyro, NoiseLaw::Flicker) => {
+            (catalogue::GYRO_BIAS_INSTABILITY.id, "B", Unit::DEG_PER_HOUR)
+        }
         (Triad::Gyro, NoiseLaw::RandomWalk) => {
-            ("gyro_rate_random_walk", "K", Unit::DEG_PER_HOUR_PER_ROOT_HOUR)
+            (catalogue::GYRO_RATE_RANDOM_WALK.id, "K", Unit::DEG_PER_HOUR_PER_ROOT_HOUR)
         }
         (Triad::Accel, NoiseLaw::Quantisation) => {
-            ("accel_quantisation", "Q", Unit::MICROMETRE_PER_SECOND)
+            (catalogue::ACCEL_QUANTISATION.id, "Q", Unit::MICROMETRE_PER_SECOND)
         }
         (Triad::Accel, NoiseLaw::White) => {
-            ("accel_noise_level", "N", Unit::new("ug/sqrt(Hz)", Unit::MICRO_G.factor))
+            (catalogue::ACCEL_NOISE_LEVEL.id, "N", Unit::new("ug/sqrt(Hz)", Unit::MICRO_G.factor))
         }
-        (Triad::Accel, NoiseLaw::Flicker) => ("accel_bias_instability", "B", Unit::MICRO_G),
+        (Triad::Accel, NoiseLaw::Flicker) => {
+            (catalogue::ACCEL_BIAS_INSTABILITY.id, "B", Unit::MICRO_G)
+        }
         (Triad::Accel, NoiseLaw::RandomWalk) => {
-            ("accel_rate_random_walk", "K", Unit::MICRO_G_PER_ROOT_HOUR)
+            (catalogue::ACCEL_RATE_RANDOM_WALK.id, "K", Unit::MICRO_G_PER_ROOT_HOUR)
         }
     }
 }

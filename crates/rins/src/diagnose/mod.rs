@@ -108,7 +108,7 @@ fn found(logs: Vec<Log>, options: &DiagnoseOptions) -> anyhow::Result<Found> {
 /// The effects of a model file beyond a case's model.
 fn hypothesis(file: &Path, case: &Case) -> anyhow::Result<Vec<Chosen>> {
     let mut terms = ModelFile::read_along(file, &case.runs[0].loaded.rig.spin)?.model.terms;
-    terms.retain(|chosen| !case.model.terms.iter().any(|own| own.term.id == chosen.term.id));
+    terms.retain(|chosen| !case.model.terms.iter().any(|own| own.term.is(chosen.term)));
     let silent = terms.iter().find(|chosen| !chosen.term.is_signal());
     if let Some(chosen) = silent {
         anyhow::bail!(

@@ -1,7 +1,7 @@
 //! Which effects a run could not have shown, and why.
 
 use rins_estimation::Run;
-use rins_terms::{Model, Need, Term, catalogue};
+use rins_terms::{Model, Need, SettingKind, Term, catalogue};
 
 /// An effect of which a run shows nothing.
 #[derive(Clone, Debug)]
@@ -16,10 +16,10 @@ pub(crate) fn untestable(runs: &[Run], model: &Model, unseen: &[&str]) -> Vec<Un
     let tried = rins_diagnosis::candidates(runs, model);
     let left_out = |term: &Term| {
         term.is_signal()
-            && !model.terms.iter().any(|chosen| chosen.term.id == term.id)
-            && !tried.iter().any(|candidate| candidate.chosen.term.id == term.id)
+            && !model.terms.iter().any(|chosen| chosen.term.is(term))
+            && !tried.iter().any(|candidate| candidate.chosen.term.is(term))
             // What has a frequency is tried where the innovations are strongest.
-            && !term.settings.iter().any(|setting| setting.name == "frequency")
+            && term.setting(SettingKind::Frequency).is_none()
     };
     let terms = catalogue::CATALOGUE.iter().copied();
     terms

@@ -67,7 +67,7 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
 /// Whether a latency of the table angle is negative, and not by chance.
 fn is_ahead_of_its_time(named: &Named) -> bool {
     let delay = named.cause.parameters.first();
-    named.cause.term.id == catalogue::ENCODER_LATENCY.id
+    named.cause.term.is(&catalogue::ENCODER_LATENCY)
         && delay.is_some_and(|delay| delay.value < -AHEAD * delay.sigma)
 }
 
@@ -78,7 +78,7 @@ fn is_convention(found: &Found, named: &Named) -> bool {
         let halves = (2.0 * samples).round();
         halves != 0.0 && (2.0 * samples - halves).abs() < CONVENTION
     };
-    named.cause.term.id == catalogue::ENCODER_LATENCY.id && samples.is_some_and(is)
+    named.cause.term.is(&catalogue::ENCODER_LATENCY) && samples.is_some_and(is)
 }
 
 fn headline(found: &Found) -> String {

@@ -57,7 +57,7 @@ fn everything() -> Model {
 /// A term whose parameters are sought, where it is linear.
 fn sought(term: &'static Term) -> Chosen {
     let mut chosen = Chosen::new(term).estimated();
-    if term.id == catalogue::GYRO_DEAD_ZONE.id {
+    if term.is(&catalogue::GYRO_DEAD_ZONE) {
         // Its square counts: a width of zero shows nothing, a usual one does.
         for (value, parameter) in chosen.values.iter_mut().zip(term.parameters) {
             *value = parameter.range(&USUAL).1;
@@ -106,7 +106,7 @@ pub(super) fn effect(asked: &str) -> anyhow::Result<Effect> {
 
 /// The same model, in which an effect is sought.
 pub(super) fn with(mut model: Model, effect: &Effect) -> Model {
-    let place = model.terms.iter().position(|chosen| chosen.term.id == effect.term.id);
+    let place = model.terms.iter().position(|chosen| chosen.term.is(effect.term));
     let chosen = match place {
         Some(place) => &mut model.terms[place],
         None => {

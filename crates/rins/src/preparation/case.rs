@@ -137,7 +137,7 @@ fn with_azimuth(
         return model;
     };
     let azimuth = &catalogue::AXIS_AZIMUTH;
-    if preset && !model.terms.iter().any(|chosen| chosen.term.id == azimuth.id) {
+    if preset && !model.terms.iter().any(|chosen| chosen.term.is(azimuth)) {
         model = model.with(Chosen::new(azimuth).estimated());
         remarks.push(format!(
             "The azimuth of the axis is not known: what the Earth's horizontal rate differs by from that of the assumed one is \
@@ -147,7 +147,7 @@ fn with_azimuth(
             figure(east / DEG_PER_HOUR, 2)
         ));
     }
-    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.id == azimuth.id);
+    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.is(azimuth));
     let roles = chosen.flat_map(|chosen| chosen.roles.iter_mut().zip([north, east]));
     for (role, sigma) in roles.filter(|(role, _)| **role == Role::Free) {
         *role = Role::Within(sigma);
@@ -165,7 +165,7 @@ fn on_these_runs(
 ) -> Model {
     let by_gravity = runs.iter().any(|run| run.run.rig.reference == Reference::Gravity);
     let arm = &catalogue::ACCEL_LEVER_ARM;
-    if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.id == arm.id) {
+    if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.is(arm)) {
         model = model.with(Chosen::new(arm).estimated());
         remarks.push(
             "The accelerometers' lever arm is estimated too: without it the rotation of gravity would not show the angle."
@@ -173,8 +173,7 @@ fn on_these_runs(
         );
     }
     let mut model = with_azimuth(model, runs, preset, remarks);
-    let chosen =
-        model.terms.iter_mut().filter(|chosen| chosen.term.id == catalogue::AXIS_ATTITUDE.id);
+    let chosen = model.terms.iter_mut().filter(|chosen| chosen.term.is(&catalogue::AXIS_ATTITUDE));
     for (axis, role) in chosen.flat_map(|chosen| chosen.roles.iter_mut().enumerate()) {
         if *role != Role::Free {
             continue;
