@@ -57,7 +57,11 @@ fn a_name_that_tells_no_format_is_refused() {
     let folder = run();
     let refused = rins_in(folder.path(), "convert rig.toml -o a.txt");
     assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
-    assert!(refused.err.starts_with("rins: a.txt: the name does not tell a format; say --format"));
+    assert!(
+        refused
+            .err
+            .starts_with("rins: a.txt: the file name has no known extension; state --format")
+    );
     let refused = rins_in(folder.path(), "convert rig.toml -o run.csv --force");
     assert!(refused.err.contains("run.csv: is an input of the same command"), "{}", refused.err);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);

@@ -318,5 +318,5 @@ fn a_supposed_effect_is_measured_and_not_searched_for() {
 
     let refused = rins_in(here, supposing(&["gyro.bias"]));
     assert_eq!(refused.code, Some(1));
-    assert!(refused.err.contains("nothing to suppose"), "{}", refused.err);
+    assert!(refused.err.contains("no hypothesis to evaluate"), "{}", refused.err);
 }

@@ -116,7 +116,7 @@ effects = [{{ id = "stuck_samples", share = {share}, length = {length} }}]
             continue;
         }
         let result = object(&finished);
-        let told = texts(&result, "/notes").iter().any(|note| note.contains("taken for lost"));
+        let told = texts(&result, "/notes").iter().any(|note| note.contains("treated as lost"));
         assert!(told, "draw {draw}: {:?}", texts(&result, "/notes"));
         let truth =
             [("xz", 60.0), ("yz", -80.0)].map(|(axes, t)| (format!("gyro.misalignment.{axes}"), t));

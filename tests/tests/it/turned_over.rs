@@ -101,7 +101,7 @@ fn every_rest_is_used_and_told_of_in_a_line() {
     }
     assert!(texts(&result, "/identifiability/unobservable").contains(&"gyro.scale.x"));
     let told = rins_in(folder.path(), "calibrate rig.toml").out;
-    assert_eq!(told.matches("14 rests").count(), 1, "{told}");
+    assert_eq!(told.matches("14 static intervals").count(), 1, "{told}");
     assert!(!told.contains("axis.attitude"), "{told}");
 }
 
@@ -132,5 +132,5 @@ fn a_log_of_few_attitudes_is_calibrated_on_its_longest_rest() {
     turned_over(folder.path(), "rig", BIASES[0], 1, 4);
     let result = result_in(folder.path(), "calibrate rig.toml");
     assert!(result["runs"][0]["static_intervals_used"].is_null(), "{result:#}");
-    assert!(texts(&result, "/notes")[0].contains("longest rest"), "{result:#}");
+    assert!(texts(&result, "/notes")[0].contains("longest static interval"), "{result:#}");
 }

@@ -18,7 +18,7 @@ const ITEMS: [&str; 19] = [
     "stuck",
     "saturated",
     "spikes",
-    "quantised",
+    "quantization",
     "units",
     "rate or increment",
     "signs and axes",
@@ -26,7 +26,7 @@ const ITEMS: [&str; 19] = [
     "clock ratio",
     "latency",
     "temperature",
-    "rest",
+    "static intervals",
     "turns",
     "what it can show",
 ];
@@ -121,7 +121,7 @@ const FAULTS: [Row; 7] = [
         "accel.x repeats one reading throughout",
     ),
     (
-        "quantised",
+        "quantization",
         |lines| each(&lines, |_, line| field(line, 4, |a| (a / 1e-3).round() * 1e-3)),
         "fact",
         "accel.x 1.000 mm/s",
@@ -188,8 +188,9 @@ fn a_late_table_is_told_by_how_much() {
     let check = result_in(Path::new(&run), "check rig.toml");
     let (word, says) = verdict(&check, "latency");
     assert_eq!(word, "odd", "{says}");
-    let late =
-        says.split_once("the table's angle is ").and_then(|(_, rest)| rest.split_once(" ms"));
+    let late = says
+        .split_once("the latency of the table's angle is ")
+        .and_then(|(_, rest)| rest.split_once(" ms"));
     let late: f64 = late.unwrap().0.parse().unwrap();
     // 60 microseconds are hidden in that run.
     assert!((late - 0.060).abs() < 0.003, "{says}");

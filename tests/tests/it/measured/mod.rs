@@ -125,13 +125,13 @@ fn wheel_has_gaps_and_no_rest() {
     assert_close!(scatter, 0.516e-3, 0.01e-3);
 
     assert!(list(&check, "/static_means").is_empty());
-    assert!(is_odd(&check, "251 gap(s)") && is_odd(&check, "never at rest"), "{check}");
+    assert!(is_odd(&check, "251 gap(s)") && is_odd(&check, "never static"), "{check}");
     // About 16 turns of the wheel, and the swaying about its axis before and after.
     assert!((16.0..24.0).contains(&number(&check, "/turns")), "{check}");
     for (command, rest) in [("align", 5), ("navigate", 5), ("allan", 10)] {
         let refused = rins_in(folder.path(), &format!("{command} rig.toml --json"));
         assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
-        let why = format!("sensors.csv: the IMU never stands still for {rest} s");
+        let why = format!("sensors.csv: the IMU is never static for {rest} s");
         assert!(refused.err.contains(&why), "{}", refused.err);
     }
 }
@@ -226,7 +226,7 @@ fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
 fn laser_gyro_is_quiet_on_a_base_that_sways() {
     let folder = rig("psins_lasergyro");
     let result = result_in(folder.path(), "calibrate rig.toml");
-    assert_eq!(result["runs"][0]["reference"], "rest");
+    assert_eq!(result["runs"][0]["reference"], "static");
     let white = number(&result, "/noise/gyro/white_deg_h_sqrt_hz");
     // That of laser gyros of navigation grade: a thousandth to some hundredths of a degree per root hour.
     assert!((0.003..0.3).contains(&white), "{white} deg/h/√Hz");
@@ -259,7 +259,7 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
     const APART: f64 = 1.0;
     let folder = rig("imu_tk_xsens");
     let result = result_in(folder.path(), "calibrate rig.toml");
-    assert_eq!(result["runs"][0]["reference"], "rest");
+    assert_eq!(result["runs"][0]["reference"], "static");
     assert_eq!(result["runs"][0]["static_intervals_used"], 38);
     let fitted = [
         ("accel.bias.x", 411.3, 60.7),
