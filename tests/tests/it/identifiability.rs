@@ -299,31 +299,64 @@ fn identifiability_page_is_what_the_schedules_tell() {
 }
 
 const HEAD: &str = "\
-# What a schedule tells apart
+# Observability of rotation schedules
 
-`rins observe` reckons, before a run, what it would tell: the Fisher information of all parameters of a model, from the
-motion of a scenario and the noise of its `[imu]`. This page is made by a test from the schedules in
-[scenarios/schedules](https://github.com/rins-rs/rins/tree/main/scenarios/schedules): 360 s at 50 Hz on an axis
-tilted by 25 deg at latitude 45 deg, gyros of 0.02 deg/h/√Hz, accelerometers of 30 µg/√Hz and an encoder of 1 arcsec:
-(i) 10 deg/s; (ii) forward and back; (iii) ±5, ±10 and ±20 deg/s; (iv) eight rests; (v) forward and back at two tilts.
+`rins observe` predicts the results of a run before it is made: the Fisher information matrix of all parameters of a model, from
+the motion of a scenario and the noise of its `[imu]`. A test generates this page from the schedules in
+[scenarios/schedules](https://github.com/rins-rs/rins/tree/main/scenarios/schedules). They take 360 s at 50 Hz, on a spin axis
+tilted by 25 deg at latitude 45 deg. The gyros have 0.02 deg/h/√Hz, the accelerometers 30 µg/√Hz and the encoder 1 arcsec.
 
-Everything is seen in units of what is known beforehand. The best seen parameter is kept first, then what is best
-seen beside it, as long as the data tell more of it than was known. What is then left over is a part of what was kept,
-exactly or but for something too faint to count. Exactly means that less than 10⁻¹¹ of its information is its
-own; that a sample's turn is taken at its middle leaves 10⁻¹². Of a parameter that is kept and has others in it, only the
-sum is told, such as `gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`; of one that is left over, the sum in which
-it is told best. Where parameters make up a choice of axes, units or origins, a gauge, no schedule tells that, and
-it is named. A calibration says the same of its run in the same words, from the noise that it found.
+| schedule | rotation |
+| --- | --- |
+| i | 10 deg/s |
+| ii | forward and back |
+| iii | ±5, ±10 and ±20 deg/s |
+| iv | eight static intervals |
+| v | forward and back at two tilts |
 
-With `--json`, `schedules` holds for each `rank`, `rank_loss`, the ids that are told `alone`, `in_combination` and
-`not_shown`, `gauges`, and its `parameters`: `prior_sigma`, `data_sigma` (of the sum, if one is told; null if the data
-alone tell nothing), `sigma` with both, `identifiable`, `observability`, `shown` (`alone`, `combination`, `part` of another's, `nothing`), its
-`aliases`, the `combination` with coefficients, and its `gauge`; `separation` has `kappa` and `told_sigma` of a pair each way; `proposal` the
-schedule to run next, its `profile`, `attitude_deg` and what it is predicted to reach.
+## Method
+
+All parameters are scaled by their prior sigmas. The parameters are then ordered:
+
+1. The most observable parameter is retained first.
+2. The parameter that is most observable beside the retained ones follows, as long as the data determine it better than the prior.
+3. Each remaining parameter is a combination of the retained ones, either exactly or up to a negligible amount of information.
+   *Exactly* means that less than 10⁻¹¹ of its information is independent. The evaluation of the rotation at the middle of a
+   sample leaves 10⁻¹².
+
+A retained parameter that is combined with others is reported as the sum only, such as
+`gyro.misalignment.xz + 5.73 arcsec/(deg/h) × gyro.bias.x`. A remaining parameter is reported as the sum that the data determine
+best. A gauge, a combination of parameters that amounts to a choice of axes, units or origins, is unobservable under every
+schedule and is named. A calibration reports the observability of its run in the same terms, with the estimated noise.
+
+## JSON
+
+With `--json`, `schedules` holds for each schedule:
+
+| key | meaning |
+| --- | --- |
+| `rank`, `null_space_dimension` | of the information matrix of the data alone |
+| `observable`, `combination`, `unobservable` | ids of the parameters that are observable, observable only in a combination, unobservable |
+| `gauges` | the gauges |
+| `parameters` | see below |
+| `separation` | `kappa` and `separation_sigma` of a pair of effects, each against the other |
+
+Each of the `parameters` holds:
+
+| key | meaning |
+| --- | --- |
+| `prior_sigma` | the sigma of the prior |
+| `data_sigma` | the sigma by the data alone, of the combination if there is one; null if the data do not bound it |
+| `sigma` | the sigma by the data and the prior |
+| `identifiable`, `observability` | as in [a calibration](calibration.md#observability) |
+| `aliases`, `combination` | the other parameters of the combination, and their coefficients |
+| `gauge` | the gauge to which the parameter belongs |
+
+`proposal` holds the recommended next schedule: its `profile`, its `attitude_deg`, and the predicted result.
 
 ## Dimension of the null space
 
-`baseline` holds biases, attitude, mounting and the gyro errors tied to the spin axis, `full` all of eq. (1) and the
+`baseline` holds biases, attitude, mounting and the gyro errors along the spin axis. `full` holds all errors of eq. (1) and the
 attitude.
 
 | model, unknowns | i | ii | iii | iv | v |
@@ -331,62 +364,65 @@ attitude.
 ";
 
 const INVISIBLE: &str = "
-At one rate three are lost: each bias is one number with an error that multiplies the rate. What `full` loses
-besides under every schedule of one tilt is what a force along the axis that does not change leaves open: biases against
-misalignments, scale errors against the tilt. 1σ by the data alone (deg/h, ppm, arcsec; `baseline`, in which the mounting
-limits the misalignments):
+At one rate the null space has three dimensions: each bias forms one combination with an error that is proportional to the rate.
+Under every schedule with one tilt, `full` has further unobservable combinations, because the specific force along the spin axis is
+constant: biases with misalignments, and scale errors with the tilt. The table gives 1σ by the data alone (deg/h, ppm, arcsec), for
+`baseline`, in which the mounting limits the misalignments:
 
 | parameter | i | ii | iii | iv | v |
 | --- | --- | --- | --- | --- | --- |
 ";
 
 const COSTS: &str = "
-## What it costs to tell two effects apart
+## Separation of two effects
 
-An effect that is seen by `s` sigma is told from another by `s/κ`, where `1/κ` is the sine of the angle between
-their signatures, the parameters of `baseline` estimated along. Of effects with several parameters it is the angle in the
-worst direction. `rins observe --compare --separate A,B` finds it:
+An effect that is detected by `s` sigma differs from another effect by `s/κ` sigma. `1/κ` is the sine of the angle between the
+signatures of the two effects after the parameters of `baseline` are estimated. For effects with several parameters it is the
+angle in the worst direction. `rins observe --compare --separate A,B` computes `κ`:
 
 | effects | i | ii | iii | iv | v |
 | --- | --- | --- | --- | --- | --- |
 ";
 
 const FIGURES: &str = "
-A linear prototype written apart has costs within a factor of two of these and the same infinities, wherever it gives a
-figure: under (i) it leaves the first effect of the pairs with a delay or a cube of the rate to the nuisances, of which
-nothing is known beforehand there. `accel_latency` and `wrong_latitude`, one signature there under (i), are told apart
-here since the first attitude of a run is known to 2 mrad. Further pairs of its list come out otherwise:
+An independent linear prototype gives the same infinities, and other values within a factor of two, with two exceptions:
+
+- Under (i) it gives no value for the pairs with a delay or with a cube of the rate. There the nuisance parameters, which have no
+  prior, absorb the first effect.
+- `accel_latency` and `wrong_latitude` have one common signature there under (i). They are separated here, because the initial
+  attitude of a run is known to 2 mrad.
+
+For some further pairs the results differ:
 
 | effects | schedule | here | prototype | why |
 | --- | --- | --- | --- | --- |
-| `encoder_latency`, `clock_drift` | ii | 4.8 | 64 | the ramp from rest is a second change of rate: without ramps it is 70 |
-| `gyro_scale_asymmetry`, `gyro_rate_dependent_bias.square_z` | ii | 11 | 41 | the bias is known beforehand to 0.1 deg/h: with 1000 deg/h it is 31 |
-| `gyro_scale_asymmetry`, `encoder_latency` | ii | 1.9 | 9 | unexplained: with a bias that is not known it is 2.6 |
-| `accel_lever_arm`, `accel_vibration_rectification` | ii | 1.1 | 2.6 | the latter goes with the rate here, with its square there; not tried |
-| `dropped_samples`, `encoder_slip` | ii | ∞ | 1.2 | they happen at 300 s, after the last change of rate, where both are one constant |
-| `base_tilt_ramp`, `clock_drift` | i | 1.0 | 24 | unexplained: on an axis tilted to the east it is 5.0 |
+| `encoder_latency`, `clock_drift` | ii | 4.8 | 64 | the ramp from standstill is a second change of rate; without ramps: 70 |
+| `gyro_scale_asymmetry`, `gyro_rate_dependent_bias.square_z` | ii | 11 | 41 | the prior of the bias is 0.1 deg/h; with 1000 deg/h: 31 |
+| `gyro_scale_asymmetry`, `encoder_latency` | ii | 1.9 | 9 | unexplained; with an unknown bias: 2.6 |
+| `accel_lever_arm`, `accel_vibration_rectification` | ii | 1.1 | 2.6 | the latter is proportional to the rate here, to its square there; not tested |
+| `dropped_samples`, `encoder_slip` | ii | ∞ | 1.2 | they occur at 300 s, after the last change of rate, where both are one constant |
+| `base_tilt_ramp`, `clock_drift` | i | 1.0 | 24 | unexplained; on an axis tilted to the east: 5.0 |
 
-## What is seen at all
+## Uncertainty by the data alone
 
-1σ by the data alone, and in brackets the prototype's:
+1σ by the data alone, and in brackets the value of the prototype:
 
 | parameter | unit | i | ii | iii | v |
 | --- | --- | --- | --- | --- | --- |
 ";
 
 const REASONS: &str = "
-They differ
+The values differ for these reasons:
 
-- by 1.4 in `gyro_g_sensitivity.xy` and by 2 in `wrong_latitude`, since the axis is tilted to the south here: tilted to the
-  east they are 0.0035 deg/h/g and 0.34 arcmin, those of the prototype;
-- by 1.3 in `accel_bias_step.x`, which happens at 300 s here and at 150 s there: the sigma of a step of white noise
-  goes with `√(T / t (T - t))`;
-- by 1.4 under (v) in what belongs to each run here, such as encoder, wobble and latitude: either run holds half of the data;
-- in `accel_lever_arm` under (ii) and (v), which shows by changes of rate alone: with 2.5, with 5 deg/s² and at once it is 1.8,
-  1.4 and 0.72 mm; how hard the prototype's table is accelerated is not known;
-- likely in `accel_latency` under (i) since the first attitude, known to 2 mrad, limits it here;
-- likely in `accel_vibration_rectification` since it goes with the rate here, and with its square there;
-- likely in `base_tilt_ramp` under (v) since a tilt goes on through both runs there, and is each run's own here;
-- likely in `gyro.scale.z` and `encoder_latency` under (iii) since rates are held for other times;
-- in `accel_quadratic.x` under (v), for no known reason.
+| parameter | schedule | factor | reason |
+| --- | --- | --- | --- |
+| `gyro_g_sensitivity.xy`, `wrong_latitude` | | 1.4, 2 | the axis is tilted to the south here; tilted to the east they are 0.0035 deg/h/g and 0.34 arcmin, as in the prototype |
+| `accel_bias_step.x` | | 1.3 | the step is at 300 s here and at 150 s there: the sigma of a step in white noise is proportional to `√(T / t (T - t))` |
+| parameters of each run, such as encoder, wobble, latitude | v | 1.4 | each run holds half of the data |
+| `accel_lever_arm` | ii, v | | it is observable by changes of rate alone: with 2.5 deg/s², with 5 deg/s² and at once it is 1.8, 1.4 and 0.72 mm; the acceleration of the prototype's table is unknown |
+| `accel_latency` | i | | probably the initial attitude, known to 2 mrad here |
+| `accel_vibration_rectification` | | | probably because it is proportional to the rate here, and to its square there |
+| `base_tilt_ramp` | v | | probably because one tilt continues through both runs there, and each run has its own here |
+| `gyro.scale.z`, `encoder_latency` | iii | | probably because the rates are held for different times |
+| `accel_quadratic.x` | v | | unexplained |
 ";
