@@ -9,6 +9,7 @@ use crate::Result;
 mod catalogue;
 mod crates;
 mod cycles;
+mod language;
 mod references;
 mod text;
 
@@ -51,6 +52,7 @@ pub(crate) fn run(root: &Path) -> Result<()> {
 fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     let mut findings = text::findings(root, files)?;
     findings.extend(references::findings(root, files)?);
+    findings.extend(language::findings(root, files)?);
     findings.extend(crates::findings(root)?);
     findings.extend(cycles::findings(root, IN_CIRCLES)?);
     findings.extend(catalogue::findings(root)?);

@@ -65,7 +65,7 @@ impl Found {
     }
 }
 
-/// Aligns on the longest rest of a run.
+/// Aligns on the longest static interval of a run.
 pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
     let span = longest(loaded, SHORTEST_REST).ok_or_else(|| {
         anyhow::anyhow!("{}, so there is nothing to align on", none_found(loaded, SHORTEST_REST))

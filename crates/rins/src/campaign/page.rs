@@ -153,14 +153,14 @@ fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> String {
             statistics.nees,
             statistics.nis_ratio
         );
-        for ((id, (unit, _)), honesty) in PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters) {
+        for ((id, (unit, _)), scatter) in PARAMETERS.iter().zip(UNITS).zip(&statistics.parameters) {
             let _ = writeln!(
                 text,
                 "    {id:22} mean error {:+.5} {unit}, spread {:.5}, claimed {:.5}, 95 % intervals hold {:.1} %",
-                honesty.mean_error,
-                honesty.spread,
-                honesty.claimed,
-                100.0 * honesty.coverage
+                scatter.mean_error,
+                scatter.spread,
+                scatter.claimed,
+                100.0 * scatter.coverage
             );
         }
     }
@@ -176,11 +176,11 @@ fn cell_result(keys: &[String], cell: &Scored<'_>) -> CellResult {
 }
 
 fn report(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Report {
-    let honest = scored.iter().filter_map(|cell| cell.statistics.as_ref());
-    let honest = honest.filter(|statistics| statistics.is_honest()).count();
+    let consistent = scored.iter().filter_map(|cell| cell.statistics.as_ref());
+    let consistent = consistent.filter(|statistics| statistics.is_honest()).count();
     let failed: usize = scored.iter().filter_map(|cell| cell.statistics).map(|s| s.failed).sum();
     let mut summary = vec![format!(
-        "In {honest} of {} scenarios the covariances are consistent with the errors.",
+        "In {consistent} of {} scenarios the covariances are consistent with the errors.",
         scored.len()
     )];
     if failed > 0 {
@@ -251,11 +251,11 @@ fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
             points.y.push(errors[row]);
         }
         if let Some(statistics) = &cell.statistics {
-            let honesty = &statistics.parameters[row];
+            let scatter = &statistics.parameters[row];
             claimed.x.push(place as f64);
-            claimed.y.push(honesty.claimed);
+            claimed.y.push(scatter.claimed);
             spread.x.push(place as f64);
-            spread.y.push(honesty.spread);
+            spread.y.push(scatter.spread);
         }
     }
     let x_label = "Scenario, in the order of the table, from 0";

@@ -1,4 +1,4 @@
-//! What a run can show: which commands have something to work on, and what they can tell apart.
+//! What a run can show: which commands have something to work on, and what they make observable.
 
 use rins_frames::units::DEG;
 use rins_inspection::Inspection;

@@ -279,7 +279,7 @@ fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
                 rate / DEG_PER_HOUR
             );
             let scatter = rest.mean.angular_rate_sigma.norm();
-            // Three biases of the sheet's sigma make as much as their root mean square.
+            // Three biases of the data sheet's sigma make as much as their root mean square.
             let beyond = loaded.rig.imu.filter(|imu| {
                 let expected = (3.0 * imu.gyro.bias_sigma.powi(2) + scatter.powi(2)).sqrt();
                 (rate - EARTH_RATE).abs() > BEYOND_DATA_SHEET * expected

@@ -31,7 +31,7 @@ const MOVED: f64 = 3.0;
 pub(crate) enum Verdict {
     /// Nothing significant is left over.
     Adequate,
-    /// Each cause is told apart from every other effect of the catalogue.
+    /// Each cause is distinguished from every other effect of the catalogue.
     Named,
     /// There are causes that this run cannot tell from others.
     Ambiguous,
@@ -47,7 +47,7 @@ pub(crate) struct Found {
     pub(crate) causes: Vec<Named>,
     /// What no effect explains, most significant first.
     pub(crate) unexplained: Vec<Unexplained>,
-    /// What the causes gain on data that played no part.
+    /// What the causes gain on held-out data.
     pub(crate) gain: Measured,
     /// The same at the fastest rate, with what was found at slower ones, if it was asked.
     pub(crate) transfer: Option<Measured>,

@@ -1,4 +1,4 @@
-//! What the causes gain on data that played no part, in words.
+//! What the causes gain on held-out data, in words.
 
 use rins_diagnosis::{Drift, Gain, GainVerdict};
 use rins_frames::units::DEG;

@@ -1,4 +1,4 @@
-//! What the causes gain on data that played no part.
+//! What the causes gain on held-out data.
 
 use rins_diagnosis::{Drift, Gain, GainError, GainVerdict};
 use rins_estimation::Fit;

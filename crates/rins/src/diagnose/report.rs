@@ -6,7 +6,7 @@ use super::found::{Found, Named};
 use super::gain::gain_section;
 use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
-use super::words::{next_steps, probability, rivals, summary};
+use super::words::{alternatives, next_steps, probability, summary};
 use crate::settings::settings_in_words;
 use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
@@ -88,7 +88,7 @@ fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
                 Cell::text(unit.symbol),
                 first(place, Cell::Number { value: named.sigmas, decimals: 1 }),
                 first(place, Cell::text(probability(cause.ln_p))),
-                first(place, Cell::text(rivals(named))),
+                first(place, Cell::text(alternatives(named))),
                 first(
                     place,
                     if named.plausible {

@@ -182,9 +182,9 @@ fn amplitude(found: &Found, named: &Named) -> String {
     parts.join(", ")
 }
 
-/// What a cause cannot be told from.
+/// The effects from which a cause is not distinguished.
 fn doubt(named: &Named) -> Option<String> {
-    let rivals = rivals(named);
+    let alternatives = alternatives(named);
     let next = match (&named.next_test, &named.no_next_test) {
         (Some(test), _) => format!(
             " A run that separates it from the {}, by {} sigma: {}.",
@@ -195,19 +195,22 @@ fn doubt(named: &Named) -> Option<String> {
         (None, Some(why)) => format!(" No discriminating test can be proposed: {why}."),
         (None, None) => String::new(),
     };
-    (!rivals.is_empty()).then(|| {
-        format!("This run does not distinguish the {} from: {rivals}.{next}", named.cause.term.name)
+    (!alternatives.is_empty()).then(|| {
+        format!(
+            "This run does not distinguish the {} from: {alternatives}.{next}",
+            named.cause.term.name
+        )
     })
 }
 
-/// The other effects of a cause's set, in words.
-pub(super) fn rivals(named: &Named) -> String {
-    let rivals = named
+/// The alternatives to a cause, in words.
+pub(super) fn alternatives(named: &Named) -> String {
+    let alternatives = named
         .cause
         .rivals
         .iter()
         .map(|rival| format!("{} ({})", rival.term.name, odds_in_words((-rival.odds).exp())));
-    rivals.collect::<Vec<_>>().join(", ")
+    alternatives.collect::<Vec<_>>().join(", ")
 }
 
 fn odds_in_words(odds: f64) -> String {

@@ -78,7 +78,7 @@ impl Case {
         &self.runs[0].imu
     }
 
-    /// The runs as the estimator takes them: one of each log, and then the other rests of the first, of the second ...
+    /// The runs as the estimator takes them: one of each log, and then the other static intervals of the first, of the second ...
     pub(crate) fn given(&self) -> Vec<Run> {
         let of_log = |(log, prepared): (usize, &Prepared), run: &Run| match &prepared.others[..] {
             [] => run.clone(),
@@ -105,7 +105,7 @@ impl Case {
         self.runs.iter().enumerate().map(of_log).collect()
     }
 
-    /// What is known of the random errors: what the sheet says, and what of them is in the model.
+    /// What is known of the random errors: what the data sheet states, and what of them is in the model.
     pub(crate) fn knowledge(&self) -> NoiseKnowledge {
         let sheet = Strengths::of(self.imu()).with(&self.model);
         match self.noise {

@@ -164,7 +164,7 @@ impl Prepared {
         self.rests().map(|run| run.recording.len()).sum()
     }
 
-    /// The samples that are used, the longest rest first.
+    /// The samples that are used, the longest static interval first.
     pub(crate) fn rests(&self) -> impl Iterator<Item = &Run> {
         std::iter::once(&self.run).chain(&self.others)
     }

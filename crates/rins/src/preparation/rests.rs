@@ -1,4 +1,4 @@
-//! The rests of a log: of an IMU that was turned over from one attitude to the next, by hand or on anything, and of a wheel
+//! The static intervals of a log: of an IMU that was turned over from one attitude to the next, by hand or on anything, and of a wheel
 //! before and after it turns.
 
 use std::ops::Range;
@@ -19,7 +19,7 @@ pub(super) const SHORTEST: f64 = 2.0;
 /// Rests between which gravity turns by less stand alike \[rad\].
 const ALIKE: f64 = 5.0 * DEG;
 
-/// In fewer attitudes gravity tells hardly more than at the longest rest.
+/// In fewer attitudes gravity hardly shows more than over the longest static interval.
 const FEWEST_ATTITUDES: usize = 3;
 
 /// A rest of an IMU on an axis about which it turns in the rest of the log.
@@ -29,7 +29,7 @@ pub(super) struct OnAxis {
     pub(super) nav_from_table: Dcm<Nav, Table>,
 }
 
-/// The rests of a log outside of `turning` in which the axis leans as it does while it turns, to within three times what
+/// The static intervals of a log outside of `turning` in which the axis leans as it does while it turns, to within three times what
 /// [`AXIS_BY_GRAVITY`] allows: gravity tells how far the body is turned about it.
 pub(super) fn on_axis(
     recording: &Recording,
@@ -59,11 +59,11 @@ fn up_in_body(recording: &Recording, span: Range<usize>) -> Vector3<f64> {
     gained.sum::<Vector3<f64>>().normalize()
 }
 
-/// The rests of one log, how each stands, and in how many attitudes.
+/// The static intervals of one log, how each stands, and in how many attitudes.
 pub(crate) struct Rests {
     /// In order of time.
     pub(super) found: Vec<Found>,
-    /// How many attitudes gravity tells apart.
+    /// How many attitudes gravity distinguishes.
     pub(super) attitudes: usize,
     /// From when to when there are rests \[s\].
     pub(super) lasting: [f64; 2],

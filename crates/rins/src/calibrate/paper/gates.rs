@@ -5,7 +5,7 @@ use rins_io::{Loaded, shown};
 
 use crate::check::inspected;
 
-/// A table that turns by less in all \[rad\] stands still.
+/// A table that turns by less in all \[rad\] does not rotate.
 const LEAST_TURN: f64 = 1.0 * DEG;
 
 /// Refuses a run whose table does not turn: it does not show the gyro errors along the spin axis.

@@ -152,8 +152,8 @@ fn parameters_section(calibration: &Calibration) -> Section {
                     .collect(),
             }),
             Item::Text(format!(
-                "The attitude of the axis frame rides along, as the whole run shows it: known about east to {:.2}″, about \
-                 north to {:.2}″ and about up to {:.1}″ (1σ). Tilts hold the accelerometers' constant errors.",
+                "The attitude of the axis frame is an augmented state. Its 1σ, by the whole run, is {:.2}″ about east, {:.2}″ about \
+                 north and {:.1}″ about up. The tilts include the accelerometers' constant errors.",
                 calibration.axis_sigma.x / ARCSEC,
                 calibration.axis_sigma.y / ARCSEC,
                 calibration.axis_sigma.z / ARCSEC
