@@ -59,6 +59,12 @@ pub(crate) struct Step {
     pub(crate) cross: DMatrix<f64>,
 }
 
+/// A matrix that is the same for all runs or columns, times a vector.
+#[inline(always)]
+fn times<T: Real>(matrix: &Matrix3<f64>, vector: Vector<T>) -> Vector<T> {
+    Matrix::constant(vector[0], matrix) * vector
+}
+
 impl Step {
     /// What follows from states: the mean attitude that is shown, the attitude and the velocity at the end.
     #[inline(always)]
@@ -76,7 +82,6 @@ impl Step {
         for weight in &self.accels {
             accel = accel + at(weight.place).scaled(weight.mean);
         }
-        let times = |matrix: &Matrix3<f64>, vector| Matrix::constant(like, matrix) * vector;
         let mut mean = times(&self.mean_turned, attitude) - times(&self.body.mean, gyro_mean);
         for (index, &axis) in self.astray.iter().enumerate() {
             mean[axis] = mean[axis] - state(NAVIGATION + index);
