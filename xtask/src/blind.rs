@@ -24,6 +24,9 @@ pub(crate) struct Options {
     /// Go on with the trials that the folder's journal does not hold
     #[arg(long)]
     resume: bool,
+    /// Run the frozen trials alone, and no campaign: each has to come out as before
+    #[arg(long, conflicts_with_all = ["resume", "card"])]
+    frozen: bool,
     /// Run nothing: write the page from the folder's journal
     #[arg(long, conflicts_with = "resume")]
     card: bool,
@@ -34,6 +37,10 @@ pub(crate) struct Options {
 
 /// Runs trials and writes `docs/src/blind.md`.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
+    if options.frozen {
+        release(root, &["build", "--package", "rins-cli"], &[])?;
+        return trials(root, &["frozen", &program(root)]);
+    }
     let folder = root.join(&options.output);
     let journal = folder.join("journal.jsonl");
     let path = journal.display().to_string();
@@ -43,8 +50,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
         }
         fs::create_dir_all(&folder)?;
         release(root, &["build", "--package", "rins-cli"], &[])?;
-        let program = target(root).join("release").join(format!("rins{}", env::consts::EXE_SUFFIX));
-        let program = program.display().to_string();
+        let program = program(root);
         let (seed, threads) = (options.seed.to_string(), options.threads.to_string());
         trials(root, &["run", &program, &path, &seed, &options.trials.to_string(), &threads])?;
         trials(root, &["time", &program, &path, &seed])?;
@@ -69,6 +75,12 @@ fn release(root: &Path, words: &[&str], arguments: &[&str]) -> Result<()> {
     } else {
         Err(format!("{} failed ({status})", words.join(" ")).into())
     }
+}
+
+/// The `rins` command as it was built for release.
+fn program(root: &Path) -> String {
+    let name = format!("rins{}", env::consts::EXE_SUFFIX);
+    target(root).join("release").join(name).display().to_string()
 }
 
 /// Where cargo builds.

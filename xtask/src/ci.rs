@@ -50,6 +50,8 @@ const STEPS: &[Row] = &[
     // Benchmarks are compiled by `lint`; those whose instructions are counted are built and run.
     ("instructions", None, "cargo xtask bench --instructions"),
     ("demo", None, "cargo run --quiet --release -- demo -o target/ci/demo"),
+    // Diagnoses of whole runs, which the tests would take minutes for.
+    ("frozen-trials", None, "cargo xtask blind --frozen"),
     // As the tests have built them: with one package's features alone all that they need would be built anew.
     ("examples", None, "cargo build --quiet --workspace --examples"),
 ];

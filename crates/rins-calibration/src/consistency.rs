@@ -225,6 +225,38 @@ mod tests {
         assert_eq!(verdict(|_, innovation| innovation[1] += 0.5), Verdict::Misfit);
     }
 
+    /// A filter whose noise was overstated colours its innovations itself: small ones are not held against the model for
+    /// their colour, those of nearly the size that was claimed are.
+    #[test]
+    fn colour_of_innovations_that_are_too_small_is_no_misfit() {
+        for (size, verdict) in [(0.5, Verdict::NoiseOverstated), (0.9, Verdict::Misfit)] {
+            let mut innovations = white(5);
+            for (index, innovation) in innovations.iter_mut().enumerate() {
+                // A line of unit power.
+                innovation[4] = size * std::f64::consts::SQRT_2 * (0.02 * index as f64).sin();
+            }
+            let consistency = Consistency::of(&innovations).unwrap();
+            assert_close!(consistency.channel_rms[4], size, 0.02);
+            assert!(consistency.periodogram_distance[4] > 0.9, "{consistency:?}");
+            assert_eq!(consistency.verdict(), verdict, "{consistency:?}");
+        }
+    }
+
+    /// All power at one of `n` frequencies, the `k`th: the step of the cumulative periodogram is `k/n` above the line of white
+    /// noise or `1 - (k + 1)/n` below it, whichever is more.
+    #[test]
+    fn a_single_line_is_as_far_from_white_as_its_frequency_says() {
+        const SAMPLES: usize = 64;
+        let frequencies = SAMPLES as f64 / 2.0;
+        for k in [0, 1, 7, 15, 16, 24, 31] {
+            let line = |at: usize| (std::f64::consts::TAU * (k * at) as f64 / SAMPLES as f64).cos();
+            let (distance, _) = cumulative_periodogram(&(0..SAMPLES).map(line).collect::<Vec<_>>());
+            let k = k as f64;
+            let want = (k / frequencies).max(1.0 - (k + 1.0) / frequencies);
+            assert_close!(distance, want, 1e-12);
+        }
+    }
+
     #[test]
     fn a_channel_that_is_not_there_counts_for_nothing() {
         let mut innovations = white(5);

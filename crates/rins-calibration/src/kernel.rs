@@ -265,3 +265,103 @@ fn rotation_vector<T: Real>(c: &Matrix<T>) -> Vector<T> {
         .collect();
     Vector([0, 1, 2].map(|axis| c[0][0].each(|run| all[run][axis])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Vector3};
+    use rins_frames::units::DEG;
+    use rins_frames::{EulerAngles, Site};
+    use rins_imu::{ImuSpec, TriadSpec};
+    use rins_motion::Station;
+
+    use crate::setup::TableSpec;
+
+    /// A correction of 6 m; what it does in second order is its square.
+    const CORRECTION: f64 = 1e-6;
+    const SECOND_ORDER: f64 = 10.0 * CORRECTION * CORRECTION;
+
+    fn setup(latitude: f64) -> Setup {
+        let spec = TriadSpec::white(1e-7, 0.0, 1e-4, 1e-4);
+        let site = Site { latitude, longitude: 1.9, height: 400.0 };
+        Setup {
+            station: Station::with_normal_gravity(site),
+            axis: None,
+            table: TableSpec { angle_noise: 1e-6, wobble: 0.0, rate_noise: 0.0, latency: 0.0 },
+            imu: ImuSpec { gyro: spec, accel: spec },
+            velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
+        }
+    }
+
+    /// East, north and up in axes of the Earth, at a latitude and a longitude.
+    fn earth_from_nav(latitude: f64, longitude: f64) -> Matrix3<f64> {
+        let (sin, cos) = latitude.sin_cos();
+        let (y, x) = longitude.sin_cos();
+        Matrix3::new(-y, -sin * x, cos * x, x, -sin * y, cos * y, 0.0, cos, sin)
+    }
+
+    /// The correction of a place by `x` alone, seen from the Earth: by which angle the level moved, and by which the body turned.
+    fn corrected(latitude: f64, x: [f64; 2]) -> (Vector3<f64>, Vector3<f64>) {
+        let body = *EulerAngles { roll: 0.4, pitch: -0.3, yaw: 2.0 }
+            .dcm::<Nav, rins_frames::Body>()
+            .matrix();
+        let setup = setup(latitude);
+        let mut kernel = Kernel::<f64, SpinAxisErrors, PAPER_STATES>::at_rest(
+            0.0,
+            &setup,
+            [&body, &Matrix3::identity()],
+            |row, column| f64::from(u8::from(row == column)),
+        );
+        let sample = Sample {
+            angle: Vector([0.0; 3]),
+            velocity: Vector([0.0, 0.0, setup.station.gravity * 1e-3]),
+            interval: 1e-3,
+        };
+        let interval = kernel.predict(&sample);
+        let attitude = |kernel: &Kernel<f64, SpinAxisErrors, PAPER_STATES>| {
+            let [latitude, longitude, _] = kernel.mechanisation.place;
+            let matrix = kernel.mechanisation.nav_from_body;
+            let nav_from_body = Matrix3::from_fn(|row, column| matrix[row][column]);
+            (earth_from_nav(latitude, longitude), nav_from_body)
+        };
+        let (level, before) = attitude(&kernel);
+        let mut state = [0.0; PAPER_STATES];
+        state[..2].copy_from_slice(&x);
+        kernel.correct(&state, &interval);
+        let (moved, after) = attitude(&kernel);
+        let vector = |turn: Matrix3<f64>| {
+            let skew = 0.5 * (turn - turn.transpose());
+            Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)])
+        };
+        let of_level = vector(level.transpose() * moved);
+        let of_body =
+            vector(level.transpose() * moved * after * (level * before).transpose() * level);
+        (of_level, of_body)
+    }
+
+    /// A place that is corrected moves by as much over the ground at any latitude: north by the first angle turns the level back
+    /// about east, west by the second turns it back about north.
+    #[test]
+    fn a_place_is_corrected_by_angles_at_the_center_of_the_earth() {
+        for latitude in [-70.0, -20.0, 0.0, 50.0].map(|latitude| latitude * DEG) {
+            let (north, _) = corrected(latitude, [CORRECTION, 0.0]);
+            assert!((north - Vector3::x() * -CORRECTION).norm() < SECOND_ORDER, "{north}");
+            let (east, _) = corrected(latitude, [0.0, CORRECTION]);
+            assert!((east.xy() - Vector3::y().xy() * -CORRECTION).norm() < SECOND_ORDER, "{east}");
+        }
+    }
+
+    /// The attitude error is one of the body against the level where it is computed to be. If only the place was wrong, the body
+    /// stands in the Earth as before, but for the turn of north about up, which the azimuth's error includes.
+    #[test]
+    fn a_place_that_is_corrected_leaves_the_body_in_the_earth() {
+        for latitude in [-70.0, -20.0, 0.0, 50.0].map(|latitude| latitude * DEG) {
+            for x in [[CORRECTION, 0.0], [0.0, CORRECTION]] {
+                let (level, body) = corrected(latitude, x);
+                assert!(body.xy().norm() < SECOND_ORDER, "{body}");
+                assert!((body.z - level.z).abs() < SECOND_ORDER, "{body} {level}");
+                assert!(level.norm() > 0.9 * CORRECTION, "the level has moved: {level}");
+            }
+        }
+    }
+}

@@ -79,6 +79,16 @@ mod tests {
         }
     }
 
+    /// The bias of the data sheet moves the estimate by a little more than its sigma, or by a little less.
+    #[test]
+    fn a_bias_is_named_from_one_sigma_of_the_estimate_on() {
+        let sums = sums(&[(10.0, 360.0)]);
+        let moved = SPEC.bias_sigma / (10.0 * DEG_PER_SECOND);
+        let partner = |sigma| sums.partner(&SPEC, sigma, "gyro.bias.x");
+        assert!(partner(0.95 * moved).is_some());
+        assert!(partner(1.05 * moved).is_none());
+    }
+
     #[test]
     fn a_gyro_known_to_have_no_bias_holds_none() {
         let known = TriadSpec { bias_sigma: 1e-6 * DEG_PER_HOUR, ..SPEC };

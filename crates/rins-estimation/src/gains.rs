@@ -259,7 +259,9 @@ impl WithSimd for Grow<'_> {
         let gained = S::as_mut_simd_f64s(&mut growing.gained).0;
         let width = width / S::F64_LANES;
         let vector = |rows: &[S::f64s], first: usize, place: usize| {
-            Vector([0, 1, 2].map(|row| Lane::new(simd, rows[(first + row) * width + place])))
+            let lane = |row: usize| Lane::new(simd, rows[(first + row) * width + place]);
+            // One after the other: `map` of an array is not always inlined, and then has no vector instructions.
+            Vector([lane(0), lane(1), lane(2)])
         };
         let [of_gyros, of_accels] =
             turned.map(|matrix| Matrix::constant(Lane::splat(simd, 0.0), &matrix));

@@ -181,3 +181,55 @@ impl Seen {
         low
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The variance of the mean of what rounding does to readings at these angles, in steps, over all places where the
+    /// steps may begin.
+    fn counted(angles: &[f64]) -> f64 {
+        const PLACES: u32 = 20_000;
+        let mean = |place: u32| {
+            let beginning = f64::from(place) / f64::from(PLACES);
+            let error = |angle: &f64| (angle + beginning).round() - (angle + beginning);
+            angles.iter().map(error).sum::<f64>() / angles.len() as f64
+        };
+        (0..PLACES).map(|place| mean(place).powi(2)).sum::<f64>() / f64::from(PLACES)
+    }
+
+    /// One reading is a twelfth of a step's square off; of several, what their places in a step leave of it.
+    #[test]
+    fn rounding_of_a_mean_has_the_variance_that_is_counted() {
+        let step = 3e-6;
+        let steps = AngleSteps { step, blur: 0.0 };
+        for angles in
+            [&[0.3][..], &[0.1, 1.1, 7.1], &[0.0, 0.5], &[0.0, 0.3, 0.6], &[0.2, 0.25, 0.3, 0.35]]
+        {
+            let counted = counted(angles);
+            let found = steps.variance_of_mean(angles.iter().map(|angle| angle * step));
+            let share = found / (counted * step * step);
+            // Eight harmonics hold all but a fourteenth of the square of one reading, all but a fifth of what is left of three.
+            assert!((0.79..1.001).contains(&share), "{angles:?}: {share} of {counted}");
+        }
+        assert!((counted(&[0.3]) * 12.0 - 1.0).abs() < 1e-3, "{}", counted(&[0.3]));
+    }
+
+    /// Blur of half a step takes the sawtooth away: each harmonic by its own part, as the mean over a Gaussian has it.
+    #[test]
+    fn blur_takes_harmonics_away() {
+        const DRAWS: i32 = 4000;
+        const SIGMAS: f64 = 6.0;
+        for (order, blur) in [(1.0, 0.05), (1.0, 0.2), (3.0, 0.1)] {
+            let [mut cosine, mut weights] = [0.0; 2];
+            for draw in -DRAWS..=DRAWS {
+                let sigmas = SIGMAS * f64::from(draw) / f64::from(DRAWS);
+                let weight = (-0.5 * sigmas * sigmas).exp();
+                cosine += weight * (TAU * order * blur * sigmas).cos();
+                weights += weight;
+            }
+            let left = (cosine / weights).powi(2);
+            assert!((blurred(order, blur) - left).abs() < 1e-6, "{order}, {blur}: {left}");
+        }
+    }
+}

@@ -59,6 +59,12 @@ pub(crate) struct Step {
     pub(crate) cross: DMatrix<f64>,
 }
 
+/// A matrix that is the same for all runs or columns, times a vector.
+#[inline(always)]
+fn times<T: Real>(matrix: &Matrix3<f64>, vector: Vector<T>) -> Vector<T> {
+    Matrix::constant(vector[0], matrix) * vector
+}
+
 impl Step {
     /// What follows from states: the mean attitude that is shown, the attitude and the velocity at the end.
     #[inline(always)]
@@ -76,7 +82,6 @@ impl Step {
         for weight in &self.accels {
             accel = accel + at(weight.place).scaled(weight.mean);
         }
-        let times = |matrix: &Matrix3<f64>, vector| Matrix::constant(like, matrix) * vector;
         let mut mean = times(&self.mean_turned, attitude) - times(&self.body.mean, gyro_mean);
         for (index, &axis) in self.astray.iter().enumerate() {
             mean[axis] = mean[axis] - state(NAVIGATION + index);
@@ -100,5 +105,76 @@ impl Step {
             }
         }
         rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::SVector;
+    use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G};
+    use rins_frames::{EulerAngles, Site};
+    use rins_motion::{Profile, Segment, Station};
+    use rins_simulation::{Scenario, simulate};
+    use rins_terms::{Model, catalogue};
+
+    use crate::linear::linearise;
+    use crate::run::{Reference, Rig, Run};
+    use crate::space::Space;
+    use crate::strengths::{Noise, Strengths, TriadStrengths};
+
+    use super::*;
+
+    /// The Earth turns by 7e-6 in an epoch of 0.1 s; of a velocity, what a gyro does in it is of second order.
+    const RELATIVE: f64 = 1e-4;
+
+    /// Twenty seconds on a tilted axis.
+    fn run() -> Run {
+        let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
+        let station = Station::with_normal_gravity(site);
+        let nav_from_table = EulerAngles { roll: 50.0 * DEG, pitch: 10.0 * DEG, yaw: 0.0 }.dcm();
+        let turn = Segment { rate: 40.0 * DEG_PER_SECOND, duration: 20.0 };
+        let scenario =
+            Scenario::perfect(station, nav_from_table, Profile::new(&[turn], None).unwrap(), 0.005);
+        let reference = Reference::Encoder { noise: ARCSEC };
+        let rig = Rig { station, nav_from_table, reference, wobble: ARCSEC, velocity: 1e-6 };
+        Run::new(rig, simulate(&scenario).unwrap().recording).unwrap()
+    }
+
+    /// A random walk is constant over an epoch in the mean: what follows from it there is what follows from a bias, which is
+    /// a parameter, and gets there through the derivatives of the run sample by sample.
+    #[test]
+    fn a_walk_does_within_an_epoch_what_a_bias_does() {
+        let run = run();
+        let biases = [catalogue::GYRO_BIAS.id, catalogue::ACCEL_BIAS.id];
+        let model = Model::full();
+        let place = |id: &str| model.terms.iter().position(|chosen| chosen.term.id == id).unwrap();
+        let free: Vec<(usize, usize)> =
+            biases.iter().flat_map(|id| [0, 1, 2].map(|axis| (place(id), axis))).collect();
+        let linear = linearise(&run, &model, &free);
+        let triad = |white| TriadStrengths { white, flicker: 0.0, walk: 0.1 * white };
+        let imu = Strengths {
+            gyro: triad(1e-3 * DEG_PER_HOUR),
+            accel: triad(10.0 * MICRO_G),
+            jitter: 0.0,
+        };
+        let space = Space::new(&linear, &Noise::on(&run.rig, &imu));
+        for epoch in &linear.epochs[3..] {
+            let following = space.step(epoch).following(space.states());
+            for column in 0..6 {
+                let by_walk: SVector<f64, FOLLOWING> =
+                    following.column(NAVIGATION + column).fixed_rows::<FOLLOWING>(0).into_owned();
+                let gains = epoch.gains.column(column + 1);
+                for (what, walk, bias) in [
+                    ("the mean attitude", by_walk.fixed_rows::<3>(0), gains.fixed_rows::<3>(6)),
+                    ("the attitude", by_walk.fixed_rows::<3>(3), gains.fixed_rows::<3>(0)),
+                    ("the velocity", by_walk.fixed_rows::<3>(6), gains.fixed_rows::<3>(3)),
+                ] {
+                    let off = (walk - bias).norm();
+                    let is_there = column < 3 || what == "the velocity";
+                    assert_eq!(bias.norm() > 0.0, is_there, "{what}, column {column}: {bias}");
+                    assert!(off <= RELATIVE * bias.norm(), "{what}, column {column}: {walk}{bias}");
+                }
+            }
+        }
     }
 }

@@ -119,6 +119,32 @@ mod tests {
         assert_eq!(sticking(&readings), [100..120, 2000..2001, 2500..2503]);
     }
 
+    /// A sensor with a new reading in every other sample repeats half of them and does not stick, until it does for long. One
+    /// that repeats a few in a hundred is as fast as its log, and sticks wherever it repeats.
+    #[test]
+    fn a_sensor_slower_than_its_log_sticks_only_for_long() {
+        let every = |samples: usize| -> Vec<f64> {
+            let new = random(3000);
+            (0..3000).map(|at| new[at / samples]).collect()
+        };
+        assert!(sticking(&every(2)).is_empty());
+        let mut readings = every(2);
+        let held = readings[1000];
+        readings[1001..1002 + 2 * LONGEST].fill(held);
+        let rows = sticking(&readings);
+        let [row] = &rows[..] else { panic!("{rows:?}") };
+        assert!(row.contains(&1001) && row.contains(&(1000 + 2 * LONGEST)), "{row:?}");
+
+        // A tenth of all samples.
+        let mut fast = every(1);
+        let rows: Vec<_> = (1..149).map(|at| 20 * at..20 * at + 2).collect();
+        for row in &rows {
+            let held = fast[row.start - 1];
+            fast[row.clone()].fill(held);
+        }
+        assert_eq!(sticking(&fast), rows);
+    }
+
     #[test]
     fn what_is_coarse_smooth_or_cut_off_does_not_stick() {
         let noise = random(3000);

@@ -190,3 +190,22 @@ impl Moment {
 pub(crate) fn turned_back(vector: &Vector3<f64>, (sin, cos): (f64, f64)) -> Vector3<f64> {
     Vector3::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin, vector.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rins_testing::assert_close;
+
+    /// A table that accelerates evenly turns by `w t + a t²/2`, within the sample and, as far as anybody knows, beyond it.
+    #[test]
+    fn an_even_acceleration_goes_on_beyond_the_sample() {
+        let (from, acceleration, duration) = (0.3, -0.7, 0.02);
+        let stretch =
+            Stretch { duration, rate: from + 0.5 * acceleration * duration, acceleration };
+        for time in [0.0, 0.004, 0.017, 0.02, 0.021, 0.05, 0.4] {
+            let turned = stretch.turned(Dual64::new(time, 1.0), from, acceleration);
+            assert_close!(turned.re, from * time + 0.5 * acceleration * time * time, 1e-15);
+            assert_close!(turned.eps, from + acceleration * time, 1e-12);
+        }
+    }
+}

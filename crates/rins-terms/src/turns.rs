@@ -131,10 +131,42 @@ mod tests {
         }
     }
 
+    /// A change is dated to where the rate leaves its noise: never before it began, and no later than where it is seen without
+    /// noise. A little noise hardly moves it.
+    #[test]
+    fn a_noisy_rate_changes_when_it_is_left() {
+        const ACCELERATION: f64 = 0.01;
+        const SAMPLES_OF_A_RATE: f64 = OVER as f64 * INTERVAL;
+        let angle = |time: f64| {
+            let up = time.min(10.0);
+            let steady = (time - 10.0).clamp(0.0, 15.0);
+            let down = (time - 25.0).max(0.0);
+            0.5 * ACCELERATION * (up * up - down * down) + 0.1 * (steady + down)
+        };
+        let seen = LEAST_CHANGE / ACCELERATION;
+        for (noise, late) in [(1e-6, 0.1), (1e-5, 0.1), (3e-5, 0.2), (1e-4, seen)] {
+            let found = changes(1750, noise, angle);
+            let [(up, 1.0), (down, -1.0)] = found[..] else { panic!("{noise}: {found:?}") };
+            for since in [up, down - 25.0] {
+                assert!(since >= -0.5 * SAMPLES_OF_A_RATE && since < late, "{noise}: {found:?}");
+            }
+        }
+    }
+
     /// What a servo leaves of a steady rate is no change of it, however slow.
     #[test]
     fn ripple_of_a_steady_rate_is_none() {
         let angle = |time: f64| 0.2 * time - 1e-4 * (time / 10.0).cos();
         assert_eq!(changes(10_000, 1e-6, angle), [(0.0, 1.0)]);
+    }
+
+    /// A rate that swings by less than a servo may is steady until it is left, wherever its last crest was.
+    #[test]
+    fn a_steady_rate_with_ripple_changes_when_it_is_left() {
+        let angle = |time: f64| {
+            let down = (time - 100.0).max(0.0);
+            0.2 * time - 1e-3 * (time.min(100.0) / 10.0).cos() - 0.005 * down * down
+        };
+        assert_changes(&changes(5500, 0.0, angle), &[(0.0, 1.0), (100.0, -1.0)], 0.2);
     }
 }

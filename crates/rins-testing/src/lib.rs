@@ -1,15 +1,17 @@
 //! For the workspace's own tests: strategies over physical quantities, `assert_close!`, the bounds that
-//! a statistic must keep, covariances in long numbers, and sections of files.
+//! a statistic must keep, tables of cases, covariances in long numbers, and sections of files.
 #![expect(clippy::missing_panics_doc, reason = "tests are meant to panic")]
 
 mod draft;
 mod long;
+mod rows;
 mod sections;
 mod statistics;
 mod strategies;
 
 pub use draft::filled;
 pub use long::LongCovariance;
+pub use rows::{Fault, assert_rows, is, says};
 pub use statistics::{
     assert_chi_squared, assert_standard_normal, chi_squared_mean_bounds, is_chi_squared,
     standard_normal_defect,

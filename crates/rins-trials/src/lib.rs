@@ -23,6 +23,8 @@ mod draw;
 mod answer;
 mod journal;
 
+mod frozen;
+
 mod breakdown;
 mod card;
 mod score;
@@ -32,6 +34,7 @@ pub use answer::{Analyser, Answer, Named};
 pub use card::card;
 pub use catalogue::{hidden, is_hideable};
 pub use draw::{Kind, Trial};
+pub use frozen::{FROZEN, Frozen};
 pub use hide::Hidden;
 pub use journal::{Plan, Record, one, records, run, time, try_out};
 pub use laboratory::{Laboratory, Length, Level, Schedule};

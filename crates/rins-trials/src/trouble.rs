@@ -18,4 +18,12 @@ pub enum Trouble {
     /// A trial that cannot be made.
     #[error("a trial cannot be made")]
     Trial(#[from] StandError),
+    /// Frozen trials that came out otherwise.
+    #[error("{wrong} of {of} frozen trials did not come out as before")]
+    Frozen {
+        /// How many.
+        wrong: usize,
+        /// Of how many.
+        of: usize,
+    },
 }

@@ -3,9 +3,35 @@
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
+use std::sync::LazyLock;
 
-use crate::support::{list, magnitude, number, object, result_in, rins_in};
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::{Finished, list, magnitude, number, object, rins_in};
+
+/// What came of the demo, of the same once more, and of the same if it is told to replace its result. It is run once for all
+/// tests that only look at it.
+struct Demo {
+    finished: Finished,
+    /// Where it was run the first time.
+    folder: TempDir,
+    again: Finished,
+    forced: Finished,
+}
+
+static DEMO: LazyLock<Demo> = LazyLock::new(|| {
+    let [folder, other] = [(); 2].map(|()| tempfile::tempdir().expect("there is a place for it"));
+    let finished = rins_in(folder.path(), "demo");
+    let again = rins_in(folder.path(), "demo");
+    // Another result of the command is replaced, so that the first stays to be looked at.
+    let result = other.path().join("rins-demo");
+    fs::create_dir(&result).expect("an empty folder takes a folder");
+    fs::copy(folder.path().join("rins-demo/result.json"), result.join("result.json"))
+        .expect("the demo has a result");
+    let forced = rins_in(other.path(), "demo --force --json");
+    Demo { finished, folder, again, forced }
+});
 
 /// Runs a line of a shell, whose `rins` is the one under test.
 fn in_shell(line: &str, folder: &Path) -> (Option<i32>, String) {
@@ -21,8 +47,7 @@ fn in_shell(line: &str, folder: &Path) -> (Option<i32>, String) {
 
 #[test]
 fn demo_leaves_a_result_that_others_can_read() {
-    let folder = tempfile::tempdir().unwrap();
-    let finished = rins_in(folder.path(), "demo");
+    let Demo { finished, folder, .. } = &*DEMO;
     assert_eq!((finished.code, finished.err.as_str()), (Some(0), ""));
     assert!(finished.out.ends_with("\nReport: rins-demo/report.html\n"), "{}", finished.out);
 
@@ -64,8 +89,9 @@ fn demo_leaves_a_result_that_others_can_read() {
 /// The embedded run was made with the paper's errors, 60″ and 300 ppm, and its table angle is read 0.1 ms late.
 #[test]
 fn demo_prints_one_object_that_tells_the_truth() {
-    let folder = tempfile::tempdir().unwrap();
-    let result = result_in(folder.path(), "demo -o here");
+    let Demo { forced, .. } = &*DEMO;
+    assert_eq!((forced.code, forced.err.as_str()), (Some(0), ""));
+    let result = object(forced);
     assert_eq!(result["command"], "demo");
     let parameters = list(&result, "/parameters");
     assert_eq!(parameters.len(), 3);
@@ -108,10 +134,9 @@ fn next_steps_of_the_demo_work_as_they_are_printed() {
 
 #[test]
 fn demo_replaces_its_result_only_if_told_to() {
-    let folder = tempfile::tempdir().unwrap();
-    assert_eq!(rins_in(folder.path(), "demo").code, Some(0));
-    let again = rins_in(folder.path(), "demo");
+    let Demo { finished, again, forced, .. } = &*DEMO;
+    assert_eq!(finished.code, Some(0));
     assert_eq!((again.code, again.out.as_str()), (Some(1), ""));
     assert!(again.err.contains("rins-demo: exists already"), "{}", again.err);
-    assert_eq!(object(&rins_in(folder.path(), "demo --force --json"))["command"], "demo");
+    assert_eq!(object(forced)["command"], "demo");
 }

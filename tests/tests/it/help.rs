@@ -6,6 +6,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use rins_testing::{Fault, assert_rows, is, says};
+
 use crate::support::rins_in;
 
 const COMMANDS: [&str; 16] = [
@@ -26,6 +28,13 @@ const COMMANDS: [&str; 16] = [
     "apply",
     "compare",
 ];
+
+/// How wide a terminal is taken to be.
+const TERMINAL: usize = 100;
+
+/// How far an option's name is indented at most, and what is before the line of what it does.
+const OPTION_INDENT: usize = 6;
+const DESCRIPTION: &str = "          ";
 
 fn snapshot(command: &str) -> PathBuf {
     let name = if command.is_empty() { "rins" } else { command };
@@ -66,16 +75,55 @@ fn help_of_every_command_is_kept() {
     assert_eq!(listed, COMMANDS[1..]);
 }
 
-#[test]
-fn help_is_told_in_words() {
-    for command in COMMANDS {
-        let help = help(command);
-        let first = help.lines().next().unwrap_or_default();
-        assert!(first.starts_with(char::is_uppercase), "{command}: {first:?}");
-        assert!(help.contains("\nUsage: rins"), "{command}: {help}");
-        for option in help.lines().filter(|line| line.trim_start().starts_with("--")) {
-            assert!(option.len() <= 100, "{command}: {option:?} is wider than a terminal");
+/// What is wrong with a help text: a sentence first, then how the command is used, and every option with what it does, no line
+/// wider than a terminal.
+fn help_fault(command: &str, help: &str) -> Fault {
+    let lines: Vec<&str> = help.lines().collect();
+    let starts_in_words = lines.first().is_some_and(|line| line.starts_with(char::is_uppercase));
+    is(&starts_in_words, &true).map_err(|_| format!("begins with {:?}", lines.first()))?;
+    says(help, format!("\nUsage: rins {command}").trim_end())?;
+    if let Some(wide) = lines.iter().find(|line| line.chars().count() > TERMINAL) {
+        return Err(format!("{wide:?} is wider than a terminal"));
+    }
+    let options = lines.iter().position(|line| *line == "Options:").ok_or("lists no options")? + 1;
+    let mut names = Vec::new();
+    for (at, line) in lines.iter().enumerate().skip(options) {
+        let name = line.trim_start();
+        // Deeper are what an option does and the values that it takes.
+        if !name.starts_with('-') || line.len() - name.len() > OPTION_INDENT {
+            continue;
         }
+        let beside = name.split_once("  ").is_some_and(|(_, text)| !text.trim().is_empty());
+        let below = lines.get(at + 1).is_some_and(|next| next.starts_with(DESCRIPTION));
+        let described = beside || below;
+        is(&described, &true).map_err(|_| format!("does not say what {name:?} does"))?;
+        names.push(name);
+    }
+    is(&names.iter().any(|name| name.starts_with("-h, --help")), &true)
+        .map_err(|_| format!("has no --help among {names:?}"))
+}
+
+#[test]
+fn help_says_how_a_command_is_used_and_what_each_option_does() {
+    assert_rows(COMMANDS.iter().map(|command| (command, help_fault(command, &help(command)))));
+}
+
+/// What is not described, too wide, or not there is found out.
+#[test]
+fn help_that_says_too_little_is_found_out() {
+    let right = help("calibrate");
+    assert_eq!(help_fault("calibrate", &right), Ok(()));
+    let undescribed = right.replace("          Replace results that exist\n", "");
+    let wide = right.replacen('\n', &format!("\n{}\n", "x".repeat(TERMINAL + 1)), 1);
+    let without_options = &right[..right.find("Options:").unwrap()];
+    for (text, fault) in [
+        (undescribed.as_str(), "does not say what \"--force\" does"),
+        (&wide, "wider than a terminal"),
+        (without_options, "lists no options"),
+        (&right.replace("--help", "--hlep"), "has no --help"),
+    ] {
+        let found = help_fault("calibrate", text).unwrap_err();
+        assert!(found.contains(fault), "{found}");
     }
 }
 

@@ -51,37 +51,39 @@ fn bytes_are_the_same_for_any_threads_and_shards() {
 
 #[test]
 fn an_interrupted_campaign_is_continued_to_the_same_bytes() {
+    // It has to be under way for some seconds when it is killed.
+    const LONGER: &str = "monte-carlo scenario.toml --runs 1500 --seed 3";
     let folder = tempdir().unwrap();
     let folder = folder.path();
     scenario(folder);
-    result_in(folder, &format!("{CAMPAIGN} -o whole.parquet"));
+    result_in(folder, &format!("{LONGER} -o whole.parquet"));
 
     let mut command = rins();
-    command.args(CAMPAIGN.split_whitespace()).args(["-o", "cut.parquet", "--threads", "1"]);
+    command.args(LONGER.split_whitespace()).args(["-o", "cut.parquet", "--threads", "1"]);
     let mut child =
         command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let journal = folder.join("cut.parquet.part");
-    let finished = || fs::read_to_string(&journal).is_ok_and(|text| text.contains("\nend\n"));
+    let finished = || fs::read_to_string(&journal).is_ok_and(|text| text.contains("\nend "));
     let begun = Instant::now();
-    while !finished() && begun.elapsed() < Duration::from_secs(60) {
+    while !finished() && child.try_wait().unwrap().is_none() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no chunk of runs is written");
         sleep(Duration::from_millis(2));
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    if !folder.join("cut.parquet").exists() {
-        let refused = rins_in(folder, &format!("{CAMPAIGN} -o cut.parquet"));
-        assert_eq!(refused.code, Some(1));
-        assert!(refused.err.contains("--resume"), "{}", refused.err);
-        let other = "monte-carlo scenario.toml --runs 150 --seed 4 --resume -o cut.parquet";
-        let other = rins_in(folder, other);
-        assert_eq!(other.code, Some(1));
-        assert!(other.err.contains("another campaign"), "{}", other.err);
-        // What a crash leaves of a line does not count.
-        let mut text = fs::read_to_string(&journal).unwrap();
-        text.push_str("chunk 1 64\n3ff0");
-        fs::write(&journal, text).unwrap();
-        result_in(folder, &format!("{CAMPAIGN} -o cut.parquet --resume"));
-    }
+    assert!(!folder.join("cut.parquet").exists(), "it was not interrupted");
+    let refused = rins_in(folder, &format!("{LONGER} -o cut.parquet"));
+    assert_eq!(refused.code, Some(1));
+    assert!(refused.err.contains("--resume"), "{}", refused.err);
+    let other = "monte-carlo scenario.toml --runs 1500 --seed 4 --resume -o cut.parquet";
+    let other = rins_in(folder, other);
+    assert_eq!(other.code, Some(1));
+    assert!(other.err.contains("another campaign"), "{}", other.err);
+    // What a crash leaves of a line does not count.
+    let mut text = fs::read_to_string(&journal).unwrap();
+    text.push_str("chunk 1 64\n3ff0");
+    fs::write(&journal, text).unwrap();
+    result_in(folder, &format!("{LONGER} -o cut.parquet --resume"));
     assert!(bytes(folder, "whole.parquet") == bytes(folder, "cut.parquet"));
 }
 

@@ -1,5 +1,6 @@
 //! Integration tests of the calibration.
 mod consistency;
+mod correlated_noise;
 mod lanes;
 mod online;
 mod soak;

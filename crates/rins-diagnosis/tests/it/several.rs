@@ -6,7 +6,7 @@ use rins_frames::units::{DEG_PER_HOUR, STANDARD_GRAVITY};
 use rins_terms::{Chosen, Model, catalogue};
 
 use crate::hidden::RATES;
-use crate::support::{fibre, run};
+use crate::support::{SEED, fibre, run};
 
 /// What one run leaves open another one tells: that is no change from one part of a run to the next.
 #[test]
@@ -15,7 +15,7 @@ fn what_is_the_same_in_all_runs_is_constant_in_each() {
     let values = [0.0, 0.3, 0.0, 0.2, 0.0, 0.0, -0.3, 0.0, 0.0].map(|value| value * per_g);
     let supposed = Chosen::new(&catalogue::GYRO_G_SENSITIVITY).estimated();
     let hidden = Model { terms: vec![supposed.clone().with_values(&values)] };
-    let runs = [run(&RATES, hidden.clone(), 0.0, 40), run(&[15.0, -30.0], hidden, 0.0, 41)];
+    let runs = [run(&RATES, hidden.clone(), 0.0, SEED), run(&[15.0, -30.0], hidden, 0.0, SEED + 1)];
     let imu = fibre();
     let knowledge = NoiseKnowledge::Given(Strengths::of(&imu));
     let diagnosis = suppose(&runs, &Model::full(), &[supposed], &imu, knowledge).unwrap();

@@ -91,6 +91,22 @@ fn a_state_that_is_known_stays_known() {
     assert_eq!(filter.factors().covariance(), Matrix2::new(2.0, 0.0, 0.0, 0.0));
 }
 
+/// Noise that goes together with the error of one state, beside another that is known: as the plain form has it.
+#[test]
+fn noise_that_goes_with_one_error_leaves_a_known_state_known() {
+    let prior = Matrix2::new(4.0, 0.0, 0.0, 0.0);
+    let sum = Measurement::new(Vector1::new(5.0), RowVector2::new(1.0, 1.0), Matrix1::new(4.0))
+        .correlated_with_state_error(Vector2::new(1.0, 0.0));
+    let mut plain = Filter { state: Vector2::new(1.0, 2.0), covariance: prior };
+    let want = plain.update(&sum).unwrap();
+    let mut filter = FactorisedFilter::new(Vector2::new(1.0, 2.0), &prior).unwrap();
+    let got = filter.update(&sum).unwrap();
+    assert!((filter.state - plain.state).amax() < ROUNDING, "{}", filter.state);
+    assert!((filter.factors().covariance() - plain.covariance).amax() < ROUNDING);
+    assert_eq!(filter.state[1].to_bits(), 2.0_f64.to_bits());
+    assert_close!(got.nis(), want.nis(), ROUNDING);
+}
+
 fn assert_refused<const M: usize>(
     mut filter: FactorisedFilter<2>,
     measurement: &Measurement<M, 2>,

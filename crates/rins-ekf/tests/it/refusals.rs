@@ -3,7 +3,8 @@
 use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
 use proptest::prelude::*;
 use rins_ekf::{
-    CovarianceError, Filter, Measurement, Quantity, Smoother, SmootherError, Step, UpdateError,
+    CovarianceError, FactorisedFilter, Filter, Measurement, Quantity, Smoother, SmootherError,
+    Step, UpdateError,
 };
 
 fn filter() -> Filter<2> {
@@ -100,6 +101,77 @@ fn a_measurement_finer_than_the_covariance_is_refused() {
     direct.matrix = RowVector2::new(1.0, 0.0);
     wide.update(&direct).unwrap();
     rins_testing::assert_close!(wide.covariance[(0, 0)], 0.25, 1e-12);
+}
+
+/// The sum of two states of such a variance, each, read with unit noise: half of the variance of each is left, so that
+/// the states taken apart still make it up to the noise that many times.
+fn sum_of_wide_states(variance: f64) -> (Filter<2>, Measurement<1, 2>) {
+    let filter =
+        Filter { state: Vector2::zeros(), covariance: Matrix2::from_diagonal_element(variance) };
+    (filter, Measurement::new(Vector1::new(1.0), RowVector2::new(1.0, 1.0), Matrix1::new(1.0)))
+}
+
+/// A matrix may lose ten digits of sixteen, factors eighteen; beyond that a measurement is refused, and says how far.
+#[test]
+fn a_measurement_is_resolved_as_far_as_its_form_reaches() {
+    type Update = fn(f64) -> Result<(), UpdateError>;
+    let plain: Update = |variance| {
+        let (mut filter, sum) = sum_of_wide_states(variance);
+        filter.update(&sum).map(|_| ())
+    };
+    let factorised: Update = |variance| {
+        let (filter, sum) = sum_of_wide_states(variance);
+        let mut filter = FactorisedFilter::new(filter.state, &filter.covariance).unwrap();
+        filter.update(&sum).map(|_| ())
+    };
+    for (form, reach) in [(plain, 1e10), (factorised, 1e18)] {
+        assert_eq!(form(0.9 * reach), Ok(()));
+        let refused = form(1.1 * reach);
+        let Err(UpdateError::Unresolved { row: 0, ratio }) = refused else {
+            panic!("{refused:?} beyond {reach:e}")
+        };
+        rins_testing::assert_close!(ratio / reach, 1.1, 1e-6);
+    }
+}
+
+/// A reading without noise: the state that it shows is known from then on, in either form.
+#[test]
+fn a_perfect_reading_makes_its_state_known() {
+    let prior = Matrix2::new(4.0, 0.0, 0.0, 2.0);
+    let reading = Measurement::new(Vector1::new(3.0), RowVector2::new(1.0, 0.0), Matrix1::new(0.0));
+    let known = (Vector2::new(3.0, 0.0), Matrix2::new(0.0, 0.0, 0.0, 2.0));
+    let mut plain = Filter { state: Vector2::zeros(), covariance: prior };
+    plain.update(&reading).unwrap();
+    assert_eq!((plain.state, plain.covariance), known);
+    let mut factorised = FactorisedFilter::new(Vector2::zeros(), &prior).unwrap();
+    factorised.update(&reading).unwrap();
+    assert_eq!((factorised.state, factorised.factors().covariance()), known);
+}
+
+/// Of the noise the lower triangle is read, so that a caller may leave the other unset.
+#[test]
+fn noise_is_read_from_its_lower_triangle() {
+    let whole = Matrix2::new(2.0, 0.5, 0.5, 1.0);
+    let mut half = whole;
+    half[(0, 1)] = 1e3;
+    let update = |noise| {
+        let mut filter = filter();
+        let both = Measurement::new(Vector2::new(1.0, 2.0), Matrix2::identity(), noise);
+        let innovation = filter.update(&both).unwrap();
+        (filter, innovation.whitened)
+    };
+    assert_eq!(update(half), update(whole));
+    // A half that mattered would be seen.
+    assert_ne!(update(Matrix2::new(2.0, 0.0, 0.0, 1.0)), update(whole));
+}
+
+/// A covariance is symmetric to the last bit or none: what is one bit off was made by a step that is wrong.
+#[test]
+fn a_covariance_is_symmetric_to_the_last_bit() {
+    let off = 1.0_f64.next_up() - 1.0;
+    let covariance = Matrix2::new(4.0, 1.0, 1.0 + off, 2.0);
+    let found = Filter::new(Vector2::zeros(), covariance).map(|_| ());
+    assert_eq!(found, Err(CovarianceError::NotSymmetric { row: 1, column: 0, difference: off }));
 }
 
 #[test]

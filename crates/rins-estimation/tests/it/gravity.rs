@@ -1,9 +1,11 @@
 //! Without an encoder, gravity in the plane of rotation is the angle's reference.
 
+use nalgebra::Vector3;
 use rins_estimation::{
     NoiseKnowledge, Reference, Rig, Run, Strengths, axis_from_gravity, fit, turning_span,
 };
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
+use rins_frames::{InFrame, Increments};
 use rins_imu::{Axis, ImuError, ImuSpec, TriadError, TriadSpec};
 use rins_motion::Recording;
 use rins_simulation::{TableRecord, simulate};
@@ -101,6 +103,49 @@ fn an_axis_that_leans_as_it_was_surveyed_heads_where_it_was() {
         assert!(!seen.heading_known);
         assert_close!(seen.nav_from_table.euler_angles().yaw, yaw, 1e-12);
     }
+}
+
+/// A wheel that is pushed and braked by hand, with its sensor far off the axis: accelerations by w² and by w' are put in by
+/// hand, and leave the axis where it is.
+#[test]
+fn a_wheel_that_changes_its_rate_shows_its_axis_past_its_lever_arm() {
+    const INTERVAL: f64 = 0.002;
+    const SAMPLES: u32 = 20_000;
+    // Means over a sample are those at its middle but for (w T)²/24, and so are differences of rates.
+    const WITHIN: f64 = 2e-4;
+    let up = Vector3::new(0.5, -0.3, (1.0 - 0.34_f64).sqrt());
+    let [arm_x, arm_y] = [0.4, -0.25];
+    let (mean, swing, frequency) = (2.0, 1.2, 2.0);
+    let angle = |time: f64| mean * time - swing / frequency * ((frequency * time).cos() - 1.0);
+    let sample = |index: u32| {
+        let (from, to) = (f64::from(index) * INTERVAL, f64::from(index + 1) * INTERVAL);
+        let middle = f64::midpoint(from, to);
+        let rate = mean + swing * (frequency * middle).sin();
+        let acceleration = swing * frequency * (frequency * middle).cos();
+        let (sin, cos) = angle(middle).sin_cos();
+        let gravity = up * 9.8;
+        let force = Vector3::new(
+            cos * gravity.x + sin * gravity.y - rate * rate * arm_x - acceleration * arm_y,
+            cos * gravity.y - sin * gravity.x - rate * rate * arm_y + acceleration * arm_x,
+            gravity.z,
+        );
+        Increments {
+            angle: InFrame::new(0.0, 0.0, angle(to) - angle(from)),
+            velocity: InFrame::from_components(force * INTERVAL),
+            interval: INTERVAL,
+        }
+    };
+    let recording = Recording {
+        times: (1..=SAMPLES).map(|index| f64::from(index) * INTERVAL).collect(),
+        increments: (0..SAMPLES).map(sample).collect(),
+        table_angle: None,
+        table_rate: None,
+        temperature: None,
+    };
+    let seen = axis_from_gravity(&recording, None).unwrap().nav_from_table;
+    // The third row of C_s^n is up in axes of the table.
+    let shown = seen.matrix().row(2).transpose();
+    assert!((shown - up).norm() < WITHIN, "{shown} for {up}");
 }
 
 #[test]

@@ -59,6 +59,25 @@ proptest! {
     }
 
     #[test]
+    fn half_powers_add(a in any_unit(), m in -5..6_i32, n in -5..6_i32) {
+        // The square makes every half of an exponent a whole one.
+        let half = |halves: i32| format!("({a}^2)^{}", f64::from(halves) / 2.0);
+        let split = Unit::parse(&format!("{}*{}", half(m), half(n))).unwrap();
+        let whole = Unit::parse(&half(m + n)).unwrap();
+        prop_assert_eq!(split.dimension, whole.dimension);
+        prop_assert!((split.factor / whole.factor - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_negative_power_divides(a in any_unit(), halves in 1..6_i32) {
+        let exponent = f64::from(halves) / 2.0;
+        let power = Unit::parse(&format!("({a}^2)^-{exponent}")).unwrap();
+        let quotient = Unit::parse(&format!("1/({a}^2)^{exponent}")).unwrap();
+        prop_assert_eq!(power.dimension, quotient.dimension);
+        prop_assert!((power.factor / quotient.factor - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
     fn any_text_is_read_or_refused(text in ".{0,130}") {
         let _ = Quantity::parse(&text);
         let _ = Unit::parse(&text);
@@ -92,6 +111,77 @@ fn published_conversions_hold() {
     assert_close!(value("1 µg/√Hz"), value("1 ug/sqrt(Hz)"), 1e-20);
     assert_close!(value("5 m/s²"), 5.0, 1e-15);
     assert_close!(value("-7e-1deg"), -value("0.7 deg"), 1e-17);
+}
+
+/// Prefixes and sizes of the SI Brochure, table 8 and section 3: what one of each unit is in SI units and radians.
+#[test]
+fn units_have_the_size_of_their_definition() {
+    const RIGHT_ANGLE: f64 = core::f64::consts::FRAC_PI_2;
+    let sizes = [
+        ("1 mrad", 1e-3),
+        ("1 urad", 1e-6),
+        ("90 deg", RIGHT_ANGLE),
+        ("5400 arcmin", RIGHT_ANGLE),
+        ("324000 arcsec", RIGHT_ANGLE),
+        ("100 gon", RIGHT_ANGLE),
+        ("0.25 rev", RIGHT_ANGLE),
+        ("0.25 turn", RIGHT_ANGLE),
+        ("1 ms", 1e-3),
+        ("1 us", 1e-6),
+        ("1 ns", 1e-9),
+        ("1 min", 60.0),
+        ("1 h", 3600.0),
+        ("1 day", 86_400.0),
+        ("1 kHz", 1e3),
+        ("1 mm", 1e-3),
+        ("1 um", 1e-6),
+        ("1 km", 1e3),
+        ("1 mg", 9.80665e-3),
+        ("1 ug", 9.80665e-6),
+        ("1 ppm", 1e-6),
+        ("1 %", 1e-2),
+        ("1 K", 1.0),
+        ("1 G", 1e-4),
+    ];
+    for (text, size) in sizes {
+        assert!((value(text) / size - 1.0).abs() < 1e-15, "{text}: {} for {size}", value(text));
+    }
+}
+
+/// A density may be written with the root in the denominator or as a power.
+#[test]
+fn a_density_is_the_same_with_a_root_and_with_a_power() {
+    for (root, power) in [
+        ("60 deg/h/sqrt(Hz)", "60 deg/h*Hz^-0.5"),
+        ("1 ug/sqrt(kHz)", "1 ug*kHz^-0.5"),
+        ("1 m/s/h/sqrt(h)", "1 m/s*h^-1.5"),
+    ] {
+        let [root, power] = [root, power].map(|text| Quantity::parse(text).unwrap());
+        assert_eq!(root.dimension, power.dimension);
+        assert!((root.value / power.value - 1.0).abs() < 1e-15, "{root:?} {power:?}");
+    }
+}
+
+/// Each factor is a number and each exponent within bounds, but not what they multiply to.
+#[test]
+fn a_unit_too_large_or_too_small_for_a_number_is_refused() {
+    let large = "ns^-20/us^20/um^20";
+    let small = "ns^20*um^20*urad^20";
+    for text in [large, small] {
+        let found = Unit::parse(text);
+        assert!(found.is_err(), "{text}: {found:?}");
+    }
+    assert!(Unit::parse("ns^20*um^15").is_ok());
+}
+
+#[test]
+fn the_longest_text_is_read_and_the_next_is_not() {
+    let long = |length: usize| format!("1{:1$}", "deg", length - 1).replacen("deg ", " deg", 1);
+    for (length, is_read) in [(119, true), (120, true), (121, false), (400, false)] {
+        let text = long(length);
+        assert_eq!(text.len(), length);
+        assert_eq!(Quantity::parse(&text).is_ok(), is_read, "{length} bytes");
+    }
 }
 
 #[test]

@@ -7,8 +7,9 @@ use proptest::prelude::*;
 use rins_imu::{ImuError, TriadError};
 use rins_io::{Axes, Calibration, Overwrite, Parameter, parameters};
 use rins_terms::Role;
+use rins_testing::{assert_rows, says};
 
-use crate::support::replaced;
+use crate::support::{assert_refused, replaced};
 
 /// What writing in deg/h, ug, ppm and arcsec and reading again may change: a rounding each way.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -108,17 +109,7 @@ const CASES: &[(&str, &str, &str)] = &[
 
 #[test]
 fn wrong_calibrations_are_refused_with_file_line_key_and_expectation() {
-    let mut wrong = String::new();
-    for (from, to, message) in CASES {
-        let text = replaced(TEXT, from, to);
-        let error = Calibration::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
-        if error != *message {
-            wrong.push_str(&format!(
-                "{from:?} -> {to:?}\n  said     {error}\n  expected {message}\n"
-            ));
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    assert_refused(TEXT, CASES, |text| Calibration::parse(text, Path::new("c.toml")));
 }
 
 #[test]
@@ -236,9 +227,9 @@ const BEYOND_CASES: &[(&str, &str, &str)] = &[
 
 #[test]
 fn wrong_terms_and_covariances_are_refused() {
-    for (from, to, message) in BEYOND_CASES {
-        let text = replaced(&beyond(), from, to);
-        let error = Calibration::parse(&text, Path::new("c.toml")).unwrap_err().to_string();
-        assert!(error.contains(message), "{error}, not {message}");
-    }
+    let right = beyond();
+    assert_rows(BEYOND_CASES.iter().map(|(from, to, message)| {
+        let error = Calibration::parse(&replaced(&right, from, to), Path::new("c.toml"));
+        (format!("{from:?} -> {to:?}"), says(&error.unwrap_err().to_string(), message))
+    }));
 }

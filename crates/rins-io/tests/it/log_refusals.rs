@@ -1,13 +1,17 @@
 //! Logs that are refused, and what is said of them.
 
 use rins_io::{LogPolicy, Rig, read_log};
+use rins_testing::{assert_rows, is};
 
 use crate::support::{RIG, folder, log, plain_rig, refusal, replaced, with_line, without};
 
 /// The rig, the log, and what is said.
 fn check(rig: &str, log: impl AsRef<[u8]>, message: &str) {
-    let said = refusal(&[("rig.toml", rig.as_bytes()), ("run.csv", log.as_ref())]);
-    assert_eq!(said, message);
+    assert_eq!(said(rig, log), message);
+}
+
+fn said(rig: &str, log: impl AsRef<[u8]>) -> String {
+    refusal(&[("rig.toml", rig.as_bytes()), ("run.csv", log.as_ref())])
 }
 
 /// One line of a log of 40 rows, what stands there instead, and what is said.
@@ -54,29 +58,39 @@ const LINES: &[(usize, &str, &str)] = &[
 #[test]
 fn one_wrong_line_is_named() {
     let right = log(40);
-    for (line, text, message) in LINES {
-        check(RIG, with_line(&right, *line, text), message);
-    }
+    assert_rows(LINES.iter().map(|(line, text, message)| {
+        let said = said(RIG, with_line(&right, *line, text));
+        (format!("line {line} as {text:?}"), is(said.as_str(), *message))
+    }));
 }
 
 #[test]
 fn files_that_hold_no_log_are_refused() {
     let header = "t,gx,gy,gz,ax,ay,az,table\n";
-    check(RIG, "", "run.csv: the file is empty");
-    check(RIG, "\n\n  \n# nothing\n", "run.csv: the file is empty");
-    check(RIG, header, "run.csv: only a header, no samples");
-    check(RIG, format!("{header}0.02,1,1,1,1,1,1,1\n"), "run.csv: 1 sample, at least 2 are needed");
-    check(RIG, b"t,gx\n\xff\xfe,3\n", "run.csv:2: not UTF-8 text; is it binary or UTF-16?");
-    check(RIG, b"\xff\xfet\0,\0", "run.csv:1: not UTF-8 text; is it binary or UTF-16?");
-    check(
-        RIG,
-        b"\x7fELF\x02\x01\x01\0\0\0\0\0\xd8\xa0",
-        "run.csv:1: not UTF-8 text; is it binary or UTF-16?",
-    );
-    check(RIG, "1,".repeat(600_000), "run.csv:1: a line of more than 1048576 bytes");
-    check(RIG, "a,".repeat(5000) + "\n1\n", "run.csv:1: more than 4096 columns");
+    let one_sample = format!("{header}0.02,1,1,1,1,1,1,1\n");
+    let (long, wide) = ("1,".repeat(600_000), "a,".repeat(5000) + "\n1\n");
     let late = log(5) + &"1".repeat(2_000_000);
-    check(RIG, late, "run.csv:7: a line of more than 1048576 bytes");
+    let binary = "run.csv:1: not UTF-8 text; is it binary or UTF-16?";
+    let elf = b"\x7fELF\x02\x01\x01\0\0\0\0\0\xd8\xa0";
+    let cases: [(&str, &[u8], &str); 10] = [
+        ("nothing", b"", "run.csv: the file is empty"),
+        ("blank lines and a comment", b"\n\n  \n# nothing\n", "run.csv: the file is empty"),
+        ("a header", header.as_bytes(), "run.csv: only a header, no samples"),
+        ("a sample", one_sample.as_bytes(), "run.csv: 1 sample, at least 2 are needed"),
+        (
+            "UTF-16 below a header",
+            b"t,gx\n\xff\xfe,3\n",
+            "run.csv:2: not UTF-8 text; is it binary or UTF-16?",
+        ),
+        ("UTF-16", b"\xff\xfet\0,\0", binary),
+        ("a program", elf, binary),
+        ("a long line", long.as_bytes(), "run.csv:1: a line of more than 1048576 bytes"),
+        ("many columns", wide.as_bytes(), "run.csv:1: more than 4096 columns"),
+        ("a long line at the end", late.as_bytes(), "run.csv:7: a line of more than 1048576 bytes"),
+    ];
+    assert_rows(
+        cases.iter().map(|(name, log, message)| (name, is(said(RIG, log).as_str(), *message))),
+    );
 }
 
 #[test]
@@ -283,21 +297,38 @@ fn wrong_psins_logs_are_refused() {
     let said = |log: &str, rig: &str| {
         refusal(&[("rig.toml", rig.as_bytes()), ("laser.imu", log.as_bytes())])
     };
-    for (from, to, message) in PSINS_CASES {
-        assert_eq!(said(&replaced(PSINS, from, to), rig), *message);
-    }
-    assert_eq!(said("", rig), "laser.imu: the file is empty");
-    assert_eq!(said("% PSINS\n0 0 0 0 0 0\n", rig), "laser.imu: the header has 1 of its 3 rows");
+    assert_rows(PSINS_CASES.iter().map(|(from, to, message)| {
+        let fault = is(said(&replaced(PSINS, from, to), rig).as_str(), *message);
+        (format!("{from:?} -> {to:?}"), fault)
+    }));
     let one = PSINS.replace("4 5 6 0 0 80\n", "");
-    assert_eq!(said(&one, rig), "laser.imu: 1 sample, at least 2 are needed");
-    assert_eq!(
-        said(PSINS, &rig.replace("100 Hz", "200 Hz")),
-        "laser.imu: the time column says 100.000 Hz, [log] rate says 200.000 Hz"
-    );
+    let faster = rig.replace("100 Hz", "200 Hz");
     let stuck: String = (0..20).map(|n| format!("{n} 7 {n} 0 0 80\n")).collect();
     let header = &PSINS[..PSINS.find("1 2 3").unwrap()];
-    assert_eq!(
-        said(&format!("{header}{stuck}"), rig),
-        "laser.imu: gyro y is 7 in every sample: the channel is stuck or the wrong column"
+    let stuck = format!("{header}{stuck}");
+    let cases = [
+        ("nothing", "", rig, "laser.imu: the file is empty"),
+        (
+            "a part of a header",
+            "% PSINS\n0 0 0 0 0 0\n",
+            rig,
+            "laser.imu: the header has 1 of its 3 rows",
+        ),
+        ("a sample", &one, rig, "laser.imu: 1 sample, at least 2 are needed"),
+        (
+            "another rate",
+            PSINS,
+            &faster,
+            "laser.imu: the time column says 100.000 Hz, [log] rate says 200.000 Hz",
+        ),
+        (
+            "a gyro that says one thing",
+            &stuck,
+            rig,
+            "laser.imu: gyro y is 7 in every sample: the channel is stuck or the wrong column",
+        ),
+    ];
+    assert_rows(
+        cases.iter().map(|(name, log, rig, message)| (name, is(said(log, rig).as_str(), *message))),
     );
 }

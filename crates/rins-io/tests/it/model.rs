@@ -8,7 +8,7 @@ use rins_io::{IoError, ModelFile};
 use rins_terms::catalogue::{CATALOGUE, MOST_PARAMETERS};
 use rins_terms::{Chosen, Model, Role};
 
-use crate::support::replaced;
+use crate::support::assert_refused;
 
 /// What writing a number in its unit and reading it again may change: a rounding each way.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -155,14 +155,5 @@ const CASES: &[(&str, &str, &str)] = &[
 
 #[test]
 fn wrong_models_are_refused_with_file_line_key_and_expectation() {
-    let mut wrong = String::new();
-    for (from, to, message) in CASES {
-        let error = parse(&replaced(TEXT, from, to)).unwrap_err().to_string();
-        if error != *message {
-            wrong.push_str(&format!(
-                "{from:?} -> {to:?}\n  said     {error}\n  expected {message}\n"
-            ));
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    assert_refused(TEXT, CASES, parse);
 }

@@ -7,7 +7,7 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_io::{LogFormat, Rig};
 use rins_testing::assert_close;
 
-use crate::support::{RIG, replaced};
+use crate::support::{RIG, assert_refused, replaced};
 
 fn parse(text: &str) -> Result<Rig, rins_io::IoError> {
     Rig::parse(text, Path::new("rig.toml"))
@@ -170,16 +170,7 @@ const CASES: &[(&str, &str, &str)] = &[
 
 #[test]
 fn wrong_rigs_are_refused_with_file_line_key_and_expectation() {
-    let mut wrong = String::new();
-    for (from, to, message) in CASES {
-        let error = parse(&replaced(RIG, from, to)).unwrap_err().to_string();
-        if error != *message {
-            wrong.push_str(&format!(
-                "{from:?} -> {to:?}\n  said     {error}\n  expected {message}\n"
-            ));
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    assert_refused(RIG, CASES, parse);
     assert!(CASES.len() >= 60);
 }
 

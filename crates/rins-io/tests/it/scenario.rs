@@ -6,9 +6,9 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::Quantisation;
 use rins_io::{IoError, ScenarioFile, read};
 use rins_simulation::{TableRecord, Temperature, simulate};
-use rins_testing::{assert_close, data_sheets, site};
+use rins_testing::{assert_close, assert_rows, data_sheets, is, site};
 
-use crate::support::replaced;
+use crate::support::{assert_refused, replaced};
 
 const SCENARIO: &str = concat!(
     "\n",
@@ -137,12 +137,10 @@ fn the_temperature_may_go_its_way() {
             "slope: unknown key, expected one of start, ramp, rise, time_constant, amplitude, period",
         ),
     ];
-    for (table, says) in refused {
-        assert_eq!(
-            read(table).unwrap_err(),
-            format!("scenario.toml:38: [truth] temperature.{says}")
-        );
-    }
+    assert_rows(refused.map(|(table, message)| {
+        let message = format!("scenario.toml:38: [truth] temperature.{message}");
+        (table, is(&read(table).unwrap_err(), &message))
+    }));
 }
 
 const EFFECTS: &str = r#"effects = [
@@ -333,16 +331,7 @@ fn true_errors_may_be_zero() {
 
 #[test]
 fn wrong_scenarios_are_refused_with_file_line_key_and_expectation() {
-    let mut wrong = String::new();
-    for (from, to, message) in CASES {
-        let error = parse(&replaced(SCENARIO, from, to)).unwrap_err().to_string();
-        if error != *message {
-            wrong.push_str(&format!(
-                "{from:?} -> {to:?}\n  said     {error}\n  expected {message}\n"
-            ));
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    assert_refused(SCENARIO, CASES, parse);
 }
 
 #[test]

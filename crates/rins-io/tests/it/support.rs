@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use rins_io::{IoError, Loaded, read};
-use rins_testing::{data_sheets, site};
+use rins_testing::{assert_rows, data_sheets, is, site};
 use tempfile::TempDir;
 
 /// The section of a site.
@@ -43,6 +43,22 @@ pub(crate) fn plain_rig() -> String {
 pub(crate) fn replaced(text: &str, from: &str, to: &str) -> String {
     assert_eq!(text.matches(from).count(), 1, "{from:?} must occur once");
     text.replace(from, to)
+}
+
+/// That files which say something wrong are refused: of each case what stands in a file that is `right`, what stands there
+/// instead, and all of the message.
+pub(crate) fn assert_refused<T>(
+    right: &str,
+    cases: &[(&str, &str, &str)],
+    parse: impl Fn(&str) -> Result<T, IoError>,
+) {
+    assert_rows(cases.iter().map(|(from, to, message)| {
+        let fault = match parse(&replaced(right, from, to)) {
+            Ok(_) => Err("is taken".into()),
+            Err(error) => is(error.to_string().as_str(), *message),
+        };
+        (format!("{from:?} -> {to:?}"), fault)
+    }));
 }
 
 /// A log of `rows` rows at 50 Hz that is right.

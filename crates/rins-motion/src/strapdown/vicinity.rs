@@ -190,5 +190,24 @@ mod tests {
             let east = 30.0 * figures.transverse_curvature;
             closely(east * figures.tan_latitude, w_en.components().z)?;
         }
+
+        /// A step in latitude alone or in height alone leaves the vicinity, and one back into it does too.
+        #[test]
+        fn figures_follow_a_place_that_goes_far_one_way(
+            latitude in any_latitude(),
+            height in -400.0..9000.0_f64,
+            north in prop::sample::select(vec![-1e-2, -2e-4, 2e-4, 1e-2]),
+            up in prop::sample::select(vec![-4e3, -500.0, 500.0, 4e3]),
+        ) {
+            let mut vicinity = Vicinity::around(latitude, height);
+            for (north, up) in [(north, 0.0), (0.0, 0.0), (0.0, up), (north, up)] {
+                let place = Site { latitude: latitude + north, longitude: 0.0, height: height + up };
+                let figures = vicinity.at(place.latitude, place.height);
+                closely(figures.meridian_curvature, 1.0 / (place.meridian_radius() + place.height))?;
+                closely(figures.gravity, place.normal_gravity())?;
+                closely(figures.latitude[0], place.latitude.sin())?;
+                closely(figures.latitude[1], place.latitude.cos())?;
+            }
+        }
     }
 }

@@ -157,15 +157,51 @@ fn single_errors_do_what_the_covariance_says() {
     assert_close!(by_east_accel.z, by_east_accel.y, 1e-9);
 }
 
+/// The covariance is what single errors of each sensor do, one after another: their squares and their products.
+#[test]
+fn covariance_is_made_of_what_single_errors_do() {
+    // Of an error of a hundredth of a degree, whose square is lost beside it.
+    const WITHIN: f64 = 1e-3;
+    let level = at_angle_zero(Dcm::identity());
+    for latitude in [-50.0, 20.0, 60.0] {
+        let station = station(latitude * DEG);
+        let mut sum = nalgebra::Matrix3::zeros();
+        for axis in 0..6 {
+            let mut rates = rates_at_rest(&station, level);
+            let mut error = Vector3::zeros();
+            if axis < 3 {
+                error[axis] = SIGMA.angular_rate;
+                rates.angular_rate += InFrame::from_components(error);
+            } else {
+                // So large that it does as much to the azimuth as a gyro does.
+                error[axis - 3] = 20.0 * SIGMA.specific_force;
+                rates.specific_force += InFrame::from_components(error);
+            }
+            let found = align(&rates, &SIGMA, &station).unwrap().nav_from_body;
+            let phi = -attitude_apart(found, level);
+            sum += phi * phi.transpose();
+        }
+        let sigma = MeanUncertainty { specific_force: 20.0 * SIGMA.specific_force, ..SIGMA };
+        let covariance = align(&rates_at_rest(&station, level), &sigma, &station);
+        let covariance = covariance.unwrap().covariance;
+        for (found, want) in covariance.iter().zip(&sum) {
+            let off = (found - want).abs();
+            assert!(off < WITHIN * sum.trace(), "at {latitude} deg:{covariance}{sum}");
+        }
+        // The azimuth leans with the tilt about north: a product of another sign would be seen.
+        assert!(sum[(1, 2)].abs() > 10.0 * WITHIN * sum.trace(), "{sum}");
+    }
+}
+
 /// The mean of `(δL / σ)²`, with `claimed` times the true sigma.
-fn mean_square_of_latitude(claimed: f64) -> f64 {
+fn mean_square_of_latitude(sigma: &MeanUncertainty, claimed: f64) -> f64 {
     let mut rng = Pcg64::seed_from_u64(4);
     let station = station(-30.0 * DEG);
     let attitude = at_angle_zero(Dcm::about_x(0.7));
     let truth = rates_at_rest(&station, attitude);
     let sum: f64 = (0..DRAWS)
         .map(|_| {
-            let seen = place_seen(&with_noise(&truth, &SIGMA, &mut rng), &SIGMA);
+            let seen = place_seen(&with_noise(&truth, sigma, &mut rng), sigma);
             let error = seen.latitude - station.site.latitude;
             (error / (claimed * seen.latitude_sigma)).powi(2)
         })
@@ -173,11 +209,20 @@ fn mean_square_of_latitude(claimed: f64) -> f64 {
     sum / f64::from(DRAWS)
 }
 
+/// Whether gyros or accelerometers are worse, or both alike.
 #[test]
 fn latitude_seen_has_its_sigma() {
-    assert!(is_chi_squared(mean_square_of_latitude(1.0), 1.0, DRAWS));
-    assert!(!is_chi_squared(mean_square_of_latitude(0.9), 1.0, DRAWS));
-    assert!(!is_chi_squared(mean_square_of_latitude(1.1), 1.0, DRAWS));
+    // So many that gyros of SIGMA are no worse than the accelerometers.
+    let poor = MeanUncertainty { specific_force: 17.0 * SIGMA.specific_force, ..SIGMA };
+    let poorer = MeanUncertainty { specific_force: 100.0 * SIGMA.specific_force, ..SIGMA };
+    for sigma in [SIGMA, poor, poorer] {
+        let right = mean_square_of_latitude(&sigma, 1.0);
+        assert!(is_chi_squared(right, 1.0, DRAWS), "{sigma:?}: {right}");
+        for claimed in [0.9, 1.1] {
+            let wrong = mean_square_of_latitude(&sigma, claimed);
+            assert!(!is_chi_squared(wrong, 1.0, DRAWS), "{sigma:?}: {wrong} at {claimed} sigma");
+        }
+    }
 }
 
 #[test]

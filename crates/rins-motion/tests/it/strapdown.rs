@@ -88,6 +88,36 @@ fn measured_gravity_leaves_the_navigator_at_rest() {
     assert!(navigator.state().velocity.norm() < 1e-9);
 }
 
+/// What rounding takes from an attitude's rows, in length and in right angles, each sample gives back.
+#[test]
+fn an_attitude_that_is_not_quite_a_rotation_becomes_one() {
+    const OFF: f64 = 1e-7;
+    // One step leaves the square of what was off, which is up to three times that.
+    const LEFT: f64 = 20.0 * OFF * OFF;
+    let station = station(40.0 * DEG);
+    let defect = nalgebra::Matrix3::from_fn(|row, column| OFF * (1.0 + row as f64 - column as f64));
+    let attitude = *at_angle_zero(rins_frames::Dcm::about_x(0.4)).matrix();
+    let state = NavState {
+        position: station.site,
+        velocity: InFrame::zeros(),
+        nav_from_body: rins_frames::Dcm::from_kernel(attitude + defect * attitude),
+    };
+    let not_orthonormal = |navigator: &Navigator| {
+        let c = navigator.state().nav_from_body.matrix();
+        (c * c.transpose() - nalgebra::Matrix3::identity()).amax()
+    };
+    let mut navigator = Navigator::new(state, &station, VerticalChannel::Held);
+    assert!(not_orthonormal(&navigator) > OFF, "it begins as no rotation");
+    let turning = Rates {
+        angular_rate: InFrame::new(0.1, -0.2, 0.3),
+        specific_force: InFrame::new(0.0, 0.0, station.gravity),
+    };
+    for _ in 0..3 {
+        navigator.step(&turning.over(0.01));
+        assert!(not_orthonormal(&navigator) < LEFT, "{:e}", not_orthonormal(&navigator));
+    }
+}
+
 #[test]
 fn held_channel_keeps_height_and_vertical_velocity() {
     let station = station(40.0 * DEG);

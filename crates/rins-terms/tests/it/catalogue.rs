@@ -39,8 +39,29 @@ fn ids_are_unique_and_those_that_are_wanted() {
     let wanted: BTreeSet<&str> =
         WANTED.split_whitespace().chain(BESIDES.split_whitespace()).collect();
     assert_eq!(set, wanted);
+}
+
+/// A file names a term by its id or by another name that it has: each finds that very term, and what is nearly one finds none.
+#[test]
+fn every_id_finds_its_own_term() {
+    for entry in CATALOGUE {
+        for id in entry.also.iter().chain([&entry.id]) {
+            let found = term(id).unwrap_or_else(|| panic!("{id} is not found"));
+            assert!(std::ptr::eq(found, *entry), "{id} finds {}", found.id);
+            let is_key = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "._".contains(c);
+            assert!(id.chars().all(is_key), "{id:?} is no key of a file");
+            for near in
+                [&id[..id.len() - 1], &format!("{id}s"), &id.to_uppercase(), &format!(" {id}")]
+            {
+                assert!(
+                    term(near).is_none_or(|other| !std::ptr::eq(other, *entry)),
+                    "{near:?} finds {id}"
+                );
+            }
+        }
+    }
     assert_eq!(term("readout_lag").unwrap().id, "encoder_latency");
-    assert!(term("readout").is_none());
+    assert!(term("").is_none());
 }
 
 #[test]

@@ -63,6 +63,27 @@ fn gyros_read_by_name_and_unit() {
     }
 }
 
+/// What is even in the rate keeps its sign when the table turns back, what is odd changes it. At -10 deg/s, in deg/h.
+#[test]
+fn a_scale_error_is_odd_or_even_in_the_rate() {
+    let cases = [
+        ("gyro.scale", 2, 100e-6, -3.6),
+        ("gyro_scale_asymmetry", 0, 10e-6, 0.36),
+        ("gyro_scale_nonlinearity", 0, 1e-6 / DEG_PER_SECOND, -0.36),
+        ("gyro_scale_nonlinearity", 1, 0.1e-6 / DEG_PER_SECOND.powi(2), -0.36),
+    ];
+    let mut back = moment();
+    back.mean.rate = -back.mean.rate;
+    back.rate = -back.rate;
+    for (id, place, value, want) in cases {
+        let mut chosen = Chosen::new(catalogue::term(id).unwrap());
+        chosen.values[place] = value;
+        let gyro = values(&chosen.signals(&back, None).gyro) / DEG_PER_HOUR;
+        assert_close!(gyro.z, want, 1e-9);
+        assert_eq!((gyro.x, gyro.y), (0.0, 0.0), "{id}");
+    }
+}
+
 #[test]
 fn accelerometers_read_by_name_and_unit() {
     let cases = [
@@ -255,6 +276,27 @@ fn wrong_latitude_is_the_earths_rate_there_less_that_here() {
     let want = moment.in_body(&(there.earth_rate - here.earth_rate));
     assert!((got - want).norm() < 1e-12 * want.norm());
     assert!(want.norm() > 0.1 * DEG_PER_HOUR);
+}
+
+/// The field of a dipole dips by `atan(2 tan L)` below the horizon in the north and rises above it in the south; it is twice
+/// as strong at a pole as at the equator.
+#[test]
+fn the_magnetic_field_points_north_and_dips_with_the_latitude() {
+    const WITHIN: f64 = 1e-12;
+    let field = |latitude: f64| {
+        let site = Site { latitude, longitude: 0.0, height: 0.0 };
+        let level = EulerAngles { roll: 0.0, pitch: 0.0, yaw: 0.0 };
+        Surroundings::new(Station::with_normal_gravity(site), level.dcm()).magnetic_field
+    };
+    let at_the_equator = field(0.0);
+    assert!(at_the_equator.y > 2e-5, "it points north: {at_the_equator}");
+    for latitude in [-60.0, -34.0, 0.0, 34.0, 60.0].map(|latitude| latitude * DEG) {
+        let field = field(latitude);
+        let dip = (-field.z).atan2(field.y);
+        assert_close!(field.x, 0.0, 1e-20);
+        assert_close!(dip, (2.0 * latitude.tan()).atan(), WITHIN);
+    }
+    assert_close!(field(90.0 * DEG).norm() / at_the_equator.norm(), 2.0, WITHIN);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rins_frames::units::{ARCSEC, DEG_PER_SECOND};
 use rins_frames::{Body, Dcm, EARTH_RATE};
 use rins_motion::Segment;
-use rins_terms::{Chosen, Making, Model, SettingKind, catalogue};
+use rins_terms::{Chosen, Making, Model, SettingKind, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, Run, run, turning};
@@ -100,6 +100,25 @@ fn rate_ripple_is_felt_and_read_alike() {
         largest = largest.max(reading.angle_error.abs());
     }
     assert!(largest > 5e-5, "it is a tenth of a thousandth of a radian");
+}
+
+/// A base that gives way over a second does so evenly: half of it at the time that is given, and none before or after.
+#[test]
+fn a_base_gives_way_evenly_over_its_time() {
+    const TIME: f64 = 30.0;
+    const DURATION: f64 = 1.0;
+    let step = Chosen::new(&catalogue::BASE_TILT_STEP)
+        .with_setting(SettingKind::Time, TIME)
+        .with_setting(SettingKind::Duration, DURATION)
+        .with_values(&[1.0, -2.0, 0.5]);
+    for moment in steady().track.moments() {
+        let since_start = moment.end.time - (TIME - 0.5 * DURATION);
+        let part = (since_start / DURATION).clamp(0.0, 1.0);
+        let tilt = values(&step.signals(&moment, None).tilt);
+        for (axis, all) in [1.0, -2.0, 0.5].into_iter().enumerate() {
+            assert_close!(tilt[axis], all * part, 1e-9);
+        }
+    }
 }
 
 #[test]

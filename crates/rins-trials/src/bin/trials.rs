@@ -4,10 +4,12 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use rins_trials::{Analyser, Length, Plan, Record, Trial, Trouble, card, records, run, time};
+use rins_trials::{
+    Analyser, FROZEN, Length, Plan, Record, Trial, Trouble, card, records, run, time,
+};
 
 const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS | trials time RINS JOURNAL SEED | \
-                     trials folder SEED INDEX FOLDER | trials card JOURNAL PAGE";
+                     trials frozen RINS | trials folder SEED INDEX FOLDER | trials card JOURNAL PAGE";
 
 /// How many of the longest runs are timed.
 const TIMED: u64 = 5;
@@ -52,12 +54,28 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             let analyser = Analyser::new(program, cores);
             time(seed.parse().ok()?, TIMED, &analyser, Path::new(journal), told)
         }
+        ["frozen", program] => frozen(&Analyser::new(program, cores)),
         ["folder", seed, index, folder] => {
             made(seed.parse().ok()?, index.parse().ok()?, Path::new(folder))
         }
         ["card", journal, page] => page_of(Path::new(journal), Path::new(page)),
         _ => return None,
     })
+}
+
+/// Runs the frozen trials, says what came of each, and fails if any is not as it was.
+fn frozen(analyser: &Analyser) -> Result<(), Trouble> {
+    let mut wrong = 0;
+    for trial in FROZEN {
+        match trial.fault(analyser)? {
+            None => println!("as before: {}", trial.name),
+            Some(fault) => {
+                wrong += 1;
+                println!("NOT AS BEFORE: {}: {fault}", trial.name);
+            }
+        }
+    }
+    if wrong == 0 { Ok(()) } else { Err(Trouble::Frozen { wrong, of: FROZEN.len() }) }
 }
 
 /// Makes the folder of one trial, and says what is hidden in it.

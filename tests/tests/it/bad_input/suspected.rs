@@ -1,5 +1,6 @@
 //! Mistakes that only the numbers betray: the result is given, and says so, and the exit code does.
 
+use rins_testing::{Fault, assert_rows, is, says};
 use serde_json::Value;
 
 use super::DATA;
@@ -66,19 +67,24 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
     ),
 ];
 
+/// What is wrong with the way a mistake is reported: in the exit code, in one line, and in the result that is printed and written.
+fn suspected(spoil: &Spoil, suspicion: &str) -> Fault {
+    let folder = Folder::new();
+    folder.spoil(spoil);
+    let finished = rins_in(folder.path(), "check rig.toml --json -o out");
+    let said = finished.err.as_str();
+    is(&(finished.code, said.lines().count()), &(Some(DATA), 1))
+        .map_err(|off| off + ": " + said)?;
+    says(said, "rins: rig.toml: ")?;
+    let printed = object(&finished);
+    says(&texts(&printed, "/suspicions").join("\n"), suspicion)?;
+    let written = std::fs::read_to_string(folder.path().join("out/result.json"));
+    is(&serde_json::from_str::<Value>(&written.unwrap()).unwrap(), &printed)
+}
+
 #[test]
 fn suspected_mistake_comes_with_the_result() {
-    for (name, spoil, says) in SUSPECTED {
-        let folder = Folder::new();
-        folder.spoil(spoil);
-        let finished = rins_in(folder.path(), "check rig.toml --json -o out");
-        assert_eq!(finished.code, Some(DATA), "{name}: {}", finished.err);
-        assert_eq!(finished.err.lines().count(), 1, "{name}: {}", finished.err);
-        assert!(finished.err.starts_with("rins: rig.toml: "), "{name}: {}", finished.err);
-        let printed = object(&finished);
-        let suspicions = texts(&printed, "/suspicions");
-        assert!(suspicions.iter().any(|text| text.contains(says)), "{name}: {suspicions:?}");
-        let written = std::fs::read_to_string(folder.path().join("out/result.json")).unwrap();
-        assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), printed, "{name}");
-    }
+    assert_rows(
+        SUSPECTED.iter().map(|(name, spoil, suspicion)| (name, suspected(spoil, suspicion))),
+    );
 }
