@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// Print the result as one JSON object on standard output
     #[arg(long, global = true)]
     pub(crate) json: bool,
-    /// Replace results that exist
+    /// Overwrite existing results
     #[arg(long, global = true)]
     pub(crate) force: bool,
 }
@@ -63,24 +63,25 @@ pub(crate) enum Command {
     Simulate(Simulate),
     /// Write a log in another format, with the rig file that reads it
     Convert(Convert),
-    /// Inspect a run: rate, gaps, static intervals, gravity, Earth rate, likely mistakes of units, signs and axes
+    /// Inspect a run: rate, gaps, static intervals, gravity, Earth rate, probable mistakes in units, signs and axes
     Check(Input),
     /// Identify the noise over a static interval: Allan deviations with bounds, and noise terms
     Allan(Input),
     /// Align over a static interval: level from gravity, north from the Earth's rotation
     Align(Input),
-    /// Free inertial navigation from rest, with or without a calibration
+    /// Free inertial navigation from standstill, with or without a calibration
     Navigate(Navigate),
     /// Estimate sensor errors from runs on the table, with navigation before and after compensation
     Calibrate(Calibrate),
-    /// Find the physical effects that a model lacks in a run, and measure the predictive gain
+    /// Identify unmodeled effects in a run, and measure the gain in predicting held-out data
     ///
     /// The model is estimated. Every effect of the catalogue is then tested on the residuals, at all event times and
     /// harmonic orders. The best one joins the model, with its p-value and the alternatives that this run does not
     /// distinguish from it. The search ends when no effect is significant; residual structure that no effect explains is
-    /// reported as such. Mistakes of units, signs and axes are an error, with the correction.
+    /// reported as such. A mistake in units, signs or
+    /// axes ends the command with an error that states the correction.
     Diagnose(Diagnose),
-    /// Predict what a rotation schedule makes observable, and propose the schedule to run next
+    /// Predict the observability of parameters under a rotation schedule, and propose the schedule to run next
     ///
     /// The information of a run on the parameters of a model is computed from the scenario's motion, site and data sheet,
     /// without noise and without errors. For each parameter the result is its observability (by itself, or in a
@@ -91,7 +92,7 @@ pub(crate) enum Command {
     /// are separated if each, at its typical size and in its most similar direction, differs from any amount of the other
     /// by 6 sigma, with the model's parameters estimated too.
     Observe(Observe),
-    /// Simulate and calibrate a scenario many times: are the covariances consistent with the errors?
+    /// Simulate and calibrate a scenario many times to test the consistency of the covariances (NEES)
     MonteCarlo(MonteCarlo),
     /// Join the shards of a campaign
     Merge(Merge),
@@ -103,7 +104,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
-    /// Folder for the results
+    /// Output folder
     #[arg(short, long, value_name = "DIR", default_value = "rins-demo")]
     pub(crate) output: PathBuf,
 }
@@ -112,7 +113,7 @@ pub(crate) struct Demo {
 pub(crate) struct Init {
     /// The log: CSV text or a PSINS text log
     pub(crate) log: PathBuf,
-    /// Where to write the rig file; without it, it is printed
+    /// The rig file; by default it is printed
     #[arg(short, long, value_name = "RIG")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -124,7 +125,7 @@ pub(crate) struct Simulate {
     /// Folder for the run
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Use this seed in place of the scenario's
+    /// Seed of the random numbers; by default the scenario's
     #[arg(long)]
     pub(crate) seed: Option<u64>,
 }
@@ -133,7 +134,7 @@ pub(crate) struct Simulate {
 pub(crate) struct Convert {
     /// The rig file
     pub(crate) rig: PathBuf,
-    /// The new log; its rig file lies beside it and ends in .toml
+    /// The new log; its rig file has the same name with the extension .toml
     #[arg(short, long, value_name = "LOG")]
     pub(crate) output: PathBuf,
     /// The format; by default the extension decides: .csv, .parquet, .mat, .imu (psins) or .bin (psins-bin)
@@ -152,11 +153,11 @@ pub(crate) enum Format {
     Mat,
     /// A PSINS text log
     Psins,
-    /// PSINS' rows [wm vm t] of doubles
+    /// PSINS binary: rows [wm vm t] of float64
     PsinsBin,
-    /// KF-GINS' text
+    /// KF-GINS text
     KfGins,
-    /// The text of EuRoC and Kalibr
+    /// EuRoC and Kalibr CSV
     Euroc,
 }
 
@@ -178,7 +179,7 @@ impl From<Format> for LogFile {
 pub(crate) struct Input {
     /// The rig file
     pub(crate) rig: PathBuf,
-    /// Folder for result.json, report.html and what else the command makes
+    /// Output folder for result.json, report.html and other files
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -203,7 +204,7 @@ pub(crate) struct Calibrate {
     /// Folder for result.json, report.html, calibration.toml and model.toml
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// What to estimate: paper12 (`M_xz`, `M_yz` and `S_z` by the paper's filter), full (biases, scale
+    /// What to estimate: paper12 (`M_xz`, `M_yz` and `S_z` by the Kalman filter of Nie et al. 2019), full (biases, scale
     /// errors, misalignments, the axis' attitude), or a model file; by default paper12 for one run with a
     /// table reading, and full otherwise
     #[arg(long, value_parser = ModelChoice::parse)]
@@ -236,32 +237,32 @@ pub(crate) struct Diagnose {
     /// Estimate the noise from the data, or use that of the data sheet
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
-    /// Draw the score of all effects of the catalogue so many times under the extended model, and count the draws in which
-    /// the first search names an effect; the search is not repeated on simulated runs
+    /// Estimate the false alarm rate of the first search: draw the scores of all effects so many times under the extended
+    /// model, and count the draws in which an effect is reported; no runs are simulated
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) bootstrap: Option<u32>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct MonteCarlo {
-    /// The scenario file, with a grid or without
+    /// The scenario file; it may define a parameter grid
     pub(crate) scenario: PathBuf,
-    /// How many runs of each scenario
+    /// Number of runs of each scenario
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     pub(crate) runs: u64,
-    /// Use this seed in place of the scenario's
+    /// Seed of the random numbers; by default the scenario's
     #[arg(long)]
     pub(crate) seed: Option<u64>,
-    /// Where to write the results, as Parquet; a report lies beside them and ends in .html
+    /// Results file (Parquet); the report has the same name with the extension .html
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Continue a campaign that was interrupted
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Do a part only, such as 2/5: the second of five, for `rins merge`
+    /// Run only shard I of N, such as 2/5, for `rins merge`
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub(crate) shard: Option<(u64, u64)>,
-    /// How many threads; by default one a core
+    /// Number of threads; by default one per core
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
 }
@@ -271,7 +272,7 @@ pub(crate) struct Merge {
     /// The results of all shards
     #[arg(required = true)]
     pub(crate) parts: Vec<PathBuf>,
-    /// Where to write the whole; a report lies beside it and ends in .html
+    /// Merged results file (Parquet); the report has the same name with the extension .html
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
 }
@@ -334,7 +335,7 @@ pub(crate) struct Apply {
     /// The calibration
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: PathBuf,
-    /// The new log; its rig file lies beside it and ends in .toml
+    /// The new log; its rig file has the same name with the extension .toml
     #[arg(short, long, value_name = "LOG")]
     pub(crate) output: PathBuf,
     /// The format; by default the extension decides: .csv, .parquet, .mat, .imu (psins) or .bin (psins-bin)

@@ -1,36 +1,43 @@
-//! Markup: text that came from a file made harmless in it, and in a script's data.
+//! Text that came from a file made harmless on a page, and in a script's data.
 
 use std::borrow::Cow;
 
-/// The text as HTML shows it, in an element or in a quoted attribute.
+use maud::{Escaper, Markup, PreEscaped, Render};
+
+/// Text as a page shows it, in an element or in a quoted attribute: markup in it is text.
 ///
 /// Control characters and those that reverse the direction of writing are shown as U+FFFD, since a file could
 /// make one number look like another with them.
-pub(super) fn html(text: &str) -> Cow<'_, str> {
-    if !text.contains(|c| replacement(c).is_some()) {
-        return Cow::Borrowed(text);
+pub(super) struct Shown<'a>(pub(super) &'a str);
+
+impl Render for Shown<'_> {
+    fn render_to(&self, buffer: &mut String) {
+        use std::fmt::Write as _;
+        // Writing to a string cannot fail.
+        let _ = Escaper::new(buffer).write_str(&visible(self.0));
     }
-    let mut escaped = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
-        match replacement(c) {
-            Some(shown) => escaped.push_str(shown),
-            None => escaped.push(c),
-        }
-    }
-    Cow::Owned(escaped)
 }
 
-fn replacement(c: char) -> Option<&'static str> {
+/// The end of a line, so that a page can be compared line by line.
+pub(super) const LINE: PreEscaped<&str> = PreEscaped("\n");
+
+/// Markup as it is, where it was made here.
+pub(super) fn made(text: String) -> Markup {
+    PreEscaped(text)
+}
+
+fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(text.chars().map(|c| if is_hidden(c) { '\u{FFFD}' } else { c }).collect())
+}
+
+fn is_hidden(c: char) -> bool {
     match c {
-        '&' => Some("&amp;"),
-        '<' => Some("&lt;"),
-        '>' => Some("&gt;"),
-        '"' => Some("&quot;"),
-        '\'' => Some("&#39;"),
-        '\t' | '\n' => None,
-        '\u{2028}' | '\u{2029}' => Some("\u{FFFD}"),
-        hidden if hidden.is_control() || reverses(hidden) => Some("\u{FFFD}"),
-        _ => None,
+        '\t' | '\n' => false,
+        '\u{2028}' | '\u{2029}' => true,
+        c => c.is_control() || reverses(c),
     }
 }
 
@@ -42,7 +49,7 @@ fn reverses(c: char) -> bool {
 /// A JSON text that can stand in a `script` element: the same value, with no `<`, `>`, `&`, U+2028 or U+2029 in it.
 ///
 /// In JSON those characters occur within strings only, where `\u` may stand for any character.
-/// Those that reverse the direction of writing become U+FFFD, as in [`html`].
+/// Those that reverse the direction of writing become U+FFFD, as in [`Shown`].
 pub(super) fn json_in_script(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());
     for c in json.chars() {
@@ -59,25 +66,21 @@ pub(super) fn json_in_script(json: &str) -> String {
     escaped
 }
 
-/// What each item becomes, one after the other.
-pub(super) fn each<T>(
-    items: impl IntoIterator<Item = T>,
-    shown: impl FnMut(T) -> String,
-) -> String {
-    items.into_iter().map(shown).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn html(text: &str) -> String {
+        Shown(text).render().into_string()
+    }
 
     #[test]
     fn markup_becomes_text() {
         assert_eq!(
             html("<img src=x onerror='a(\"&\")'>"),
-            "&lt;img src=x onerror=&#39;a(&quot;&amp;&quot;)&#39;&gt;"
+            "&lt;img src=x onerror='a(&quot;&amp;&quot;)'&gt;"
         );
-        assert!(matches!(html("±3σ of gyro.bias.x [deg/h]"), Cow::Borrowed(_)));
+        assert!(matches!(visible("±3σ of gyro.bias.x [deg/h]"), Cow::Borrowed(_)));
     }
 
     #[test]

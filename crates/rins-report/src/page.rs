@@ -1,8 +1,10 @@
 //! The page around what a report says.
 
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
 use super::content::{Item, Report, Section, Tone};
 use super::drawing::Drawing;
-use super::escape::{each, html, json_in_script};
+use super::escape::{LINE, Shown, json_in_script, made};
 use super::plot::{Plot, Scale};
 use super::table::{class, matrix, table};
 
@@ -27,104 +29,129 @@ const FEW_PLOTS: usize = 3;
 
 /// The report as one HTML file.
 pub fn render(report: &Report) -> String {
-    let mut figures = figures(report).into_iter();
-    let sections = each(report.sections.iter().enumerate(), |(place, content)| {
-        section(place, content, &mut figures)
-    });
-    let title = html(&report.title);
-    let contents = contents(report);
-    let summary = summary(&report.summary);
-    let subtitle = paragraph("subtitle", &report.subtitle);
-    let has_plots = sections.contains("<figure");
-    let hint = if has_plots {
-        "<p class=\"hint\">Plots: drag across one to zoom, double-click to see all again; \
-         a click on a name in its legend hides that curve.</p>\n"
-    } else {
-        ""
-    };
-    let scripts = if has_plots {
-        format!("<script>/*\n{UPLOT_LICENSE}*/\n{UPLOT}</script>\n<script>\n{SCRIPT}</script>\n")
-    } else {
-        String::new()
-    };
-    let maker = if has_plots { ", curves drawn by uPlot 1.6.32 (MIT licence)" } else { "" };
+    let figures = figures(report);
+    let has_plots = !figures.is_empty();
+    let mut figures = figures.into_iter();
+    let title = Shown(&report.title);
     let version = env!("CARGO_PKG_VERSION");
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
-         <link rel=\"icon\" href=\"data:,\">\n\
-         <style>\n{UPLOT_STYLE}\n{STYLE}</style>\n</head>\n<body>\n\
-         <header>\n<h1>{title}</h1>\n{subtitle}{summary}{contents}{hint}</header>\n\
-         <main>\n{sections}</main>\n\
-         <footer><p>Made by rins {version}{maker}. This file is complete: it loads nothing.</p></footer>\n\
-         {scripts}</body>\n</html>\n"
-    )
-}
-
-fn paragraph(class: &str, text: &str) -> String {
-    match (text.is_empty(), class) {
-        (true, _) => String::new(),
-        (false, "") => format!("<p>{}</p>\n", html(text)),
-        (false, class) => format!("<p class=\"{class}\">{}</p>\n", html(text)),
-    }
-}
-
-fn summary(sentences: &[String]) -> String {
-    let Some((lead, others)) = sentences.split_first() else {
-        return String::new();
+    let page = html! {
+        (DOCTYPE) (LINE)
+        html lang="en" { (LINE)
+            head { (LINE)
+                meta charset="utf-8"; (LINE)
+                meta http-equiv="Content-Security-Policy" content=(POLICY); (LINE)
+                meta name="viewport" content="width=device-width, initial-scale=1"; (LINE)
+                meta name="color-scheme" content="light dark"; (LINE)
+                title { (title) } (LINE)
+                link rel="icon" href="data:,"; (LINE)
+                style { (LINE) (PreEscaped(UPLOT_STYLE)) (LINE) (PreEscaped(STYLE)) } (LINE)
+            } (LINE)
+            body { (LINE)
+                header { (LINE)
+                    h1 { (title) } (LINE)
+                    (paragraph(Some("subtitle"), &report.subtitle))
+                    (summary(&report.summary))
+                    (contents(report))
+                    @if has_plots {
+                        p class="hint" {
+                            "Plots: drag across one to zoom, double-click to see all again; a click on a name in its "
+                            "legend hides that curve."
+                        } (LINE)
+                    }
+                } (LINE)
+                main { (LINE)
+                    @for (place, content) in report.sections.iter().enumerate() {
+                        (section(place, content, &mut figures))
+                    }
+                } (LINE)
+                footer {
+                    p {
+                        "Made by rins " (version)
+                        @if has_plots { ", curves drawn by uPlot 1.6.32 (MIT licence)" }
+                        ". This file is complete: it loads nothing."
+                    }
+                } (LINE)
+                @if has_plots {
+                    script { "/*" (LINE) (PreEscaped(UPLOT_LICENSE)) "*/" (LINE) (PreEscaped(UPLOT)) } (LINE)
+                    script { (LINE) (PreEscaped(SCRIPT)) } (LINE)
+                }
+            } (LINE)
+        } (LINE)
     };
-    let others = each(others, |sentence| format!("<li>{}</li>\n", html(sentence)));
-    let list = if others.is_empty() { String::new() } else { format!("<ul>\n{others}</ul>\n") };
-    format!("<div class=\"summary\">\n<p class=\"lead\">{}</p>\n{list}</div>\n", html(lead))
+    page.into_string()
 }
 
-fn contents(report: &Report) -> String {
-    if report.sections.len() < 3 {
-        return String::new();
+fn paragraph(class: Option<&str>, text: &str) -> Markup {
+    html! { @if !text.is_empty() { p class=[class] { (Shown(text)) } (LINE) } }
+}
+
+fn summary(sentences: &[String]) -> Markup {
+    let Some((lead, others)) = sentences.split_first() else { return Markup::default() };
+    html! {
+        div class="summary" { (LINE)
+            p class="lead" { (Shown(lead)) } (LINE)
+            @if !others.is_empty() {
+                ul { (LINE) @for sentence in others { li { (Shown(sentence)) } (LINE) } } (LINE)
+            }
+        } (LINE)
     }
-    let links = each(report.sections.iter().enumerate(), |(place, section)| {
-        format!("<li><a href=\"#s{place}\">{}</a></li>\n", html(&section.heading))
-    });
-    format!("<nav class=\"contents\" aria-label=\"Sections\"><ul>\n{links}</ul></nav>\n")
 }
 
-fn section(place: usize, section: &Section, figures: &mut impl Iterator<Item = String>) -> String {
+fn contents(report: &Report) -> Markup {
+    if report.sections.len() < 3 {
+        return Markup::default();
+    }
+    html! {
+        nav class="contents" aria-label="Sections" {
+            ul { (LINE)
+                @for (place, section) in report.sections.iter().enumerate() {
+                    li { a href={ "#s" (place) } { (Shown(&section.heading)) } } (LINE)
+                }
+            }
+        } (LINE)
+    }
+}
+
+fn section(place: usize, section: &Section, figures: &mut impl Iterator<Item = Markup>) -> Markup {
     // Plots that follow each other share a grid.
     let runs = section.items.chunk_by(|a, b| is_plot(a) && is_plot(b));
-    let body = each(runs, |run| match &run[0] {
-        Item::Text(text) => paragraph("", text),
-        Item::Note(tone, text) => note(*tone, text),
-        Item::Table(content) => table(content),
-        Item::Matrix(content) => matrix(content),
-        Item::Plot(_) => {
-            let many = if run.len() > FEW_PLOTS { " many" } else { "" };
-            let plots: String = figures.by_ref().take(run.len()).collect();
-            format!("<div class=\"plots{many}\">\n{plots}</div>\n")
-        }
-    });
-    let heading = html(&section.heading);
-    let intro = paragraph("", &section.intro);
-    format!("<section id=\"s{place}\">\n<h2>{heading}</h2>\n{intro}{body}</section>\n")
+    html! {
+        section id={ "s" (place) } { (LINE)
+            h2 { (Shown(&section.heading)) } (LINE)
+            (paragraph(None, &section.intro))
+            @for run in runs {
+                @match &run[0] {
+                    Item::Text(text) => (paragraph(None, text)),
+                    Item::Note(tone, text) => (note(*tone, text)),
+                    Item::Table(content) => (table(content)),
+                    Item::Matrix(content) => (matrix(content)),
+                    Item::Plot(_) => {
+                        div.plots.many[run.len() > FEW_PLOTS] { (LINE)
+                            @for figure in figures.by_ref().take(run.len()) { (figure) }
+                        } (LINE)
+                    }
+                }
+            }
+        } (LINE)
+    }
 }
 
 fn is_plot(item: &Item) -> bool {
     matches!(item, Item::Plot(_))
 }
 
-fn note(tone: Tone, text: &str) -> String {
+fn note(tone: Tone, text: &str) -> Markup {
     let word = match tone {
         Tone::Neutral => "Note.",
         Tone::Good => "Good.",
         Tone::Warning => "Caution.",
         Tone::Bad => "Problem.",
     };
-    format!("<p class=\"note {}\"><b>{word}</b> {}</p>\n", class(tone), html(text))
+    html! { p.note.(class(tone)) { b { (word) } " " (Shown(text)) } (LINE) }
 }
 
 /// Every plot of the report, each curve with as many points as the page has room for.
-fn figures(report: &Report) -> Vec<String> {
+fn figures(report: &Report) -> Vec<Markup> {
     let plots: Vec<&Plot> = report
         .sections
         .iter()
@@ -134,39 +161,38 @@ fn figures(report: &Report) -> Vec<String> {
     let mut made = Vec::new();
     for n_points in POINTS {
         made = plots.iter().map(|plot| figure(plot, n_points)).collect();
-        if made.iter().map(String::len).sum::<usize>() <= DATA_SIZE {
+        if made.iter().map(|figure: &Markup| figure.0.len()).sum::<usize>() <= DATA_SIZE {
             break;
         }
     }
     made
 }
 
-fn figure(plot: &Plot, n_points: usize) -> String {
+fn figure(plot: &Plot, n_points: usize) -> Markup {
     let drawing = Drawing::new(plot, n_points);
-    let title = html(&plot.title);
-    let caption = caption(plot, &drawing);
-    let head = format!("<div class=\"head\"><h3>{title}</h3></div>");
-    if !drawing.has_samples() {
-        return format!(
-            "<figure class=\"plot\">{head}\n<p class=\"absent\">There is no finite sample to draw.</p>\n\
-             {caption}</figure>\n"
-        );
-    }
-    let label = html(&plot.y_label);
+    let title = Shown(&plot.title);
     let scale = if plot.x_scale == Scale::Linear { "linear" } else { "logarithmic" };
-    let abscissa = format!("{} {scale}", html(&plot.x_label));
-    let data = json_in_script(&drawing.to_json());
-    format!(
-        "<figure class=\"plot\" data-abscissa=\"{abscissa}\" data-label=\"{title}: {label}\">{head}\n\
-         <p class=\"absent undrawn\">The curves need JavaScript; text and tables do not.</p>\n\
-         <script type=\"application/json\">{data}</script>\n{caption}</figure>\n"
-    )
+    let abscissa = format!("{} {scale}", plot.x_label);
+    let label = format!("{}: {}", plot.title, plot.y_label);
+    let drawn = drawing.has_samples();
+    html! {
+        figure.plot data-abscissa=[drawn.then_some(Shown(&abscissa))] data-label=[drawn.then_some(Shown(&label))] {
+            div class="head" { h3 { (title) } } (LINE)
+            @if drawn {
+                p.absent.undrawn { "The curves need JavaScript; text and tables do not." } (LINE)
+                script type="application/json" { (made(json_in_script(&drawing.to_json()))) } (LINE)
+            } @else {
+                p class="absent" { "There is no finite sample to draw." } (LINE)
+            }
+            (caption(plot, &drawing))
+        } (LINE)
+    }
 }
 
-fn caption(plot: &Plot, drawing: &Drawing<'_>) -> String {
+fn caption(plot: &Plot, drawing: &Drawing<'_>) -> Markup {
     let mut parts = Vec::new();
     if !plot.caption.is_empty() {
-        parts.push(html(&plot.caption).into_owned());
+        parts.push(plot.caption.clone());
     }
     if let Some(n_samples) = drawing.thinned_from {
         parts.push(format!("{n_samples} samples, drawn as min/max of each pixel."));
@@ -175,9 +201,9 @@ fn caption(plot: &Plot, drawing: &Drawing<'_>) -> String {
         parts.push(format!("Left out: {} with no place on the abscissa.", drawing.n_misplaced));
     }
     if parts.is_empty() {
-        return String::new();
+        return Markup::default();
     }
-    format!("<figcaption>{}</figcaption>\n", parts.join(" "))
+    html! { figcaption { (Shown(&parts.join(" "))) } (LINE) }
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Tables and matrices as HTML.
 
+use maud::{Markup, html};
+
 use super::content::{Cell, Column, Kind, Matrix, Table, Tone};
-use super::escape::{each, html};
+use super::escape::{LINE, Shown};
 use crate::number::{estimate, fixed};
 
 /// A coefficient below this is not worth the reader's eye.
@@ -21,59 +23,75 @@ pub(super) fn class(tone: Tone) -> &'static str {
 }
 
 /// A table, in a box that scrolls sideways on a narrow screen.
-pub(super) fn table(table: &Table) -> String {
+pub(super) fn table(table: &Table) -> Markup {
     let n_columns = table.rows.iter().map(Vec::len).fold(table.columns.len(), usize::max);
     let unnamed = Column::text("");
     let columns: Vec<&Column> =
         (0..n_columns).map(|place| table.columns.get(place).unwrap_or(&unnamed)).collect();
-    let head = each(&columns, |column| {
-        let class = kind_class(column.kind, true);
-        format!("<th scope=\"col\"{class}>{}</th>", html(&column.heading))
-    });
     let widths: Vec<usize> = (0..n_columns).map(|place| sigma_width(table, place)).collect();
-    let body = each(&table.rows, |row| {
-        let cells = each(columns.iter().enumerate(), |(place, column)| {
-            let shown = cell(row.get(place).unwrap_or(&Cell::Empty), widths[place]);
-            format!("<td{}>{shown}</td>", kind_class(column.kind, false))
-        });
-        format!("<tr>{cells}</tr>\n")
-    });
-    sheet(
-        "sheet",
-        &table.caption,
-        &format!("<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>"),
-    )
+    let parts = html! {
+        thead {
+            tr {
+                @for column in &columns {
+                    th scope="col" class=[kind_class(column.kind, true)] { (Shown(&column.heading)) }
+                }
+            }
+        } (LINE)
+        tbody { (LINE)
+            @for row in &table.rows {
+                tr {
+                    @for (place, column) in columns.iter().enumerate() {
+                        td class=[kind_class(column.kind, false)] {
+                            (cell(row.get(place).unwrap_or(&Cell::Empty), widths[place]))
+                        }
+                    }
+                } (LINE)
+            }
+        }
+    };
+    sheet("sheet", &table.caption, &parts)
 }
 
 /// A matrix whose cells are shaded by the size of their coefficient.
-pub(super) fn matrix(matrix: &Matrix) -> String {
+pub(super) fn matrix(matrix: &Matrix) -> Markup {
     let many = matrix.labels.len() > MANY;
-    let head = each(&matrix.labels, |label| {
-        format!("<th scope=\"col\"><span>{}</span></th>", html(label))
-    });
-    let body = each(matrix.values.iter().enumerate(), |(row, values)| {
-        let label = matrix.labels.get(row).map_or("", String::as_str);
-        let cells =
-            each(values.iter().enumerate(), |(column, v)| coefficient(*v, row == column, many));
-        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", html(label))
-    });
-    let parts = format!("<thead><tr><td></td>{head}</tr></thead>\n<tbody>\n{body}</tbody>");
+    let parts = html! {
+        thead {
+            tr {
+                td {}
+                @for label in &matrix.labels { th scope="col" { span { (Shown(label)) } } }
+            }
+        } (LINE)
+        tbody { (LINE)
+            @for (row, values) in matrix.values.iter().enumerate() {
+                tr {
+                    th scope="row" { (Shown(matrix.labels.get(row).map_or("", String::as_str))) }
+                    @for (column, value) in values.iter().enumerate() {
+                        (coefficient(*value, row == column, many))
+                    }
+                } (LINE)
+            }
+        }
+    };
     sheet(if many { "sheet matrix many" } else { "sheet matrix" }, &matrix.caption, &parts)
 }
 
-fn sheet(class: &str, caption: &str, parts: &str) -> String {
-    let caption = html(caption);
-    format!(
-        "<div class=\"{class}\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\">\
-         <table>\n<caption>{caption}</caption>\n{parts}\n</table></div></div>\n"
-    )
+fn sheet(class: &str, caption: &str, parts: &Markup) -> Markup {
+    let caption = Shown(caption);
+    html! {
+        div class=(class) {
+            div class="scroll" tabindex="0" role="region" aria-label=(caption) {
+                table { (LINE) caption { (caption) } (LINE) (parts) (LINE) }
+            }
+        } (LINE)
+    }
 }
 
-fn kind_class(kind: Kind, heading: bool) -> &'static str {
+fn kind_class(kind: Kind, heading: bool) -> Option<&'static str> {
     match kind {
-        Kind::Number => " class=\"number\"",
-        Kind::Id if !heading => " class=\"id\"",
-        Kind::Id | Kind::Text => "",
+        Kind::Number => Some("number"),
+        Kind::Id if !heading => Some("id"),
+        Kind::Id | Kind::Text => None,
     }
 }
 
@@ -86,57 +104,70 @@ fn sigma_width(table: &Table, place: usize) -> usize {
     sigmas.max().unwrap_or(0)
 }
 
-fn cell(cell: &Cell, sigma_width: usize) -> String {
+fn cell(cell: &Cell, sigma_width: usize) -> Markup {
     match cell {
-        Cell::Empty => String::new(),
-        Cell::Text(text) => html(text).into_owned(),
-        Cell::Number { value, decimals } => fixed(*value, *decimals),
+        Cell::Empty => Markup::default(),
+        Cell::Text(text) => html! { (Shown(text)) },
+        Cell::Number { value, decimals } => html! { (fixed(*value, *decimals)) },
         Cell::Estimate { value, sigma } => {
             let (value, sigma) = estimate(*value, *sigma);
-            format!(
-                "{value}<span class=\"sign\">±</span>\
-                 <span class=\"sigma\" style=\"min-width:{sigma_width}ch\">{sigma}</span>"
-            )
+            html! {
+                (value) span class="sign" { "±" }
+                span class="sigma" style={ "min-width:" (sigma_width) "ch" } { (sigma) }
+            }
         }
         Cell::Bar { value, sigma } => bar(*value, *sigma),
-        Cell::Badge(tone, text) => {
-            format!("<span class=\"badge {}\">{}</span>", class(*tone), html(text))
-        }
+        Cell::Badge(tone, text) => html! { span.badge.(class(*tone)) { (Shown(text)) } },
     }
 }
 
 /// A bar from the middle to the value, and a line over its standard deviation.
-fn bar(value: f64, sigma: f64) -> String {
+fn bar(value: f64, sigma: f64) -> Markup {
     if !(value.is_finite() && sigma.is_finite()) {
-        return String::new();
+        return Markup::default();
     }
     let place = |part: f64| 50.0 + 50.0 * part.clamp(-1.0, 1.0);
-    let (from, to) = (place(value.min(0.0)), place(value.max(0.0)));
-    let (least, most) = (place(value - sigma), place(value + sigma));
-    format!(
-        "<span class=\"bar\"><i style=\"left:{from:.1}%;width:{:.1}%\"></i>\
-         <b style=\"left:{least:.1}%;width:{:.1}%\"></b></span>",
-        to - from,
-        most - least
-    )
+    let span = |from: f64, to: f64| format!("left:{from:.1}%;width:{:.1}%", to - from);
+    html! {
+        span class="bar" {
+            i style=(span(place(value.min(0.0)), place(value.max(0.0)))) {}
+            b style=(span(place(value - sigma), place(value + sigma))) {}
+        }
+    }
 }
 
-fn coefficient(value: f64, own: bool, many: bool) -> String {
+fn coefficient(value: f64, own: bool, many: bool) -> Markup {
     let shown = fixed((value * 100.0).round() / 100.0, 2);
-    let (text, title) =
-        if many { (String::new(), format!(" title=\"{shown}\"")) } else { (shown, String::new()) };
+    let (text, title) = if many { ("", Some(&shown)) } else { (shown.as_str(), None) };
     if own {
-        return format!("<td class=\"own\">{text}</td>");
+        return html! { td class="own" { (text) } };
     }
     let direction = if value < 0.0 { "down" } else { "up" };
-    let slight = if value.abs() >= SLIGHT { "" } else { " slight" };
+    // What is no number is no strong correlation either.
+    let is_slight = value.is_nan() || value.abs() < SLIGHT;
     let part = if value.is_finite() { value.abs().min(1.0) } else { 0.0 };
-    format!("<td class=\"{direction}{slight}\" style=\"--part:{part:.2}\"{title}>{text}</td>")
+    html! {
+        td.(direction).slight[is_slight] style={ "--part:" (format!("{part:.2}")) } title=[title] {
+            (text)
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn table(content: &Table) -> String {
+        super::table(content).into_string()
+    }
+
+    fn matrix(content: &Matrix) -> String {
+        super::matrix(content).into_string()
+    }
+
+    fn bar(value: f64, sigma: f64) -> String {
+        super::bar(value, sigma).into_string()
+    }
 
     #[test]
     fn rows_of_any_length_make_a_rectangle() {

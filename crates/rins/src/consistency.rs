@@ -61,7 +61,7 @@ impl From<&Consistency> for ConsistencyResult {
 /// A p-value as a person reads it.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-12 {
-        "below 1e-12".into()
+        "< 1e-12".into()
     } else if p < 0.001 {
         format!("= {p:.0e}")
     } else {
@@ -72,22 +72,21 @@ pub(crate) fn probability(p: f64) -> String {
 /// What the innovations say of the model.
 pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
     let figures = format!(
-        "mean NIS {:.2} where {} is expected, whiteness p {}",
+        "mean NIS {:.2}, expected {}; whiteness test p {}",
         consistency.nis_mean,
         (100.0 * consistency.nis_dof).round() / 100.0,
         probability(consistency.whiteness_p)
     );
     match consistency.verdict() {
         Verdict::Fits => {
-            format!("The innovations are what the model says they should be ({figures}).")
+            format!("The innovations are consistent with the model ({figures}).")
         }
         Verdict::NoiseOverstated => format!(
-            "The innovations are smaller than the rig's noise figures claim ({figures}): the sigmas are too \
-             large rather than too small."
+            "The innovations are smaller than the stated noise ({figures}): the sigmas are too large rather than too small."
         ),
         Verdict::Misfit => format!(
-            "The model does not fit these data ({figures}): there is more in them than its states, \
-             and the sigmas do not hold what that does to the estimates."
+            "The model does not fit the data ({figures}). The sigmas do not include the errors that unmodeled effects \
+             cause in the estimates."
         ),
     }
 }

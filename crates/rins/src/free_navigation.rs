@@ -114,16 +114,14 @@ pub(crate) fn gain_sentence(what: &str, before: &FreeNavigation, after: &FreeNav
         // Beyond this the remainder is the noise's, and its ratio means nothing.
         let ratio = (before / after.max(1e-9)).min(1e6);
         format!(
-            "Compensating {what} brings {navigation} from {before:.3} m/s down to \
-             {after:.4} m/s, {ratio:.0} times less."
+            "Compensation of {what} reduces {navigation} from {before:.3} m/s to \
+             {after:.4} m/s, a factor of {ratio:.0}."
         )
     } else if before * LEAST_GAIN < after {
-        format!(
-            "Compensating the estimates makes it worse: {navigation} goes from {before:.3} m/s up to {after:.3} m/s."
-        )
+        format!("Compensation increases {navigation} from {before:.3} m/s to {after:.3} m/s.")
     } else {
         format!(
-            "Compensating the estimates gains nothing: {navigation} is {before:.3} m/s before and {after:.3} m/s after."
+            "Compensation has no effect: {navigation} is {before:.3} m/s before and {after:.3} m/s after."
         )
     }
 }
@@ -144,8 +142,8 @@ pub(crate) fn navigation_section(
     });
     Section {
         heading: heading.into(),
-        intro: "The run navigated freely from rest, twice from the same attitude: as recorded, and compensated. The truth is \
-                a velocity of zero and an axis that does not move."
+        intro: "Free inertial navigation of the run from standstill, with the same initial attitude, with raw and with \
+                compensated readings. Reference: zero velocity and a fixed spin axis."
             .into(),
         items: vec![
             Item::Table(Table {

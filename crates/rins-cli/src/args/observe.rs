@@ -12,8 +12,8 @@ pub(crate) struct Observe {
     /// The scenario files
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// What is estimated: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default
-    /// full, but with --separate baseline: biases, attitude, mounting and the gyro errors tied to the spin axis
+    /// The model: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default full, with
+    /// --separate baseline (biases, spin axis attitude, mounting, M_xz, M_yz and S_z)
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<String>,
     /// Compare the scenarios side by side; A+B are two runs of one schedule
@@ -25,19 +25,19 @@ pub(crate) struct Observe {
     /// A parameter and its required 1σ, such as gyro.scale.z=0.1ppm; the shortest schedule is proposed
     #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate", value_parser = want)]
     pub(crate) want: Option<Want>,
-    /// The table's fastest rate; by default the scenario's fastest, or 10 deg/s if it rests
+    /// Maximum table rate; by default that of the scenario, or 10 deg/s if it is stationary
     #[arg(long, value_name = "RATE", value_parser = table_rate)]
     pub(crate) max_rate: Option<f64>,
-    /// The table's acceleration; by default the scenario's, or 5 deg/s^2
+    /// Maximum angular acceleration of the table; by default that of the scenario, or 5 deg/s^2
     #[arg(long, value_name = "ACCELERATION", value_parser = table_acceleration)]
     pub(crate) max_acceleration: Option<f64>,
-    /// The longest that the runs of a schedule may take together
+    /// Maximum total duration of all runs of a schedule
     #[arg(long, value_name = "DURATION", default_value = "3600 s", value_parser = duration)]
     pub(crate) max_duration: f64,
-    /// Into how many directions the axis may be brought, at most 3
+    /// Maximum number of spin axis orientations (1 to 3)
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = directions)]
     pub(crate) directions: usize,
-    /// Folder for result.json, report.html and the proposed scenarios, next-1.toml and on
+    /// Output folder for result.json, report.html and the proposed scenarios, next-1.toml and on
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
 }

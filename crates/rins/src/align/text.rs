@@ -68,9 +68,9 @@ pub(super) fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
     let header = loaded.psins_header.map(|header| header.attitude);
     let given = loaded.rig.attitude.map(|attitude| attitude.angles);
     let against = |of: fn(&EulerAngles) -> f64| match (header, given) {
-        (Some(header), _) => format!("the log's header says {:.4} deg", of(&header) / DEG),
+        (Some(header), _) => format!("header of the log: {:.4} deg", of(&header) / DEG),
         (None, Some(given)) => {
-            format!("the rig says {:.4} deg (of the axis frame)", of(&given) / DEG)
+            format!("rig file: {:.4} deg (axis frame)", of(&given) / DEG)
         }
         (None, None) => String::new(),
     };
@@ -80,7 +80,7 @@ pub(super) fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
     let place = &found.place;
     let (rate_sigma, latitude_sigma) = found.seen_sigma();
     let mut rows = vec![
-        ["quantity", "found", "1 sigma", "to compare with"].map(String::from).to_vec(),
+        ["quantity", "estimate", "1σ", "reference"].map(String::from).to_vec(),
         row("roll", degrees(angles.roll), degrees(found.sigma.1), against(|angles| angles.roll)),
         row("pitch", degrees(angles.pitch), degrees(found.sigma.0), against(|angles| angles.pitch)),
     ];
@@ -91,20 +91,20 @@ pub(super) fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
         "gravity",
         format!("{:.5} m/s^2", place.gravity),
         format!("{:.5} m/s^2", found.uncertainty.specific_force),
-        format!("the station has {:.5} m/s^2", loaded.station.gravity),
+        format!("site: {:.5} m/s^2", loaded.station.gravity),
     ));
     rows.push(row(
         "apparent Earth rate",
         format!("{:.4} deg/h", place.earth_rate / DEG_PER_HOUR),
         format!("{:.4} deg/h", rate_sigma / DEG_PER_HOUR),
-        format!("the Earth turns at {:.4} deg/h", earth_rate / DEG_PER_HOUR),
+        format!("Earth rate: {:.4} deg/h", earth_rate / DEG_PER_HOUR),
     ));
     if found.hidden.is_none() {
         rows.push(row(
             "apparent latitude",
             degrees(place.latitude),
             degrees(latitude_sigma),
-            format!("the station lies at {:.5} deg", site.latitude / DEG),
+            format!("site: {:.5} deg", site.latitude / DEG),
         ));
     }
     if !found.north_found() {
@@ -121,12 +121,12 @@ pub(super) fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
         let value = if shown[axis] {
             format!("{:.4} deg/h", bias[axis] / DEG_PER_HOUR)
         } else {
-            "not shown".into()
+            "not estimated".into()
         };
         let note = if shown[axis] {
-            "less what lies along east, which the azimuth holds"
+            "without its east component, which is absorbed by the azimuth"
         } else {
-            "assumed: along east it is azimuth"
+            "1σ assumed: an east bias is indistinguishable from an azimuth error"
         };
         let sigma = format!("{:.4} deg/h", bias_sigma[axis] / DEG_PER_HOUR);
         rows.push(row(name, value, sigma, note.into()));

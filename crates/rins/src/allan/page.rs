@@ -42,7 +42,7 @@ pub(super) fn allan_report(rest: &Rest, title: String, log: &str) -> Report {
             },
             Section {
                 heading: "Noise terms".into(),
-                intro: "Of a term that is not significant the upper bound is given.".into(),
+                intro: "A term that is not significant has an upper bound (<).".into(),
                 items: vec![Item::Table(report_table(&rows(&rest.channels)))],
             },
         ],
@@ -118,7 +118,7 @@ fn off_the_laws(channel: &Channel) -> Option<String> {
 
 /// A row for each sensor and law, below their heading.
 fn rows(channels: &[Channel]) -> Vec<Vec<String>> {
-    let head = ["noise", "value", "1 sigma", "unit", "remark"].map(String::from).to_vec();
+    let head = ["noise", "value", "1σ", "unit", "remark"].map(String::from).to_vec();
     let rows = channels.iter().flat_map(|channel| {
         let laws = NoiseLaw::ALL.into_iter().zip(&channel.seen.strengths);
         laws.map(move |(law, strength)| row(channel, law, strength))
@@ -135,7 +135,7 @@ fn row(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Vec<String> {
             let rivals: Vec<&str> = rivals.iter().map(|rival| words(*rival)).collect();
             let mut remarks = Vec::new();
             if !rivals.is_empty() {
-                remarks.push(format!("not distinguishable from {} here", rivals.join(" or ")));
+                remarks.push(format!("not distinguished from {}", rivals.join(" or ")));
             }
             if let Some(sheet) = channel.sheet(law).filter(|sheet| *sheet > 0.0) {
                 remarks.push(format!("{} times the data sheet's value", figure(value / sheet, 3)));

@@ -34,7 +34,7 @@ pub(super) fn noise_sentence(certificate: &Certificate) -> String {
         String::new()
     };
     format!(
-        "{how}: gyros {}, accelerometers {}{sways}.",
+        "{how}: gyros: {}; accelerometers: {}{sways}.",
         triad(imu.gyro.white, imu.gyro.flicker, DEG_PER_HOUR, "deg/h/√Hz", "deg/h"),
         triad(imu.accel.white, imu.accel.flicker, MICRO_G, "µg/√Hz", "µg")
     )
@@ -122,7 +122,7 @@ pub(super) fn noise_section(certificate: &Certificate) -> Section {
     });
     let intro = match certificate.noise {
         NoiseChoice::Likely => {
-            "The noise parameters of greatest restricted likelihood; the data sheet was the first guess."
+            "Restricted maximum likelihood estimates of the noise parameters; initial values from the data sheet."
         }
         NoiseChoice::Given => "The noise parameters of the data sheet.",
     };
@@ -134,18 +134,18 @@ pub(super) fn noise_section(certificate: &Certificate) -> Section {
                 caption: "Noise parameters".into(),
                 columns: vec![
                     Column::text("noise"),
-                    Column::number("used"),
-                    Column::number("given"),
+                    Column::number("estimate"),
+                    Column::number("data sheet"),
                     Column::text("unit"),
                 ],
                 rows: strengths(certificate),
             }),
             Item::Table(Table {
-                caption: "Steps of the estimate, the largest in sigmas".into(),
+                caption: "Iterations".into(),
                 columns: vec![
-                    Column::number("step"),
-                    Column::number("size"),
-                    Column::number("log-likelihood"),
+                    Column::number("iteration"),
+                    Column::number("largest change [σ]"),
+                    Column::number("log-likelihood [nats]"),
                 ],
                 rows: iterations.collect(),
             }),

@@ -74,7 +74,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         .map(|of| departure_in_words(certificate, of) + ".")
         .collect();
     let gains = certificate.runs.iter().map(|run| {
-        let gain = gain_sentence("what was estimated", &run.before, &run.after);
+        let gain = gain_sentence("the estimated errors", &run.before, &run.after);
         if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
     });
     sentences.extend(gains);
@@ -164,8 +164,8 @@ fn parameters_section(certificate: &Certificate) -> Section {
         Column::number("run"),
         Column::number("estimate"),
         Column::text("unit"),
-        Column::text("within ±3 prior σ"),
-        Column::text("under this schedule"),
+        Column::text("relative to prior (±3σ)"),
+        Column::text("class"),
         Column::text("observability"),
     ];
     if !several {
@@ -197,10 +197,10 @@ fn parameters_section(certificate: &Certificate) -> Section {
     items.splice(1..1, gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: "Parameters".into(),
-        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. A parameter \
-                that is observable only in a combination has its own value and sigma, by what was known before; the \
-                combination's stand with it. An unobservable parameter is not estimated: it keeps the value that was \
-                expected. A run's number stands where a parameter is that run's own."
+        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. For a \
+                parameter that is observable only in a combination the table has its marginal estimate and sigma, with the prior; \
+                the last column has those of the combination. An unobservable parameter keeps its prior mean. A parameter of one \
+                run only has the number of the run."
             .into(),
         items,
     }
@@ -214,8 +214,8 @@ fn correlation_section(certificate: &Certificate) -> Section {
     });
     Section {
         heading: "Correlations".into(),
-        intro: "Strong shades are pairs of strongly correlated estimates. The covariance itself stands in calibration.toml, \
-                the correlations in result.json."
+        intro: "The shade shows the magnitude of the correlation coefficient. The covariance is in calibration.toml, the \
+                correlations are in result.json."
             .into(),
         items: vec![Item::Matrix(Matrix {
             caption: "Correlation of the estimates".into(),

@@ -28,19 +28,19 @@ pub(super) fn compensation_section(model: &Model) -> Section {
         ]);
     }
     items.push(Item::Table(Table {
-        caption: "Terms, all added up".into(),
+        caption: "Error terms (summed)".into(),
         columns: vec![
             Column::number(""),
             Column::id("term"),
-            Column::text("what it adds to what is measured"),
+            Column::text("contribution to the reading"),
             Column::text("settings"),
         ],
         rows,
     }));
     Section {
         heading: "How to compensate".into(),
-        intro: "calibration.toml holds the numbers; rins navigate --calibration and rins apply do what follows. Errors are \
-                computed minus true; S are scale errors on the diagonal, M misalignments off it."
+        intro: "calibration.toml holds the numbers; rins navigate --calibration and rins apply perform these steps. Errors are \
+                measured minus true. S is the diagonal matrix of scale errors; M holds the misalignments off its diagonal."
             .into(),
         items,
     }
@@ -72,19 +72,19 @@ pub(super) fn budget_section(heading: &str, ids: &[&str], budget: &Budget) -> Se
     Section {
         heading: heading.into(),
         intro: format!(
-            "The effect of each error on free inertial navigation over the first {:.0} s of this run, from rest: uncompensated, \
-             and by the 1σ that remains after compensation. Parameters that are observable only in a combination have large \
-             sigmas alone and small ones together.",
+            "The effect of each error on free inertial navigation over the first {:.0} s of this run, from standstill: of the \
+             uncompensated error, and of its 1σ after compensation. Parameters that are observable only in a combination have \
+             large marginal sigmas; because of their correlations their joint effect is small (last row).",
             budget.after
         ),
         items: vec![Item::Table(Table {
             caption: "Drift of velocity and attitude".into(),
             columns: vec![
                 Column::id("parameter"),
-                Column::number("left in [m/s]"),
-                Column::number("left in [deg]"),
-                Column::number("1σ [m/s]"),
-                Column::number("1σ [arcsec]"),
+                Column::number("uncompensated [m/s]"),
+                Column::number("uncompensated [deg]"),
+                Column::number("compensated, 1σ [m/s]"),
+                Column::number("compensated, 1σ [arcsec]"),
             ],
             rows,
         })],

@@ -26,8 +26,8 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     let mut found = Vec::new();
     let rest = longest(inspection).map_or(0.0, |rest| rest.mean.duration);
     if rest >= SHORTEST_REST {
-        let north = if inspection.earth_rate_visible { " and north" } else { ", not north" };
-        found.push(format!("rins align: level{north}, over a static interval of {rest:.0} s"));
+        let north = if inspection.earth_rate_visible { " and azimuth" } else { ", not azimuth" };
+        found.push(format!("rins align: tilt{north}, over a static interval of {rest:.0} s"));
     }
     let recording = &loaded.recording;
     if recording.table_angle.is_some() || recording.table_rate.is_some() {
@@ -37,11 +37,11 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
         match rates.len() {
             0 => {}
             1 => found.push(format!(
-                "rins calibrate: at one rate, {at} deg/s, gyro misalignments and scale about the spin axis together with \
-                 the gyro biases, not apart from them"
+                "rins calibrate: at one rate, {at} deg/s, gyro misalignments and scale error about the spin axis only in \
+                 combination with the gyro biases"
             )),
             _ => found.push(format!(
-                "rins calibrate: at the rates {at} deg/s, gyro misalignments and scale about the spin axis apart from \
+                "rins calibrate: the rates {at} deg/s distinguish gyro misalignments and scale error about the spin axis from \
                  the gyro biases"
             )),
         }

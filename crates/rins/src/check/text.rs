@@ -24,7 +24,7 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
         row(
             "turns",
             format!(
-                "{:.2} about body {}, either way",
+                "{:.2} revolutions about body {}, sum of both directions",
                 inspection.turns,
                 loaded.rig.spin.spin_name()
             ),
@@ -35,7 +35,7 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
         rows.push(row(
             "gravity",
             format!(
-                "{seen:.5} m/s^2 in the longest static interval, {:+.0} ppm off the site's {:.5}",
+                "{seen:.5} m/s^2 in the longest static interval, {:+.0} ppm relative to the site's {:.5}",
                 (seen / loaded.station.gravity - 1.0) * 1e6,
                 loaded.station.gravity
             ),
@@ -60,9 +60,8 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
     }
     rows.push(row("table", table_in_words(loaded)));
     if let Some(ratio) = inspection.spin_ratio {
-        let value = format!(
-            "the gyro about the axis of rotation measures {ratio:.6} of the table's rotation"
-        );
+        let value =
+            format!("rotation by the gyro about the spin axis over the table's: {ratio:.6}");
         rows.push(row("spin", value));
     }
     if let (Some(first), Some(last)) = (
@@ -101,14 +100,14 @@ fn table_in_words(loaded: &Loaded) -> String {
         (Some(angle), _) => {
             let (least, most) = extremes(angle);
             format!(
-                "angle read, from {:.3} to {:.3} turns",
+                "table angle from {:.3} to {:.3} revolutions",
                 least / (360.0 * DEG),
                 most / (360.0 * DEG)
             )
         }
         (None, Some(rate)) => {
             let (least, most) = extremes(rate);
-            format!("rate given, from {:.4} to {:.4} deg/s", least / DEG, most / DEG)
+            format!("table rate from {:.4} to {:.4} deg/s", least / DEG, most / DEG)
         }
         (None, None) => "neither angle nor rate".into(),
     }

@@ -78,10 +78,10 @@ fn times(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         verdict(
             "duplicates",
             if repeated == 0 { Tone::Good } else { Tone::Warning },
-            format!("{repeated} line(s) repeat the one before"),
+            format!("{repeated} repeated line(s)"),
         ),
         // What has either is not read at all.
-        verdict("time order", Tone::Good, "time goes on at every sample"),
+        verdict("time order", Tone::Good, "time stamps increase strictly"),
         verdict("finite", Tone::Good, "every number is finite"),
     ]
 }
@@ -111,7 +111,7 @@ fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     let unsaturated = if ranges {
         "no reading is at the range of the data sheet"
     } else {
-        "no reading is cut off; the data sheet gives no range"
+        "no clipped readings; the data sheet states no range"
     };
     let steps: Vec<String> = inspection
         .resolution
@@ -131,7 +131,7 @@ fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
             inspection,
             "stuck",
             |s| matches!(s, Suspicion::StuckChannel { .. } | Suspicion::Sticks { .. }),
-            "every channel moves",
+            "no channel has a constant output",
         ),
         suspected(
             inspection,
@@ -143,7 +143,7 @@ fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
             inspection,
             "spikes",
             |s| matches!(s, Suspicion::Spike { .. }),
-            "no sample stands alone",
+            "no isolated outliers",
         ),
         quantised,
     ]
@@ -232,8 +232,8 @@ fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
         "clock ratio",
         Tone::Neutral,
         format!(
-            "the gyro about the axis of rotation measures {ratio:.7} of the table's rotation: the product of its scale and the ratio of \
-             the clocks"
+            "rotation by the gyro about the spin axis over the table's: {ratio:.7}, the product of its scale factor and the ratio of the \
+             clocks"
         ),
     ));
     let stated = loaded.rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default();
@@ -258,7 +258,7 @@ fn table(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
 
 fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     let temperature = match &loaded.recording.temperature {
-        None => "none was read".into(),
+        None => "no temperature channel".into(),
         Some(list) => {
             let (least, most) = extremes(list);
             format!("from {least:.2} to {most:.2} degC")
@@ -297,7 +297,11 @@ fn contents(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
             }
         }
     };
-    let turns = format!("{:.2}, {:.0} deg either way", inspection.turns, inspection.turns * 360.0);
+    let turns = format!(
+        "{:.2} revolutions, {:.0} deg, sum of both directions",
+        inspection.turns,
+        inspection.turns * 360.0
+    );
     let shows = shows(inspection, loaded);
     let shows = if shows.is_empty() {
         verdict("what it can show", Tone::Warning, "neither an alignment nor a calibration")

@@ -16,8 +16,8 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
         On::Fastest => "Predictive gain at a held-out rate".to_owned(),
         On::Ends | On::Run(_) => "Predictive gain on held-out data".to_owned(),
     };
-    let intro = "Both models were estimated again without the held-out data, and then predicted every epoch of it from all before. The mean NIS is \
-                 the number of channels if the model is right."
+    let intro = "Both models are estimated again without the held-out data. Each held-out epoch is predicted from all earlier epochs. For a \
+                 consistent model the expected mean NIS is the number of channels."
         .to_owned();
     let Ok(gain) = &measured.gain else {
         let items = vec![Item::Note(Tone::Neutral, gain_sentence(measured))];
@@ -43,7 +43,8 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
         ),
     ];
     for drift in &gain.drifts {
-        let over = format!("after {:.0} s, rms of {} window(s)", drift.after, drift.windows);
+        let over =
+            format!("error after {:.0} s, RMS over {} window(s)", drift.after, drift.windows);
         rows.push(row(format!("velocity {over} [m/s]"), drift.velocity));
         rows.push(row(format!("attitude {over} [deg]"), drift.attitude.map(|angle| angle / DEG)));
     }
@@ -52,7 +53,11 @@ pub(super) fn gain_section(measured: &Measured) -> Section {
             "Held out: {} samples, {} revolutions or parts of a static interval",
             gain.samples, gain.blocks
         ),
-        columns: vec![Column::text(""), Column::number("before"), Column::number("after")],
+        columns: vec![
+            Column::text(""),
+            Column::number("given model"),
+            Column::number("extended model"),
+        ],
         rows,
     };
     Section {
@@ -69,7 +74,7 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
         Err(error) => return format!("The predictive gain could not be measured: {error}."),
     };
     let scored = format!(
-        "the log score {} by {} nats (95 %: {} to {})",
+        "the log score {} by {} nats (95 % interval: {} to {} nats)",
         if gain.rise() < 0.0 { "changes" } else { "rises" },
         figure(gain.rise(), 3),
         figure(gain.interval.0, 3),
@@ -99,7 +104,7 @@ fn drifts_further(gain: &Gain) -> bool {
 
 /// What was held out.
 fn held_out(measured: &Measured, gain: &Gain) -> String {
-    let size = format!("{} revolutions or parts of a static interval", gain.blocks);
+    let size = format!("{} blocks: revolutions or parts of a static interval", gain.blocks);
     match &measured.on {
         On::Ends => {
             format!("held-out data (the last 30 % of every segment of constant rate: {size})")
@@ -113,8 +118,8 @@ fn drifting(drift: &Drift) -> String {
     let [before, after] = drift.attitude.map(|angle| figure(angle / DEG, 3));
     let [without, with] = drift.velocity.map(|velocity| figure(velocity, 3));
     format!(
-        "after {:.0} s of free inertial navigation the velocity error is {with} m/s instead of {without}, the attitude error \
-         {after} deg instead of {before}",
+        "after {:.0} s of free inertial navigation the velocity error is {with} m/s (given model: {without} m/s), the \
+         attitude error {after} deg (given model: {before} deg)",
         drift.after
     )
 }
@@ -153,6 +158,9 @@ mod tests {
         assert!(better.contains("predicts better") && !better.contains("further"), "{better}");
         let further = gain_sentence(&measured(9.0));
         assert!(further.contains("; compensated navigation drifts further: after 60 s"));
-        assert!(further.contains("the attitude error 0.0900 deg instead of 0.0100"), "{further}");
+        assert!(
+            further.contains("the attitude error 0.0900 deg (given model: 0.0100 deg)"),
+            "{further}"
+        );
     }
 }

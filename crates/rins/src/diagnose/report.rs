@@ -46,7 +46,7 @@ fn causes(found: &Found) -> Section {
                 Column::id("parameter"),
                 Column::number("estimate"),
                 Column::text("unit"),
-                Column::number("size [σ]"),
+                Column::number("significance [σ]"),
                 Column::text("p"),
                 Column::text("not distinguished from"),
                 Column::text("plausible magnitude"),
@@ -117,7 +117,11 @@ fn unexplained(found: &Found) -> Section {
         })
         .collect();
     let items = if rows.is_empty() {
-        vec![Item::Note(Tone::Good, "The residuals are noise.".into())]
+        vec![Item::Note(
+            Tone::Good,
+            "No residual structure was found: the innovations are consistent with white noise."
+                .into(),
+        )]
     } else {
         vec![Item::Table(Table {
             caption: "Residual structure that no effect of the catalogue explains".into(),
@@ -172,8 +176,8 @@ fn shifts(found: &Found) -> Section {
     };
     Section {
         heading: "Effect on the estimates".into(),
-        intro: "Estimates that change by more than the sigma that they had without the causes, and by more than 3 sigma of the change \
-                that the added parameters make by chance (Hausman 1978)."
+        intro: "Estimates whose change exceeds both 1σ of the estimate without the causes and 3σ of the change that is expected if the \
+                causes are absent (Hausman 1978)."
             .into(),
         items,
     }
@@ -198,7 +202,7 @@ fn limits(found: &Found) -> Section {
             if limit.detectable < low {
                 Cell::badge(Tone::Good, "all of the range")
             } else if limit.detectable < high {
-                Cell::badge(Tone::Neutral, "its upper part")
+                Cell::badge(Tone::Neutral, "upper part")
             } else {
                 Cell::badge(Tone::Warning, "none")
             },
@@ -207,14 +211,14 @@ fn limits(found: &Found) -> Section {
     Section {
         heading: "Minimum detectable effects".into(),
         intro: "For each parameter of each effect that the model does not have: the amplitude that this run detects with 95 % power, \
-                the parameter alone being present. Smaller effects may be present and not be named."
+                at p < 0.01, if no other unmodeled effect is present. Smaller effects may be present and not be named."
             .into(),
         items: [power(&found.limits), vec![Item::Table(Table {
             caption: "Minimum detectable amplitudes".into(),
             columns: vec![
                 Column::id("parameter"),
                 Column::number("σ"),
-                Column::number("detectable from"),
+                Column::number("minimum detectable"),
                 Column::text("unit"),
                 Column::text("typical range"),
                 Column::text("detectable part"),
@@ -244,8 +248,8 @@ fn power(limits: &[Limit]) -> Vec<Item> {
         x_label: "True amplitude [σ]".into(),
         y_label: "Detected [%]".into(),
         series: vec![curve(fewest), curve(most)],
-        caption: "Effects of one shape are detected at smaller amplitudes than those that are searched over many times, orders or \
-                  parts; all others are between. The σ of each is in the table."
+        caption: "The detection threshold is lowest for effects without a search and highest for effects that are searched over many event \
+                  times, harmonic orders or parameters; all others are between. The σ of each is in the table."
             .into(),
         ..Plot::default()
     })]
@@ -261,7 +265,11 @@ fn untestable(found: &Found) -> Section {
         intro: "Effects that this run cannot show at any amplitude of their typical range.".into(),
         items: vec![Item::Table(Table {
             caption: "Not testable".into(),
-            columns: vec![Column::id("effect"), Column::text("what it is"), Column::text("why")],
+            columns: vec![
+                Column::id("effect"),
+                Column::text("description"),
+                Column::text("reason"),
+            ],
             rows: rows.collect(),
         })],
     }

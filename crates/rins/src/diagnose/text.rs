@@ -18,8 +18,9 @@ pub(super) fn diagnosis_text(found: &Found) -> String {
     if found.causes.is_empty() {
         return text;
     }
-    let mut rows =
-        vec![["parameter", "value", "sigma", "unit", "size", "p"].map(String::from).to_vec()];
+    let mut rows = vec![
+        ["parameter", "value", "sigma", "unit", "significance", "p"].map(String::from).to_vec(),
+    ];
     for named in &found.causes {
         rows.extend(cause_rows(named));
     }

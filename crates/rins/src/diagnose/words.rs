@@ -56,7 +56,7 @@ pub(super) fn summary(found: &Found) -> Vec<String> {
     }
     if !found.untestable.is_empty() {
         sentences.push(format!(
-            "{} effects of the catalogue are not testable with this run: they may be present although they are not named.",
+            "{} effects of the catalogue are not testable with this run: it can neither confirm nor exclude them.",
             found.untestable.len()
         ));
     }
@@ -108,7 +108,7 @@ fn headline(found: &Found) -> String {
         .iter()
         .map(|named| {
             format!(
-                "{} ({}), {}, {:.0} sigma, p {}",
+                "{} ({}), {}, {:.0}σ, p = {}",
                 named.cause.term.name,
                 named.cause.term.cause,
                 amplitude(found, named),
@@ -118,9 +118,9 @@ fn headline(found: &Found) -> String {
         })
         .collect();
     match &effects[..] {
-        [only] => format!("The model lacks one effect: {only}."),
+        [only] => format!("One unmodeled effect was identified: {only}."),
         several => {
-            format!("The model lacks {} effects: {}.", several.len(), several.join("; "))
+            format!("{} unmodeled effects were identified: {}.", several.len(), several.join("; "))
         }
     }
 }
@@ -143,7 +143,7 @@ fn remainder(found: &Found, one: &Unexplained) -> String {
         format!("; at worst it biases {}", worst.join(", "))
     };
     format!(
-        "Unexplained residual structure, on {}: {}{size}, p {}{harm}.",
+        "Unexplained residual structure, on {}: {}{size}, p = {}{harm}.",
         one.channel,
         structure_in_words(one),
         probability(one.ln_p)
@@ -233,7 +233,7 @@ fn damage(found: &Found) -> String {
         .map(|shift| {
             let unit = shift.before.parameter.unit;
             format!(
-                "{} by {} {} ({:.0} of its sigmas)",
+                "{} by {} {} ({:.1}σ)",
                 shift.before.parameter.id,
                 figure((shift.before.value - shift.after.value) / unit.factor, 3),
                 unit.symbol,
@@ -243,7 +243,7 @@ fn damage(found: &Found) -> String {
         .collect();
     let more = found.shifts.len() - told.len();
     let more = if more == 0 { String::new() } else { format!(", and {more} more") };
-    format!("Without it the model biases {}{more}.", told.join(", "))
+    format!("Without it in the model the estimates are biased: {}{more}.", told.join(", "))
 }
 
 /// What to do next.
@@ -261,7 +261,7 @@ pub(super) fn next_steps(found: &Found) -> Vec<String> {
         .collect();
     if !found.causes.is_empty() {
         steps.push(
-            "With -o DIR the extended model is in DIR/model.toml, for rins calibrate --model, and what it estimates in \
+            "With -o DIR the extended model is in DIR/model.toml, for rins calibrate --model, and its estimates are in \
              DIR/calibration.toml, for rins navigate and rins apply."
                 .into(),
         );

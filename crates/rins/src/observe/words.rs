@@ -130,15 +130,19 @@ pub(super) fn text(found: &Found) -> String {
     let told = &observed.told;
     let _ = writeln!(
         text,
-        "Schedule {}, {:.0} s",
+        "Schedule {}, duration {:.0} s",
         observed.schedule.name,
         observed.schedule.duration()
     );
     let _ = writeln!(text, "  {}\n", rank_sentence(told));
-    let heading = ["parameter", "unit", "known", "data alone", "with both", "observability"];
+    let heading =
+        ["parameter", "unit", "prior σ", "σ, data only*", "σ, data and prior", "observability"];
     let mut rows = vec![heading.map(String::from).to_vec()];
     rows.extend((0..told.unknowns.len()).map(|place| row(told, place).to_vec()));
     text.push_str(&aligned(&rows));
+    text.push_str(
+        "  * of the combination, if it is one; the null space is fixed at its prior mean\n",
+    );
     for sentence in gauge_sentences(told) {
         let _ = writeln!(text, "  {sentence}");
     }

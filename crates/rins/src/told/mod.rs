@@ -9,7 +9,7 @@ use rins_estimation::{Alias, Gauge, Identifiability, Shown};
 pub use self::result::{
     GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
 };
-use rins_report::number::figure;
+use rins_report::number::{estimate, figure};
 use rins_report::{Cell, Tone};
 
 /// How many of those that are unobservable are named in a sentence.
@@ -38,7 +38,7 @@ pub(crate) fn sum_in_words<'a>(
         // Writing to a string cannot fail.
         let _ = write!(sum, " {sign} ");
         if other.unit != unit {
-            let _ = write!(sum, "{size} {unit}/({}) × ", other.unit);
+            let _ = write!(sum, "{size} {} × ", ratio(unit, other.unit));
         } else if size != "1.00" {
             let _ = write!(sum, "{size} × ");
         }
@@ -47,13 +47,19 @@ pub(crate) fn sum_in_words<'a>(
     sum
 }
 
+/// A unit over another.
+fn ratio(unit: &str, other: &str) -> String {
+    if other.contains(['/', '*']) { format!("{unit}/({other})") } else { format!("{unit}/{other}") }
+}
+
 /// The observability of a parameter that the data show by itself.
 pub(crate) const OBSERVABLE: &str = "observable";
 
 /// The observability of a parameter that only this combination shows, and what the combination was found to be.
 pub(crate) fn only_in(combination: &str, found: Option<(f64, f64, &str)>) -> String {
     let found = found.map(|(value, sigma, unit)| {
-        format!(" = {} ± {} {unit} (1σ)", figure(value, 4), figure(sigma, 2))
+        let (value, sigma) = estimate(value, sigma);
+        format!(" = {value} ± {sigma} {unit} (1σ)")
     });
     format!("observable only in the combination {combination}{}", found.unwrap_or_default())
 }
@@ -81,7 +87,7 @@ pub(crate) fn observability(
     let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
     match seen.shown {
         _ if seen.identifiable => OBSERVABLE.into(),
-        Shown::Alone => "prior-dominated, hardly better known than before".into(),
+        Shown::Alone => "prior-dominated".into(),
         Shown::Nothing => "unobservable (prior-dominated)".into(),
         Shown::Combination | Shown::Part { .. } => {
             let summand = |alias: &Alias| Summand {
@@ -94,7 +100,7 @@ pub(crate) fn observability(
             let unit = unknown.unit;
             let found =
                 found.map(|(value, sigma)| (value / unit.factor, sigma / unit.factor, unit.symbol));
-            let gauge = seen.gauge.map(|gauge| format!("; a choice of {}", gauge.name));
+            let gauge = seen.gauge.map(|gauge| format!("; gauge freedom: {}", gauge.name));
             only_in(&sum, found) + &gauge.unwrap_or_default()
         }
     }
@@ -181,7 +187,8 @@ fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
 
 /// What no schedule tells, a sentence for each gauge met.
 pub(crate) fn gauge_sentences(told: &Identifiability) -> Vec<String> {
-    let sentence =
-        |gauge: &Gauge| format!("Gauge, under every schedule: {}: {}.", gauge.name, gauge.why);
+    let sentence = |gauge: &Gauge| {
+        format!("Gauge freedom (unobservable under every schedule): {}: {}.", gauge.name, gauge.why)
+    };
     gauges(told).into_iter().map(sentence).collect()
 }

@@ -5,9 +5,9 @@ use rins_calibration::{Parameter, Partner};
 use crate::told::{OBSERVABLE, Summand, only_in, sum_in_words};
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
-pub(super) const SYSTEMATIC_NOTE: &str = "Zero velocity also sees accelerometer biases, which this \
-model does not have. Of a bias of 200 ug about 0.03 arcsec and 0.1 ppm may be in the estimates \
-beyond sigma, of a larger one more.";
+pub(super) const SYSTEMATIC_NOTE: &str = "Accelerometer biases also affect the zero-velocity updates \
+and are not in this model. A bias of 200 ug causes errors of up to 0.03 arcsec in the misalignments and 0.1 ppm in \
+the scale error. The sigmas do not include these errors, which are proportional to the bias.";
 
 /// The observability of a parameter, as a person reads it, and what its combination was found to be if it is in one.
 pub(super) fn meaning(parameter: &Parameter) -> String {

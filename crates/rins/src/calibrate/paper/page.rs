@@ -54,7 +54,7 @@ pub(super) fn calibration_text(calibration: &Calibration, title: &str) -> String
 fn summary(calibration: &Calibration) -> Vec<String> {
     let (before, after) = (&calibration.before, &calibration.after);
     let consistency = consistency_sentence(&calibration.consistency);
-    let gain = gain_sentence("the gyro errors along the spin axis", before, after);
+    let gain = gain_sentence("M_xz, M_yz and S_z", before, after);
     let mut sentences = vec![gain, consistency];
     let combined = calibration.parameters.iter().filter(|p| !p.identifiable()).count();
     if combined > 0 {
