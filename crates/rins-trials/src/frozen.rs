@@ -1,5 +1,7 @@
 //! Trials that were got wrong once, or that stand for a kind of trial: what is to come of each does not change.
 
+use rins_terms::catalogue;
+
 use crate::answer::{Analyser, Answer};
 use crate::draw::Trial;
 use crate::journal::try_out;
@@ -57,28 +59,28 @@ const fn frozen(name: &'static str, made: Made, wanted: Wanted) -> Frozen {
 /// All of them.
 #[rustfmt::skip]
 pub const FROZEN: &[Frozen] = &[
-    frozen("nothing at a constant rate", Hiding(&[], Constant, White, 1), Adequate),
-    frozen("nothing but flicker", Hiding(&[], Reversal, Flicker, 2), Adequate),
-    frozen("nothing at three rates", Hiding(&[], ThreeRates, White, 3), Adequate),
-    frozen("a lever arm", Hiding(&[("accel_lever_arm", 20.0)], ThreeRates, White, 11), First("accel_lever_arm")),
-    frozen("a latency beside flicker", Hiding(&[("encoder_latency", 20.0)], ThreeRates, Flicker, 12), First("encoder_latency")),
-    frozen("an asymmetry", Hiding(&[("gyro_scale_asymmetry", 20.0)], ThreeRates, White, 13), First("gyro_scale_asymmetry")),
-    frozen("a step of a bias", Hiding(&[("accel_bias_step", 20.0)], Constant, White, 14), First("accel_bias_step")),
-    frozen("a tilt ramp", Hiding(&[("base_tilt_ramp", 20.0)], Constant, White, 15), First("base_tilt_ramp")),
-    frozen("an eccentricity beside flicker", Hiding(&[("encoder_eccentricity", 20.0)], Reversal, Flicker, 16), First("encoder_eccentricity")),
-    frozen("a wobble", Hiding(&[("table_wobble", 20.0)], Reversal, White, 17), First("table_wobble")),
-    frozen("two effects", Hiding(&[("gyro_bias_step", 20.0), ("encoder_harmonic", 20.0)], ThreeRates, White, 21), Each(&["gyro_bias_step", "encoder_harmonic"])),
+    frozen("nothing at a constant rate", Hiding(const { &[] }, Constant, White, 1), Adequate),
+    frozen("nothing but flicker", Hiding(const { &[] }, Reversal, Flicker, 2), Adequate),
+    frozen("nothing at three rates", Hiding(const { &[] }, ThreeRates, White, 3), Adequate),
+    frozen("a lever arm", Hiding(const { &[(catalogue::ACCEL_LEVER_ARM.id, 20.0)] }, ThreeRates, White, 11), First(catalogue::ACCEL_LEVER_ARM.id)),
+    frozen("a latency beside flicker", Hiding(const { &[(catalogue::ENCODER_LATENCY.id, 20.0)] }, ThreeRates, Flicker, 12), First(catalogue::ENCODER_LATENCY.id)),
+    frozen("an asymmetry", Hiding(const { &[(catalogue::GYRO_SCALE_ASYMMETRY.id, 20.0)] }, ThreeRates, White, 13), First(catalogue::GYRO_SCALE_ASYMMETRY.id)),
+    frozen("a step of a bias", Hiding(const { &[(catalogue::ACCEL_BIAS_STEP.id, 20.0)] }, Constant, White, 14), First(catalogue::ACCEL_BIAS_STEP.id)),
+    frozen("a tilt ramp", Hiding(const { &[(catalogue::BASE_TILT_RAMP.id, 20.0)] }, Constant, White, 15), First(catalogue::BASE_TILT_RAMP.id)),
+    frozen("an eccentricity beside flicker", Hiding(const { &[(catalogue::ENCODER_ECCENTRICITY.id, 20.0)] }, Reversal, Flicker, 16), First(catalogue::ENCODER_ECCENTRICITY.id)),
+    frozen("a wobble", Hiding(const { &[(catalogue::TABLE_WOBBLE.id, 20.0)] }, Reversal, White, 17), First(catalogue::TABLE_WOBBLE.id)),
+    frozen("two effects", Hiding(const { &[(catalogue::GYRO_BIAS_STEP.id, 20.0), (catalogue::ENCODER_HARMONIC.id, 20.0)] }, ThreeRates, White, 21), Each(const { &[catalogue::GYRO_BIAS_STEP.id, catalogue::ENCODER_HARMONIC.id] })),
     frozen("what no effect explains is not adequate", Outside(30.0, ThreeRates, White, 31), Something),
     // At the edges of a zone derivatives jump: its estimate converges to no point, only to points that are as good.
-    frozen("a dead zone whose likelihood is not smooth", OfCampaign(24, 36), Only(&["gyro_dead_zone"])),
+    frozen("a dead zone whose likelihood is not smooth", OfCampaign(24, 36), Only(const { &[catalogue::GYRO_DEAD_ZONE.id] })),
     // At one rate nothing but the table's cogging shows how late an encoder is: what it leaves is a line, of no sensor.
-    frozen("cogging that comes late is no line", OfCampaign(16, 0), Only(&["encoder_latency"])),
+    frozen("cogging that comes late is no line", OfCampaign(16, 0), Only(const { &[catalogue::ENCODER_LATENCY.id] })),
     // Four microseconds are little of what latencies are, but as much as backlash that would do the same.
-    frozen("what is small of its kind stays in the set", OfCampaign(17, 373), Only(&["encoder_latency"])),
+    frozen("what is small of its kind stays in the set", OfCampaign(17, 373), Only(const { &[catalogue::ENCODER_LATENCY.id] })),
     // Of an event between two of the times that are tried, a warm-up shows more at first.
-    frozen("a step is tried at its time before a warm-up is named", OfCampaign(17, 345), Only(&["accel_bias_step"])),
+    frozen("a step is tried at its time before a warm-up is named", OfCampaign(17, 345), Only(const { &[catalogue::ACCEL_BIAS_STEP.id] })),
     // Heat that lags far behind, with a warm-up, can be every effect of a table that turns but twice in the run.
-    frozen("slow heat does not stand for an imperfect table", OfCampaign(17, 179), OnlyAndNothingLeft(&["cable_torque_tilt", "table_wobble", "encoder_eccentricity"])),
+    frozen("slow heat does not stand for an imperfect table", OfCampaign(17, 179), OnlyAndNothingLeft(const { &[catalogue::CABLE_TORQUE_TILT.id, catalogue::TABLE_WOBBLE.id, catalogue::ENCODER_ECCENTRICITY.id] })),
     // It is neither an effect of gravity nor a line on top, though both follow it.
     frozen("a bump on a table that turns back", OfCampaign(24, 278), Unexplained("bump in the turn", "gyro.z")),
     // What is left of a sawtooth beside a line passes for flicker, multiple by multiple, or for a walk with steps in it.
