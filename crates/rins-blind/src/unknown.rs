@@ -1,4 +1,4 @@
-//! What no catalogue holds.
+//! Error structures outside the catalogue.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,14 +7,14 @@ use rand_distr::{Distribution, StudentT};
 
 use crate::random::{Random, random};
 
-/// Something on one channel that is none of the effects.
+/// An error of one channel that is no effect of the catalogue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
-    /// Where it is.
+    /// The channel.
     pub channel: Channel,
-    /// What it looks like.
+    /// The shape.
     pub shape: Shape,
-    /// How large it is, in SI units; of the shapes of scatter, how many times as strong it becomes.
+    /// Amplitude, in SI units; for shapes of noise, the factor by which the noise increases.
     pub size: f64,
 }
 
@@ -27,55 +27,55 @@ pub enum Channel {
     Accel(usize),
 }
 
-/// What a structure looks like; its largest value is about 1.
+/// Shape of a structure; its maximum is about 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// Up slowly and down at once, in time.
+    /// Sawtooth in time.
     Sawtooth {
         /// \[s\].
         period: f64,
     },
-    /// A wave of the table angle that is no harmonic.
+    /// Harmonic of the table angle with a non-integer order.
     Order {
-        /// How often a turn.
+        /// Periods per revolution.
         order: f64,
         /// \[rad\].
         phase: f64,
     },
-    /// A wave whose frequency grows.
+    /// Sinusoid whose frequency increases at a constant rate.
     Chirp {
         /// At the start of the run \[Hz\].
         from: f64,
-        /// How much faster it becomes \[Hz/s\].
+        /// Rate of change of the frequency \[Hz/s\].
         growth: f64,
     },
-    /// Up or down at random.
+    /// Telegraph signal: random switching between two levels.
     Telegraph {
         /// The times at which it switches \[s\].
         switches: Vec<f64>,
     },
-    /// A wave once a turn that comes and goes.
+    /// First harmonic of the table angle with modulated amplitude.
     Modulated {
-        /// Over what time \[s\].
+        /// Period of the modulation \[s\].
         period: f64,
-        /// Where in the turn \[rad\].
+        /// Phase \[rad\].
         phase: f64,
     },
-    /// A bump at one place of every turn.
+    /// Pulse at one table angle in every revolution.
     Bump {
-        /// Where \[rad\].
+        /// Table angle \[rad\].
         at: f64,
-        /// How wide \[rad\].
+        /// Width \[rad\].
         width: f64,
     },
-    /// Noise that is stronger for a while.
+    /// Burst of noise.
     Burst {
         /// From \[s\].
         from: f64,
         /// To \[s\].
         to: f64,
     },
-    /// Noise with tails: Student's t of three degrees of freedom beside what is normal.
+    /// Heavy-tailed noise: Student's t with three degrees of freedom in addition to the normal noise.
     Tails,
 }
 
@@ -93,21 +93,21 @@ impl Shape {
         Self::Telegraph { switches }
     }
 
-    /// What it is in words.
+    /// Name in words.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Sawtooth { .. } => "sawtooth",
-            Self::Order { .. } => "broken order",
+            Self::Order { .. } => "non-integer harmonic order",
             Self::Chirp { .. } => "chirp",
             Self::Telegraph { .. } => "telegraph",
-            Self::Modulated { .. } => "modulated once per turn",
-            Self::Bump { .. } => "bump in the turn",
+            Self::Modulated { .. } => "modulated, once per revolution",
+            Self::Bump { .. } => "pulse once per revolution",
             Self::Burst { .. } => "burst of noise",
             Self::Tails => "heavy tails",
         }
     }
 
-    /// Whether it is a signal, and not a matter of scatter.
+    /// Whether it is a signal and not noise.
     pub const fn is_signal(&self) -> bool {
         !matches!(self, Self::Burst { .. } | Self::Tails)
     }
@@ -135,7 +135,7 @@ impl Shape {
 }
 
 impl Unknown {
-    /// How many times as strong white noise is at this time.
+    /// Factor of the white noise at this time.
     pub(crate) fn noise(&self, time: f64, random: &mut Random) -> f64 {
         match &self.shape {
             Shape::Burst { from, to } if (*from..*to).contains(&time) => self.size,

@@ -38,7 +38,7 @@ pub enum ReproductionError {
         source: CalibrationError,
     },
     /// A filter broke off.
-    #[error("the filter broke off at {time} s of run {run}")]
+    #[error("the filter failed at {time} s of run {run}")]
     Update {
         /// The run's index in the campaign.
         run: u64,
@@ -63,6 +63,6 @@ pub enum ReproductionError {
     #[error("the errors cannot be compensated")]
     Compensation(#[from] ImuCompensationError),
     /// The rest at the start cannot be aligned on.
-    #[error("the rest at the start cannot be aligned on")]
+    #[error("the alignment over the static interval at the start failed")]
     Alignment(#[from] AlignmentError),
 }

@@ -99,7 +99,8 @@ fn emulated(experiment: &Experiment, run: u64) -> Result<Emulated, ReproductionE
     let angles = &simulated.truth.table_angle;
     let rest = angles.iter().take_while(|angle| **angle == 0.0).count();
 
-    let missing = ReproductionError::Missing { name: "the real test", section: "a rest" };
+    let missing =
+        ReproductionError::Missing { name: "the real test", section: "a static interval" };
     let mean = RestMean::of(&recording, 0..rest).ok_or(missing)?;
     // Only the attitude is of interest, not what is claimed for it.
     let sigma = MeanUncertainty {

@@ -5,36 +5,43 @@ use std::fmt::Write as _;
 use crate::catalogue::CATALOGUE;
 use crate::term::{Action, Parameter, Prior, Term};
 
-/// The head of the page.
+/// Text before the tables.
 const HEAD: &str = "\
 # The catalogue of effects
 
-Every effect that `rins` can simulate, estimate and name is one entry here, and one item of the crate `rins-terms`, from
-which `cargo run -p rins-terms --example catalogue_page` writes this page.
+This catalogue lists every effect that `rins` simulates, estimates and identifies. Each effect is one item of the crate
+`rins-terms`. `cargo run -p rins-terms --example catalogue_page` writes this page.
 
-Whatever is read is **read minus true**: an entry says what it adds to the rate `ω` that the gyros read, to the force `f`
-that the accelerometers read, to the angle `ζ` that the encoder reads, or by which rotation vector `θ` of the axis frame
-the table is truly tilted, which gyros and accelerometers feel. `H` is a step from 0 to 1, `t` the time since the run
-began, `T` a temperature and `T_ref` the reference temperature of the model, 20 °C where it says no other. Where an entry
-speaks of x, y and z, it has a parameter for each.
+All errors are **reading minus true value**. The equation of an effect states what the effect adds to one of these signals:
 
-Usual magnitudes are those of IMUs with **fibre-optic gyros / laser gyros / MEMS**; of accelerometers, pendulous /
-vibrating beam / MEMS; or of any table and place. \"Sheet\" is the 1σ of the IMU's data sheet. Effects marked † share an
-entry: no schedule could tell them apart.
+| symbol | signal |
+| --- | --- |
+| `ω` | the rate that the gyros read |
+| `f` | the specific force that the accelerometers read |
+| `ζ` | the table angle that the encoder reads |
+| `θ` | the rotation vector of the axis frame: a true tilt of the table, which gyros and accelerometers measure |
+
+- `H` is a step from 0 to 1 and `t` is the time since the start of the run.
+- `T` is the temperature. `T_ref` is the reference temperature of the model, by default 20 °C.
+- An effect with x, y and z has one parameter for each axis.
+- The typical ranges of gyros apply to IMUs with **fiber-optic gyros / laser gyros / MEMS**, and those of accelerometers to
+  pendulous / vibrating beam / MEMS. A single range applies to any table and site.
+- \"Data sheet\" is the 1σ of the data sheet of the IMU.
+- Effects marked † share an entry, because no schedule distinguishes them.
 ";
 
 type Belongs = fn(&Term) -> bool;
 
-/// The page's tables: a heading, and which terms stand under it.
+/// Tables of the page: heading and selection of the terms.
 const TABLES: [(&str, Belongs); 5] = [
     ("Gyros", |term| !is_log(term) && term.id.starts_with("gyro")),
     ("Accelerometers", |term| !is_log(term) && term.id.starts_with("accel")),
     ("Table, encoder, timing", |term| !is_log(term) && is_table(term)),
-    ("Base, place, surroundings", |term| {
+    ("Base, site, environment", |term| {
         let sensor = term.id.starts_with("gyro") || term.id.starts_with("accel");
         !is_log(term) && !sensor && !is_table(term)
     }),
-    ("Faults of a log", is_log),
+    ("Errors of a log", is_log),
 ];
 
 fn is_log(term: &Term) -> bool {
@@ -54,7 +61,7 @@ pub fn page() -> String {
         let _ = write!(
             page,
             "\n## {heading}\n\n\
-             | effect | what it does | parameters | usual | confused with | told apart by |\n\
+             | effect | cause and equation | parameters | typical range | similar effects | discriminating test |\n\
              | --- | --- | --- | --- | --- | --- |\n"
         );
         for term in CATALOGUE.iter().filter(|term| belongs(term)) {
@@ -62,7 +69,7 @@ pub fn page() -> String {
                 effect(term),
                 format!("{}<br>`{}`", term.cause, term.equation),
                 parameters(term),
-                usual(term),
+                typical_range(term),
                 term.partners.iter().map(|id| format!("`{id}`")).collect::<Vec<_>>().join(", "),
                 term.told_apart_by.to_string(),
             ];
@@ -79,7 +86,7 @@ fn effect(term: &Term) -> String {
     rows.concat().join("<br>")
 }
 
-/// Parameters of the same unit together, then the settings.
+/// Parameters grouped by unit, then the settings.
 fn parameters(term: &Term) -> String {
     let mut rows: Vec<String> = runs(term)
         .map(|run| {
@@ -89,15 +96,15 @@ fn parameters(term: &Term) -> String {
         .collect();
     rows.extend(term.settings.iter().map(|setting| {
         let default = setting.default / setting.unit.factor;
-        format!("given: {} \\[{}\\], or {default}", setting.name, setting.unit.symbol)
+        format!("setting: {} \\[{}\\], default {default}", setting.name, setting.unit.symbol)
     }));
     rows.join("<br>")
 }
 
-fn usual(term: &Term) -> String {
+fn typical_range(term: &Term) -> String {
     let rows: Vec<String> = runs(term)
         .map(|run| match run[0].prior {
-            Prior::Sheet(_) => "sheet".to_string(),
+            Prior::Sheet(_) => "data sheet".to_string(),
             Prior::Usual(ranges) => ranges.map(range).join(" / "),
             Prior::Anywhere(low, high) => range((low, high)),
         })
@@ -109,7 +116,7 @@ fn range((low, high): (f64, f64)) -> String {
     if low < high { format!("{low} – {high}") } else { format!("{low}") }
 }
 
-/// Neighbouring parameters that have unit and magnitude in common.
+/// Groups of consecutive parameters with the same unit and typical range.
 fn runs(term: &Term) -> impl Iterator<Item = &'static [Parameter]> {
     term.parameters.chunk_by(|a, b| {
         let same = match (a.prior, b.prior) {

@@ -1,4 +1,4 @@
-//! A term: one physical effect, with all that anyone needs to know of it.
+//! A term: one physical effect, with its equation, parameters and texts.
 
 use nalgebra::Complex;
 use num_dual::Dual64;
@@ -12,35 +12,33 @@ use crate::setting::{Setting, SettingKind};
 use crate::signals::{DualVector, Signals};
 use crate::unit::Unit;
 
-/// One physical effect: what it is, how large it is, and what it does.
+/// One physical effect: equation, parameters, typical ranges and texts.
 ///
-/// The simulator makes it, the estimator estimates it, the diagnosis tests it and the report
-/// explains it, all from this one item. A new effect is a new constant of this type in one file of
-/// the catalogue, and its name in the list there.
+/// Simulator, estimator, diagnosis and report all use this one item. A new effect is a new constant
+/// of this type in one file of the catalogue, and its name in the list there.
 #[derive(Clone, Copy, Debug)]
 pub struct Term {
     /// The name in files and results, such as `accel_lever_arm`.
     pub id: &'static str,
-    /// Other ids under which it is found: effects that no schedule could tell from it, so that they share
-    /// its entry.
+    /// Other ids of the entry: effects that no schedule distinguishes from it.
     pub also: &'static [&'static str],
     /// The name in words, such as "lever arm of the accelerometers".
     pub name: &'static str,
-    /// What makes it, in a sentence.
+    /// Physical cause, in one sentence.
     pub cause: &'static str,
-    /// What it adds, as a formula in the notation of the book.
+    /// Equation of its error, in the notation of the book.
     pub equation: &'static str,
-    /// Where the equation comes from: a key of the book's references, or the catalogue's section.
+    /// Source of the equation: a key of the references of the book, or a derivation.
     pub source: &'static str,
     /// Its parameters; each is one number.
     pub parameters: &'static [Parameter],
-    /// Numbers that choose the effect's shape (an order, a time); they are given, not estimated.
+    /// Numbers that select the shape of the effect, such as an order or a time.
     pub settings: &'static [Setting],
-    /// What must be known of a run for the effect to have a meaning there.
+    /// Requirements on a run for the effect to be defined.
     pub needs: &'static [Need],
-    /// Ids of terms with which it can be confused.
+    /// Ids of terms with similar signatures.
     pub partners: &'static [&'static str],
-    /// The test that would tell it from them.
+    /// Discriminating test: the measurement that distinguishes it from them.
     pub told_apart_by: &'static str,
     /// Whom its parameters belong to.
     pub owner: Owner,
@@ -57,16 +55,16 @@ pub struct Parameter {
     pub name: &'static str,
     /// The unit in which it is shown and written.
     pub unit: Unit,
-    /// How large it usually is.
+    /// Its typical range.
     pub prior: Prior,
 }
 
-/// How large a parameter usually is.
+/// Typical range of a parameter.
 #[derive(Clone, Copy)]
 pub enum Prior {
     /// The 1σ that a data sheet gives, in SI units.
     Sheet(fn(&ImuSpec) -> f64),
-    /// The smallest and largest usual magnitude, in the parameter's unit, for navigation-grade fibre
+    /// The smallest and largest typical magnitude, in the unit of the parameter, for navigation-grade fiber-optic
     /// gyros, laser gyros, and MEMS, in this order; of accelerometers: pendulous, vibrating beam, MEMS.
     Usual([(f64, f64); 3]),
     /// The same range for a table or a place, whatever the IMU, in the parameter's unit.
@@ -86,7 +84,7 @@ impl std::fmt::Debug for Prior {
 impl Parameter {
     /// The 1σ that is expected of an IMU with this data sheet, in SI units.
     ///
-    /// Of a usual range it is the largest magnitude: the range is that of good specimens.
+    /// For a typical range it is the largest magnitude: the range is that of good sensors.
     pub fn sigma(&self, imu: &ImuSpec) -> f64 {
         match self.prior {
             Prior::Sheet(sigma) => sigma(imu),
@@ -94,7 +92,7 @@ impl Parameter {
         }
     }
 
-    /// The smallest and largest magnitude that is usual of an IMU with this data sheet, in SI units.
+    /// The smallest and largest typical magnitude for an IMU with this data sheet, in SI units.
     pub fn range(&self, imu: &ImuSpec) -> (f64, f64) {
         let (low, high) = match self.prior {
             Prior::Sheet(sigma) => {
@@ -108,7 +106,7 @@ impl Parameter {
     }
 }
 
-/// What a run must offer for a term to have a meaning.
+/// Requirement on a run for a term to be defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// A temperature channel.

@@ -1,4 +1,4 @@
-//! The score card's tables: by schedule, by realism, by strength, by effect.
+//! Tables of the score card: by schedule, by noise and table, by amplitude, by effect.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,13 +13,13 @@ use crate::laboratory::{Level, Schedule};
 use crate::score::{class, classes, in_set, is_plain, meant, ones};
 use crate::statistics::{Share, power, threshold};
 
-/// The share of clean runs on which anything may be named.
+/// The allowed fraction of runs without unmodeled error in which an effect is reported.
 const FALSE_ALARMS: f64 = 0.01;
 
-/// The highest frequency that is looked for \[Hz\].
+/// The highest frequency of the search \[Hz\].
 const HIGHEST: f64 = 1.0;
 
-/// Named falsely, detected, in the set, of records of a kind.
+/// False alarms, detections, credible sets and false effects of these records.
 fn brief(records: &[&Record]) -> String {
     let clean = records.iter().filter(|r| r.kind == Kind::Nothing);
     let falsely = Share::count(clean.map(|r| r.false_names().next().is_some()));
@@ -33,10 +33,10 @@ fn brief(records: &[&Record]) -> String {
     format!("{} | {} | {} | {}", falsely.text(), detected.text(), sets.text(), wrong.text())
 }
 
-const BRIEF: &str = "| | named on clean data | detected at ≥ 8 σ | in the set at ≥ 8 σ | a false name beside one effect |\n\
+const BRIEF: &str = "| | effect reported without unmodeled error | detected at ≥ 8 σ | in the credible set at ≥ 8 σ | false effect in addition to a true one |\n\
                      | --- | --- | --- | --- | --- |\n";
 
-/// What was found on each schedule.
+/// Results by schedule.
 pub(crate) fn by_schedule(page: &mut String, records: &[&Record]) {
     page.push_str(BRIEF);
     for schedule in Schedule::ALL {
@@ -49,7 +49,7 @@ pub(crate) fn by_schedule(page: &mut String, records: &[&Record]) {
     }
 }
 
-/// What was found at each level of realism.
+/// Results by noise and table.
 pub(crate) fn by_level(page: &mut String, records: &[&Record]) {
     page.push_str(BRIEF);
     for level in Level::ALL {
@@ -59,12 +59,12 @@ pub(crate) fn by_level(page: &mut String, records: &[&Record]) {
     }
 }
 
-/// Detection against strength, beside that of a test of which the truth is one of all candidates.
+/// Detection by amplitude, and the theoretical power of a test of all candidates.
 pub(crate) fn detection(page: &mut String, records: &[&Record]) {
     page.push_str(
-        "Theory is the power of the likelihood-ratio test of the true effect, chi-square of its degrees, where one \
-         percent is shared among all effects of the catalogue and the places at which each may happen.\n\n\
-         | strength \\[σ\\] | detected | theory | in the set | first name right | false names |\n\
+        "Theory is the power of the likelihood-ratio test of the true effect. The statistic is chi-square with the degrees of freedom of\n\
+         the effect. The significance level of 1 % is divided among all effects of the catalogue and their possible event times.\n\n\
+         | amplitude \\[σ\\] | detected | theory | in the credible set | most probable effect correct | false effects |\n\
          | ---: | --- | ---: | --- | --- | --- |\n",
     );
     let ones = ones(records);
@@ -88,11 +88,11 @@ pub(crate) fn detection(page: &mut String, records: &[&Record]) {
     }
 }
 
-/// How many of the faintest that have to be found were, class by class.
+/// Detection at the smallest amplitude with a target, by class.
 pub(crate) fn faint(page: &mut String, records: &[&Record]) {
     page.push_str(
-        "Theory knows the noise. The diagnosis has to find it from the same run, and what is slow may pass for flicker of which the \
-         data sheet says nothing.\n\n\
+        "Theory takes the noise parameters as known. The diagnosis estimates them from the same run, and a slow effect may be absorbed by\n\
+         bias instability that the data sheet does not state.\n\n\
          | at 6.5 σ | detected | theory |\n| --- | --- | ---: |\n",
     );
     let ones = ones(records);
@@ -109,12 +109,12 @@ pub(crate) fn faint(page: &mut String, records: &[&Record]) {
     }
 }
 
-/// The power of a test for what was hidden that looks wherever it may be.
+/// The power of a test of the hidden effect over all its possible settings.
 fn expected(record: &Record, hidden: &Hidden) -> f64 {
     let terms = crate::hide::hideable();
     let settings = terms.iter().find(|term| term.id == hidden.id).map_or(&[][..], |t| t.settings);
     let looks = |kind| match kind {
-        // All of a base's tilt, as gyros see it, is in one sample.
+        // The gyros measure a tilt step of the base in one sample.
         SettingKind::Time if hidden.id == BASE_TILT_STEP.id => record.duration / record.interval,
         SettingKind::Time => 16.0,
         SettingKind::Order => 9.0,
@@ -127,10 +127,10 @@ fn expected(record: &Record, hidden: &Hidden) -> f64 {
     power(hidden.strength, hidden.dof, limit)
 }
 
-/// What became of each effect.
+/// Results by effect.
 pub(crate) fn by_effect(page: &mut String, records: &[&Record]) {
     page.push_str(
-        "At 8 σ and above, on all levels.\n\n| effect | trials | in the set | first | taken for, or missed |\n\
+        "At 8 σ and above, for all kinds of noise and table.\n\n| effect | trials | in the credible set | most probable | confused with, or missed |\n\
          | --- | ---: | ---: | ---: | --- |\n",
     );
     let mut effects: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
@@ -144,7 +144,7 @@ pub(crate) fn by_effect(page: &mut String, records: &[&Record]) {
         let firsts = of.iter().filter(|r| r.first().is_some_and(|n| n.effect == id)).count();
         let mut others: BTreeMap<&str, usize> = BTreeMap::new();
         for record in of.iter().filter(|record| record.set_with(id).is_none()) {
-            let name = record.first().map_or("nothing", |named| named.effect.as_str());
+            let name = record.first().map_or(NOTHING, |named| named.effect.as_str());
             *others.entry(name).or_default() += 1;
         }
         let others: Vec<String> = others
@@ -156,12 +156,19 @@ pub(crate) fn by_effect(page: &mut String, records: &[&Record]) {
     }
 }
 
-/// Rows: the class of what was hidden; columns: of what was named first.
+/// The column of trials with residual structure and without a reported effect.
+const RESIDUAL_ONLY: &str = "residual structure only";
+
+/// The column, and the entry, of trials without a report.
+const NOTHING: &str = "nothing";
+
+/// Rows: classes of the true effects; columns: classes of the most probable reported effects.
 pub(crate) fn confusion(page: &mut String, records: &[&Record]) {
     page.push_str(
-        "Rows are what was hidden, at 8 σ and above, columns what was named first, by classes of effects that act alike.\n\n| hidden |",
+        "Rows are the true effects at 8 σ and above, columns the most probable reported effects, in classes with similar signatures.\n\n\
+         | true effect |",
     );
-    let columns: Vec<&str> = classes().chain(["unexplained", "nothing"]).collect();
+    let columns: Vec<&str> = classes().chain([RESIDUAL_ONLY, NOTHING]).collect();
     for column in &columns {
         let _ = write!(page, " {column} |");
     }
@@ -177,8 +184,8 @@ pub(crate) fn confusion(page: &mut String, records: &[&Record]) {
             }
             let named = match record.first() {
                 Some(named) => class(&named.effect),
-                None if record.answer.unexplained.is_empty() => "nothing",
-                None => "unexplained",
+                None if record.answer.unexplained.is_empty() => NOTHING,
+                None => RESIDUAL_ONLY,
             };
             if let Some(place) = columns.iter().position(|column| *column == named) {
                 counts[place] += 1;
@@ -193,17 +200,19 @@ pub(crate) fn confusion(page: &mut String, records: &[&Record]) {
     }
 }
 
-/// What became of structures outside the catalogue.
+/// Results for structures outside the catalogue.
 pub(crate) fn outside(page: &mut String, records: &[&Record]) {
     page.push_str(
-        "Structures no effect makes; the remainder is what is left of them beside the effect that is most like them.\n\n\
-         | structure | remainder | unexplained | named as if complete | not seen |\n| --- | --- | --- | --- | --- |\n",
+        "These are residual structures that no effect of the catalogue produces. The remainder is their size after subtraction of the most\n\
+         similar effect.\n\n\
+         | structure | remainder | residual structure reported | effect reported, no residual structure | nothing reported |\n\
+         | --- | --- | --- | --- | --- |\n",
     );
     let mut kinds: BTreeMap<(&str, &str), Vec<&Record>> = BTreeMap::new();
     for record in records {
         if let Some(outside) = &record.outside {
             let size = match outside.remainder {
-                None => "scatter",
+                None => "noise",
                 Some(left) if left >= 15.0 => "≥ 15 σ",
                 Some(_) => "8, 12 σ",
             };

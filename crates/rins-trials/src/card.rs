@@ -20,14 +20,14 @@ pub fn card(records: &[Record]) -> String {
     let failures = Share::count(records.iter().map(|record| !record.answered()));
     let _ = writeln!(
         page,
-        "{} trials; {} ended without an answer. In brackets: counts, and the bounds of Clopper and Pearson at 95 %.\n",
+        "{} trials were run; {} ended without an answer. Brackets give counts and the bounds of Clopper and Pearson at 95 %.\n",
         records.len(),
         failures.hits
     );
     table(&mut page, &targets(&answered, &timed));
     page.push_str("\n## By schedule\n\n");
     by_schedule(&mut page, &answered);
-    page.push_str("\n## By realism\n\n");
+    page.push_str("\n## By noise and table\n\n");
     by_level(&mut page, &answered);
     page.push_str("\n## Detection\n\n");
     detection(&mut page, &answered);
@@ -35,7 +35,7 @@ pub fn card(records: &[Record]) -> String {
     faint(&mut page, &answered);
     page.push_str("\n## By effect\n\n");
     by_effect(&mut page, &answered);
-    page.push_str("\n## What is taken for what\n\n");
+    page.push_str("\n## Confusion matrix\n\n");
     confusion(&mut page, &answered);
     page.push_str("\n## Outside the catalogue\n\n");
     outside(&mut page, &answered);
@@ -44,20 +44,25 @@ pub fn card(records: &[Record]) -> String {
 
 const HEAD: &str = "# Blind trials
 
-The diagnosis is tried on runs that share nothing with it. `rins-blind`, which uses no other crate of this workspace, makes them from an
-oversampled motion: a table with a servo, cogging and friction, attitudes as quaternions, rates and forces by differences,
-sensor errors on every short step. `rins diagnose` sees the log and the rig file. What is hidden is kept apart,
-and this page is what became of it: `cargo xtask blind` runs trials, `cargo xtask blind --card` writes this page from
-those that were run.
+Blind trials test the diagnosis with runs from an independent simulator. `rins-blind` uses no other crate of this workspace. It
+simulates an oversampled motion: a table with a servo, cogging and friction, attitudes as quaternions, rates and forces by
+differences, sensor errors on every short step. `rins diagnose` gets the log and the rig file. The truth is kept apart.
+`cargo xtask blind` runs trials, and `cargo xtask blind --card` writes this page from their results.
 
-A trial draws a place, the axis' tilt (15 to 35 deg), an IMU (gyro noise 0.005 to 0.05 deg/h/√Hz, its constant errors over
-decades), an encoder, a temperature, a schedule of 360 to 540 s at 50 or 100 Hz, and what is hidden: nothing (35 %), one effect
-of the catalogue (40 %), two (10 %), or something outside it (15 %). An effect is so many times its Cramér-Rao bound
-strong, in a random direction of what the run shows of it; sigmas below are those.
+Each trial draws:
+
+- a site and the tilt of the spin axis (15 to 35 deg);
+- an IMU: gyro noise 0.005 to 0.05 deg/h/√Hz, constant errors over decades;
+- an encoder and a temperature;
+- a schedule of 360 to 540 s at 50 or 100 Hz;
+- the unmodeled error: none (35 %), one effect of the catalogue (40 %), two effects (10 %), or an effect outside the catalogue (15 %).
+
+The size of an effect is a multiple of its Cramér-Rao bound, in a random direction among those that the run shows. All sigmas
+below are multiples of this bound.
 
 ";
 
-/// A figure, what it should be, what it is, and how it is bounded.
+/// A figure, its target, and its value with bounds.
 type Row = (&'static str, &'static str, String);
 
 fn table(page: &mut String, rows: &[Row]) {
@@ -94,55 +99,67 @@ fn targets(records: &[&Record], timed: &[&Record]) -> Vec<Row> {
     };
     let times = |of: &[&Record]| seconds(of.iter().map(|r| r.answer.seconds).collect());
     vec![
-        ("named on clean data, white noise", "≤ 1 %", on(Level::White)),
-        ("named on clean data, with flicker of 0.005 deg/h", "≤ 1 %", on(Level::Flicker)),
+        ("effect reported without unmodeled error, white noise", "≤ 1 %", on(Level::White)),
         (
-            "unexplained on clean data",
+            "effect reported without unmodeled error, with bias instability of 0.005 deg/h",
+            "≤ 1 %",
+            on(Level::Flicker),
+        ),
+        (
+            "residual structure reported without unmodeled error",
             "≤ 1 %",
             Share::count(clean.iter().map(|r| !r.answer.unexplained.is_empty())).text(),
         ),
         ("detected at 6.5 σ", "≥ 95 %", seen(6.5, 6.5)),
         ("detected at 8 σ", "", seen(8.0, 8.0)),
         ("detected at 9 σ and above", "100 %", seen(9.0, 200.0)),
-        ("truth in the set at 8 σ", "≥ 98 %", sets(8.0, 8.0)),
-        ("truth in the set at 12 σ and above", "≥ 99.5 %", sets(12.0, 200.0)),
+        ("truth in the credible set at 8 σ", "≥ 98 %", sets(8.0, 8.0)),
+        ("truth in the credible set at 12 σ and above", "≥ 99.5 %", sets(12.0, 200.0)),
         (
-            "first name right where the schedule separates, s/κ ≥ 5",
+            "most probable effect correct where the schedule separates, s/κ ≥ 5",
             "≥ 95 %",
             Share::count(firsts.map(right)).text(),
         ),
-        ("mean size of the set at 12 σ, three rates", "≤ 2", mean_size(&ones, 12.0)),
-        ("mean size of the set at 100 σ, three rates", "≤ 1.5", mean_size(&ones, 100.0)),
+        ("mean size of the credible set at 12 σ, three rates", "≤ 2", mean_size(&ones, 12.0)),
+        ("mean size of the credible set at 100 σ, three rates", "≤ 1.5", mean_size(&ones, 100.0)),
         (
-            "95 % interval of the named amplitude covers, s ≥ 6",
+            "coverage of the 95 % interval of the amplitude, s ≥ 6",
             "93 – 97 %",
             Share::count(covered).text(),
         ),
         (
-            "nothing else named, nothing left, 8 σ and above",
+            "no other effect and no residual structure, 8 σ and above",
             "≥ 95 %",
             Share::count(strong(8.0, 200.0).map(clean_after)).text(),
         ),
-        ("held-out gain where one effect of 6 σ and above was named", "improved", gains(&ones)),
+        ("held-out gain where one effect of 6 σ and above was reported", "improved", gains(&ones)),
         ("held-out gain over the gain with the true model, s ≥ 6", "≥ 0.9", of_the_true(&ones)),
-        ("held-out rise of the log score on clean data, mean", "≥ -0.5 nat", mean_rise(&clean)),
         (
-            "outside the catalogue, remainder ≥ 15 σ: unexplained",
+            "held-out rise of the log score without unmodeled error, mean",
+            "≥ -0.5 nat",
+            mean_rise(&clean),
+        ),
+        (
+            "outside the catalogue, remainder ≥ 15 σ: residual structure reported",
             "≥ 95 %",
             Share::count(beyond.iter().map(flagged)).text(),
         ),
         (
-            "outside the catalogue, remainder ≥ 15 σ: named as if complete",
+            "outside the catalogue, remainder ≥ 15 σ: effect reported, no residual structure",
             "≤ 2 %",
             Share::count(beyond.iter().map(misnamed)).text(),
         ),
         (
-            "two effects of 10 σ, both in sets",
+            "two effects of 10 σ, both in credible sets",
             "≥ 90 %",
             Share::count(both.map(|r| r.hidden.iter().all(|h| r.set_with(&h.id).is_some()))).text(),
         ),
-        ("time for 720 s at 100 Hz, two threads: median, 95 %, longest", "< 10 s", times(timed)),
-        ("time of a trial's diagnosis, one thread: median, 95 %, longest", "", times(records)),
+        (
+            "time for 720 s at 100 Hz, two threads: median, 95th percentile, maximum",
+            "< 10 s",
+            times(timed),
+        ),
+        ("time of one diagnosis, one thread: median, 95th percentile, maximum", "", times(records)),
     ]
 }
 
@@ -154,12 +171,12 @@ fn mean_size(ones: &[(&Record, &Hidden)], at: f64) -> String {
         .filter_map(|(record, hidden)| Some(record.set_with(&hidden.id)?.set().count() as f64))
         .collect();
     if sizes.is_empty() {
-        return "none of the kind".into();
+        return "no such trial".into();
     }
     format!("{:.2} ({} sets)", sizes.iter().sum::<f64>() / sizes.len() as f64, sizes.len())
 }
 
-/// By how much the log score of what was held out rose \[nats\]; not at all where nothing was named.
+/// Rise of the log score of the held-out data \[nats\]; zero if no effect was reported.
 fn rise(record: &Record) -> Option<f64> {
     if record.answer.causes.is_empty() {
         Some(0.0)
@@ -171,7 +188,7 @@ fn rise(record: &Record) -> Option<f64> {
 fn mean_rise(clean: &[&&Record]) -> String {
     let rises: Vec<f64> = clean.iter().filter_map(|record| rise(record)).collect();
     if rises.is_empty() {
-        return "none of the kind".into();
+        return "no such trial".into();
     }
     format!("{:.2} nat ({} runs)", rises.iter().sum::<f64>() / rises.len() as f64, rises.len())
 }
@@ -183,15 +200,15 @@ fn gains(ones: &[(&Record, &Hidden)]) -> String {
     Share::count(measured.map(|(record, _)| record.answer.gain["verdict"] == "improved")).text()
 }
 
-/// The gain with what was named over that with what is there, summed up over all trials where both were measured: of one
-/// trial the ratio is that of two small differences.
+/// Ratio of the gain with the reported effects to the gain with the true effects, as a ratio of sums over all trials with both:
+/// for one trial it is the ratio of two small differences.
 fn of_the_true(ones: &[(&Record, &Hidden)]) -> String {
     let measured: Vec<(f64, f64)> = ones
         .iter()
         .filter_map(|(record, _)| Some((rise(record)?, record.answer.true_gain?)))
         .collect();
     if measured.is_empty() {
-        return "none of the kind".into();
+        return "no such trial".into();
     }
     let (named, real) = measured.iter().fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
     format!("{:.3} ({} runs)", named / real, measured.len())

@@ -88,9 +88,9 @@ impl Level {
     pub const fn name(self) -> &'static str {
         match self {
             Self::White => "white noise",
-            Self::Flicker => "and flicker",
+            Self::Flicker => "and bias instability",
             Self::Table => "and an imperfect table",
-            Self::Coarse => "and least bits, jitter",
+            Self::Coarse => "and quantization, jitter",
         }
     }
 }

@@ -81,7 +81,7 @@ impl Hidden {
 /// Effects that act alike; what is named within a class is nearly right.
 static CLASSES: [(&str, &[&Term]); 11] = [
     (
-        "gyro in time and temperature",
+        "gyro: time and temperature",
         &[
             &catalogue::GYRO_BIAS_STEP,
             &catalogue::GYRO_BIAS_RAMP,
@@ -91,7 +91,7 @@ static CLASSES: [(&str, &[&Term]); 11] = [
         ],
     ),
     (
-        "gyro with the rate",
+        "gyro: rate",
         &[
             &catalogue::GYRO_RATE_DEPENDENT_BIAS,
             &catalogue::GYRO_SCALE_ASYMMETRY,
@@ -102,7 +102,7 @@ static CLASSES: [(&str, &[&Term]); 11] = [
         ],
     ),
     (
-        "gyro with the turn",
+        "gyro: once per revolution",
         &[
             &catalogue::GYRO_G_SENSITIVITY,
             &catalogue::GYRO_G2_SENSITIVITY,
@@ -112,7 +112,7 @@ static CLASSES: [(&str, &[&Term]); 11] = [
         ],
     ),
     (
-        "accelerometer in time and temperature",
+        "accelerometer: time and temperature",
         &[
             &catalogue::ACCEL_BIAS_STEP,
             &catalogue::ACCEL_BIAS_RAMP,
@@ -121,7 +121,7 @@ static CLASSES: [(&str, &[&Term]); 11] = [
         ],
     ),
     (
-        "accelerometer with force",
+        "accelerometer: specific force",
         &[
             &catalogue::ACCEL_QUADRATIC,
             &catalogue::ACCEL_CUBIC,
@@ -130,7 +130,7 @@ static CLASSES: [(&str, &[&Term]); 11] = [
         ],
     ),
     (
-        "accelerometer with the rate",
+        "accelerometer: rate",
         &[
             &catalogue::ACCEL_LEVER_ARM,
             &catalogue::ACCEL_SIZE_EFFECT,
@@ -138,7 +138,7 @@ static CLASSES: [(&str, &[&Term]); 11] = [
         ],
     ),
     (
-        "delays",
+        "latencies",
         &[
             &catalogue::GYRO_LAG,
             &catalogue::ACCEL_LATENCY,
@@ -165,8 +165,8 @@ static CLASSES: [(&str, &[&Term]); 11] = [
             &catalogue::BASE_TILT_STEP,
         ],
     ),
-    ("lines", &[&catalogue::BASE_SWAY, &catalogue::INTERFERENCE_LINE]),
-    ("place", &[&catalogue::BASE_ROTATION, &catalogue::WRONG_LATITUDE, &catalogue::WRONG_GRAVITY]),
+    ("spectral lines", &[&catalogue::BASE_SWAY, &catalogue::INTERFERENCE_LINE]),
+    ("site", &[&catalogue::BASE_ROTATION, &catalogue::WRONG_LATITUDE, &catalogue::WRONG_GRAVITY]),
 ];
 
 /// The names of all classes.

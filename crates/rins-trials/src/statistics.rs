@@ -41,7 +41,7 @@ impl Share {
     /// As in `97.1 % (34 of 35; 85.1 – 99.9)`.
     pub(crate) fn text(&self) -> String {
         if self.of == 0 {
-            return "none of the kind".into();
+            return "no such trial".into();
         }
         let (low, high) = self.bounds();
         format!(

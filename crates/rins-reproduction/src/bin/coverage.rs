@@ -24,7 +24,7 @@ fn main() -> ExitCode {
     match run(n_runs) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(faults) => {
-            eprintln!("error: {faults} figures are not those of an honest estimator");
+            eprintln!("error: {faults} figures are not those of a consistent estimator");
             ExitCode::FAILURE
         }
         Err(error) => {

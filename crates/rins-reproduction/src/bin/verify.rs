@@ -25,7 +25,7 @@ fn main() -> ExitCode {
 fn run() -> Result<usize, ReproductionError> {
     let rows = grid(&TIMES, &ATTITUDES, &RATES)?;
     println!(
-        "velocity errors [m/s]: printed = eqs. (8), (9); mended = their sign turned; flat = integrated on a flat Earth;\n\
+        "velocity errors [m/s]: printed = eqs. (8), (9); corrected = with the opposite sign; flat = integrated on a flat Earth;\n\
          extended = linear on the round Earth, second order on the flat one; navigator = integrated on the round Earth\n"
     );
     println!(
@@ -34,9 +34,9 @@ fn run() -> Result<usize, ReproductionError> {
         "deg/s",
         "s",
         "printed",
-        "mended",
+        "corrected",
         "flat",
-        "mended/flat",
+        "corr./flat",
         "extended",
         "navigator",
         "ext./nav.",
@@ -49,7 +49,7 @@ fn run() -> Result<usize, ReproductionError> {
     let worst = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
     println!("\n{} places; largest relative differences of velocity or attitude", rows.len());
     println!(
-        "  mended to flat integration   {:.1e}",
+        "  corrected to integrated flat {:.1e}",
         worst(&|row| row.corrected.relative_to(&row.flat))
     );
     println!("  flat integration to its form {:.1e}", worst(&|row| row.integration));

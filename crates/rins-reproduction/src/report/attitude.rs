@@ -7,7 +7,8 @@ use super::results::Results;
 use crate::printed;
 
 pub(super) fn section(results: &Results) -> String {
-    let mut out = String::from("## Table 4's attitudes: a read-out lag {#table-4-attitudes}\n\n");
+    let mut out =
+        String::from("## Table 4's attitudes: a read-out latency {#table-4-attitudes}\n\n");
     let best = &results.lags[0];
     let interval = results.simulation.scenario.interval;
     let _ = write!(
@@ -47,10 +48,10 @@ pub(super) fn section(results: &Results) -> String {
         ]);
     }
     out.push_str(&table.finish());
-    out.push_str("The lag does not depend much on what else is taken to be in the data:\n\n");
+    out.push_str("The latency depends little on the other errors in the data:\n\n");
     let mut table = Table::new(&[
         "in the data",
-        "rms without lag [°]>",
+        "rms without latency [°]>",
         "half a sample [°]>",
         "fitted [samples]>",
         "rms fitted [°]>",
@@ -70,8 +71,8 @@ pub(super) fn section(results: &Results) -> String {
         out,
         "> **Erratum.** Table 4's attitudes are not the errors of the navigation alone: a tenth of a degree about the spin \
          axis, in all of them, is half a sample of the table's turn. The residual 0.1° *after* compensation, which the \
-         paper shows as what its calibration leaves, is this lag and not the calibration.\n\n\
-         A lag in the *start* attitude would be another thing: it tilts the computed level, and half a sample of it would \
+         paper shows as what its calibration leaves, is this latency and not the calibration.\n\n\
+         A latency of the *start* attitude would be another effect: it tilts the computed level, and half a sample of it would \
          make {} m/s in 360 s. The velocities rule that out.\n\n",
         fixed(1e3 * 0.5 * interval * east.hypot(north), 1),
     );

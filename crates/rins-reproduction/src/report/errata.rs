@@ -69,12 +69,12 @@ fn computed(results: &Results) -> Vec<[String; 5]> {
             "Table 4, attitudes".into(),
             "0.03, −0.05, −0.09° after".into(),
             format!(
-                "{}° rms off, {}° with the lag",
+                "{}° rms off, {}° with the latency",
                 fixed(lag.none.root_mean_square(), 3),
                 fixed(lag.fitted.root_mean_square(), 4)
             ),
             format!("read out {} ms, half a sample, late", fixed(1e3 * lag.fitted.lag, 2)),
-            "[lag](#table-4-attitudes)".into(),
+            "[latency](#table-4-attitudes)".into(),
         ],
         [
             "Table 4 and text, velocities after".into(),
@@ -94,7 +94,7 @@ fn computed(results: &Results) -> Vec<[String; 5]> {
             "Figure 3: the covariance is the accuracy".into(),
             "–".into(),
             format!("errors {} times the 1σ", fixed(results.with_bias.overconfidence(0), 0)),
-            "the biases are no states, and nothing separates them".into(),
+            "the biases are no states and are not distinguishable".into(),
             "[coverage](#over-confidence)".into(),
         ],
     ];

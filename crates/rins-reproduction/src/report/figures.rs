@@ -249,10 +249,10 @@ fn mechanism() -> String {
                 series: vec![
                     series(Some("navigated"), Mark::Line, 0, navigated),
                     series(Some("(8), (9) printed"), Mark::Dash, 1, one_turn(Sign::Printed)),
-                    series(Some("sign mended"), Mark::Dash, 2, one_turn(Sign::Strapdown)),
+                    series(Some("sign corrected"), Mark::Dash, 2, one_turn(Sign::Strapdown)),
                 ],
             }
         })
         .collect();
-    svg("Eqs. (8) and (9) over one turn: printed, mended, and navigated", &panels)
+    svg("Eqs. (8) and (9) over one turn: printed, corrected, and navigated", &panels)
 }

@@ -83,7 +83,7 @@ fn table_3(results: &Results) -> String {
     out.push_str(
         "### Figure 3: covariance and convergence {#figure-3}\n\n\
          What the filter claims (line) and how far the runs' estimates really scatter about their mean (dashes) go \
-         together: the noise is modelled right. The covariance says nothing of what all runs have in common.\n\n\
+         together: the noise is modeled correctly. The covariance says nothing of what all runs have in common.\n\n\
          ![Claimed sigma and the spread of 30 runs against time, on one axis each](figures/figure-3.svg)\n\n\
          ### Figure 4: 30 estimates {#figure-4}\n\n\
          All runs converge within seconds, and to the wrong value: the dashes are the truth.\n\n\
@@ -97,13 +97,14 @@ fn honesty(results: &Results) -> String {
     let (with, without) = (&results.with_bias, &results.without_bias);
     let _ = write!(
         out,
-        "### How sure the filter may be {{#over-confidence}}\n\n\
-         With the biases in the data the errors are {}, {} and {} times the 1σ claimed. The normalised squared error of \
-         the three (NEES, which should be 3) is {}; without biases it is {}. A bias that is no state is a 1σ that means \
-         nothing.\n\n\
-         What mends it: the table below draws true errors and biases, and no other error, from the data sheet for each of {} runs of {} s, \
-         and counts how often a 95 % interval holds the truth. *With biases* is a filter that has three gyro biases \
-         more, written apart from the paper's (in φ rather than ψ); with biases known to be zero the two agree.\n\n",
+        "### Consistency of the covariance {{#over-confidence}}\n\n\
+         With the biases in the data the errors are {}, {} and {} times the 1σ claimed. The normalized estimation \
+         error squared of the three (NEES, which should be 3) is {}; without biases it is {}. Without bias states the \
+         covariance is not consistent.\n\n\
+         Bias states are the remedy. For the table below, true errors and biases, and no other error, are drawn from the data \
+         sheet for each of {} runs of {} s. It gives the coverage of the 95 % intervals. *With biases* is a filter with \
+         three gyro biases more, independent of that of the paper (in φ rather than ψ); with biases known to be zero the \
+         two agree.\n\n",
         fixed(with.overconfidence(0), 0),
         fixed(with.overconfidence(1), 0),
         fixed(with.overconfidence(2), 0),
@@ -118,7 +119,7 @@ fn honesty(results: &Results) -> String {
         "1σ claimed, $M_{xz}$ [″]>",
         "error, rms [″]>",
         "NEES / dof>",
-        "95 % intervals that hold>",
+        "coverage of 95 % intervals>",
         "",
     ]);
     for (model, schedule, honesty) in &results.honesty {
@@ -126,8 +127,8 @@ fn honesty(results: &Results) -> String {
         let highest = honesty.coverage.iter().copied().fold(0.0, f64::max);
         let narrow = honesty.claimed.x < 0.1 * rins_frames::units::ARCSEC;
         let verdict = match (lowest >= 0.92 && highest <= 0.98, narrow) {
-            (true, true) => "honest and sharp",
-            (true, false) => "honest, and blunt",
+            (true, true) => "consistent, small 1σ",
+            (true, false) => "consistent, large 1σ",
             (false, _) => "over-confident",
         };
         table.row(&[
@@ -146,9 +147,10 @@ fn honesty(results: &Results) -> String {
     }
     out.push_str(&table.finish());
     out.push_str(
-        "A bias state alone makes the filter honest, and forty times less sure. A second rate separates the two for a \
-         filter that has the bias, and misleads one that has not. A symmetric reversal cancels the bias in both: the \
-         paper's filter needs no state more, only half of its run the other way round.\n\n",
+        "Bias states alone make the filter consistent, with a 1σ that is forty times larger. A second \
+         rate distinguishes the biases from the three errors for a filter with bias states, and leads to \
+         wrong estimates without them. A symmetric reversal cancels the bias in both: the filter of the paper then needs no \
+         further state, only half of its run in the other direction of rotation.\n\n",
     );
     out
 }

@@ -14,7 +14,7 @@ pub(super) fn section(results: &Results) -> String {
     let _ = write!(
         out,
         "`cargo xtask verify` integrates numerically over {} places: times of 9, 36, 90 and 360 s, {} attitudes, {} rates. \
-         The strapdown result is *minus* the printed one in every term. With the sign mended the closed form is within {} % \
+         The strapdown result is *minus* the printed one in every term. With the sign corrected the closed form is within {} % \
          of a *flat* Earth that does not turn, integrated ($S_z\\omega t$, the second order, is up to {} %). The *extended* form, linear \
          on the round Earth and to second order on the flat one, is within {} % of the navigator. {} bounds are broken.\n\n\
          At roll 30°, pitch 20°, yaw 40° and 10 °/s, in m/s, with the ratios to the navigator:\n\n",
@@ -30,7 +30,7 @@ pub(super) fn section(results: &Results) -> String {
         "time [s]>",
         "",
         "printed>",
-        "mended>",
+        "corrected>",
         "flat>",
         "extended>",
         "navigator>",
@@ -55,7 +55,10 @@ pub(super) fn section(results: &Results) -> String {
         }
     }
     out.push_str(&table.finish());
-    out.push_str("![Velocity errors by eqs. (8) and (9) as printed, mended, and navigated](figures/mechanism.svg)\n\n");
+    out.push_str(
+        "![Velocity errors by eqs. (8) and (9) as printed, corrected, and \
+                  navigated](figures/mechanism.svg)\n\n",
+    );
     misprints(&mut out, results);
     out
 }
@@ -70,8 +73,13 @@ fn misprints(out: &mut String, results: &Results) {
         "## Equations misprinted {#misprints}\n\n\
          Each against an evaluation that uses neither form: quadrature, or differences of a navigator. *Off* is relative.\n\n",
     );
-    let mut table =
-        Table::new(&["equation", "what is wrong", "evaluated by", "printed off>", "mended off>"]);
+    let mut table = Table::new(&[
+        "equation",
+        "what is wrong",
+        "evaluated by",
+        "printed off>",
+        "corrected off>",
+    ]);
     let mut row = |equation: &str, wrong: &str, by: &str, check: &Check| {
         let percent = |off: f64| {
             let percent = 100.0 * off;

@@ -76,7 +76,7 @@ fn choices(out: &mut String, results: &Results) {
     let _ = write!(
         out,
         "### How far models of this run may differ {{#table-4-models}}\n\n\
-         A model written apart from the navigator, which integrates the differential equations, and what each choice \
+         A model independent of the navigator, which integrates the differential equations, and what each choice \
          that the paper leaves open is worth. For the three errors along the spin axis the navigator has {} m/s. A run's \
          noise spreads the two by {} and {} m/s. The (2.967, −17.431) m/s of another model, which the [theory \
          page](theory/error-mechanism.md#what-table-4-shows) quotes, is 0.004 m/s away in $V_x$: no choice of the \
@@ -100,8 +100,7 @@ fn choices(out: &mut String, results: &Results) {
 }
 
 pub(super) fn velocities(results: &Results) -> String {
-    let mut out =
-        String::from("## Table 4's velocities: what is not explained {#table-4-velocities}\n\n");
+    let mut out = String::from("## Table 4's velocities: not explained {#table-4-velocities}\n\n");
     let [before, table, text] = &results.velocities;
     let _ = write!(
         out,

@@ -37,7 +37,7 @@ Every table, figure and equation of [nie2019](references.md#nie2019), with its p
 `cargo xtask reproduce` runs all of it and writes this page; `cargo xtask reproduce --check` fails if the page and the
 code disagree. Runs are seeded, and the same whatever the number of threads.
 
-✔ comes out &nbsp; ± comes out once a sign, a term, a label or a lag is mended &nbsp; ✘ does not come out &nbsp;
+✔ comes out &nbsp; ± comes out once a sign, a term, a label or a latency is corrected &nbsp; ✘ does not come out &nbsp;
 ○ nothing to be tested
 
 ## At a glance {#at-a-glance}
@@ -105,7 +105,7 @@ fn filter_items(results: &Results) -> Vec<Item> {
                 fixed(results.with_bias.overconfidence(0), 0)
             ),
             "✘".into(),
-            "one rate cannot tell a bias; a reversal can".into(),
+            "one rate does not distinguish a bias; a reversal does".into(),
         ],
         row([
             "[Figure 4](#figure-4)",
@@ -140,7 +140,7 @@ fn navigation_items(results: &Results) -> Vec<Item> {
             "[Table 4](#table-4-attitudes), attitudes".into(),
             "0.03 to 0.09° left after".into(),
             format!(
-                "{}° rms off without, {}° with a lag",
+                "{}° rms off without, {}° with a latency",
                 fixed(lag.none.root_mean_square(), 3),
                 fixed(lag.fitted.root_mean_square(), 4)
             ),
@@ -316,7 +316,7 @@ fn equations() -> Vec<[String; 4]> {
             "at one rate they add next to nothing to (20)",
         ),
         ("(19)", "±", "[rate](theory/filter.md#measurements)", "[side and sign](#misprints)"),
-        ("(20)", "✔", "[rate](theory/filter.md#measurements)", "follows from the mended (19)"),
+        ("(20)", "✔", "[rate](theory/filter.md#measurements)", "follows from the corrected (19)"),
         ("(21)", "±", "[rate](theory/filter.md#measurements)", "[columns of δθ](#misprints)"),
         (
             "(A.1) to (A.4)",

@@ -1,4 +1,4 @@
-//! What accelerometers show of force beyond a constant scale error.
+//! Errors of the accelerometers that are not linear in the specific force.
 
 use nalgebra::Vector3;
 
@@ -7,19 +7,19 @@ use crate::signals::add_scaled;
 use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
-/// Accelerometers that see the square of force.
+/// Error proportional to the square of the specific force.
 pub static ACCEL_QUADRATIC: Term = Term {
     id: "accel_quadratic",
     also: &[],
     name: "quadratic accelerometer error, K2",
-    cause: "an accelerometer's response has an even part",
+    cause: "the response of an accelerometer has an even part",
     equation: "accel_i += K2_i f_i²",
     source: "titterton2004",
     parameters: &per_axis(Unit::MICRO_G_PER_G2, usual((5.0, 50.0), (5.0, 20.0), (50.0, 5000.0))),
     settings: &[],
     needs: &[Need::Tilt],
     partners: &["accel_asymmetry", "accel_lever_arm", "accel_cross_coupling", "accel.bias"],
-    told_apart_by: "tilt the axis by 45 deg and more",
+    told_apart_by: "tilt the spin axis by 45 deg and more",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
@@ -27,19 +27,19 @@ pub static ACCEL_QUADRATIC: Term = Term {
     }),
 };
 
-/// Accelerometers that see the cube of force.
+/// Error proportional to the cube of the specific force.
 pub static ACCEL_CUBIC: Term = Term {
     id: "accel_cubic",
     also: &[],
     name: "cubic accelerometer error, K3",
-    cause: "an accelerometer's scale factor grows with force",
+    cause: "the scale factor of an accelerometer increases with the specific force",
     equation: "accel_i += K3_i f_i³",
     source: "titterton2004",
     parameters: &per_axis(Unit::MICRO_G_PER_G3, usual((1.0, 20.0), (1.0, 10.0), (20.0, 2000.0))),
     settings: &[],
     needs: &[Need::Tilt],
     partners: &["accel.scale"],
-    told_apart_by: "tilt the axis by 45 to 90 deg",
+    told_apart_by: "tilt the spin axis by 45 to 90 deg",
     owner: Owner::Sensor,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
@@ -47,19 +47,19 @@ pub static ACCEL_CUBIC: Term = Term {
     }),
 };
 
-/// Accelerometers whose scale changes with the sign of force.
+/// Scale factor that depends on the sign of the specific force.
 pub static ACCEL_ASYMMETRY: Term = Term {
     id: "accel_asymmetry",
     also: &[],
-    name: "asymmetry of the accelerometer scale",
-    cause: "an accelerometer's scale factor differs between push and pull",
+    name: "asymmetry of the accelerometer scale factor",
+    cause: "the scale factor of an accelerometer differs between positive and negative specific force",
     equation: "accel_i += A_i |f_i|",
-    source: "the even part of a scale factor",
+    source: "even part of a scale factor",
     parameters: &per_axis(Unit::PPM, usual((5.0, 50.0), (1.0, 20.0), (20.0, 2000.0))),
     settings: &[],
     needs: &[Need::Tilt],
     partners: &["accel_quadratic", "accel.bias"],
-    told_apart_by: "rest every 45 deg of a tilted table; tilt the axis by 45 deg and more",
+    told_apart_by: "static intervals every 45 deg of a tilted table; tilt the spin axis by 45 deg and more",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
@@ -67,12 +67,12 @@ pub static ACCEL_ASYMMETRY: Term = Term {
     }),
 };
 
-/// Accelerometers that see products of forces along two axes.
+/// Error proportional to the product of the specific forces along two axes.
 pub static ACCEL_CROSS_COUPLING: Term = Term {
     id: "accel_cross_coupling",
     also: &[],
     name: "cross-coupling of the accelerometers",
-    cause: "force across an accelerometer's axis turns that axis; xy: accelerometer x, force along y",
+    cause: "specific force across the input axis of an accelerometer turns that axis; xy: accelerometer x, force along y",
     equation: "accel_i += K_ij f_i f_j, j ≠ i",
     source: "titterton2004",
     parameters: &named(
@@ -83,7 +83,7 @@ pub static ACCEL_CROSS_COUPLING: Term = Term {
     settings: &[],
     needs: &[Need::SeveralTilts],
     partners: &["accel_quadratic", "accel.scale", "accel.misalignment"],
-    told_apart_by: "tilt the axis otherwise",
+    told_apart_by: "tilt the spin axis to other angles",
     owner: Owner::Sensor,
     parity: Parity::LastAxis,
     action: Action::Signal(|p, _, moment, out| {

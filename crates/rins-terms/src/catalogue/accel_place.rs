@@ -1,4 +1,4 @@
-//! Accelerometers that do not sit on the axis of rotation.
+//! Accelerometers that are not on the spin axis.
 
 use nalgebra::Vector3;
 
@@ -7,7 +7,7 @@ use crate::moment::Moment;
 use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
-/// What is felt a metre off the axis along `place`, beyond what is felt on it \[1/s²\].
+/// Specific force one meter off the spin axis along `place`, minus that on the axis \[1/s²\].
 ///
 /// The centripetal, the tangential and the Coriolis acceleration. The Earth's own centripetal
 /// acceleration is part of gravity.
@@ -20,24 +20,24 @@ fn felt_at(moment: &Moment, place: &Vector3<f64>) -> Vector3<f64> {
         + earth.cross(&velocity) * 2.0
 }
 
-/// Where the accelerometers sit: the navigation-grade ones were brought to the axis, phones were not.
+/// Positions of the accelerometers: from navigation-grade IMUs centered on the axis to phones off the axis.
 const PLACES: Prior = usual((0.5, 300.0), (0.5, 300.0), (0.5, 300.0));
 
-/// All accelerometers at one place off the axis.
+/// All accelerometers at one position off the spin axis.
 ///
-/// A place along the axis makes no difference.
+/// A position along the axis has no effect.
 pub static ACCEL_LEVER_ARM: Term = Term {
     id: "accel_lever_arm",
     also: &[],
     name: "lever arm of the accelerometers",
-    cause: "the accelerometers sit off the axis of rotation, at r in body axes",
+    cause: "the accelerometers are off the spin axis, at the position r in the body frame",
     equation: "accel += ω×(ω×r) + ω'×r + 2 ω_ie×(ω×r), ω of the table",
-    source: "the kinematics of a rigid body; groves2013",
+    source: "kinematics of a rigid body; groves2013",
     parameters: &named(["r_x", "r_y"], Unit::MILLIMETRE, PLACES),
     settings: &[],
     needs: &[],
     partners: &["accel_size_effect", "accel.bias", "accel_vibration_rectification"],
-    told_apart_by: "turn at two rates; ramp hard; shift the IMU on the table",
+    told_apart_by: "rotate at two rates; change the rate quickly; move the IMU on the table",
     owner: Owner::Run,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
@@ -46,16 +46,16 @@ pub static ACCEL_LEVER_ARM: Term = Term {
     }),
 };
 
-/// Each accelerometer at a place of its own.
+/// Each accelerometer at its own position.
 ///
-/// Accelerometer z feels no more than the Coriolis acceleration, and has no place here.
+/// The effect on accelerometer z is only the Coriolis acceleration and is neglected.
 pub static ACCEL_SIZE_EFFECT: Term = Term {
     id: "accel_size_effect",
     also: &[],
     name: "size effect",
-    cause: "accelerometers x and y sit at two places; x_r_y: how far along y that of accelerometer x is",
+    cause: "accelerometers x and y are at different positions; x_r_y: y coordinate of accelerometer x",
     equation: "accel_i += [ω×(ω×r_i) + ω'×r_i + 2 ω_ie×(ω×r_i)]_i, i = x, y",
-    source: "the kinematics of a rigid body; groves2013",
+    source: "kinematics of a rigid body; groves2013",
     parameters: &named(
         ["x_r_x", "x_r_y", "y_r_x", "y_r_y"],
         Unit::MILLIMETRE,
@@ -64,7 +64,7 @@ pub static ACCEL_SIZE_EFFECT: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["accel_lever_arm", "accel.bias"],
-    told_apart_by: "ramps, which both axes must feel alike if there is one place; two rates",
+    told_apart_by: "ramps of the rate: both axes have the same lever arm if the position is the same; two rates",
     owner: Owner::Sensor,
     parity: Parity::LastAxis,
     action: Action::Signal(|p, _, moment, out| {

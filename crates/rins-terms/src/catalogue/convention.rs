@@ -1,4 +1,4 @@
-//! A log that means something else than was said of it: units, axes, the table's sense.
+//! Gross errors of a log or a rig file: units, axes, direction of rotation.
 
 use nalgebra::Vector3;
 use rins_frames::{Body, InFrame};
@@ -8,14 +8,14 @@ use crate::setting::{Setting, SettingKind};
 use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
-/// Degrees that are radians, and the like.
+/// Wrong units, such as degrees instead of radians.
 pub static UNIT_ERROR: Term = Term {
     id: "unit_error",
     also: &[],
     name: "wrong unit",
-    cause: "a log was read in another unit than it was written in; the factor zero stands for none",
+    cause: "the unit of a column differs from the unit in the rig file; a factor of zero means none",
     equation: "gyro, accel, angle = factor · true",
-    source: "degrees for radians 57.3, hours for seconds 3600, g for m/s² 9.81",
+    source: "degrees instead of radians 57.3, hours instead of seconds 3600, g instead of m/s² 9.81",
     parameters: &[
         parameter("gyro", Unit::ONE, Prior::Anywhere(0.0175, 57.3)),
         parameter("accel", Unit::ONE, Prior::Anywhere(0.102, 9.81)),
@@ -24,7 +24,7 @@ pub static UNIT_ERROR: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro.scale", "accel.scale"],
-    told_apart_by: "gravity at rest, and the gyros against the table: factors of 57, 3600 or 9.8 name themselves",
+    told_apart_by: "gravity in static intervals, and the gyros against the table: factors of 57, 3600 or 9.8",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
@@ -39,12 +39,12 @@ pub static UNIT_ERROR: Term = Term {
     }),
 };
 
-/// Axes that are others than was said.
+/// Axes that differ from those of the rig file.
 pub static AXIS_CONVENTION: Term = Term {
     id: "axis_convention",
     also: &[],
     name: "wrong axes",
-    cause: "a log's axes were taken for others: x = -2 says that what is read as x is minus what happens along y",
+    cause: "the axes of the log are exchanged or reversed: x = -2 means that the reading x is minus the true y",
     equation: "read_i = sgn(a_i) true_|a_i|, a_i among ±1, ±2, ±3; 0 leaves i as it is",
     source: "signed permutations of three axes",
     parameters: &[
@@ -55,14 +55,14 @@ pub static AXIS_CONVENTION: Term = Term {
     settings: &[Setting {
         kind: SettingKind::Triads,
         name: "sensors",
-        meaning: "0: both triads; 1: gyros; 2: accelerometers",
+        meaning: "triads with wrong axes: 0 both, 1 gyros, 2 accelerometers",
         unit: Unit::ONE,
         default: 0.0,
         within: (0.0, 2.0),
     }],
     needs: &[],
     partners: &["table_sense", "mounting"],
-    told_apart_by: "a regression of both triads on gravity and the table's rate",
+    told_apart_by: "regression of both triads on gravity and the table rate",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Log(|p, settings, _, recording| {
@@ -89,19 +89,19 @@ pub static AXIS_CONVENTION: Term = Term {
     }),
 };
 
-/// A table that turns the other way than was said.
+/// Direction of rotation opposite to that of the log.
 pub static TABLE_SENSE: Term = Term {
     id: "table_sense",
     also: &[],
-    name: "wrong sense of the table",
-    cause: "the table's angle or rate counts the other way; 1 says that it does, 0 that it does not",
+    name: "wrong direction of rotation",
+    cause: "the table angle or rate has the wrong sign; 1 if it has, 0 if not",
     equation: "angle = -ζ, rate = -ω",
-    source: "the two senses of an axis",
+    source: "two directions of rotation",
     parameters: &[parameter("reversed", Unit::ONE, Prior::Anywhere(1.0, 1.0))],
     settings: &[],
     needs: &[],
     partners: &["axis_convention"],
-    told_apart_by: "gyro z and gravity against the table's angle",
+    told_apart_by: "gyro z and gravity against the table angle",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {

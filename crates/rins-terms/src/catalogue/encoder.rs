@@ -1,4 +1,4 @@
-//! What an encoder reads wrong.
+//! Errors of the encoder.
 
 use crate::catalogue::parameters::{TIME, cos_sin, parameter};
 use crate::setting::{Setting, SettingKind};
@@ -6,19 +6,19 @@ use crate::term::{Action, Need, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
-/// A disc that is off centre.
+/// Eccentric disc.
 pub static ENCODER_ECCENTRICITY: Term = Term {
     id: "encoder_eccentricity",
     also: &[],
     name: "eccentricity of the encoder",
-    cause: "the encoder's disc is off centre: 412 arcsec for a micrometre a millimetre",
+    cause: "the disc of the encoder is eccentric: 412 arcsec per micrometer of eccentricity at a radius of 1 mm",
     equation: "angle += c cos ζ + s sin ζ",
-    source: "the geometry of one reading head",
+    source: "geometry of one reading head",
     parameters: &cos_sin(Unit::ARCSEC, Prior::Anywhere(0.5, 100.0)),
     settings: &[],
     needs: &[Need::TableAngle],
     partners: &["gyro_g_sensitivity", "gyro.misalignment", "gyro_magnetic"],
-    told_apart_by: "turn the table both ways",
+    told_apart_by: "rotate in both directions",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
@@ -27,26 +27,26 @@ pub static ENCODER_ECCENTRICITY: Term = Term {
     }),
 };
 
-/// Graduation and interpolation that repeat several times a turn.
+/// Errors of graduation and interpolation that repeat several times per revolution.
 pub static ENCODER_HARMONIC: Term = Term {
     id: "encoder_harmonic",
     also: &[],
     name: "harmonic of the encoder",
-    cause: "an oval disc, an error of graduation, interpolation between two lines",
+    cause: "an oval disc, errors of graduation, interpolation between two graduation lines",
     equation: "angle += c cos nζ + s sin nζ",
-    source: "the Fourier series of an encoder's error",
+    source: "Fourier series of the error of an encoder",
     parameters: &cos_sin(Unit::ARCSEC, Prior::Anywhere(0.1, 10.0)),
     settings: &[Setting {
         kind: SettingKind::Order,
         name: "order",
-        meaning: "how often a turn it repeats",
+        meaning: "harmonic order: periods per revolution",
         unit: Unit::ONE,
         default: 2.0,
         within: (2.0, 1e6),
     }],
     needs: &[Need::TableAngle],
     partners: &["gyro_g2_sensitivity", "interference_line"],
-    told_apart_by: "turn the table both ways, and at two rates",
+    told_apart_by: "rotate in both directions, and at two rates",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
@@ -55,37 +55,37 @@ pub static ENCODER_HARMONIC: Term = Term {
     }),
 };
 
-/// A coupling that gives way.
+/// Play of a coupling.
 pub static ENCODER_BACKLASH: Term = Term {
     id: "encoder_backlash",
     also: &[],
     name: "backlash of the encoder",
-    cause: "play or wind-up of the encoder's coupling; before the table ever turned there is none",
+    cause: "play or wind-up of the coupling of the encoder; zero before the first rotation",
     equation: "angle += β sgn(last ω)",
-    source: "the definition of play, half of it either way",
+    source: "definition of play: half of it to either side",
     parameters: &[parameter("angle", Unit::ARCSEC, Prior::Anywhere(1.0, 60.0))],
     settings: &[],
     needs: &[Need::TableAngle, Need::Reversal],
     partners: &["encoder_latency", "encoder_slip"],
-    told_apart_by: "turn both ways at two rates",
+    told_apart_by: "rotate in both directions at two rates",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.angle += p[0] * moment.end.sense),
 };
 
-/// An encoder that slips or loses count.
+/// Slip of the encoder, or lost counts.
 pub static ENCODER_SLIP: Term = Term {
     id: "encoder_slip",
     also: &[],
     name: "slip of the encoder",
-    cause: "the encoder slips on its shaft, or loses count",
+    cause: "the encoder slips on its shaft, or loses counts",
     equation: "angle += s H(t - t0)",
-    source: "a step in time",
+    source: "step in time",
     parameters: &[parameter("angle", Unit::ARCSEC, Prior::Anywhere(1.0, 3600.0))],
     settings: &[TIME],
     needs: &[Need::TableAngle],
     partners: &["dropped_samples", "encoder_backlash"],
-    told_apart_by: "turn the other way, or at another rate, after it happened",
+    told_apart_by: "rotate in the other direction, or at another rate, after the event",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {

@@ -1,4 +1,4 @@
-//! A base that does not stand still.
+//! Base motion: tilt, sway, rotation.
 
 use crate::catalogue::parameters::{DURATION, FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
@@ -6,37 +6,37 @@ use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
-/// A base that settles.
+/// Tilt ramp of the base.
 pub static BASE_TILT_RAMP: Term = Term {
     id: "base_tilt_ramp",
     also: &[],
-    name: "base that settles",
-    cause: "the slab under the table settles, or the sun warms one side of the pier",
+    name: "tilt ramp of the base",
+    cause: "the slab under the table settles, or the sun heats one side of the pier",
     equation: "(θ_x, θ_y) = p t",
-    source: "the first term of a slow tilt's series",
+    source: "first term of the series of a slow tilt",
     parameters: &named(["x", "y"], Unit::ARCSEC_PER_HOUR, Prior::Anywhere(0.1, 60.0)),
     settings: &[],
     needs: &[],
     partners: &["cable_torque_tilt", "clock_drift", "base_rotation", "accel_bias_ramp"],
-    told_apart_by: "turn the table both ways",
+    told_apart_by: "rotate in both directions",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.tilt, p, moment.end.time)),
 };
 
-/// A base that is pushed.
+/// Tilt step of the base.
 pub static BASE_TILT_STEP: Term = Term {
     id: "base_tilt_step",
     also: &[],
-    name: "base that gives way",
-    cause: "somebody steps on the slab, or a foot of the table slips",
-    equation: "θ = p H(t - t0), evenly over some time about t0, about the axis too if that is not upright",
-    source: "a step in time",
+    name: "tilt step of the base",
+    cause: "a person steps on the slab, or a foot of the table slips",
+    equation: "θ = p H(t - t0), linear over the duration around t0; z if the spin axis is not vertical",
+    source: "step in time",
     parameters: &named(["x", "y", "z"], Unit::ARCSEC, Prior::Anywhere(0.5, 60.0)),
     settings: &[TIME, DURATION],
     needs: &[],
     partners: &["accel_bias_step", "gyro_bias_step"],
-    told_apart_by: "it shows in gyros and accelerometers at once",
+    told_apart_by: "it affects gyros and accelerometers at the same time",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
@@ -52,13 +52,13 @@ pub static BASE_TILT_STEP: Term = Term {
     }),
 };
 
-/// A base that sways.
+/// Sway of the base.
 pub static BASE_SWAY: Term = Term {
     id: "base_sway",
     also: &[],
     name: "sway of the base",
-    cause: "a building, a pier or a chair rocks at a frequency of its own",
-    equation: "θ = c cos 2πft + s sin 2πft, about the axis too if that is not upright",
+    cause: "a building, a pier or a support oscillates at its natural frequency",
+    equation: "θ = c cos 2πft + s sin 2πft; z if the spin axis is not vertical",
     source: "one mode of a structure",
     parameters: &named(
         ["x_cos", "x_sin", "y_cos", "y_sin", "z_cos", "z_sin"],
@@ -68,7 +68,7 @@ pub static BASE_SWAY: Term = Term {
     settings: &[FREQUENCY],
     needs: &[],
     partners: &["interference_line", "table_wobble"],
-    told_apart_by: "turn at another rate: it keeps its frequency, and shows in gyros and accelerometers at once",
+    told_apart_by: "rotate at another rate: the frequency stays the same, in gyros and accelerometers at the same time",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
@@ -79,15 +79,15 @@ pub static BASE_SWAY: Term = Term {
     }),
 };
 
-/// A base that turns.
+/// Rotation of the base.
 pub static BASE_ROTATION: Term = Term {
     id: "base_rotation",
     also: &[],
-    name: "base that turns",
-    cause: "what the table stands on turns about the vertical at a constant rate",
+    name: "rotation of the base",
+    cause: "the base rotates about the vertical at a constant rate",
     equation: "θ = p t u, u the vertical in the axis frame",
-    source: "the definition of a constant rate",
-    // Small units are turned on chairs and on vehicles, too.
+    source: "definition of a constant rate",
+    // Small IMUs are also rotated on chairs and vehicles.
     parameters: &[parameter(
         "up",
         Unit::DEG_PER_HOUR,
@@ -96,7 +96,7 @@ pub static BASE_ROTATION: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro.bias", "base_tilt_ramp", "wrong_latitude"],
-    told_apart_by: "turn a tilted table: the rate stays with the base, a bias with the body",
+    told_apart_by: "rotate a tilted table: the rate is constant relative to the base, a bias in the body frame",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {

@@ -1,4 +1,4 @@
-//! Gyro biases that do not stay what they were: with time, temperature and the table's rate.
+//! Changes of the gyro biases: with time, temperature and the table rate.
 
 use crate::catalogue::parameters::{
     REFERENCE_TEMPERATURE, TIME, TIME_CONSTANT, named, per_axis, usual,
@@ -8,19 +8,19 @@ use crate::signals::add_constant;
 use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
-/// Gyro biases that jump.
+/// Step of the gyro biases.
 pub static GYRO_BIAS_STEP: Term = Term {
     id: "gyro_bias_step",
     also: &[],
     name: "gyro bias step",
-    cause: "a gyro's bias jumps: a mode hop, a change of polarisation, stress let go in a package",
+    cause: "the bias of a gyro changes suddenly: a mode hop, a change of polarization, released stress in a package",
     equation: "gyro += b H(t - t0)",
-    source: "the mean over a sample of a step in time",
+    source: "mean of a step over one sample",
     parameters: &per_axis(Unit::DEG_PER_HOUR, usual((0.005, 0.5), (0.002, 0.05), (0.5, 50.0))),
     settings: &[TIME],
     needs: &[],
     partners: &["base_tilt_ramp", "gyro_bias_instability", "gyro_warmup"],
-    told_apart_by: "repeat the run: a step of the sensor comes at another time or not at all",
+    told_apart_by: "repeat the run: a step of the sensor occurs at another time or not at all",
     owner: Owner::Run,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
@@ -28,14 +28,14 @@ pub static GYRO_BIAS_STEP: Term = Term {
     }),
 };
 
-/// Gyro biases that drift.
+/// Ramp of the gyro biases.
 pub static GYRO_BIAS_RAMP: Term = Term {
     id: "gyro_bias_ramp",
     also: &[],
     name: "gyro bias ramp",
-    cause: "a gyro's bias drifts at a constant rate: ageing, or the start of something slow",
+    cause: "the bias of a gyro changes at a constant rate: aging, or a transient that is long against the run",
     equation: "gyro += b' t",
-    source: "the first term of a slow drift's series",
+    source: "first term of the series of a slow drift",
     parameters: &per_axis(
         Unit::DEG_PER_HOUR_PER_HOUR,
         usual((0.001, 0.05), (1e-4, 0.001), (1.0, 10.0)),
@@ -43,25 +43,25 @@ pub static GYRO_BIAS_RAMP: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro_scale_ramp", "gyro_thermal_bias", "gyro_warmup", "gyro_rate_random_walk"],
-    told_apart_by: "turn the table both ways; run for longer; vary the temperature up and down",
+    told_apart_by: "rotate in both directions; extend the run; raise and lower the temperature",
     owner: Owner::Run,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.gyro, p, moment.mean.time)),
 };
 
-/// Gyro biases that settle after turn-on.
+/// Exponential transient of the gyro biases after turn-on.
 pub static GYRO_WARMUP: Term = Term {
     id: "gyro_warmup",
     also: &[],
     name: "warm-up of the gyros",
-    cause: "a gyro's bias settles after it was turned on",
+    cause: "the bias of a gyro has an exponential transient after turn-on",
     equation: "gyro += b exp(-t/τ)",
-    source: "one time constant of a warm-up",
+    source: "transient with one time constant",
     parameters: &per_axis(Unit::DEG_PER_HOUR, usual((0.05, 2.0), (0.01, 0.2), (1.0, 50.0))),
     settings: &[TIME_CONSTANT],
     needs: &[],
     partners: &["gyro_thermal_bias", "gyro_shupe", "gyro_bias_ramp"],
-    told_apart_by: "repeat the run warm, then cold",
+    told_apart_by: "repeat the run with a warm IMU, then with a cold one",
     owner: Owner::Run,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
@@ -69,14 +69,14 @@ pub static GYRO_WARMUP: Term = Term {
     }),
 };
 
-/// Gyro biases that follow the temperature.
+/// Temperature dependence of the gyro biases.
 pub static GYRO_THERMAL_BIAS: Term = Term {
     id: "gyro_thermal_bias",
     also: &[],
     name: "temperature coefficient of the gyro bias",
-    cause: "a gyro's bias depends on its temperature",
+    cause: "the bias of a gyro depends on its temperature",
     equation: "gyro += k (T - T_ref)",
-    source: "the first term of a bias's series in temperature",
+    source: "first term of the series of the bias in temperature",
     parameters: &per_axis(
         Unit::DEG_PER_HOUR_PER_KELVIN,
         usual((0.005, 0.1), (5e-4, 0.01), (0.3, 30.0)),
@@ -84,7 +84,7 @@ pub static GYRO_THERMAL_BIAS: Term = Term {
     settings: &[REFERENCE_TEMPERATURE],
     needs: &[Need::Temperature],
     partners: &["gyro_bias_ramp", "gyro_warmup", "gyro_thermal_scale"],
-    told_apart_by: "vary the temperature up and down, and turn the table both ways",
+    told_apart_by: "raise and lower the temperature, and rotate in both directions",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
@@ -92,14 +92,14 @@ pub static GYRO_THERMAL_BIAS: Term = Term {
     }),
 };
 
-/// Gyro biases that follow the change of temperature.
+/// Dependence of the gyro biases on the rate of change of the temperature.
 pub static GYRO_SHUPE: Term = Term {
     id: "gyro_shupe",
     also: &[],
     name: "Shupe effect",
-    cause: "a change of temperature runs through a fibre coil, or a gradient through a package",
+    cause: "the temperature of a fiber coil changes, or a package has a temperature gradient",
     equation: "gyro += k dT/dt",
-    source: "the effect's first order, D. M. Shupe, Applied Optics 19(5), 1980",
+    source: "first order of the effect, D. M. Shupe, Applied Optics 19(5), 1980",
     parameters: &per_axis(
         Unit::DEG_PER_HOUR_PER_KELVIN_PER_MINUTE,
         usual((0.05, 2.0), (0.005, 0.05), (0.1, 5.0)),
@@ -107,7 +107,7 @@ pub static GYRO_SHUPE: Term = Term {
     settings: &[],
     needs: &[Need::Temperature],
     partners: &["gyro_warmup", "gyro_thermal_bias"],
-    told_apart_by: "heat in steps: it is gone when the temperature holds",
+    told_apart_by: "heat in steps: it vanishes at constant temperature",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
@@ -115,16 +115,16 @@ pub static GYRO_SHUPE: Term = Term {
     }),
 };
 
-/// Gyro biases that come with the table's rate, whichever way it turns.
+/// Dependence of the gyro biases on the magnitude of the table rate.
 ///
-/// What gyro z shows in proportion to `|ω|` is `gyro_scale_asymmetry`.
+/// The part of gyro z that is proportional to `|ω|` is `gyro_scale_asymmetry`.
 pub static GYRO_RATE_DEPENDENT_BIAS: Term = Term {
     id: "gyro_rate_dependent_bias",
     also: &[],
-    name: "gyro bias that depends on the rate",
-    cause: "vibration of a turning table, rectified, or the heat of its motor",
+    name: "rate-dependent gyro bias",
+    cause: "rectified vibration of a rotating table, or heat of its motor",
     equation: "gyro += c ω² + d |ω|, ω of the table, d for x and y",
-    source: "the even terms of a series in the table's rate",
+    source: "even terms of the series in the table rate",
     parameters: &{
         let [x, y, z] = named(
             ["square_x", "square_y", "square_z"],
@@ -141,7 +141,7 @@ pub static GYRO_RATE_DEPENDENT_BIAS: Term = Term {
     settings: &[],
     needs: &[Need::SeveralRates],
     partners: &["gyro_scale_asymmetry", "gyro.bias", "gyro.misalignment"],
-    told_apart_by: "turn at three rates of both signs, with rests",
+    told_apart_by: "rotate in both directions at three rates, with static intervals",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
@@ -151,13 +151,13 @@ pub static GYRO_RATE_DEPENDENT_BIAS: Term = Term {
     }),
 };
 
-/// Gyro biases that a heat source beside the table makes.
+/// Gyro biases that result from a heat source beside the table.
 pub static THERMAL_ONE_PER_TURN: Term = Term {
     id: "thermal_one_per_turn",
     also: &[],
-    name: "heat from one side",
-    cause: "a source of heat beside the table warms the gyros once a turn; they follow it slowly",
-    equation: "gyro += (c cos ζ + s sin ζ) behind a low-pass 1/(1 + τ d/dt), settled at the start",
+    name: "heating from one side",
+    cause: "a heat source beside the table heats the gyros once per revolution, with a time constant",
+    equation: "gyro += (c cos ζ + s sin ζ) after a low-pass 1/(1 + τ d/dt), in steady state at the start",
     source: "one thermal time constant",
     parameters: &named(
         ["x_cos", "x_sin", "y_cos", "y_sin", "z_cos", "z_sin"],
@@ -167,7 +167,7 @@ pub static THERMAL_ONE_PER_TURN: Term = Term {
     settings: &[Setting { default: 10.0, ..TIME_CONSTANT }],
     needs: &[Need::SeveralRates],
     partners: &["gyro_g_sensitivity", "gyro_magnetic", "gyro_warmup"],
-    told_apart_by: "turn at two rates: gravity and the field do not fade with the rate",
+    told_apart_by: "rotate at two rates: the effects of gravity and the magnetic field do not decrease with the rate",
     owner: Owner::Run,
     parity: Parity::Tensor,
     action: Action::Following(|p, followed, out| {

@@ -1,4 +1,4 @@
-//! What gyros show of forces and of the magnetic field.
+//! Sensitivity of the gyros to specific force and to the magnetic field.
 
 use num_dual::Dual64;
 
@@ -7,12 +7,12 @@ use crate::signals::add_matrix;
 use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
-/// Gyros that see force.
+/// Sensitivity to the specific force.
 pub static GYRO_G_SENSITIVITY: Term = Term {
     id: "gyro_g_sensitivity",
     also: &[],
     name: "g-sensitivity of the gyros",
-    cause: "mass unbalance, or stress in a coil; zx: what gyro z shows of a force along x",
+    cause: "mass unbalance, or stress in a coil; zx: error of gyro z by specific force along x",
     equation: "gyro += G f",
     source: "titterton2004",
     parameters: &matrix(Unit::DEG_PER_HOUR_PER_G, usual((0.001, 0.1), (5e-4, 0.01), (1.0, 100.0))),
@@ -25,18 +25,18 @@ pub static GYRO_G_SENSITIVITY: Term = Term {
         "encoder_eccentricity",
         "table_wobble",
     ],
-    told_apart_by: "turn the table both ways; tilt the axis otherwise; for the field, a third direction",
+    told_apart_by: "rotate in both directions; tilt the spin axis to other angles; for the field, a third one",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_matrix(&mut out.gyro, p, &moment.force)),
 };
 
-/// Gyros that see products of forces.
+/// Sensitivity to products of specific forces.
 pub static GYRO_G2_SENSITIVITY: Term = Term {
     id: "gyro_g2_sensitivity",
     also: &[],
     name: "g²-sensitivity of the gyros",
-    cause: "unequal stiffness along two axes; x_yz: what gyro x shows of force along y times force along z",
+    cause: "unequal stiffness along two axes; x_yz: error of gyro x by force along y times force along z",
     equation: "gyro_i += Σ H_i,jk f_j f_k, j ≤ k",
     source: "titterton2004",
     parameters: &named(
@@ -50,7 +50,7 @@ pub static GYRO_G2_SENSITIVITY: Term = Term {
     settings: &[],
     needs: &[Need::SeveralTilts],
     partners: &["table_wobble", "encoder_harmonic", "gyro_g_sensitivity"],
-    told_apart_by: "turn the table both ways; tilt the axis otherwise",
+    told_apart_by: "rotate in both directions; tilt the spin axis to other angles",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
@@ -63,12 +63,12 @@ pub static GYRO_G2_SENSITIVITY: Term = Term {
     }),
 };
 
-/// Gyros that see the magnetic field.
+/// Sensitivity to the magnetic field.
 pub static GYRO_MAGNETIC: Term = Term {
     id: "gyro_magnetic",
     also: &[],
     name: "magnetic sensitivity of the gyros",
-    cause: "the Faraday effect in a twisted fibre, or a field in a discharge; zx: what gyro z shows of a field along x",
+    cause: "Faraday effect in a twisted fiber, or in a gas discharge; zx: error of gyro z by a field along x",
     equation: "gyro += K B",
     source: "linear in the flux density",
     parameters: &matrix(
@@ -78,7 +78,7 @@ pub static GYRO_MAGNETIC: Term = Term {
     settings: &[],
     needs: &[Need::MagneticField],
     partners: &["gyro_g_sensitivity", "wrong_latitude", "gyro.scale", "accel_latency"],
-    told_apart_by: "three directions of the axis, or a magnet, or a shield",
+    told_apart_by: "three directions of the spin axis, or a magnet, or a magnetic shield",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {

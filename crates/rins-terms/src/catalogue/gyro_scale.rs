@@ -1,6 +1,6 @@
-//! What gyro z shows of the table's rate beyond a constant scale error, and what gyros show of a slow rate.
+//! Errors of the scale factor of gyro z that are not constant, and errors of the gyros at low rates.
 //!
-//! Only gyro z has scale effects of second order: x and y see no more than the Earth's rate.
+//! Only gyro z has these errors of the scale factor: gyros x and y measure only the Earth's rate.
 
 use num_dual::Dual64;
 
@@ -9,32 +9,32 @@ use crate::setting::{Setting, SettingKind};
 use crate::term::{Action, Need, Owner, Parity, Term};
 use crate::unit::Unit;
 
-/// A scale error that changes sign with the rate.
+/// Scale error that changes its sign with the rate.
 pub static GYRO_SCALE_ASYMMETRY: Term = Term {
     id: "gyro_scale_asymmetry",
     also: &[],
-    name: "asymmetry of the gyro scale",
-    cause: "a gyro's scale factor differs between the two senses of rotation",
+    name: "asymmetry of the gyro scale factor",
+    cause: "the scale factor of a gyro differs between the two directions of rotation",
     equation: "gyro_z += A |ω_z|",
-    source: "the even part of a scale factor; ieee952",
+    source: "even part of a scale factor; ieee952",
     parameters: &[parameter("z", Unit::PPM, usual((1.0, 50.0), (0.1, 1.0), (10.0, 500.0)))],
     settings: &[],
     needs: &[Need::Reversal, Need::SeveralRates],
     partners: &["gyro.bias", "encoder_latency", "gyro_rate_dependent_bias", "gyro_hysteresis"],
-    told_apart_by: "turn both ways at three rates, with rests",
+    told_apart_by: "rotate in both directions at three rates, with static intervals",
     owner: Owner::Sensor,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.rate.z.abs()),
 };
 
-/// A scale error that grows with the rate.
+/// Scale error that increases with the rate.
 pub static GYRO_SCALE_NONLINEARITY: Term = Term {
     id: "gyro_scale_nonlinearity",
     also: &[],
-    name: "nonlinearity of the gyro scale",
-    cause: "a gyro's scale factor depends on the rate",
+    name: "nonlinearity of the gyro scale factor",
+    cause: "the scale factor of a gyro depends on the rate",
     equation: "gyro_z += k2 ω_z |ω_z| + k3 ω_z³",
-    source: "the odd terms of a scale factor's series in the rate; ieee952",
+    source: "odd terms of the series of the scale factor in the rate; ieee952",
     parameters: &[
         parameter(
             "k2_z",
@@ -50,7 +50,7 @@ pub static GYRO_SCALE_NONLINEARITY: Term = Term {
     settings: &[],
     needs: &[Need::SeveralRates],
     partners: &["gyro.scale"],
-    told_apart_by: "turn at four rates, the largest ten times the smallest",
+    told_apart_by: "rotate at four rates, the highest ten times the lowest",
     owner: Owner::Sensor,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
@@ -59,14 +59,14 @@ pub static GYRO_SCALE_NONLINEARITY: Term = Term {
     }),
 };
 
-/// A scale error that follows the temperature.
+/// Temperature dependence of the scale error.
 pub static GYRO_THERMAL_SCALE: Term = Term {
     id: "gyro_thermal_scale",
     also: &[],
-    name: "temperature coefficient of the gyro scale",
-    cause: "a gyro's scale factor depends on its temperature",
+    name: "temperature coefficient of the gyro scale factor",
+    cause: "the scale factor of a gyro depends on its temperature",
     equation: "gyro_z += k (T - T_ref) ω_z",
-    source: "the first term of a scale factor's series in temperature",
+    source: "first term of the series of the scale factor in temperature",
     parameters: &[parameter(
         "z",
         Unit::PPM_PER_KELVIN,
@@ -75,7 +75,7 @@ pub static GYRO_THERMAL_SCALE: Term = Term {
     settings: &[REFERENCE_TEMPERATURE],
     needs: &[Need::Temperature, Need::Reversal],
     partners: &["gyro_thermal_bias", "gyro_scale_ramp"],
-    told_apart_by: "turn both ways while the temperature changes",
+    told_apart_by: "rotate in both directions while the temperature changes",
     owner: Owner::Sensor,
     parity: Parity::Even,
     action: Action::Signal(|p, settings, moment, out| {
@@ -83,14 +83,14 @@ pub static GYRO_THERMAL_SCALE: Term = Term {
     }),
 };
 
-/// A scale error that drifts.
+/// Ramp of the scale error.
 pub static GYRO_SCALE_RAMP: Term = Term {
     id: "gyro_scale_ramp",
     also: &[],
-    name: "gyro scale ramp",
-    cause: "a gyro's scale factor drifts at a constant rate",
+    name: "ramp of the gyro scale factor",
+    cause: "the scale factor of a gyro changes at a constant rate",
     equation: "gyro_z += S' t ω_z",
-    source: "the first term of a slow drift's series",
+    source: "first term of the series of a slow drift",
     parameters: &[parameter(
         "z",
         Unit::PPM_PER_HOUR,
@@ -99,7 +99,7 @@ pub static GYRO_SCALE_RAMP: Term = Term {
     settings: &[],
     needs: &[Need::Reversal],
     partners: &["gyro_bias_ramp", "gyro_thermal_scale", "clock_drift"],
-    told_apart_by: "turn the table both ways",
+    told_apart_by: "rotate in both directions",
     owner: Owner::Run,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
@@ -107,12 +107,12 @@ pub static GYRO_SCALE_RAMP: Term = Term {
     }),
 };
 
-/// A gyro that remembers how its rate last changed.
+/// Dependence on the direction of the last change of the rate.
 pub static GYRO_HYSTERESIS: Term = Term {
     id: "gyro_hysteresis",
     also: &[],
     name: "gyro hysteresis",
-    cause: "a gyro shows one rate after a rise and another after a fall",
+    cause: "the reading of a gyro depends on whether the rate last increased or decreased",
     equation: "gyro_z += h sgn(last dω), 0 before the first change",
     source: "ieee952",
     parameters: &[parameter(
@@ -123,38 +123,38 @@ pub static GYRO_HYSTERESIS: Term = Term {
     settings: &[],
     needs: &[Need::SeveralRates],
     partners: &["gyro_scale_asymmetry", "gyro_bias_step"],
-    told_apart_by: "go up and down a ladder of rates",
+    told_apart_by: "increase the rate in steps, then decrease it in the same steps",
     owner: Owner::Sensor,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.mean.rate_change),
 };
 
-/// Gyros that do not see a slow rate.
+/// Zero reading at low rates.
 ///
-/// What is slow is the rate about a gyro's own axis: 100 arcsec of misalignment see 17 deg/h of a table that turns at
-/// 10 deg/s, more than the 12 deg/h that the Earth's rate has for x and y. A zone that is a processor's, before it resolves
-/// readings along the body's axes, is about these.
+/// The rate is that about the input axis of a gyro: with a misalignment of 100 arcsec, a gyro measures 17 deg/h of a table
+/// rate of 10 deg/s, more than the component of the Earth's rate of up to 12 deg/h in x and y. For a dead zone in the
+/// processor, after the readings are resolved along the body axes, the rates are those about the body axes.
 ///
-/// The derivative by a width of zero is zero: linearise at a width that is not.
+/// The derivative with respect to a width of zero is zero: linearize at another width.
 pub static GYRO_DEAD_ZONE: Term = Term {
     id: "gyro_dead_zone",
     also: &[],
     name: "gyro dead zone",
-    cause: "backscatter locks a laser gyro in, or a closed loop has a dead band",
-    equation: "|ω| ≤ d: gyro -= ω; else gyro += sgn(ω) (√(ω² - d²) - |ω|), ω about the gyro's own axis",
-    source: "the lock-in equation, titterton2004",
+    cause: "lock-in of a laser gyro by backscatter, or a dead band of a closed loop",
+    equation: "|ω| ≤ d: gyro -= ω; else gyro += sgn(ω) (√(ω² - d²) - |ω|), ω about the input axis of the gyro",
+    source: "lock-in equation, titterton2004",
     parameters: &per_axis(Unit::DEG_PER_HOUR, usual((0.01, 0.5), (0.001, 0.05), (0.1, 20.0))),
     settings: &[Setting {
         kind: SettingKind::RateAxes,
         name: "axes",
-        meaning: "about which axes the rate is: 0 the gyros' own, 1 the body's",
+        meaning: "axes of the rate ω: 0 input axes of the gyros, 1 body axes",
         unit: Unit::ONE,
         default: 0.0,
         within: (0.0, 1.0),
     }],
     needs: &[],
     partners: &["gyro_quantisation", "gyro_g2_sensitivity"],
-    told_apart_by: "turn slowly enough for the rate about the gyro's own axis to cross zero in x and y",
+    told_apart_by: "rotate slowly enough that the rate about the input axes of gyros x and y crosses zero",
     owner: Owner::Sensor,
     parity: Parity::Even,
     action: Action::Sensed(|p, settings, moment, sensed, out| {
@@ -166,11 +166,11 @@ pub static GYRO_DEAD_ZONE: Term = Term {
     }),
 };
 
-/// The slope by a rate or a width is taken between such so much smaller and larger, as a part of the width: at the zone's
-/// edge it has no bound, and would be that of whichever sample is nearest.
+/// Half of the difference over which the slope with respect to a rate or a width is taken, as a fraction of the width: at the
+/// edge of the zone the slope is unbounded and would depend on the nearest sample.
 const SLOPE_OVER: f64 = 0.1;
 
-/// What a gyro with a dead zone of this width reads beyond a rate.
+/// Reading of a gyro with a dead zone of this width, minus the rate.
 fn missing(rate: Dual64, width: Dual64) -> Dual64 {
     let apart = SLOPE_OVER * width.re;
     let by = |of_rate: f64, of_width: f64| {

@@ -1,4 +1,4 @@
-//! Interference of a fixed frequency.
+//! Sinusoidal interference at a fixed frequency.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,21 +7,20 @@ use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
-/// One gyro's share, and one accelerometer's.
+/// Amplitude ranges of a gyro and of an accelerometer.
 const GYRO: Prior = usual((0.01, 10.0), (0.01, 1.0), (1.0, 100.0));
 const ACCEL: Prior = usual((1.0, 300.0), (1.0, 300.0), (10.0, 3000.0));
 
-/// A line that does not move with the table's rate.
+/// Spectral line at a frequency that does not depend on the table rate.
 ///
-/// The mean over a sample is exact, above half the sampling rate too: a line that is seen at another
-/// frequency than its own.
+/// The mean over a sample is exact, also above half of the sampling rate, where the line is aliased.
 pub static INTERFERENCE_LINE: Term = Term {
     id: "interference_line",
     also: &[],
-    name: "interference",
-    cause: "mains, crosstalk or a slip ring put a line into the gyro and the accelerometer of one axis",
+    name: "sinusoidal interference",
+    cause: "mains, crosstalk or a slip ring cause a spectral line in the gyro and the accelerometer of one axis",
     equation: "gyro, accel += c cos 2πft + s sin 2πft",
-    source: "the mean over a sample of a sine",
+    source: "mean of a sinusoid over one sample",
     parameters: &[
         parameter("gyro_cos", Unit::DEG_PER_HOUR, GYRO),
         parameter("gyro_sin", Unit::DEG_PER_HOUR, GYRO),
@@ -31,7 +30,7 @@ pub static INTERFERENCE_LINE: Term = Term {
     settings: &[FREQUENCY, AXIS],
     needs: &[],
     partners: &["encoder_harmonic", "base_sway", "table_wobble"],
-    told_apart_by: "turn at another rate: a line keeps its frequency, a harmonic its order",
+    told_apart_by: "rotate at another rate: a spectral line keeps its frequency, a harmonic keeps its order",
     owner: Owner::Run,
     parity: Parity::OfSetting,
     action: Action::Signal(|p, settings, moment, out| {

@@ -1,4 +1,4 @@
-//! Faults of a finished log: samples that stick, spikes, clipped and jittery readings.
+//! Faults of a log: stuck samples, outliers, saturation, jitter of the time stamps.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -10,14 +10,14 @@ use crate::setting::{Setting, SettingKind};
 use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
 
-/// Random numbers that no sensor's noise has.
+/// Random numbers independent of the noise of the sensors.
 fn random(seed: Seed) -> NormalStream {
     Seed { seed: seed.seed.rotate_left(32) ^ 0x6c6f_6766_6175_6c74, ..seed }.stream(Sensor::Encoder)
 }
 
-/// Whether something happens that does with this probability.
+/// Draw of an event with this probability.
 fn happens(probability: f64, random: &mut NormalStream) -> bool {
-    // A normal number's place in its distribution is uniform.
+    // The distribution function of a normal number is uniformly distributed.
     0.5 * libm::erfc(random.sample() * FRAC_1_SQRT_2) < probability
 }
 
@@ -25,26 +25,26 @@ const fn share(high: f64) -> Parameter {
     parameter("share", Unit::ONE, Prior::Anywhere(0.01 * high, high))
 }
 
-/// Samples that repeat the one before.
+/// Samples that repeat the previous one.
 pub static STUCK_SAMPLES: Term = Term {
     id: "stuck_samples",
     also: &[],
     name: "stuck samples",
-    cause: "a driver hands out the last readings again when there are no new ones",
-    equation: "this share of all samples repeats the last rates and forces",
-    source: "the definition of a held reading",
+    cause: "a driver repeats the last readings if no new ones are available",
+    equation: "this fraction of all samples repeats the previous rates and forces",
+    source: "definition of a held reading",
     parameters: &[share(0.05)],
     settings: &[Setting {
         kind: SettingKind::SampleCount,
         name: "length",
-        meaning: "how many samples in a row are stuck",
+        meaning: "number of consecutive stuck samples",
         unit: Unit::ONE,
         default: 5.0,
         within: (1.0, 1e5),
     }],
     needs: &[],
     partners: &["accel_quantisation", "gyro_quantisation"],
-    told_apart_by: "runs of equal samples",
+    told_apart_by: "sequences of equal samples",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Log(|p, settings, seed, recording| {
@@ -63,14 +63,14 @@ pub static STUCK_SAMPLES: Term = Term {
     }),
 };
 
-/// Spikes.
+/// Outliers.
 pub static OUTLIERS: Term = Term {
     id: "outliers",
     also: &[],
     name: "outliers",
-    cause: "spikes of the electronics, or shocks; gyro and accel are their 1σ",
-    equation: "this share of all readings has a normal number added",
-    source: "a normal distribution contaminated by a wider one",
+    cause: "spikes of the electronics, or mechanical shocks; gyro and accel are their 1σ",
+    equation: "a normally distributed error is added to this fraction of all readings",
+    source: "normal distribution contaminated by a wider one",
     parameters: &[
         share(1e-3),
         parameter("gyro", Unit::DEG_PER_HOUR, usual((10.0, 1000.0), (10.0, 1000.0), (1000.0, 1e5))),
@@ -98,19 +98,19 @@ pub static OUTLIERS: Term = Term {
     }),
 };
 
-/// Angles that are not read when their stamps say.
+/// Table angles that are read at other times than their time stamps.
 pub static TIMESTAMP_JITTER: Term = Term {
     id: "timestamp_jitter",
     also: &[],
     name: "jitter of the time stamps",
-    cause: "a computer reads the encoder when it has time",
+    cause: "a computer reads the encoder at irregular times",
     equation: "angle = ζ(t + σ n), n standard normal",
-    source: "the definition of jitter, at the table's rate about each sample",
+    source: "definition of jitter, at the table rate of each sample",
     parameters: &[parameter("sigma", Unit::MICROSECOND, Prior::Anywhere(1.0, 2000.0))],
     settings: &[],
     needs: &[Need::TableAngle, Need::SeveralRates],
     partners: &["gyro_noise_level"],
-    told_apart_by: "two rates: the scatter grows with the rate",
+    told_apart_by: "two rates: the scatter is proportional to the rate",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, seed, recording| {
@@ -128,19 +128,19 @@ pub static TIMESTAMP_JITTER: Term = Term {
     }),
 };
 
-/// Gyros that clip.
+/// Saturation of the gyros.
 pub static GYRO_SATURATION: Term = Term {
     id: "gyro_saturation",
     also: &[],
     name: "saturation of the gyros",
-    cause: "a rate beyond what a gyro can read; a limit of zero is none",
+    cause: "the rate exceeds the range of a gyro; zero means no limit",
     equation: "gyro within ± limit",
-    source: "the definition of a range",
+    source: "definition of a range",
     parameters: &[parameter("limit", Unit::DEG_PER_SECOND, Prior::Anywhere(5.0, 2000.0))],
     settings: &[],
     needs: &[],
     partners: &["gyro_scale_nonlinearity", "outliers"],
-    told_apart_by: "a histogram of the readings: it ends in a wall",
+    told_apart_by: "a histogram of the readings: many readings at the limit",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
@@ -150,19 +150,19 @@ pub static GYRO_SATURATION: Term = Term {
     }),
 };
 
-/// Accelerometers that clip.
+/// Saturation of the accelerometers.
 pub static ACCEL_SATURATION: Term = Term {
     id: "accel_saturation",
     also: &[],
     name: "saturation of the accelerometers",
-    cause: "a force beyond what an accelerometer can read; a limit of zero is none",
+    cause: "the specific force exceeds the range of an accelerometer; zero means no limit",
     equation: "accel within ± limit",
-    source: "the definition of a range",
+    source: "definition of a range",
     parameters: &[parameter("limit", Unit::G, Prior::Anywhere(0.5, 20.0))],
     settings: &[],
     needs: &[],
     partners: &["accel_cubic", "outliers"],
-    told_apart_by: "a histogram of the readings: it ends in a wall",
+    told_apart_by: "a histogram of the readings: many readings at the limit",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {

@@ -1,4 +1,4 @@
-//! Random errors that are not as a data sheet says.
+//! Random errors that differ from the data sheet.
 
 use rins_imu::{NoiseModel, Quantisation};
 
@@ -7,14 +7,13 @@ use crate::term::{Action, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
 
 const EXCESS: [Parameter; 1] = [parameter("excess", Unit::ONE, Prior::Anywhere(0.1, 2.0))];
-const WHITE: &str =
-    "the white noise is stronger or weaker than the data sheet says; 1 is twice as strong";
+const WHITE: &str = "the noise density differs from the data sheet; an excess of 1 doubles it";
 
-/// Gyro white noise.
+/// White noise of the gyros.
 pub static GYRO_NOISE_LEVEL: Term = Term {
     id: "gyro_noise_level",
     also: &[],
-    name: "level of the gyro noise",
+    name: "noise density of the gyros",
     cause: WHITE,
     equation: "N (1 + p) instead of N",
     source: "ieee952, annex C",
@@ -22,17 +21,17 @@ pub static GYRO_NOISE_LEVEL: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro_quantisation", "timestamp_jitter"],
-    told_apart_by: "the Allan deviation of a long rest",
+    told_apart_by: "Allan deviation of a long static interval",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| noises.imu.gyro.white_density *= 1.0 + p[0]),
 };
 
-/// Accelerometer white noise.
+/// White noise of the accelerometers.
 pub static ACCEL_NOISE_LEVEL: Term = Term {
     id: "accel_noise_level",
     also: &[],
-    name: "level of the accelerometer noise",
+    name: "noise density of the accelerometers",
     cause: WHITE,
     equation: "N (1 + p) instead of N",
     source: "ieee952, annex C",
@@ -40,19 +39,19 @@ pub static ACCEL_NOISE_LEVEL: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["accel_quantisation"],
-    told_apart_by: "the Allan deviation of a long rest",
+    told_apart_by: "Allan deviation of a long static interval",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| noises.imu.accel.white_density *= 1.0 + p[0]),
 };
 
-/// Gyro flicker noise.
+/// Flicker (1/f) noise of the gyros.
 pub static GYRO_BIAS_INSTABILITY: Term = Term {
     id: "gyro_bias_instability",
     also: &[],
     name: "bias instability of the gyros",
-    cause: "flicker noise: a bias that wanders alike over all times",
-    equation: "the rate's density grows by B²/(2πf)",
+    cause: "flicker (1/f) noise of the bias",
+    equation: "the power spectral density of the rate increases by B²/(2πf)",
     source: "ieee952, annex C",
     parameters: &[parameter(
         "level",
@@ -62,19 +61,19 @@ pub static GYRO_BIAS_INSTABILITY: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro_bias_step", "gyro_bias_ramp", "gyro_rate_random_walk"],
-    told_apart_by: "a rest of more than an hour",
+    told_apart_by: "static interval of more than one hour",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_flicker(&mut noises.imu.gyro, p[0])),
 };
 
-/// Accelerometer flicker noise.
+/// Flicker (1/f) noise of the accelerometers.
 pub static ACCEL_BIAS_INSTABILITY: Term = Term {
     id: "accel_bias_instability",
     also: &[],
     name: "bias instability of the accelerometers",
-    cause: "flicker noise: a bias that wanders alike over all times",
-    equation: "the force's density grows by B²/(2πf)",
+    cause: "flicker (1/f) noise of the bias",
+    equation: "the power spectral density of the force increases by B²/(2πf)",
     source: "ieee952, annex C",
     parameters: &[parameter(
         "level",
@@ -84,19 +83,19 @@ pub static ACCEL_BIAS_INSTABILITY: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["accel_bias_step", "accel_bias_ramp", "accel_rate_random_walk"],
-    told_apart_by: "a rest of more than an hour",
+    told_apart_by: "static interval of more than one hour",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_flicker(&mut noises.imu.accel, p[0])),
 };
 
-/// Gyro biases that walk.
+/// Random walk of the gyro biases.
 pub static GYRO_RATE_RANDOM_WALK: Term = Term {
     id: "gyro_rate_random_walk",
     also: &[],
     name: "rate random walk of the gyros",
-    cause: "a bias that is the integral of white noise",
-    equation: "the rate's density grows by K²/(2πf)²",
+    cause: "the bias is the integral of white noise",
+    equation: "the power spectral density of the rate increases by K²/(2πf)²",
     source: "ieee952, annex C",
     parameters: &[parameter(
         "density",
@@ -106,19 +105,19 @@ pub static GYRO_RATE_RANDOM_WALK: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro_bias_ramp", "gyro_thermal_bias", "gyro_bias_instability"],
-    told_apart_by: "a rest of more than an hour at a constant temperature",
+    told_apart_by: "static interval of more than one hour at constant temperature",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_walk(&mut noises.imu.gyro, p[0])),
 };
 
-/// Accelerometer biases that walk.
+/// Random walk of the accelerometer biases.
 pub static ACCEL_RATE_RANDOM_WALK: Term = Term {
     id: "accel_rate_random_walk",
     also: &[],
-    name: "random walk of the accelerometer biases",
-    cause: "a bias that is the integral of white noise",
-    equation: "the force's density grows by K²/(2πf)²",
+    name: "acceleration random walk of the accelerometers",
+    cause: "the bias is the integral of white noise",
+    equation: "the power spectral density of the force increases by K²/(2πf)²",
     source: "ieee952, annex C",
     parameters: &[parameter(
         "density",
@@ -128,7 +127,7 @@ pub static ACCEL_RATE_RANDOM_WALK: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["accel_bias_ramp", "accel_thermal_bias", "accel_bias_instability"],
-    told_apart_by: "a rest of more than an hour at a constant temperature",
+    told_apart_by: "static interval of more than one hour at constant temperature",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_walk(&mut noises.imu.accel, p[0])),
@@ -138,9 +137,9 @@ pub static ACCEL_RATE_RANDOM_WALK: Term = Term {
 pub static GYRO_QUANTISATION: Term = Term {
     id: "gyro_quantisation",
     also: &[],
-    name: "quantisation of the gyros",
-    cause: "a least bit of increments, or of rates; where both are given that of increments counts",
-    equation: "the output is rounded; of increments the rest comes later",
+    name: "quantization of the gyros",
+    cause: "LSB of the increments, or of the rates; if both are given, that of the increments is used",
+    equation: "the output is rounded; the rounding error of an increment is carried to the next sample",
     source: "ieee952, annex C",
     parameters: &[
         parameter("increment", Unit::ARCSEC, usual((0.01, 0.5), (0.3, 2.0), (0.01, 2.0))),
@@ -149,7 +148,7 @@ pub static GYRO_QUANTISATION: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["gyro_noise_level", "gyro_dead_zone"],
-    told_apart_by: "a histogram of the readings: they stand in a comb",
+    told_apart_by: "a histogram of the readings: they lie on a quantization grid",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| quantise(&mut noises.imu.gyro, p)),
@@ -159,9 +158,9 @@ pub static GYRO_QUANTISATION: Term = Term {
 pub static ACCEL_QUANTISATION: Term = Term {
     id: "accel_quantisation",
     also: &[],
-    name: "quantisation of the accelerometers",
-    cause: "a least bit of increments, or of forces; where both are given that of increments counts",
-    equation: "the output is rounded; of increments the rest comes later",
+    name: "quantization of the accelerometers",
+    cause: "LSB of the increments, or of the forces; if both are given, that of the increments is used",
+    equation: "the output is rounded; the rounding error of an increment is carried to the next sample",
     source: "ieee952, annex C",
     parameters: &[
         parameter(
@@ -174,7 +173,7 @@ pub static ACCEL_QUANTISATION: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["accel_noise_level", "stuck_samples"],
-    told_apart_by: "a histogram of the readings: they stand in a comb",
+    told_apart_by: "a histogram of the readings: they lie on a quantization grid",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| quantise(&mut noises.imu.accel, p)),
@@ -191,7 +190,7 @@ fn add_walk(noise: &mut NoiseModel, density: f64) {
     noise.bias_random_walk = noise.bias_random_walk.hypot(density);
 }
 
-/// Sets a least bit of increments or of their means, if there is one.
+/// Sets the LSB of increments or of their means, if there is one.
 fn quantise(noise: &mut NoiseModel, p: &[f64]) {
     if p[0] != 0.0 {
         noise.quantisation = Some(Quantisation::Increment(p[0]));

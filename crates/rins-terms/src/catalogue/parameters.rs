@@ -1,10 +1,10 @@
-//! Parameters and settings as the catalogue's files write them.
+//! Parameters and settings of the files of the catalogue.
 
 use crate::setting::{Setting, SettingKind};
 use crate::term::{Parameter, Prior};
 use crate::unit::Unit;
 
-/// Usual magnitudes with fibre gyros, laser gyros and MEMS; with pendulous accelerometers, vibrating
+/// Typical ranges for fiber-optic gyros, laser gyros and MEMS; for pendulous accelerometers, vibrating
 /// beams and MEMS.
 pub(super) const fn usual(fibre: (f64, f64), laser: (f64, f64), mems: (f64, f64)) -> Prior {
     Prior::Usual([fibre, laser, mems])
@@ -20,7 +20,7 @@ pub(super) const fn per_axis(unit: Unit, prior: Prior) -> [Parameter; 3] {
     named(["x", "y", "z"], unit, prior)
 }
 
-/// A matrix, row by row: `zx` is what sensor z shows of the component x.
+/// A matrix, row by row: `zx` is the sensitivity of sensor z to the component x.
 pub(super) const fn matrix(unit: Unit, prior: Prior) -> [Parameter; 9] {
     named(["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"], unit, prior)
 }
@@ -30,7 +30,7 @@ pub(super) const fn cos_sin(unit: Unit, prior: Prior) -> [Parameter; 2] {
     named(["cos", "sin"], unit, prior)
 }
 
-/// Parameters that differ in their names only.
+/// Parameters that differ only in their names.
 pub(super) const fn named<const N: usize>(
     names: [&'static str; N],
     unit: Unit,
@@ -45,57 +45,57 @@ pub(super) const fn named<const N: usize>(
     parameters
 }
 
-/// When a step happens \[s\]; five minutes into the run where nothing is said.
+/// Time of an event \[s\]; by default five minutes after the start of the run.
 pub(super) const TIME: Setting = Setting {
     kind: SettingKind::Time,
     name: "time",
-    meaning: "when it happens, since the run began",
+    meaning: "time of the event since the start of the run",
     unit: Unit::SECOND,
     default: 300.0,
     within: (0.0, 1e7),
 };
 
-/// How long a step takes \[s\]; none where nothing is said.
+/// Duration of a step \[s\]; zero by default.
 pub(super) const DURATION: Setting = Setting {
     kind: SettingKind::Duration,
     name: "duration",
-    meaning: "how long it takes, evenly, that time being its middle",
+    meaning: "duration of the linear change; the time is its middle",
     unit: Unit::SECOND,
     default: 0.0,
     within: (0.0, 10.0),
 };
 
-/// Over how long something settles \[s\].
+/// Time constant of a transient \[s\].
 pub(super) const TIME_CONSTANT: Setting = Setting {
     kind: SettingKind::TimeConstant,
     name: "time_constant",
-    meaning: "the time over which it falls by e",
+    meaning: "time in which the effect decreases by a factor of e",
     unit: Unit::SECOND,
     default: 300.0,
     within: (1.0, 1e5),
 };
 
-/// How often a second something comes back \[Hz\].
+/// Frequency of a periodic effect \[Hz\].
 pub(super) const FREQUENCY: Setting = Setting {
     kind: SettingKind::Frequency,
     name: "frequency",
-    meaning: "how often it comes back, whatever the table's rate",
+    meaning: "frequency, independent of the table rate",
     unit: Unit::HERTZ,
     default: 1.0,
     within: (1e-4, 1e4),
 };
 
-/// On which of the sensors' axes something is.
+/// Axis of the sensors.
 pub(super) const AXIS: Setting = Setting {
     kind: SettingKind::Axis,
     name: "axis",
-    meaning: "the axis on which it is: 1, 2, 3 for x, y, z",
+    meaning: "axis of the sensor: 1, 2, 3 for x, y, z",
     unit: Unit::ONE,
     default: 3.0,
     within: (1.0, 3.0),
 };
 
-/// The temperature at which what depends on temperature is zero, and at which biases and scale errors beside it are given.
+/// Temperature at which temperature-dependent effects are zero, and to which biases and scale errors refer.
 pub const REFERENCE_TEMPERATURE: Setting = Setting {
     kind: SettingKind::ReferenceTemperature,
     name: "reference_temperature",

@@ -1,6 +1,6 @@
-//! A place that is not where it was said to be.
+//! Errors of the site: latitude, azimuth, gravity.
 //!
-//! The parameter is what is true less what was assumed; the sensors feel the difference.
+//! The parameter is the true value minus the assumed one.
 
 use nalgebra::Vector3;
 use num_dual::DualNum;
@@ -10,21 +10,21 @@ use crate::catalogue::parameters::parameter;
 use crate::term::{Action, Need, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
-/// A latitude that is wrong.
+/// Error of the latitude.
 ///
-/// Gravity is given apart from it, and does not follow.
+/// Gravity is given separately and does not change with it.
 pub static WRONG_LATITUDE: Term = Term {
     id: "wrong_latitude",
     also: &[],
     name: "wrong latitude",
-    cause: "the table stands further north than was assumed",
+    cause: "the table is farther north than assumed",
     equation: "gyro += C_n^b (ω_ie(L + δ) - ω_ie(L))",
     source: "nie2019, eq. (2)",
     parameters: &[parameter("latitude", Unit::ARCMIN, Prior::Anywhere(0.6, 60.0))],
     settings: &[],
     needs: &[Need::Tilt],
     partners: &["axis.attitude", "gyro.scale", "gyro_magnetic", "base_rotation"],
-    told_apart_by: "look it up; or three directions of the axis",
+    told_apart_by: "survey the latitude; or three directions of the spin axis",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
@@ -39,15 +39,15 @@ pub static WRONG_LATITUDE: Term = Term {
     }),
 };
 
-/// An azimuth that is not known, or wrong.
+/// Unknown or wrong azimuth.
 ///
-/// It is linear in what the gyros feel of it: a heading that is off by any angle, of which they feel a sine and a cosine,
-/// has two parameters and one solution.
+/// The readings of the gyros are linear in the parameters: for a heading error of any size, they are its sine and its cosine,
+/// so that there are two parameters and one solution.
 pub static AXIS_AZIMUTH: Term = Term {
     id: "axis.azimuth",
     also: &[],
-    name: "azimuth of the axis",
-    cause: "the axis heads otherwise than was assumed: the Earth's horizontal rate there, true less assumed",
+    name: "azimuth of the spin axis",
+    cause: "the heading of the spin axis differs from the assumed one: horizontal Earth rate, true minus assumed",
     equation: "gyro += C_n^b Δω, Δω horizontal",
     source: "nie2019, eq. (2)",
     parameters: &[
@@ -57,7 +57,7 @@ pub static AXIS_AZIMUTH: Term = Term {
     settings: &[],
     needs: &[],
     partners: &["axis.attitude", "gyro_g_sensitivity", "gyro.bias", "wrong_latitude"],
-    told_apart_by: "survey the heading, and give it as yaw under [attitude]",
+    told_apart_by: "survey the heading, and state it as yaw under [attitude]",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
@@ -69,19 +69,19 @@ pub static AXIS_AZIMUTH: Term = Term {
     }),
 };
 
-/// A gravity that is wrong.
+/// Error of gravity.
 pub static WRONG_GRAVITY: Term = Term {
     id: "wrong_gravity",
     also: &[],
     name: "wrong gravity",
-    cause: "gravity is stronger than was assumed, by this share",
+    cause: "gravity is larger than assumed, by this fraction",
     equation: "accel += δ f",
     source: "nie2019, eq. (2)",
     parameters: &[parameter("gravity", Unit::PPM, Prior::Anywhere(10.0, 3000.0))],
     settings: &[],
     needs: &[],
     partners: &["accel.scale"],
-    told_apart_by: "never from one IMU: it is a common scale error; survey gravity",
+    told_apart_by: "no test with one IMU: it equals a common scale error; survey gravity",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.add_accel(p[0], &moment.force)),

@@ -1,7 +1,7 @@
-//! Readings that are late: of gyros, accelerometers and the encoder.
+//! Latency of gyros, accelerometers and the encoder.
 //!
-//! A late reading is that of an earlier instant, the acceleration over the sample going on: exact at any
-//! constant rate and along any ramp.
+//! A delayed reading is that of an earlier time, with the angular acceleration of the sample: exact at a
+//! constant rate and along a ramp.
 
 use nalgebra::Vector3;
 use num_dual::{Dual64, DualNum};
@@ -16,8 +16,8 @@ const fn delay(prior: Prior) -> Parameter {
     parameter("delay", Unit::MILLISECOND, prior)
 }
 
-/// How far the table turned over the last `delay` before an instant at this rate \[rad\], or turns over the next one if it
-/// is negative; `before` and `after` are what comes before the instant and after it.
+/// Rotation of the table during `delay` before an instant at this rate \[rad\], or after it if the delay is
+/// negative; `before` and `after` are the motion before and after the instant.
 fn turned_within(delay: Dual64, rate: f64, [before, after]: [Stretch; 2]) -> Dual64 {
     if delay.re < 0.0 {
         -after.turned(-delay, rate, after.acceleration)
@@ -42,8 +42,7 @@ fn turned_to_middle(delay: Dual64, moment: &Moment) -> Dual64 {
     delay * moment.mean.rate - delay * delay * (0.5 * moment.mean.acceleration)
 }
 
-/// Adds by how much `vector`, of fixed direction in the axis frame, differed when the table stood
-/// back by `turn`.
+/// Adds the change of `vector`, constant in the axis frame, if the table angle is smaller by `turn`.
 fn add_earlier(to: &mut DualVector, vector: &Vector3<f64>, turn: Dual64) {
     let half = (turn * 0.5).sin();
     let (sin, versine) = (turn.sin(), half * half * 2.0);
@@ -51,25 +50,25 @@ fn add_earlier(to: &mut DualVector, vector: &Vector3<f64>, turn: Dual64) {
     to[1] += sin * vector.x - versine * vector.y;
 }
 
-/// Gyros that are read late.
+/// Latency of the gyros.
 pub static GYRO_LAG: Term = Term {
     id: "gyro_lag",
     also: &[],
-    name: "lag of the gyros",
-    cause: "filters and electronics delay the gyros against the stamps of the samples",
+    name: "latency of the gyros",
+    cause: "filters and electronics delay the gyros relative to the time stamps of the samples",
     equation: "gyro = ω(t - τ)",
-    source: "the definition of a pure delay",
+    source: "definition of a pure delay",
     parameters: &[delay(usual((0.1, 5.0), (0.5, 10.0), (2.0, 20.0)))],
     settings: &[],
     needs: &[Need::Reversal],
     partners: &["encoder_latency", "accel_latency", "encoder.zero"],
-    told_apart_by: "ramps show the gyros against the encoder; only two of the three delays exist, but for \
-                    what the Earth's rate shows of the third",
+    told_apart_by: "ramps of the rate, gyros against the encoder; only two of the three latencies are \
+                    observable, apart from the effect of the Earth's rate",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
-        // The rate over as long a time before: both its ends are late.
+        // The rate over an interval of equal length before: both its ends are delayed.
         let start = moment.end.rate - moment.mean.acceleration * moment.interval;
         let to_start = turned_within(p[0], start, [moment.beside[0], own(moment)]);
         let late = turned_to_end(p[0], moment) - to_start;
@@ -77,19 +76,19 @@ pub static GYRO_LAG: Term = Term {
     }),
 };
 
-/// Accelerometers that are read late.
+/// Latency of the accelerometers.
 pub static ACCEL_LATENCY: Term = Term {
     id: "accel_latency",
     also: &[],
     name: "latency of the accelerometers",
-    cause: "the accelerometers are delayed against the stamps of the samples; half a sample is a convention",
+    cause: "the accelerometers are delayed relative to the time stamps of the samples; half a sample is a convention",
     equation: "accel = f(t - τ)",
-    source: "the definition of a pure delay",
+    source: "definition of a pure delay",
     parameters: &[delay(usual((0.05, 10.0), (0.05, 10.0), (0.05, 10.0)))],
     settings: &[],
     needs: &[Need::Tilt, Need::Reversal],
     partners: &["gyro_lag", "encoder.zero", "axis.attitude", "gyro_magnetic"],
-    told_apart_by: "turn the table both ways",
+    told_apart_by: "rotate in both directions",
     owner: Owner::Sensor,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
@@ -97,16 +96,16 @@ pub static ACCEL_LATENCY: Term = Term {
     }),
 };
 
-/// An angle that is read late.
+/// Latency of the table angle.
 ///
-/// A reference of attitude that lags is the same.
+/// The latency of an attitude reference is the same effect.
 pub static ENCODER_LATENCY: Term = Term {
     id: "encoder_latency",
     also: &["readout_lag"],
     name: "latency of the table angle",
-    cause: "the angle, or the attitude it stands for, is that of an earlier instant; half a sample is a convention",
+    cause: "the angle, or the attitude reference, is older than the IMU sample; half a sample is a convention",
     equation: "angle = ζ(t - τ)",
-    source: "the definition of a pure delay",
+    source: "definition of a pure delay",
     parameters: &[delay(Prior::Anywhere(0.1, 20.0))],
     settings: &[],
     needs: &[Need::TableAngle, Need::Reversal],
@@ -117,25 +116,25 @@ pub static ENCODER_LATENCY: Term = Term {
         "gyro_scale_asymmetry",
         "encoder.zero",
     ],
-    told_apart_by: "turn both ways at two rates, with several reversals",
+    told_apart_by: "rotate in both directions at two rates, with several reversals",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.angle -= turned_to_end(p[0], moment)),
 };
 
-/// An encoder whose clock is not the IMU's.
+/// Rate error of the clock of the encoder.
 pub static CLOCK_DRIFT: Term = Term {
     id: "clock_drift",
     also: &[],
-    name: "drift of the encoder's clock",
-    cause: "the encoder's time stamps drift against the IMU's: a delay that grows",
+    name: "drift of the encoder clock",
+    cause: "the time stamps of the encoder drift relative to those of the IMU: an increasing latency",
     equation: "angle = ζ(t - ε t)",
-    source: "the definition of a clock's rate error",
+    source: "definition of the rate error of a clock",
     parameters: &[parameter("rate", Unit::PPM, Prior::Anywhere(1.0, 50.0))],
     settings: &[],
     needs: &[Need::TableAngle, Need::Reversal],
     partners: &["encoder_latency", "base_tilt_ramp", "gyro_scale_ramp", "gyro.scale"],
-    told_apart_by: "several reversals, spread over the run",
+    told_apart_by: "several reversals, distributed over the run",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
@@ -143,21 +142,21 @@ pub static CLOCK_DRIFT: Term = Term {
     }),
 };
 
-/// Angles that were lost from the encoder's records.
+/// Lost records of the encoder.
 ///
 /// Records that were read twice are a negative loss.
 pub static DROPPED_SAMPLES: Term = Term {
     id: "dropped_samples",
     also: &[],
     name: "dropped samples of the encoder",
-    cause: "angles are lost between encoder and log and nobody counts them: all later ones come too soon",
+    cause: "angles are lost between encoder and log without a record: all later angles are assigned to earlier samples",
     equation: "angle = ζ(t + τ H(t - t0))",
     source: "pairing of records by their number",
     parameters: &[parameter("lost", Unit::MILLISECOND, Prior::Anywhere(1.0, 100.0))],
     settings: &[TIME],
     needs: &[Need::TableAngle],
     partners: &["encoder_slip", "encoder_latency"],
-    told_apart_by: "turn the other way, or at another rate, after it happened",
+    told_apart_by: "rotate in the other direction, or at another rate, after the event",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {

@@ -1,4 +1,4 @@
-//! True motions of a table that go with its angle.
+//! Motions of the table that depend on the table angle.
 
 use nalgebra::Vector3;
 
@@ -9,26 +9,26 @@ use crate::term::{Action, Need, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
-/// An axis that moves as it turns.
+/// Motion of the spin axis with the table angle.
 pub static TABLE_WOBBLE: Term = Term {
     id: "table_wobble",
     also: &[],
-    name: "wobble of the axis",
-    cause: "the bearing tilts the axis as the table turns; order 1 is the mounting of the IMU",
+    name: "wobble of the spin axis",
+    cause: "the bearing tilts the spin axis as the table rotates; order 1 is the mounting of the IMU",
     equation: "θ_x + i θ_y = (c + i s) exp(i k ζ)",
-    source: "the Fourier series of a bearing's error motion",
+    source: "Fourier series of the error motion of a bearing",
     parameters: &cos_sin(Unit::ARCSEC, Prior::Anywhere(0.1, 10.0)),
     settings: &[Setting {
         kind: SettingKind::Order,
         name: "order",
-        meaning: "how often a turn it repeats; negative: against the table's sense",
+        meaning: "harmonic order: periods per revolution; negative: opposite to the direction of rotation",
         unit: Unit::ONE,
         default: -1.0,
         within: (-100.0, 100.0),
     }],
     needs: &[],
     partners: &["mounting", "gyro_g_sensitivity", "gyro_g2_sensitivity", "gyro_magnetic"],
-    told_apart_by: "turn the table both ways; order 1 never: it is the mounting",
+    told_apart_by: "rotate in both directions; no test for order 1: it is the mounting",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
@@ -38,29 +38,29 @@ pub static TABLE_WOBBLE: Term = Term {
     }),
 };
 
-/// A drive that is not smooth.
+/// Irregular rotation of the drive.
 ///
-/// It is a true motion that the encoder shows too: nothing is left of it but where one is late.
-/// How late, times how fast it is, is a product of two errors, and left out.
+/// It is a true motion, which the encoder measures too: only a latency leaves a residual.
+/// Latency times ripple is a product of two errors and is neglected.
 pub static TABLE_RATE_RIPPLE: Term = Term {
     id: "table_rate_ripple",
     also: &[],
-    name: "ripple of the table's rate",
-    cause: "cogging of the motor: the table hurries and lingers as it turns",
-    equation: "dζ/dt = ω (1 + c cos nζ + s sin nζ), in gyros, accelerometers and angle alike",
-    source: "the Fourier series of a motor's torque",
+    name: "ripple of the table rate",
+    cause: "cogging of the motor: the table rate varies with the table angle",
+    equation: "dζ/dt = ω (1 + c cos nζ + s sin nζ), in gyros, accelerometers and angle",
+    source: "Fourier series of the torque of a motor",
     parameters: &cos_sin(Unit::PPM, Prior::Anywhere(10.0, 1000.0)),
     settings: &[Setting {
         kind: SettingKind::Order,
         name: "order",
-        meaning: "how often a turn it repeats",
+        meaning: "harmonic order: periods per revolution",
         unit: Unit::ONE,
         default: 12.0,
         within: (1.0, 1e5),
     }],
     needs: &[],
     partners: &["gyro_lag", "encoder_latency", "accel_latency"],
-    told_apart_by: "it leaves no residual; a commanded rate shows it, an encoder does not",
+    told_apart_by: "no residual if the encoder measures the angle; a residual if only the commanded rate is known",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
@@ -72,19 +72,19 @@ pub static TABLE_RATE_RIPPLE: Term = Term {
     }),
 };
 
-/// A cable that pulls the axis over.
+/// Torque of a cable on the spin axis.
 pub static CABLE_TORQUE_TILT: Term = Term {
     id: "cable_torque_tilt",
     also: &[],
-    name: "tilt by the cable's torque",
-    cause: "a cable winds up and pulls the axis over, the more the further the table turns",
+    name: "tilt by cable torque",
+    cause: "a cable winds up and tilts the spin axis in proportion to the table angle",
     equation: "(θ_x, θ_y) = p ζ, ζ unwrapped",
-    source: "a compliant bearing under a spring",
+    source: "compliant bearing with a spring",
     parameters: &named(["x", "y"], Unit::ARCSEC_PER_TURN, Prior::Anywhere(0.01, 5.0)),
     settings: &[],
     needs: &[Need::Reversal],
     partners: &["base_tilt_ramp"],
-    told_apart_by: "turn the table both ways",
+    told_apart_by: "rotate in both directions",
     owner: Owner::Run,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
