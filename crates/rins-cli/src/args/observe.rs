@@ -13,7 +13,7 @@ pub(crate) struct Observe {
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
     /// The model: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default full, with
-    /// --separate baseline (biases, spin axis attitude, mounting, M_xz, M_yz and S_z)
+    /// --separate baseline (biases, spin axis attitude, mounting, `M_xz`, `M_yz` and `S_z`)
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<String>,
     /// Compare the scenarios side by side; A+B are two runs of one schedule

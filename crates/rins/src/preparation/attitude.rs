@@ -26,7 +26,7 @@ impl Attitude {
     /// The 1σ of the Earth's horizontal rate to the north and to the east, true less assumed, as parts of that rate; none if
     /// the heading is known well enough to be an error of the attitude.
     ///
-    /// That is `cos ψ - 1` and `sin ψ`, with ψ normal: root mean squares of 1.2 and 0.7 where nothing is known of it.
+    /// That is `cos ψ - 1` and `sin ψ`, with ψ normal: root mean squares of 1.06 and 0.71 where nothing is known of it.
     pub(super) fn horizontal_rate(&self) -> Option<[f64; 2]> {
         let variance = self.azimuth?.powi(2);
         let (once, twice) = ((-0.5 * variance).exp(), (-2.0 * variance).exp());
