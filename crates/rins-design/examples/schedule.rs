@@ -6,7 +6,7 @@ use rins_frames::{EulerAngles, Site};
 use rins_imu::{ImuSpec, TriadSpec};
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Encoder, Scenario, TableRecord};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 #[expect(clippy::print_stdout, reason = "an example prints")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -26,8 +26,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let given = Planned::new("one rate".into(), scenario, imu, (0.1 * ARCSEC, 0.1 * ARCSEC, None));
 
     let terms = [&catalogue::GYRO_G_SENSITIVITY, &catalogue::ENCODER_ECCENTRICITY];
-    let model =
-        terms.iter().fold(Model::full(), |model, term| model.with(Chosen::new(term).estimated()));
+    let model = terms
+        .iter()
+        .fold(Model::full(), |model, term| model.with(TermInstance::new(term).estimated()));
     let effects = terms.map(Effect::of);
     let pair = Pair::of(&information(std::slice::from_ref(&given), &model)?, &effects);
     println!("one rate separates them by {:.2?} sigma", pair.told);

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix3xX, Vector3};
 use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::{Navigator, Recording, Station, VerticalChannel};
-use rins_terms::{Acting, Chosen, Model, Moment, Track, catalogue, derivatives};
+use rins_terms::{Acting, KinematicState, Model, TermInstance, Track, catalogue, derivatives};
 
 /// How long is navigated \[s\]: the time of the paper's tables.
 const LASTING: f64 = 360.0;
@@ -41,7 +41,7 @@ pub struct Budget {
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// The term, with its settings.
-    pub chosen: &'a Chosen,
+    pub chosen: &'a TermInstance,
     /// Which of the term's parameters it is.
     pub parameter: usize,
     /// Its value, in SI units.
@@ -71,7 +71,7 @@ impl Budget {
         let times = &truth.recording.times;
         let from = times.first().copied().unwrap_or_default();
         let samples = times.iter().take_while(|time| **time - from < LASTING).count();
-        let moments: Vec<Moment> = truth
+        let moments: Vec<KinematicState> = truth
             .track
             .moments()
             .zip(&truth.recording.increments)
@@ -109,7 +109,7 @@ struct End {
     nav_from_body: Dcm<Nav, Body>,
 }
 
-fn worth(truth: &Truth<'_>, moments: &[Moment], asked: &Asked<'_>, without: &End) -> Worth {
+fn worth(truth: &Truth<'_>, moments: &[KinematicState], asked: &Asked<'_>, without: &End) -> Worth {
     let alone = Model { terms: vec![asked.chosen.clone()] };
     let acting = Acting::by(&alone, truth.track, &[(0, asked.parameter)]).concat();
     let effect: Vec<[Vector3<f64>; 3]> = moments

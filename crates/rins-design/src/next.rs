@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use rins_estimation::{Noise, Reference, Run};
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Need, SettingKind, Term};
+use rins_terms::{Model, Need, SettingKind, Term, TermInstance};
 
 use crate::effect::Effect;
 use crate::error::DesignError;
@@ -21,9 +21,9 @@ const DIRECTIONS: usize = 2;
 #[derive(Clone, Copy, Debug)]
 pub struct Confused<'a> {
     /// The effect, with its settings and the values that were found, in SI units.
-    pub found: &'a Chosen,
+    pub found: &'a TermInstance,
     /// The alternative, with its settings.
-    pub alternative: &'a Chosen,
+    pub alternative: &'a TermInstance,
 }
 
 /// A schedule that separates an effect of the size that was found from an alternative.
@@ -62,8 +62,8 @@ pub fn next_test(
         sheet.random_walk = (found.walk > 0.0).then_some(found.walk);
     }
     let mut model = model.clone();
-    for Chosen { term, settings, .. } in pair {
-        let mut chosen = Chosen::new(term).estimated();
+    for TermInstance { term, settings, .. } in pair {
+        let mut chosen = TermInstance::new(term).estimated();
         chosen.settings.clone_from(settings);
         model.terms.push(chosen);
     }

@@ -1,7 +1,7 @@
 //! How well runs separate two effects.
 
 use nalgebra::DMatrix;
-use rins_estimation::{Joint, Separation, Strengths, joint, separation};
+use rins_estimation::{Joint, NoiseParameters, Separation, joint, separation};
 use rins_terms::Model;
 
 use crate::effect::Effect;
@@ -21,7 +21,7 @@ pub const ENOUGH: f64 = 6.0;
 pub fn information(planned: &[Planned], model: &Model) -> Result<Joint, DesignError> {
     let runs = planned.iter().map(Planned::run).collect::<Result<Vec<_>, _>>()?;
     let imu = &planned[0].imu;
-    Ok(joint(&runs, model, imu, &Strengths::of(imu))?)
+    Ok(joint(&runs, model, imu, &NoiseParameters::of(imu))?)
 }
 
 /// How well runs separate two effects.

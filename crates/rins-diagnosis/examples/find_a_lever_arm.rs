@@ -2,13 +2,13 @@
 #![expect(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use rins_diagnosis::diagnose;
-use rins_estimation::{NoiseKnowledge, Reference, Rig, Run, Strengths};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Rig, Run};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
 use rins_frames::{EulerAngles, Site};
 use rins_imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Scenario, simulate};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let turn = |rate| Segment { rate: rate * DEG_PER_SECOND, duration: 60.0 };
     let profile = Profile::new(&[10.0, -10.0, 30.0, -30.0].map(turn), Some(0.1))?;
     let imu = data_sheet();
-    let hidden = Chosen::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[4e-3, -2.5e-3]);
+    let hidden = TermInstance::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[4e-3, -2.5e-3]);
     let scenario = Scenario {
         noise: Some(ImuNoise {
             gyro: NoiseModel::white(imu.gyro.noise_density),
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         velocity: 1e-6,
     };
     let run = Run::new(rig, simulate(&scenario)?.recording)?;
-    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     let found = diagnose(&[run], &Model::full(), &imu, known, |_| ())?;
     for cause in &found.causes {
         println!("{}: the odds of chance are e^{:.0}", cause.term.name, cause.ln_p);

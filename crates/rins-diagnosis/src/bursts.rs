@@ -3,7 +3,7 @@
 use rins_terms::SettingKind;
 
 use crate::diagnosis::Cause;
-use crate::structure::{Along, Structure};
+use crate::structure::{Stratum, Structure};
 use crate::unexplained::Unexplained;
 
 /// Lines stand beside another whose frequencies differ from its own by less than this part of it, ...
@@ -43,7 +43,7 @@ pub(crate) fn gathered(mut causes: Vec<Cause>, duration: f64) -> (Vec<Cause>, Ve
         found.extend(of_sidebands.map(|ln_p| Unexplained {
             run: line.parameters.first().and_then(|estimate| estimate.run).unwrap_or_default(),
             channel: "all",
-            structure: Structure::Inconstant(Along::Time),
+            structure: Structure::Inconstant(Stratum::Time),
             of: Some(line.term.id),
             ln_p,
             amplitude: None,

@@ -1,7 +1,7 @@
 //! The effects that are tried on runs: every term of the catalogue, in every shape that could differ.
 
 use rins_estimation::{Reference, Run};
-use rins_terms::{Chosen, GridPoint, Model, Need, Setting, SettingKind, Term, catalogue};
+use rins_terms::{GridPoint, Model, Need, Setting, SettingKind, Term, TermInstance, catalogue};
 
 use crate::dead_zone;
 use crate::timing::has_frequency;
@@ -26,7 +26,7 @@ const LEAST_TURN: f64 = 1e-3;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// The term, all its parameters estimated.
-    pub chosen: Chosen,
+    pub chosen: TermInstance,
     /// How many independent shapes the term has: what a test of the best of them costs.
     pub looks: f64,
     /// How far the neighbouring shapes are, if shapes are taken from a continuum: the place of a setting, and its step.
@@ -51,7 +51,7 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
 }
 
 /// Whether these are samples that an encoder loses before the table ever turns, which is nothing but a latency.
-fn is_latency(runs: &[Run], chosen: &Chosen) -> bool {
+fn is_latency(runs: &[Run], chosen: &TermInstance) -> bool {
     let turns_by = |run: &Run, time: f64| {
         let (angles, times) = (run.recording.table_angle.as_deref()?, &run.recording.times);
         let first = angles.iter().position(|angle| (angle - angles[0]).abs() > LEAST_TURN)?;
@@ -64,19 +64,20 @@ fn is_latency(runs: &[Run], chosen: &Chosen) -> bool {
 
 /// Whether a model leaves room for an effect beside those of its kind: two orders are two effects, and what happens twice
 /// two events, if they are not one whose time is a little off. A base that steps time and again is no step.
-pub(crate) fn has_room(model: &Model, other: &Chosen, duration: f64) -> bool {
-    let alike: Vec<&Chosen> = model.terms.iter().filter(|own| own.term.is(other.term)).collect();
+pub(crate) fn has_room(model: &Model, other: &TermInstance, duration: f64) -> bool {
+    let alike: Vec<&TermInstance> =
+        model.terms.iter().filter(|own| own.term.is(other.term)).collect();
     if other.term.setting(SettingKind::Order).is_some() {
         return alike.iter().all(|own| own.settings != other.settings);
     }
     let follows_heat = other.term.is(&catalogue::THERMAL_ONE_PER_TURN);
     if let Some(place) = other.term.setting(SettingKind::TimeConstant).filter(|_| !follows_heat) {
-        let apart = |own: &&Chosen| (own.settings[place] / other.settings[place]).ln().abs();
+        let apart = |own: &&TermInstance| (own.settings[place] / other.settings[place]).ln().abs();
         return alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > APART.ln());
     }
     match other.term.setting(SettingKind::Time) {
         Some(place) if !other.term.is(&catalogue::BASE_TILT_STEP) => {
-            let apart = |own: &&Chosen| (own.settings[place] - other.settings[place]).abs();
+            let apart = |own: &&TermInstance| (own.settings[place] - other.settings[place]).abs();
             let least = duration / f64::from(SettingKind::EVENT_TIMES);
             alike.len() < MOST_ALIKE && alike.iter().all(|own| apart(own) > least)
         }
@@ -108,7 +109,7 @@ fn offer(runs: &[Run], need: Need) -> bool {
 
 /// A term in each of its shapes.
 fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
-    let chosen = Chosen::new(term).estimated();
+    let chosen = TermInstance::new(term).estimated();
     let grid =
         |(place, setting): (usize, &'static Setting)| Some((place, setting.search_grid(duration)?));
     if dead_zone::is_true(&chosen) {
@@ -144,7 +145,7 @@ impl Candidate {
     }
 
     /// An effect that was found, of no size yet, with one of its settings moved by so much.
-    pub(crate) fn beside(found: &Chosen, setting: usize, by: f64) -> Self {
+    pub(crate) fn beside(found: &TermInstance, setting: usize, by: f64) -> Self {
         let mut chosen = found.clone().with_values(&vec![0.0; found.values.len()]);
         chosen.settings[setting] += by;
         Self { chosen, looks: 1.0, step: None }
@@ -163,7 +164,7 @@ impl Candidate {
     }
 
     /// The same effect when another one happens, or as slowly, if both are events or settle.
-    pub(crate) fn at_the_time_of(&self, other: &Chosen) -> Option<Self> {
+    pub(crate) fn at_the_time_of(&self, other: &TermInstance) -> Option<Self> {
         [SettingKind::Time, SettingKind::TimeConstant].into_iter().find_map(|kind| {
             let own = self.chosen.term.setting(kind)?;
             let mut moved = self.clone();

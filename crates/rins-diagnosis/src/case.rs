@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 use rins_estimation::{
-    Fit, FitError, Indefinite, Noise, NoiseKnowledge, Run, Strengths, fit, fit_near,
+    Fit, FitError, Indefinite, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_near,
 };
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, Role};
+use rins_terms::{Model, Role, TermInstance};
 
 use crate::candidates::{Candidate, duration};
 use crate::dead_zone;
@@ -42,7 +42,7 @@ pub(crate) struct Case<'a> {
     pub(crate) imu: &'a ImuSpec,
     pub(crate) knowledge: NoiseKnowledge,
     /// What the sheet says of the noise; `knowledge` may ask for more.
-    pub(crate) sheet: Strengths,
+    pub(crate) sheet: NoiseParameters,
     /// In how coarse steps the sensors read.
     pub(crate) rounding: &'a Rounding,
 }
@@ -67,14 +67,14 @@ impl Case<'_> {
 
     /// The given model with causes, fitted where much the same has been; priors are about what was expected, not about
     /// what was found.
-    pub(crate) fn fit_near(&self, near: &Fit, causes: &[Chosen]) -> Result<Fit, FitError> {
+    pub(crate) fn fit_near(&self, near: &Fit, causes: &[TermInstance]) -> Result<Fit, FitError> {
         let mut model = self.given.clone();
         model.terms.extend(causes.iter().cloned());
         fit_near(near, self.runs, &model, self.imu, self.knowledge)
     }
 
     /// The terms of a fit beyond the given ones.
-    pub(crate) fn causes_in<'fit>(&self, fit: &'fit Fit) -> &'fit [Chosen] {
+    pub(crate) fn causes_in<'fit>(&self, fit: &'fit Fit) -> &'fit [TermInstance] {
         &fit.model().terms[self.given.terms.len()..]
     }
 
@@ -241,7 +241,7 @@ impl Case<'_> {
 
 impl Candidate {
     /// The term to be estimated, its amplitudes expected within what the trial found them to need.
-    pub(crate) fn expecting(&self, trial: &Trial, imu: &ImuSpec) -> Chosen {
+    pub(crate) fn expecting(&self, trial: &Trial, imu: &ImuSpec) -> TermInstance {
         if dead_zone::is_of_widths(&self.chosen) {
             let mut zone = dead_zone::of_shape(&self.chosen, &trial.parameters);
             for &gyro in &trial.parameters {

@@ -2,8 +2,8 @@
 
 use rins_frames::units::DEG_PER_HOUR;
 use rins_terms::{
-    Action, Chosen, Dual64, DualVector, Moment, Role, Setting, SettingKind, Signals, Term, Unit,
-    catalogue::GYRO_DEAD_ZONE,
+    Action, Dual64, DualVector, KinematicState, Role, Setting, SettingKind, Signals, Term,
+    TermInstance, Unit, catalogue::GYRO_DEAD_ZONE,
 };
 
 use crate::candidates::Candidate;
@@ -63,7 +63,7 @@ static ACROSS_OF_WIDTHS: Term = Term {
 fn as_deep(
     depths: &[Dual64],
     settings: &[f64],
-    moment: &Moment,
+    moment: &KinematicState,
     sensed: &DualVector,
     out: &mut Signals,
 ) {
@@ -89,7 +89,7 @@ pub(crate) fn shapes() -> Vec<Candidate> {
 }
 
 /// The dead zone that was found, and every one that a further gyro has besides.
-pub(crate) fn with_another(zone: &Chosen) -> Vec<Candidate> {
+pub(crate) fn with_another(zone: &TermInstance) -> Vec<Candidate> {
     let axes = zone.settings[0];
     let nothing = vec![0.0; zone.values.len()];
     let mut list = vec![tried(linear(zone).with_values(&nothing))];
@@ -105,12 +105,12 @@ pub(crate) fn with_another(zone: &Chosen) -> Vec<Candidate> {
 }
 
 fn across([x, y]: [f64; ACROSS], axes: f64) -> Candidate {
-    let mut chosen = Chosen::new(&ACROSS_OF_WIDTHS);
+    let mut chosen = TermInstance::new(&ACROSS_OF_WIDTHS);
     chosen.settings.copy_from_slice(&[x, y, axes]);
     tried(chosen)
 }
 
-fn tried(shape: Chosen) -> Candidate {
+fn tried(shape: TermInstance) -> Candidate {
     let (widths, axes) = shape.settings.split_at(shape.values.len());
     // Each width of its own has been sought.
     let own = |&place: &usize| widths[place] > 0.0 && !widths[..place].contains(&widths[place]);
@@ -120,29 +120,29 @@ fn tried(shape: Chosen) -> Candidate {
 }
 
 /// Whether this is a dead zone of given widths.
-pub(crate) fn is_of_widths(chosen: &Chosen) -> bool {
+pub(crate) fn is_of_widths(chosen: &TermInstance) -> bool {
     chosen.term.is(&OF_WIDTHS) && chosen.settings.len() > GYRO_DEAD_ZONE.settings.len()
 }
 
 /// Whether this is a dead zone whose widths are its parameters.
-pub(crate) fn is_true(chosen: &Chosen) -> bool {
+pub(crate) fn is_true(chosen: &TermInstance) -> bool {
     chosen.term.is(&GYRO_DEAD_ZONE) && !is_of_widths(chosen)
 }
 
 /// What stands for a dead zone of these widths where a model has to be linear from there down to nothing.
-pub(crate) fn linear(zone: &Chosen) -> Chosen {
+pub(crate) fn linear(zone: &TermInstance) -> TermInstance {
     let settings = [&zone.values[..], &zone.settings].concat();
-    Chosen { term: &OF_WIDTHS, settings, ..zone.clone() }
+    TermInstance { term: &OF_WIDTHS, settings, ..zone.clone() }
 }
 
 /// Whether a shape is that of a true dead zone.
-pub(crate) fn is_shape_of(shape: &Chosen, zone: &Chosen) -> bool {
+pub(crate) fn is_shape_of(shape: &TermInstance, zone: &TermInstance) -> bool {
     is_of_widths(shape) && shape.settings == linear(zone).settings
 }
 
 /// The true dead zone of which a shape is one width, of these gyros and of no other.
-pub(crate) fn of_shape(shape: &Chosen, gyros: &[usize]) -> Chosen {
-    let mut zone = Chosen::new(&GYRO_DEAD_ZONE);
+pub(crate) fn of_shape(shape: &TermInstance, gyros: &[usize]) -> TermInstance {
+    let mut zone = TermInstance::new(&GYRO_DEAD_ZONE);
     zone.settings.copy_from_slice(&shape.settings[shape.values.len()..]);
     for &gyro in gyros {
         zone.values[gyro] = shape.settings[gyro];
@@ -152,7 +152,7 @@ pub(crate) fn of_shape(shape: &Chosen, gyros: &[usize]) -> Chosen {
 }
 
 /// Whether depths \[rad/s\], of these gyros, are those of a zone of these widths.
-pub(crate) fn is_as_deep(shape: &Chosen, gyros: &[usize], depths: &[f64]) -> bool {
+pub(crate) fn is_as_deep(shape: &TermInstance, gyros: &[usize], depths: &[f64]) -> bool {
     gyros.iter().zip(depths).all(|(&gyro, depth)| {
         let width = shape.settings[gyro];
         width > 0.0 && (width / AS_DEEP..=width * AS_DEEP).contains(depth)

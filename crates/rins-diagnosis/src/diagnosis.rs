@@ -2,7 +2,7 @@
 
 use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Model, SettingKind, Term};
+use rins_terms::{Model, SettingKind, Term, TermInstance};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
@@ -217,7 +217,7 @@ impl Case<'_> {
         if !fast.is_empty() {
             present = case.fit_near(before, &[])?;
         }
-        let mut found: Vec<Chosen> = Vec::new();
+        let mut found: Vec<TermInstance> = Vec::new();
         let mut not_testable = None;
         let (mut refused, most_refused) = (refused.to_vec(), refused.len() + MOST_REFUSED);
         while found.len() < MOST_CAUSES {
@@ -310,7 +310,7 @@ impl Case<'_> {
 pub fn suppose(
     runs: &[Run],
     model: &Model,
-    supposed: &[Chosen],
+    supposed: &[TermInstance],
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Diagnosis, DiagnosisError> {
@@ -375,7 +375,7 @@ fn beside(
 }
 
 /// Whether the last effect of some settles in another time than one of its kind before.
-fn settles_twice(found: &[Chosen]) -> bool {
+fn settles_twice(found: &[TermInstance]) -> bool {
     found.split_last().is_some_and(|(last, before)| {
         let settles = last.term.setting(SettingKind::TimeConstant).is_some();
         settles && before.iter().any(|one| one.term.is(last.term))

@@ -1,8 +1,8 @@
 //! Signals of no known cause, to say how large is what was found: of a frequency, or of an order of the table angle.
 
 use rins_terms::{
-    Action, Dual64, Moment, Owner, Parameter, Parity, Prior, Setting, SettingKind, Signals, Term,
-    Unit, sin_cos,
+    Action, Dual64, KinematicState, Owner, Parameter, Parity, Prior, Setting, SettingKind, Signals,
+    Term, Unit, sin_cos,
 };
 
 /// The channels on which a disturbance may be, each with a cosine and a sine.
@@ -37,7 +37,7 @@ const PARAMETERS: &[Parameter] = &[
 const fn disturbance(
     name: &'static str,
     settings: &'static [Setting],
-    act: fn(&[Dual64], &[f64], &Moment, &mut Signals),
+    act: fn(&[Dual64], &[f64], &KinematicState, &mut Signals),
 ) -> Term {
     Term {
         id: "disturbance",

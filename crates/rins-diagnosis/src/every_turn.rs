@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rins_estimation::{Estimate, Fit};
-use rins_terms::{Chosen, SettingKind, Term, catalogue};
+use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::Cause;
@@ -50,7 +50,7 @@ impl Case<'_> {
         }
         let run = parts[0].parameters.first().and_then(|estimate| estimate.run).unwrap_or_default();
         let frequency = turn_frequency(after, run)?;
-        let (own, mut model): (Vec<Chosen>, Vec<Chosen>) = self
+        let (own, mut model): (Vec<TermInstance>, Vec<TermInstance>) = self
             .causes_in(after)
             .iter()
             .cloned()
@@ -59,7 +59,8 @@ impl Case<'_> {
             own.iter().flat_map(|one| orders(one.term, &one.settings)).collect();
         all.sort_by(f64::total_cmp);
         all.dedup();
-        let wave = |order: f64| Chosen::new(&IN_ANGLE).with_setting(SettingKind::Order, order);
+        let wave =
+            |order: f64| TermInstance::new(&IN_ANGLE).with_setting(SettingKind::Order, order);
         model.extend(all.into_iter().map(|order| wave(order).estimating(&OF_GYRO)));
         let as_one = self.fit_near(after, &model).ok()?;
         if as_one.log_likelihood - after.log_likelihood + saved < 0.0 {

@@ -2,7 +2,7 @@
 
 use rins_estimation::{Fit, Run};
 use rins_frames::{InFrame, Increments};
-use rins_terms::{Making, Model, Track, catalogue};
+use rins_terms::{MeasurementModel, Model, Track, catalogue};
 use rustfft::num_complex::Complex;
 
 /// A table that turns more slowly has no angle or order to speak of \[rad/s\].
@@ -91,7 +91,7 @@ fn readings<'a>(
     model: &'a Model,
     track: &'a Track,
 ) -> impl Iterator<Item = (Increments, f64)> + use<'a> {
-    let mut making = Making::new(model, track);
+    let mut making = MeasurementModel::new(model, track);
     track.moments().map(move |moment| {
         let truth = Increments {
             angle: InFrame::from_components(moment.rate * moment.interval),

@@ -1,7 +1,7 @@
 //! Harmonics of the encoder that are higher than those that are always tried: marks of a disc, teeth of a gear.
 
 use rins_estimation::{Fit, Reference};
-use rins_terms::{Chosen, SettingKind, catalogue};
+use rins_terms::{SettingKind, TermInstance, catalogue};
 use rustfft::num_complex::Complex;
 
 use crate::candidates::{Candidate, has_room};
@@ -78,7 +78,7 @@ impl Case<'_> {
 impl Candidate {
     /// A harmonic of the encoder beyond those that are always tried: looked for the more, the lower it is.
     pub(crate) fn high_harmonic(order: f64) -> Self {
-        let chosen = Chosen::new(&catalogue::ENCODER_HARMONIC).estimated();
+        let chosen = TermInstance::new(&catalogue::ENCODER_HARMONIC).estimated();
         let all: f64 = (1..=HIGHEST).map(|order| 1.0 / f64::from(order)).sum();
         Self {
             chosen: chosen.with_setting(SettingKind::Order, order),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rins_estimation::Fit;
-use rins_terms::{Chosen, Need, SettingKind, Track, catalogue};
+use rins_terms::{Need, SettingKind, TermInstance, Track, catalogue};
 
 use crate::case::Case;
 use crate::median::median;
@@ -92,7 +92,7 @@ impl Jolts {
     }
 
     /// Puts an event of the base or of the encoder to where single samples show it, if they do so within an epoch of it.
-    pub(crate) fn pin(&self, event: &mut Chosen) {
+    pub(crate) fn pin(&self, event: &mut TermInstance) {
         let Some(place) = event.term.setting(SettingKind::Time) else { return };
         let time = event.settings[place];
         if event.term.is(&catalogue::BASE_TILT_STEP) {
@@ -112,7 +112,7 @@ impl Jolts {
 }
 
 /// The samples in which a base steps: not at once, and what it does in between no step describes.
-pub(crate) fn around(step: &Chosen, track: &Track, epoch: f64) -> Range<usize> {
+pub(crate) fn around(step: &TermInstance, track: &Track, epoch: f64) -> Range<usize> {
     let first = |after: f64| track.times().partition_point(|time| time - track.start() < after);
     let [time, duration] = step.settings[..] else { return 0..0 };
     let reach = epoch + 0.5 * duration;

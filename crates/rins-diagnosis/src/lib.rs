@@ -60,7 +60,7 @@ pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;
 pub use limits::{Limit, chance, limits};
 pub use noise::stuck;
-pub use structure::{Along, Structure};
+pub use structure::{Stratum, Structure};
 pub use unexplained::Unexplained;
 
 #[cfg(doctest)]

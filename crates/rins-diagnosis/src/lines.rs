@@ -1,7 +1,7 @@
 //! Lines that are faster than an epoch, sample by sample.
 
 use rins_estimation::{Fit, Run};
-use rins_terms::{Chosen, SettingKind, catalogue};
+use rins_terms::{SettingKind, TermInstance, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::{Cause, FALSE_ALARMS, Rival};
@@ -29,7 +29,7 @@ const MOVES: f64 = 12.0;
 const PLACES: f64 = CHANNELS as f64 + 1.0;
 
 /// A line that is faster than an epoch, with its amplitudes.
-pub(crate) type FastLine = (Chosen, Cause);
+pub(crate) type FastLine = (TermInstance, Cause);
 
 impl Case<'_> {
     /// Lines that are faster than an epoch shows, with their amplitudes.
@@ -76,10 +76,10 @@ impl Case<'_> {
     pub(crate) fn supposed_lines(
         &self,
         fit: &Fit,
-        supposed: &[Chosen],
-    ) -> (Vec<FastLine>, Vec<Chosen>) {
+        supposed: &[TermInstance],
+    ) -> (Vec<FastLine>, Vec<TermInstance>) {
         let slowest = |run: usize| 0.5 / fit.linear[run].mean_epoch();
-        let fast = |one: &Chosen| {
+        let fast = |one: &TermInstance| {
             let frequency = one.setting(SettingKind::Frequency)?;
             let is_fast = (0..self.runs.len()).all(|run| frequency > slowest(run));
             place_of(one).filter(|_| is_fast).map(|place| (place, frequency))
@@ -151,7 +151,7 @@ impl Case<'_> {
     }
 
     /// Whether a run hardly tells one line from another.
-    fn is_beside(&self, line: &Chosen, other: &Chosen) -> bool {
+    fn is_beside(&self, line: &TermInstance, other: &TermInstance) -> bool {
         other.term.is(line.term)
             && other.settings[1..] == line.settings[1..]
             && (other.settings[0] - line.settings[0]).abs() * self.duration() < BESIDE
@@ -303,7 +303,7 @@ fn middles(run: &Run) -> Vec<Option<f64>> {
 }
 
 /// Where an effect is a line.
-fn place_of(line: &Chosen) -> Option<Place> {
+fn place_of(line: &TermInstance) -> Option<Place> {
     if line.term.is(&catalogue::BASE_SWAY) {
         return Some(Place::Base);
     }
@@ -312,12 +312,12 @@ fn place_of(line: &Chosen) -> Option<Place> {
 }
 
 /// The effect that a line is.
-fn effect(place: Place, frequency: f64) -> Chosen {
+fn effect(place: Place, frequency: f64) -> TermInstance {
     match place {
         Place::Base => {
-            Chosen::new(&catalogue::BASE_SWAY).with_setting(SettingKind::Frequency, frequency)
+            TermInstance::new(&catalogue::BASE_SWAY).with_setting(SettingKind::Frequency, frequency)
         }
-        Place::Axis(axis) => Chosen::new(&catalogue::INTERFERENCE_LINE)
+        Place::Axis(axis) => TermInstance::new(&catalogue::INTERFERENCE_LINE)
             .with_setting(SettingKind::Frequency, frequency)
             .with_setting(SettingKind::Axis, [1.0, 2.0, 3.0][axis]),
     }

@@ -1,7 +1,7 @@
 //! What was found in a run about any axis, by the names of the sensors' own axes.
 
 use rins_frames::SignedAxes;
-use rins_terms::{Chosen, own_channel};
+use rins_terms::{TermInstance, own_channel};
 
 use crate::diagnosis::Cause;
 use crate::disturbance::CHANNELS;
@@ -15,7 +15,7 @@ impl Cause {
     #[must_use]
     pub fn along_own(&self, axes: &SignedAxes) -> Self {
         let mut own = self.clone();
-        let mut chosen = Chosen::new(self.term);
+        let mut chosen = TermInstance::new(self.term);
         chosen.settings.clone_from(&self.settings);
         own.settings = self.term.own_settings(&self.settings, axes);
         own.parameters = self.parameters.iter().map(|e| e.along_own(&chosen, axes)).collect();

@@ -1,10 +1,10 @@
 //! Random errors that are not as the data sheet says.
 
 use rins_estimation::{
-    Estimate, Fit, Indefinite, Noise, NoiseKnowledge, Strengths, TriadStrengths,
+    Estimate, Fit, Indefinite, Noise, NoiseKnowledge, NoiseParameters, TriadStrengths,
 };
 use rins_inspection::Repeats;
-use rins_terms::{Free, Term, catalogue};
+use rins_terms::{FreeParameter, Term, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS};
@@ -35,7 +35,7 @@ enum Kind {
 }
 
 /// The gyros' strengths, which are the first, or the accelerometers'.
-pub(crate) fn triad(strengths: &mut Strengths, which: usize) -> &mut TriadStrengths {
+pub(crate) fn triad(strengths: &mut NoiseParameters, which: usize) -> &mut TriadStrengths {
     if which == 0 { &mut strengths.gyro } else { &mut strengths.accel }
 }
 
@@ -56,7 +56,7 @@ const STRENGTHS: [Strength; 7] = [
 ];
 
 impl Kind {
-    fn slot(self, strengths: &mut Strengths) -> &mut f64 {
+    fn slot(self, strengths: &mut NoiseParameters) -> &mut f64 {
         match self {
             Self::White(which) => &mut triad(strengths, which).white,
             Self::Flicker(which) => &mut triad(strengths, which).flicker,
@@ -65,7 +65,7 @@ impl Kind {
         }
     }
 
-    fn value(self, strengths: &Strengths) -> f64 {
+    fn value(self, strengths: &NoiseParameters) -> f64 {
         *self.slot(&mut { *strengths })
     }
 
@@ -235,7 +235,7 @@ pub(crate) fn estimate(
     sigma: f64,
 ) -> Estimate {
     let parameter = &term.parameters[place];
-    let free = Free {
+    let free = FreeParameter {
         id: format!("{}.{}", term.id, parameter.name),
         unit: parameter.unit,
         owner: term.owner,

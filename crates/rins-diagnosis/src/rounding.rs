@@ -1,7 +1,7 @@
 //! Readings in steps, so coarse that their rounding is a part of the noise.
 
-use rins_estimation::{Fit, Run, Strengths};
-use rins_inspection::{Comb, Combs};
+use rins_estimation::{Fit, NoiseParameters, Run};
+use rins_inspection::{QuantizationGrid, QuantizationGrids};
 use rins_terms::{Term, catalogue};
 
 use crate::case::Case;
@@ -41,7 +41,7 @@ pub(crate) struct Rounding {
 /// A sensor that reads in steps.
 #[derive(Clone, Copy, Debug)]
 struct Steps {
-    combs: Combs,
+    combs: QuantizationGrids,
     /// Their height, as a rate or a force.
     height: f64,
     /// The same over a sample: as an angle or a velocity.
@@ -54,14 +54,14 @@ struct Steps {
 
 impl Rounding {
     /// The steps of all sensors that are told of, beside the noise that a sheet states.
-    pub(crate) fn of(runs: &[Run], sheet: Strengths) -> Self {
+    pub(crate) fn of(runs: &[Run], sheet: NoiseParameters) -> Self {
         let of_run = |run: &Run| {
-            let combs = Combs::of(&run.recording);
+            let combs = QuantizationGrids::of(&run.recording);
             let interval = run.recording.mean_interval();
             [0, 1].map(|which| {
                 let stated = triad(&mut { sheet }, which).white;
                 let steps = (3 * which..3 * which + 3).filter_map(|channel| {
-                    let Combs { increments, rates } = combs[channel];
+                    let QuantizationGrids { increments, rates } = combs[channel];
                     let of_increments = increments.map(|comb| comb.step / interval);
                     let height = of_increments.or(rates.map(|comb| comb.step))?;
                     let white = height * (interval / 12.0).sqrt();
@@ -130,15 +130,15 @@ impl Case<'_> {
                 return None;
             }
             let (place, comb) = match steps.combs {
-                Combs { increments: Some(increments), rates: Some(rates) } => {
+                QuantizationGrids { increments: Some(increments), rates: Some(rates) } => {
                     // About the axis, the encoder's noise is a difference too.
                     let shown = [0..ABOUT_AXIS, 3..6][which].clone();
                     let residuals = residuals(&self.runs[run], after, run);
                     let carried = residuals[shown].iter().any(|one| is_carried(one, steps.height));
                     if carried { (0, increments) } else { (1, rates) }
                 }
-                Combs { increments: Some(increments), .. } => (0, increments),
-                Combs { rates, .. } => (1, rates?),
+                QuantizationGrids { increments: Some(increments), .. } => (0, increments),
+                QuantizationGrids { rates, .. } => (1, rates?),
             };
             Some(cause(TERMS[which], place, &comb))
         };
@@ -146,7 +146,7 @@ impl Case<'_> {
     }
 }
 
-fn cause(term: &'static Term, place: usize, comb: &Comb) -> Cause {
+fn cause(term: &'static Term, place: usize, comb: &QuantizationGrid) -> Cause {
     Cause {
         term,
         settings: Vec::new(),

@@ -1,7 +1,7 @@
 //! A last look at every cause beside the others.
 
 use rins_estimation::Fit;
-use rins_terms::{Chosen, Role, SettingKind, catalogue};
+use rins_terms::{Role, SettingKind, TermInstance, catalogue};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
@@ -42,14 +42,14 @@ pub(crate) enum Found {
 enum Look {
     Keep(Cause),
     Drop,
-    Exchange(Vec<Chosen>),
+    Exchange(Vec<TermInstance>),
 }
 
 /// All that is asked of one cause.
 struct Question<'a> {
     survey: &'a Survey,
     list: &'a [Candidate],
-    found: &'a [Chosen],
+    found: &'a [TermInstance],
     /// Which of those that were found.
     index: usize,
     /// Where its parameters are: a list for each.
@@ -69,7 +69,7 @@ impl Case<'_> {
         &self,
         before: &Fit,
         mut present: Fit,
-        mut found: Vec<Chosen>,
+        mut found: Vec<TermInstance>,
         mut how: Found,
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let given = self.given.terms.len();
@@ -180,7 +180,7 @@ impl Case<'_> {
 
     /// All candidates, and every event at the times of those that were found, every line at their frequencies; of a dead
     /// zone that was found what was found, and such of further gyros.
-    fn with_events(&self, present: &Fit, found: &[Chosen]) -> Vec<Candidate> {
+    fn with_events(&self, present: &Fit, found: &[TermInstance]) -> Vec<Candidate> {
         let mut list = candidates(self.runs, self.given);
         for (index, cause) in found.iter().enumerate() {
             if dead_zone::is_true(cause) {

@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 use rins_estimation::{Fit, Indefinite};
-use rins_terms::{Chosen, SettingKind};
+use rins_terms::{SettingKind, TermInstance};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
@@ -42,7 +42,7 @@ impl Case<'_> {
     pub(crate) fn sharpened(
         &self,
         present: Fit,
-        found: &mut [Chosen],
+        found: &mut [TermInstance],
     ) -> Result<(Fit, Vec<Sought>), DiagnosisError> {
         let (mut present, sought) = self.at_their_best(present, found)?;
         for one in &sought {
@@ -55,7 +55,7 @@ impl Case<'_> {
     pub(crate) fn at_their_best(
         &self,
         mut present: Fit,
-        found: &mut [Chosen],
+        found: &mut [TermInstance],
     ) -> Result<(Fit, Vec<Sought>), Indefinite> {
         let mut sought = self.sought(&present, found)?;
         let mut part = 1.0;
@@ -98,7 +98,7 @@ impl Case<'_> {
     }
 
     /// What the runs say of every setting that was sought for these effects, the last of the model in `present`.
-    fn sought(&self, present: &Fit, found: &[Chosen]) -> Result<Vec<Sought>, Indefinite> {
+    fn sought(&self, present: &Fit, found: &[TermInstance]) -> Result<Vec<Sought>, Indefinite> {
         let given = present.model().terms.len() - found.len();
         let mut list = Vec::new();
         let mut asked = Vec::new();
@@ -144,7 +144,7 @@ impl Case<'_> {
 
     /// The setting of an effect that comes from a continuum, how far apart its values are that tell a derivative, and
     /// how far it may be off before it is another effect.
-    fn continuum(&self, present: &Fit, chosen: &Chosen) -> Option<(usize, f64, f64)> {
+    fn continuum(&self, present: &Fit, chosen: &TermInstance) -> Option<(usize, f64, f64)> {
         let (duration, epoch) = (self.duration(), present.linear[0].mean_epoch());
         let settings = chosen.term.settings.iter().zip(&chosen.settings).enumerate();
         settings.into_iter().find_map(|(place, (setting, &value))| {
@@ -156,11 +156,11 @@ impl Case<'_> {
 
 /// Of every effect that settles in some time the same in a little longer: with both in a model it may settle in any time.
 pub(crate) fn settling_later(
-    found: &[Chosen],
+    found: &[TermInstance],
     duration: f64,
     epoch: f64,
 ) -> Vec<(usize, Candidate)> {
-    let later = |(cause, chosen): (usize, &Chosen)| {
+    let later = |(cause, chosen): (usize, &TermInstance)| {
         let place = chosen.term.setting(SettingKind::TimeConstant)?;
         let setting = &chosen.term.settings[place];
         let step = setting.kind.derivative_step(chosen.settings[place], duration, epoch)?;

@@ -43,7 +43,7 @@ pub enum Structure {
     /// A bias that switches between two levels, so many times.
     Switching(usize),
     /// A spread that is not the same all along.
-    Spread(Along),
+    Spread(Stratum),
     /// A sensor whose noise is so many times that of the other one of its kind across the axis.
     Noisier(f64),
     /// More large innovations than normal ones have.
@@ -51,12 +51,12 @@ pub enum Structure {
     /// So many shocks, the strongest of them at this time \[s\] of the run.
     Shocks(usize, f64),
     /// An effect that was named, and is not the same all along.
-    Inconstant(Along),
+    Inconstant(Stratum),
 }
 
 /// What changes along a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Along {
+pub enum Stratum {
     /// Thirds of the time.
     Time,
     /// The sense in which the table turns.
@@ -121,9 +121,9 @@ impl Remainder<'_> {
             &|| body.chirp(),
             &|| self.order(&in_body),
             &|| body.every_turn(),
-            &|| Some(self.spread(Along::Time)),
-            &|| Some(self.spread(Along::Sense)),
-            &|| Some(self.spread(Along::Rate)),
+            &|| Some(self.spread(Stratum::Time)),
+            &|| Some(self.spread(Stratum::Sense)),
+            &|| Some(self.spread(Stratum::Rate)),
         ];
         let mut finds: Vec<Find> = ways.par_iter().filter_map(|way| way()).collect();
         let kinds = finds.len() as f64;
@@ -300,7 +300,7 @@ impl Remainder<'_> {
     }
 
     /// Whether the spread is the same all along: the likelihood ratio of a variance for each group.
-    fn spread(&self, along: Along) -> Find {
+    fn spread(&self, along: Stratum) -> Find {
         let groups = groups(along, &self.motion.rates);
         let mut best = Find { structure: Structure::Spread(along), channel: 0, ln_p: 0.0 };
         for channel in 0..CHANNELS {
@@ -354,7 +354,7 @@ pub(crate) fn turned(nu: &SVector<f64, CHANNELS>, angle: f64) -> SVector<f64, CH
 }
 
 /// The group of each epoch.
-pub(crate) fn groups(along: Along, rates: &[f64]) -> Vec<usize> {
+pub(crate) fn groups(along: Stratum, rates: &[f64]) -> Vec<usize> {
     /// Rates that differ by less are one level \[rad/s\].
     const LEVEL: f64 = 0.02;
     let n = rates.len();
@@ -363,9 +363,9 @@ pub(crate) fn groups(along: Along, rates: &[f64]) -> Vec<usize> {
         .iter()
         .enumerate()
         .map(|(place, rate)| match along {
-            Along::Time => PARTS * place / n,
-            Along::Sense => usize::from(*rate < -LEVEL),
-            Along::Rate => {
+            Stratum::Time => PARTS * place / n,
+            Stratum::Sense => usize::from(*rate < -LEVEL),
+            Stratum::Rate => {
                 let rate = rate.abs();
                 levels.iter().position(|level| (level - rate).abs() < LEVEL).unwrap_or_else(|| {
                     levels.push(rate);

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 use rins_estimation::{Fit, Reference};
-use rins_terms::{Chosen, Need, SettingKind, Term, catalogue};
+use rins_terms::{Need, SettingKind, Term, TermInstance, catalogue};
 
 use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
@@ -49,7 +49,7 @@ impl Case<'_> {
             let in_body = left.in_body();
             let body = Remainder { innovations: &in_body, ..left };
             list.extend(left.strongest_order(&in_body).map(|(order, step, looks)| {
-                let mut chosen = Chosen::new(&IN_ANGLE).estimated();
+                let mut chosen = TermInstance::new(&IN_ANGLE).estimated();
                 chosen.settings[0] = order;
                 Candidate { chosen, looks, step: Some((0, step)) }
             }));
@@ -74,7 +74,7 @@ impl Case<'_> {
     }
 
     /// Whether a line can be told from the table's motion: about an axis that only a command tells of it cannot.
-    fn shows(&self, run: usize, line: &Chosen) -> bool {
+    fn shows(&self, run: usize, line: &TermInstance) -> bool {
         let commanded = matches!(self.runs[run].rig.reference, Reference::Command { .. });
         !commanded || line.setting(SettingKind::Axis).is_none_or(|axis| axis < 3.0)
     }
@@ -95,7 +95,7 @@ impl Case<'_> {
         let count = innovations[0].len() as f64;
         let mut list = Vec::new();
         let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
-        for chosen in terms.map(|term| Chosen::new(term).estimated()) {
+        for chosen in terms.map(|term| TermInstance::new(term).estimated()) {
             let Some(place) = chosen.term.setting(SettingKind::Time) else { continue };
             let earlier = list.len();
             for outlier in &outliers {
@@ -159,9 +159,9 @@ fn outliers(innovations: [&[SVector<f64, CHANNELS>]; 2]) -> Vec<Range<usize>> {
 }
 
 /// Every term that has a frequency, at this one.
-pub(crate) fn at_frequency(frequency: f64) -> Vec<Chosen> {
+pub(crate) fn at_frequency(frequency: f64) -> Vec<TermInstance> {
     let with = |term: &'static Term| {
-        Chosen::new(term).estimated().with_setting(SettingKind::Frequency, frequency)
+        TermInstance::new(term).estimated().with_setting(SettingKind::Frequency, frequency)
     };
     let line = || with(&catalogue::INTERFERENCE_LINE);
     let axes = [1.0, 2.0, 3.0].map(|axis| line().with_setting(SettingKind::Axis, axis));

@@ -8,7 +8,7 @@ use rins_estimation::{
     Estimate, Evidence, Fit, Indefinite, Layout, Linear, Noise, Run, linearise_coarsely,
 };
 use rins_imu::ImuSpec;
-use rins_terms::Free;
+use rins_terms::FreeParameter;
 
 use crate::candidates::Candidate;
 use crate::dead_zone;
@@ -311,7 +311,7 @@ struct Places {
 }
 
 impl Places {
-    fn of(free: &[Free], known_free: usize, runs: &[Run], terms: usize) -> Self {
+    fn of(free: &[FreeParameter], known_free: usize, runs: &[Run], terms: usize) -> Self {
         let (model, candidates) = free.split_at(known_free);
         let (first, second) = (Layout::of(model, runs), Layout::of(candidates, runs));
         let known = first.all.len();

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix};
 use rins_estimation::{Fit, Indefinite};
-use rins_terms::{Chosen, SettingKind, Term};
+use rins_terms::{SettingKind, Term, TermInstance};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
@@ -14,10 +14,10 @@ impl Case<'_> {
     pub(crate) fn found_among(
         &self,
         present: &Fit,
-        found: &[Chosen],
+        found: &[TermInstance],
     ) -> Result<Vec<f64>, Indefinite> {
         let epochs: f64 = present.linear.iter().map(|run| run.epochs() as f64).sum();
-        let of_lines = |cause: &Chosen| {
+        let of_lines = |cause: &TermInstance| {
             if has_frequency(cause.term) { LOOKS * epochs } else { 1.0 }
         };
         let mut among: Vec<f64> = found.iter().map(of_lines).collect();

@@ -1,7 +1,7 @@
 //! What no effect of the catalogue explains: found, described, and given no name.
 
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
-use rins_terms::{Chosen, Term, Unit, catalogue};
+use rins_terms::{Term, TermInstance, Unit, catalogue};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
@@ -10,7 +10,7 @@ use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
 use crate::periodic::modulated;
 use crate::probability::ln_tail;
 use crate::score::scored;
-use crate::structure::{Along, Remainder, Structure, TableMotion, groups};
+use crate::structure::{Remainder, Stratum, Structure, TableMotion, groups};
 use crate::survey::Survey;
 
 /// What the shown quantities of an epoch are called, in the axis frame.
@@ -151,7 +151,7 @@ impl Case<'_> {
             Structure::Order(order) => (&IN_ANGLE, order),
             _ => (&IN_TIME, 1.0 / duration),
         };
-        let mut chosen = Chosen::new(term).estimated();
+        let mut chosen = TermInstance::new(term).estimated();
         chosen.settings[0] = setting;
         let list = [Candidate { chosen, looks: 1.0, step: None }];
         let noises = std::slice::from_ref(&after.noise);
@@ -176,7 +176,7 @@ impl Case<'_> {
 
     /// The causes that are not the same all along.
     fn inconstant(&self, after: &Fit, causes: &[Cause]) -> Result<Vec<Unexplained>, Indefinite> {
-        let ways = [Along::Time, Along::Sense, Along::Rate];
+        let ways = [Stratum::Time, Stratum::Sense, Stratum::Rate];
         // All of one term are asked together.
         let first = |(place, cause): &(usize, &Cause)| {
             causes[..*place].iter().all(|earlier| !earlier.term.is(cause.term))
@@ -213,7 +213,7 @@ impl Case<'_> {
         after: &Fit,
         cause: &Cause,
         run: usize,
-        along: Along,
+        along: Stratum,
     ) -> Result<Option<f64>, Indefinite> {
         let linear = &after.linear[run];
         let mut groups = groups(along, &TableMotion::of(linear).rates);

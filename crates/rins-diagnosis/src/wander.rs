@@ -1,7 +1,7 @@
 //! A bias that walks at random, which passes for ramps, warm-ups and steps as long as a sheet says nothing of it.
 
-use rins_estimation::{NoiseKnowledge, Strengths, TriadStrengths};
-use rins_terms::{Chosen, Term, catalogue};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, TriadStrengths};
+use rins_terms::{Term, TermInstance, catalogue};
 
 use crate::case::Case;
 use crate::diagnosis::{Cause, Diagnosis, DiagnosisError, Rival};
@@ -136,7 +136,12 @@ impl Case<'_> {
 
     /// How well a walk of one triad's biases explains what slow effects of it were found for, if there are any or
     /// anything is left of them.
-    fn instead(&self, found: &Diagnosis, which: usize, mut sheet: Strengths) -> Option<Instead> {
+    fn instead(
+        &self,
+        found: &Diagnosis,
+        which: usize,
+        mut sheet: NoiseParameters,
+    ) -> Option<Instead> {
         let name = TRIADS[which];
         self.walk(triad(&mut sheet, which));
         let is_slow = |id: &str| SLOW[which].iter().any(|slow| slow.id == id);
@@ -160,7 +165,7 @@ impl Case<'_> {
         if slow.is_empty() && !left {
             return None;
         }
-        let is_given_up = |one: &&Chosen| {
+        let is_given_up = |one: &&TermInstance| {
             let alike = |&place: &usize| {
                 let slow = &found.causes[place];
                 (slow.term.id, &slow.settings) == (one.term.id, &one.settings)
@@ -168,7 +173,7 @@ impl Case<'_> {
             slow.iter().any(alike)
         };
         let causes = self.causes_in(&found.after).iter();
-        let kept: Vec<Chosen> = causes.filter(|one| !is_given_up(one)).cloned().collect();
+        let kept: Vec<TermInstance> = causes.filter(|one| !is_given_up(one)).cloned().collect();
         let other = Case { knowledge: NoiseKnowledge::Likely(sheet), ..*self };
         let walked = other.fit_near(&found.after, &kept).ok()?;
         let mut strengths = walked.noise[0].imu;

@@ -1,7 +1,7 @@
 //! Slow waves that are no sines: steps of one height that undo a drift, and multiples of a line that do not stand out one by one.
 
 use rins_estimation::{Estimate, Fit, Indefinite, NoiseKnowledge};
-use rins_terms::{Chosen, SettingKind, Term, catalogue};
+use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 
 use crate::candidates::Candidate;
 use crate::case::{Case, gained};
@@ -118,7 +118,7 @@ impl Case<'_> {
             .map(|times| f64::from(times) * frequency)
             .filter(|multiple| *multiple < shown)
             .map(|multiple| {
-                let mut chosen = Chosen::new(line.term).estimating(&OF_TRIAD[triad]);
+                let mut chosen = TermInstance::new(line.term).estimating(&OF_TRIAD[triad]);
                 chosen.settings.clone_from(&line.settings);
                 chosen.settings[0] = multiple;
                 Candidate { chosen, looks: 1.0, step: None }

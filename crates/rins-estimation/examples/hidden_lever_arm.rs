@@ -1,13 +1,13 @@
 //! A lever arm that a model does not have spoils its fit; added to the list, it is found.
 #![expect(clippy::print_stdout, reason = "an example shows what it finds")]
 
-use rins_estimation::{NoiseKnowledge, Reference, Rig, Run, Strengths, fit};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
 use rins_frames::{EulerAngles, Site};
 use rins_imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Scenario, simulate};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lever_arm = catalogue::term("accel_lever_arm").ok_or("not in the catalogue")?;
@@ -21,8 +21,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         gyro: NoiseModel::white(imu.gyro.noise_density),
         accel: NoiseModel::white(imu.accel.noise_density),
     };
-    let hidden =
-        Chosen::new(lever_arm).with_values(&[4e-3, -2.5e-3, 0.0][..lever_arm.parameters.len()]);
+    let hidden = TermInstance::new(lever_arm)
+        .with_values(&[4e-3, -2.5e-3, 0.0][..lever_arm.parameters.len()]);
     let scenario = Scenario {
         noise: Some(noise),
         effects: Model::default().with(hidden),
@@ -36,8 +36,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         velocity: 1e-6,
     };
     let runs = [Run::new(rig, simulate(&scenario)?.recording)?];
-    let strengths = Strengths::of(&imu);
-    for model in [Model::full(), Model::full().with(Chosen::new(lever_arm).estimated())] {
+    let strengths = NoiseParameters::of(&imu);
+    for model in [Model::full(), Model::full().with(TermInstance::new(lever_arm).estimated())] {
         let found = fit(&runs, &model, &imu, NoiseKnowledge::Given(strengths), |_| ())?;
         let innovations = found.innovations(0);
         let square: f64 = innovations.iter().map(nalgebra::Matrix::norm_squared).sum();

@@ -1,7 +1,7 @@
 //! Epochs in the making: residuals sample by sample, derivatives piece by piece.
 
 use nalgebra::{Matrix3, Vector3};
-use rins_terms::{Acting, Dual64, Model, Moment, Moments, Signals, Track, values};
+use rins_terms::{Acting, Dual64, KinematicState, KinematicStates, Model, Signals, Track, values};
 
 use crate::epoch::{Epoch, Span, Turning};
 use crate::gains::Growing;
@@ -48,14 +48,18 @@ impl<'a> Compared<'a> {
 pub(crate) struct Build<'a> {
     compared: &'a Compared<'a>,
     /// What is going on over each sample, and over each piece.
-    fine: Moments<'a>,
-    pieces: Moments<'a>,
+    fine: KinematicStates<'a>,
+    pieces: KinematicStates<'a>,
     growing: Growing,
 }
 
 impl<'a> Build<'a> {
     /// From the moments of the first sample and of the first piece on.
-    pub(crate) fn new(compared: &'a Compared<'a>, fine: Moments<'a>, pieces: Moments<'a>) -> Self {
+    pub(crate) fn new(
+        compared: &'a Compared<'a>,
+        fine: KinematicStates<'a>,
+        pieces: KinematicStates<'a>,
+    ) -> Self {
         let growing = Growing::new(compared.columns.len());
         Self { compared, fine, pieces, growing }
     }
@@ -116,7 +120,7 @@ impl<'a> Build<'a> {
 
 impl Compared<'_> {
     /// What the parameters add to what is read in a piece.
-    fn set_columns(&self, growing: &mut Growing, piece: &Moment) {
+    fn set_columns(&self, growing: &mut Growing, piece: &KinematicState) {
         for (column, acting) in self.columns.iter().enumerate() {
             let mut signals = Acting::together(acting, piece);
             self.leave_what_is_read(&mut signals);
@@ -132,7 +136,12 @@ impl Compared<'_> {
     }
 
     /// What a sample was read beyond the model; the attitude of the body in the axis frame, as [`turned_over`] has it.
-    fn residual(&self, growing: &mut Growing, sample: usize, moment: &Moment) -> [Matrix3<f64>; 2] {
+    fn residual(
+        &self,
+        growing: &mut Growing,
+        sample: usize,
+        moment: &KinematicState,
+    ) -> [Matrix3<f64>; 2] {
         let measured = &self.run.recording.increments[sample];
         let mut from_body = turned_over(moment);
         let mut predicted = Acting::together(&self.present, moment);
@@ -161,7 +170,7 @@ impl Compared<'_> {
 
 /// The mean attitude over a moment of a body on a table in the axis frame, for what gyros read and what accelerometers do:
 /// most of what gyros read goes with the table's rate, and counts by how far it turns, not by how long.
-fn turned_over(moment: &Moment) -> [Matrix3<f64>; 2] {
+fn turned_over(moment: &KinematicState) -> [Matrix3<f64>; 2] {
     [turned_by(moment.middle_angle()), turned_by(moment.mean.angle)]
 }
 

@@ -1,6 +1,6 @@
 //! Noise that remembers: flicker and random walk as sums of processes with memory.
 
-use crate::strengths::TriadStrengths;
+use crate::noise_parameters::TriadStrengths;
 
 /// The ratio of neighbouring correlation times of the processes that make flicker noise: between them its density
 /// is off by 4 %, where the strength of a flicker is seldom known to 20 %.

@@ -2,19 +2,19 @@
 
 use nalgebra::{DMatrix, DVector, SVector};
 use rins_frames::SignedAxes;
-use rins_terms::{Free, Model};
+use rins_terms::{FreeParameter, Model};
 
 use crate::evidence::innovations;
 use crate::identifiability::{Alias, Identifiability, Unknown};
 use crate::linear::Linear;
+use crate::noise_parameters::Noise;
 use crate::posterior::Evidence;
-use crate::strengths::Noise;
 
 /// An estimated parameter, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// What it is.
-    pub parameter: Free,
+    pub parameter: FreeParameter,
     /// The run that it belongs to, counted from zero, the first of several that share it; none if all do, or there is
     /// one only.
     pub run: Option<usize>,

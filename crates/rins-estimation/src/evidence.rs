@@ -11,12 +11,12 @@ use crate::epoch::Epoch;
 use crate::gains::Gains;
 use crate::gram::Gram;
 use crate::linear::Linear;
+use crate::noise_parameters::Noise;
 use crate::pass::Pass;
 use crate::posterior::Evidence;
 use crate::run::Run;
 use crate::space::Space;
 use crate::step::SHOWN;
-use crate::strengths::Noise;
 use crate::sway::Sway;
 
 /// A filter whose covariance could not be factored.

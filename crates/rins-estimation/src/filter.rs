@@ -9,9 +9,9 @@ use crate::epoch::Epoch;
 use crate::evidence::Indefinite;
 use crate::gains::ROWS;
 use crate::linear::Linear;
+use crate::noise_parameters::Noise;
 use crate::space::Space;
 use crate::step::{CARRIED_OF, NAVIGATION, SHOWN, SHOWN_OF, Step};
-use crate::strengths::Noise;
 
 /// An error-state filter over the epochs of a linear run.
 ///

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
-use rins_terms::{Free, Model};
+use rins_terms::{FreeParameter, Model};
 
 use crate::estimate::{Estimate, Fit, Iteration};
 use crate::evidence::Indefinite;
@@ -12,9 +12,9 @@ use crate::fit_error::FitError;
 use crate::layout::{Joined, Layout, attitude_of};
 use crate::likely::likely_noise;
 use crate::linear::{Linear, Pieces, linearised};
+use crate::noise_parameters::{Noise, NoiseKnowledge};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
-use crate::strengths::{Noise, NoiseKnowledge};
 use crate::stride::{Bottom, Damping, Place, Stride, Until, leaves_little};
 
 /// The most times that a run is made linear.
@@ -318,7 +318,9 @@ impl<'a> Problem<'a> {
 
     /// The same in squares of what is expected of it.
     fn pull(&self) -> f64 {
-        let of = |(offset, (free, _)): (f64, &(Free, Option<usize>))| (offset / free.sigma).powi(2);
+        let of = |(offset, (free, _)): (f64, &(FreeParameter, Option<usize>))| {
+            (offset / free.sigma).powi(2)
+        };
         self.offsets().into_iter().zip(&self.layout.all).map(of).sum()
     }
 
@@ -374,7 +376,7 @@ impl<'a> Problem<'a> {
             covariance +=
                 (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
         }
-        let estimate = |(place, (free, run)): (usize, &(Free, Option<usize>))| Estimate {
+        let estimate = |(place, (free, run)): (usize, &(FreeParameter, Option<usize>))| Estimate {
             parameter: free.clone(),
             run: *run,
             expected: self.expected[place],

@@ -6,8 +6,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
 
 use crate::evidence::{Indefinite, pass};
 use crate::linear::Linear;
+use crate::noise_parameters::Noise;
 use crate::step::SHOWN;
-use crate::strengths::Noise;
 
 /// What an epoch shows, against what was foretold of it.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Where the parameters of several runs stand among all.
 
 use rins_imu::ImuSpec;
-use rins_terms::{Chosen, Free, Model, Owner, catalogue};
+use rins_terms::{FreeParameter, Model, Owner, TermInstance, catalogue};
 
 use crate::fit_error::FitError;
 use crate::run::Run;
@@ -18,7 +18,7 @@ const MOST_PARAMETERS: usize = 256;
 pub struct Layout {
     /// Each parameter, as the first run that has it has it, and of which run it is, the first of those that share it; of
     /// none if all share it, or there is one run only.
-    pub all: Vec<(Free, Option<usize>)>,
+    pub all: Vec<(FreeParameter, Option<usize>)>,
     /// For each run the place among all of each parameter of its model.
     pub places: Vec<Vec<usize>>,
     /// For each run what each of its parameters is multiplied by to be that among all: 1 or -1.
@@ -31,7 +31,7 @@ impl Layout {
     ///
     /// # Panics
     /// If the runs are about different axes.
-    pub fn of(free: &[Free], runs: &[Run]) -> Self {
+    pub fn of(free: &[FreeParameter], runs: &[Run]) -> Self {
         assert!(runs.iter().all(|run| run.axes == runs[0].axes), "runs about one axis");
         let signed = free.iter().map(|parameter| (parameter.clone(), 1.0)).collect();
         Self::joined(&vec![signed; runs.len()], runs)
@@ -39,7 +39,7 @@ impl Layout {
 
     /// Of these runs, for each of which the parameters are given with their ids along the first run's axes, and what each is
     /// multiplied by to be along these.
-    fn joined(free: &[Vec<(Free, f64)>], runs: &[Run]) -> Self {
+    fn joined(free: &[Vec<(FreeParameter, f64)>], runs: &[Run]) -> Self {
         let signs =
             free.iter().map(|of_run| of_run.iter().map(|(_, sign)| *sign).collect()).collect();
         if let [only] = free {
@@ -47,9 +47,9 @@ impl Layout {
             return Self { all, places: vec![(0..only.len()).collect()], signs };
         }
         let never_off = runs.iter().all(|run| run.shares_turn_on(&runs[0]));
-        let mut all: Vec<(Free, Option<usize>)> = Vec::new();
+        let mut all: Vec<(FreeParameter, Option<usize>)> = Vec::new();
         let mut places: Vec<Vec<usize>> = free.iter().map(|of_run| vec![0; of_run.len()]).collect();
-        let of_sensors = |parameter: &Free| parameter.owner == Owner::Sensor;
+        let of_sensors = |parameter: &FreeParameter| parameter.owner == Owner::Sensor;
         for (of_run, places) in free.iter().zip(&mut places) {
             let here =
                 of_run.iter().zip(places).filter(|((parameter, _), _)| of_sensors(parameter));
@@ -97,17 +97,17 @@ impl Joined {
             .iter()
             .map(|run| model.carried(&run.axes.after(&runs[0].axes.inverse())))
             .collect();
-        let signed = |(run, model): (&Run, &Model)| -> Vec<(Free, f64)> {
+        let signed = |(run, model): (&Run, &Model)| -> Vec<(FreeParameter, f64)> {
             let axes = run.axes.after(&runs[0].axes.inverse());
-            let along_first = |free: Free| {
+            let along_first = |free: FreeParameter| {
                 let (_, sign) = model.terms[free.term].own(free.parameter, &axes);
-                (Free { id: model.own_id(free.term, free.parameter, &axes), ..free }, sign)
+                (FreeParameter { id: model.own_id(free.term, free.parameter, &axes), ..free }, sign)
             };
             model.free(imu).into_iter().map(along_first).collect()
         };
-        let free: Vec<Vec<(Free, f64)>> = runs.iter().zip(&models).map(signed).collect();
+        let free: Vec<Vec<(FreeParameter, f64)>> = runs.iter().zip(&models).map(signed).collect();
         let layout = Layout::joined(&free, runs);
-        let place = |(parameter, _): &(Free, f64)| (parameter.term, parameter.parameter);
+        let place = |(parameter, _): &(FreeParameter, f64)| (parameter.term, parameter.parameter);
         let free = free.iter().map(|of_run| of_run.iter().map(place).collect()).collect();
         Self { models, free, layout }
     }
@@ -128,7 +128,7 @@ pub(crate) fn attitude_of(
     free: &[(usize, usize)],
     places: &[usize],
 ) -> Option<[usize; 3]> {
-    let is_attitude = |chosen: &Chosen| chosen.term.is(&catalogue::AXIS_ATTITUDE);
+    let is_attitude = |chosen: &TermInstance| chosen.term.is(&catalogue::AXIS_ATTITUDE);
     let term = model.terms.iter().position(is_attitude)?;
     let [x, y, z] = [0, 1, 2].map(|angle| free.iter().position(|at| *at == (term, angle)));
     Some([places[x?], places[y?], places[z?]])

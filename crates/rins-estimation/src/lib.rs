@@ -17,9 +17,9 @@
 //!
 //! Numbers are in SI units and radians.
 mod layout;
+mod noise_parameters;
 mod rounding;
 mod run;
-mod strengths;
 
 mod gravity;
 mod held;
@@ -61,17 +61,17 @@ pub use fit_error::FitError;
 pub use foretold::{Foretold, Known};
 pub use gravity::{AXIS_BY_GRAVITY, AxisSeen, axis_from_gravity, turning_span};
 pub use identifiability::{
-    Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Lost, Rank, Seen,
-    Separation, Shown, Unknown, distance, gauge_of, joint, separation,
+    Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Observable, Rank,
+    Seen, Separation, Unknown, Unobservable, distance, gauge_of, joint, separation,
 };
 pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use named::InRun;
+pub use noise_parameters::{Noise, NoiseKnowledge, NoiseParameters, TriadStrengths};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use prior_consistency::{Departure, Quantity};
 pub use rounding::AngleSteps;
 pub use run::{Reference, Rig, Run, RunError};
-pub use strengths::{Noise, NoiseKnowledge, Strengths, TriadStrengths};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use rins_frames::units::ARCSEC;
 
 use crate::linear::Linear;
+use crate::noise_parameters::Noise;
 use crate::run::Reference;
-use crate::strengths::Noise;
 
 /// How far, in logarithms, a data sheet's white noise may be off, 1σ.
 pub(crate) const WHITE: f64 = 1.0;

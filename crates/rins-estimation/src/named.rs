@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 use rins_frames::SignedAxes;
-use rins_terms::Chosen;
+use rins_terms::TermInstance;
 
 use crate::estimate::{Estimate, Fit};
 
@@ -20,7 +20,7 @@ pub struct InRun {
 impl Estimate {
     /// The same along the sensors' own axes, if it is along those of a run with these axes; `chosen` is the term that it is of.
     #[must_use]
-    pub fn along_own(&self, chosen: &Chosen, axes: &SignedAxes) -> Self {
+    pub fn along_own(&self, chosen: &TermInstance, axes: &SignedAxes) -> Self {
         let mut own = self.clone();
         let (name, sign) = chosen.own(self.parameter.parameter, axes);
         if let Some((term, _)) = self.parameter.id.rsplit_once('.') {

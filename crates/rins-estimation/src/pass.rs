@@ -333,8 +333,8 @@ mod tests {
 
     use super::*;
     use crate::linear::linearise_coarsely;
+    use crate::noise_parameters::{Noise, NoiseParameters, TriadStrengths};
     use crate::run::{Reference, Rig, Run};
-    use crate::strengths::{Noise, Strengths, TriadStrengths};
 
     /// A minute on a tilted axis.
     fn run() -> Run {
@@ -356,7 +356,7 @@ mod tests {
         let free: Vec<(usize, usize)> = (0..3).flat_map(|term| [(term, 0), (term, 2)]).collect();
         let linear = linearise_coarsely(&run, &model, &free);
         let triad = |white| TriadStrengths { white, flicker: 0.1 * white, walk: 0.0 };
-        let imu = Strengths {
+        let imu = NoiseParameters {
             gyro: triad(1e-3 * DEG_PER_HOUR),
             accel: triad(10.0 * MICRO_G),
             jitter: 0.0,

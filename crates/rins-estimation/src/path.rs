@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use rayon::prelude::*;
-use rins_terms::{Acting, Model, Moments, Surroundings, Track};
+use rins_terms::{Acting, KinematicStates, Model, Surroundings, Track};
 
 use crate::run::{Reference, Run};
 
@@ -44,7 +44,7 @@ pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block:
 fn errors(track: &Track, model: &Model) -> Vec<f64> {
     let present = Acting::present(model, track);
     let starts = (0..track.len()).step_by(SAMPLES_AT_A_TIME);
-    let of = |mut moments: Moments<'_>| -> Vec<f64> {
+    let of = |mut moments: KinematicStates<'_>| -> Vec<f64> {
         let mut error = || Some(Acting::together(&present, moments.advance()?).angle.re);
         (0..SAMPLES_AT_A_TIME).map_while(|_| error()).collect()
     };

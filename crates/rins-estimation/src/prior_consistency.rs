@@ -1,9 +1,9 @@
 //! Estimates held against what was known of them before.
 
 use crate::estimate::Fit;
-use crate::identifiability::{Identifiability, Shown};
+use crate::identifiability::{Identifiability, Observable};
 use crate::likely::WHITE;
-use crate::strengths::Strengths;
+use crate::noise_parameters::NoiseParameters;
 
 /// What was found of a parameter or of the noise, and what was known of it before, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,10 +36,14 @@ impl Fit {
     ///
     /// Under the priors `sigmas` of a parameter is normal with mean 0 and variance 1 (the squares are those of the prior
     /// predictive check of Box, 1980). What is not observable departs from nothing.
-    pub fn prior_departures(&self, told: &Identifiability, sheet: &Strengths) -> Vec<Departure> {
+    pub fn prior_departures(
+        &self,
+        told: &Identifiability,
+        sheet: &NoiseParameters,
+    ) -> Vec<Departure> {
         let of_parameter = |place: usize| {
             let seen = &told.seen[place];
-            if !(seen.identifiable || seen.shown == Shown::Combination) {
+            if !(seen.identifiable || seen.shown == Observable::Combination) {
                 return None;
             }
             let (value, _) = self.sum(place, &seen.aliases);

@@ -7,7 +7,7 @@
 use std::f64::consts::{PI, TAU};
 
 use nalgebra::Complex;
-use rins_inspection::{Comb, ENOUGH_ANGLES};
+use rins_inspection::{ENOUGH_ANGLES, QuantizationGrid};
 use rins_motion::Recording;
 use rins_terms::Track;
 
@@ -58,7 +58,7 @@ impl AngleSteps {
         let angles = recording.table_angle.as_deref()?;
         let is_coarse = |step: &f64| step * step / 12.0 >= FINE * noise * noise;
         let seen = |step| (step, Seen::of(angles, recording, step));
-        let read = Comb::of_table_angle(recording).map(|comb| comb.step);
+        let read = QuantizationGrid::of_table_angle(recording).map(|comb| comb.step);
         let shown = read.filter(is_coarse).map(seen).filter(|(_, seen)| seen.rounded);
         let (step, seen) = shown.or_else(|| {
             let stated = stated.filter(is_coarse)?;

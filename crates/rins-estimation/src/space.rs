@@ -9,9 +9,9 @@ use rins_frames::cross_matrix;
 use crate::colour::{Colours, Passage};
 use crate::epoch::{Epoch, Held, Turning};
 use crate::linear::Linear;
+use crate::noise_parameters::Noise;
 use crate::run::Reference;
 use crate::step::{NAVIGATION, SHOWN, Step, Weight};
-use crate::strengths::Noise;
 
 /// How far a first attitude may be off where its epoch's readings put it \[rad\].
 const START_ATTITUDE: f64 = 2e-3;

@@ -118,9 +118,9 @@ mod tests {
     use rins_terms::{Model, catalogue};
 
     use crate::linear::linearise;
+    use crate::noise_parameters::{Noise, NoiseParameters, TriadStrengths};
     use crate::run::{Reference, Rig, Run};
     use crate::space::Space;
-    use crate::strengths::{Noise, Strengths, TriadStrengths};
 
     use super::*;
 
@@ -152,7 +152,7 @@ mod tests {
             biases.iter().flat_map(|id| [0, 1, 2].map(|axis| (place(id), axis))).collect();
         let linear = linearise(&run, &model, &free);
         let triad = |white| TriadStrengths { white, flicker: 0.0, walk: 0.1 * white };
-        let imu = Strengths {
+        let imu = NoiseParameters {
             gyro: triad(1e-3 * DEG_PER_HOUR),
             accel: triad(10.0 * MICRO_G),
             jitter: 0.0,

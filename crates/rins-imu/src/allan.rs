@@ -8,7 +8,7 @@ mod line;
 mod point;
 
 pub use curve::{AllanError, AllanPlan};
-pub use fit::{NoiseSeen, Strength};
+pub use fit::{NoiseSeen, NoiseTerm};
 pub use law::NoiseLaw;
 pub use line::{SpectralLine, take_out_lines};
 pub use point::{AllanPoint, CONFIDENCE};

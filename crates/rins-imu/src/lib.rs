@@ -38,7 +38,7 @@ mod noise;
 mod allan;
 
 pub use allan::{
-    AllanError, AllanPlan, AllanPoint, CONFIDENCE, NoiseLaw, NoiseSeen, SpectralLine, Strength,
+    AllanError, AllanPlan, AllanPoint, CONFIDENCE, NoiseLaw, NoiseSeen, NoiseTerm, SpectralLine,
     take_out_lines,
 };
 pub use axis::{Axis, Triad};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::comb::comb;
+use crate::quantization_grid::comb;
 use crate::rows::{BEYOND_CHANCE, LONGEST, MOST, alike, rows_of};
 use rins_motion::median;
 

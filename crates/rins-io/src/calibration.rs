@@ -10,7 +10,7 @@ use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
-use rins_terms::{Chosen, Model, Role};
+use rins_terms::{Model, Role, TermInstance};
 
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
@@ -356,7 +356,7 @@ fn terms(root: &Section<'_>, axes: &SignedAxes, reference: Option<f64>) -> Resul
 
 /// The ids along the sensors' own axes of all parameters of a run's terms, with their places.
 fn own_places(terms: &Model, axes: &SignedAxes) -> Vec<(String, (usize, usize))> {
-    let own = |(term, chosen): (usize, &Chosen)| {
+    let own = |(term, chosen): (usize, &TermInstance)| {
         let order = chosen.term.own_order(axes).into_iter();
         order.map(move |place| (terms.own_id(term, place, axes), (term, place))).collect::<Vec<_>>()
     };

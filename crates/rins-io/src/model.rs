@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rins_frames::SignedAxes;
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
-use rins_terms::{Chosen, Model};
+use rins_terms::{Model, TermInstance};
 
 use crate::document::Document;
 use crate::error::IoError;
@@ -165,6 +165,6 @@ impl ModelFile {
 }
 
 /// Whether both are one effect: the same term with the same settings.
-fn same(a: &Chosen, b: &Chosen) -> bool {
+fn same(a: &TermInstance, b: &TermInstance) -> bool {
     a.term.is(b.term) && a.settings == b.settings
 }

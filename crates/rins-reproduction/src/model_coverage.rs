@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{NoiseKnowledge, Reference, Rig, Run, Strengths, fit};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
 use rins_frames::{Dcm, EulerAngles, InFrame, Site, Table};
 use rins_imu::{
@@ -70,7 +70,7 @@ pub struct Colour {
     /// The gyros' bias instability \[rad/s\], and the accelerometers' \[m/s²\]; zero is white noise only.
     pub flicker: (f64, f64),
     /// What the estimator knows of the strengths of its data sheet.
-    pub knowledge: fn(Strengths) -> NoiseKnowledge,
+    pub knowledge: fn(NoiseParameters) -> NoiseKnowledge,
 }
 
 impl Colour {
@@ -265,7 +265,7 @@ fn scored(
         velocity: 1e-6,
     };
     let runs = [Run::new(rig, simulated.recording)?];
-    let fit = fit(&runs, model, imu, (colour.knowledge)(Strengths::of(imu)), |_| ())?;
+    let fit = fit(&runs, model, imu, (colour.knowledge)(NoiseParameters::of(imu)), |_| ())?;
     Ok(Scored {
         error: DVector::from_iterator(
             fit.parameters.len(),

@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use rins_imu::{ImuNoiseError, TriadError};
-use rins_terms::{Chosen, Need};
+use rins_terms::{Need, TermInstance};
 
 use crate::scenario::{Encoder, Scenario, TableRecord};
 use crate::temperature::Temperature;
@@ -129,7 +129,7 @@ impl Scenario {
         finite("encoder zero", zero)
     }
 
-    fn check_effect(&self, chosen: &Chosen) -> Result<(), ScenarioError> {
+    fn check_effect(&self, chosen: &TermInstance) -> Result<(), ScenarioError> {
         let effect = chosen.term.id;
         for (parameter, &value) in chosen.term.parameters.iter().zip(&chosen.values) {
             if !value.is_finite() {

@@ -1,7 +1,7 @@
 //! From true motion to what is read without noise: eq. (1) and the effects.
 
 use rins_frames::{InFrame, Increments, Table};
-use rins_terms::{Making, Model, Surroundings, Track};
+use rins_terms::{MeasurementModel, Model, Surroundings, Track};
 
 use crate::check::ScenarioError;
 use crate::scenario::Scenario;
@@ -52,7 +52,7 @@ impl Scenario {
         let mut model = Model::from(&self.imu_error);
         model.terms.extend(self.effects.terms.iter().cloned());
         let track = self.track(truth)?;
-        let mut making = Making::new(&model, &track);
+        let mut making = MeasurementModel::new(&model, &track);
         readings.angle_errors = reserved(truth.increments.len())?;
         readings.tilts = reserved(truth.increments.len() + 1)?;
         readings.tilts.push(InFrame::from_components(making.tilt()));

@@ -6,7 +6,9 @@
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND, PPM};
 use rins_frames::{EulerAngles, Site};
 use rins_motion::{Profile, Recording, Segment, Station, TrueMotion};
-use rins_terms::{Chosen, Making, Model, Surroundings, Track, catalogue, compensated};
+use rins_terms::{
+    MeasurementModel, Model, Surroundings, TermInstance, Track, catalogue, compensated,
+};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
@@ -17,8 +19,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         nav_from_table: attitude.dcm(),
         profile: Profile::new(&[turn], Some(5.0 * DEG_PER_SECOND))?,
     };
-    let scale = Chosen::new(&catalogue::GYRO_SCALE).with_values(&[0.0, 0.0, 300.0 * PPM]);
-    let zero = Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[40.0 * ARCSEC]);
+    let scale = TermInstance::new(&catalogue::GYRO_SCALE).with_values(&[0.0, 0.0, 300.0 * PPM]);
+    let zero = TermInstance::new(&catalogue::ENCODER_ZERO).with_values(&[40.0 * ARCSEC]);
     let model = Model { terms: vec![scale, zero] };
 
     let samples: Vec<_> = motion.samples(0.02).collect();
@@ -26,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let angles = std::iter::once(0.0).chain(samples.iter().map(|sample| sample.angle)).collect();
     let around = Surroundings::new(motion.station, motion.nav_from_table);
     let track = Track::new(around, times.clone(), vec![0.02; times.len()], angles, None);
-    let mut making = Making::new(&model, &track);
+    let mut making = MeasurementModel::new(&model, &track);
     let mut read = Recording { times, ..Recording::default() };
     let mut table_angle = Vec::new();
     for (moment, sample) in track.moments().zip(&samples) {

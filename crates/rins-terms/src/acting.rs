@@ -7,8 +7,8 @@ use num_dual::Dual64;
 
 use crate::catalogue::{AXIS_ATTITUDE, GYRO_MISALIGNMENT};
 use crate::following::following;
-use crate::model::{Chosen, Model};
-use crate::moment::Moment;
+use crate::kinematic_state::KinematicState;
+use crate::model::{Model, TermInstance};
 use crate::signals::{Signals, derivatives};
 use crate::term::Action;
 use crate::track::Track;
@@ -16,7 +16,7 @@ use crate::track::Track;
 /// A term of a model at work on a track: with its parameters, and perhaps a derivative by one of the model's.
 #[derive(Clone, Debug)]
 pub struct Acting<'a> {
-    chosen: &'a Chosen,
+    chosen: &'a TermInstance,
     parameters: Vec<Dual64>,
     /// What turns the gyros' axes from the body's, where the term acts on the rate about them.
     axes: Vec<Self>,
@@ -59,7 +59,8 @@ impl<'a> Acting<'a> {
                 |place| Self::of(model, place, Some((term, parameter)), follows[place].clone());
             let mut list = vec![of(term)];
             if turns_axes(&model.terms[term]) {
-                let sensed = |chosen: &Chosen| matches!(chosen.term.action, Action::Sensed(_));
+                let sensed =
+                    |chosen: &TermInstance| matches!(chosen.term.action, Action::Sensed(_));
                 let on_it = |&place: &usize| {
                     sensed(&model.terms[place]) && does_anything(&model.terms[place])
                 };
@@ -80,7 +81,7 @@ impl<'a> Acting<'a> {
         Self::at_work(model, |_| None)
     }
 
-    fn at_work(model: &'a Model, follows: impl Fn(&Chosen) -> Option<Follows>) -> Vec<Self> {
+    fn at_work(model: &'a Model, follows: impl Fn(&TermInstance) -> Option<Follows>) -> Vec<Self> {
         let places = 0..model.terms.len();
         places
             .filter(|&place| does_anything(&model.terms[place]))
@@ -93,7 +94,7 @@ impl<'a> Acting<'a> {
     /// # Panics
     /// May panic for a moment of a longer track.
     #[inline]
-    pub fn signals(&self, moment: &Moment) -> Signals {
+    pub fn signals(&self, moment: &KinematicState) -> Signals {
         Self::together(std::slice::from_ref(self), moment)
     }
 
@@ -102,7 +103,7 @@ impl<'a> Acting<'a> {
     /// # Panics
     /// May panic for a moment of a longer track.
     #[inline]
-    pub fn together(terms: &[Self], moment: &Moment) -> Signals {
+    pub fn together(terms: &[Self], moment: &KinematicState) -> Signals {
         let mut signals = Signals::default();
         for acting in terms {
             acting.act(moment, &mut signals);
@@ -111,7 +112,7 @@ impl<'a> Acting<'a> {
     }
 
     #[inline]
-    fn act(&self, moment: &Moment, signals: &mut Signals) {
+    fn act(&self, moment: &KinematicState, signals: &mut Signals) {
         let Self { chosen, parameters, .. } = self;
         if let (Some(follows), Action::Following(act)) = (&self.follows, chosen.term.action) {
             act(parameters, moment.exp_angle() * follows[moment.sample], signals);
@@ -124,7 +125,7 @@ impl<'a> Acting<'a> {
 
     /// Apart from the others, which are many.
     #[cold]
-    fn act_about_axes(&self, moment: &Moment, signals: &mut Signals) {
+    fn act_about_axes(&self, moment: &KinematicState, signals: &mut Signals) {
         let mut turned = Signals::default();
         for Self { chosen, parameters, .. } in &self.axes {
             chosen.term.act(parameters, &chosen.settings, moment, &mut turned);
@@ -143,22 +144,22 @@ impl<'a> Acting<'a> {
 
 impl Model {
     /// What all its terms add at `moment`, those that follow the table having settled.
-    pub fn signals(&self, moment: &Moment) -> Signals {
+    pub fn signals(&self, moment: &KinematicState) -> Signals {
         Acting::together(&Acting::settled(self), moment)
     }
 }
 
 /// Whether a term says in which directions the gyros' own axes are, in the body or with it.
-fn turns_axes(chosen: &Chosen) -> bool {
+fn turns_axes(chosen: &TermInstance) -> bool {
     [GYRO_MISALIGNMENT.id, AXIS_ATTITUDE.id].contains(&chosen.term.id)
 }
 
 /// How a term follows the table on a track, if it does so slowly.
-fn follows(chosen: &Chosen, track: &Track) -> Option<Follows> {
+fn follows(chosen: &TermInstance, track: &Track) -> Option<Follows> {
     let Action::Following(_) = chosen.term.action else { return None };
     Some(following(track, chosen.settings[0]).into())
 }
 
-fn does_anything(chosen: &Chosen) -> bool {
+fn does_anything(chosen: &TermInstance) -> bool {
     chosen.values.iter().any(|value| *value != 0.0)
 }

@@ -5,8 +5,8 @@ use rins_imu::ImuCompensationError;
 use rins_motion::Recording;
 
 use crate::acting::Acting;
+use crate::kinematic_state::{KinematicState, Surroundings};
 use crate::model::Model;
-use crate::moment::{Moment, Surroundings};
 use crate::signals::{Signals, values};
 use crate::track::Track;
 
@@ -113,7 +113,7 @@ pub fn compensated(
 }
 
 /// What the terms add to readings. A term that moves the table is a true motion, and is left in them.
-fn errors(terms: &[Acting<'_>], moment: &Moment) -> Signals {
+fn errors(terms: &[Acting<'_>], moment: &KinematicState) -> Signals {
     let mut sum = Signals::default();
     for acting in terms {
         let signals = acting.signals(moment);
@@ -150,7 +150,12 @@ fn turning(recording: &Recording, surroundings: Surroundings, start: f64) -> Tra
 
 /// The moment of a table that turns as `track` does and stands where the encoder, if there is one, says; what is felt is
 /// what was found.
-fn standing(moment: &Moment, track: &Track, recording: &Recording, sample: usize) -> Moment {
+fn standing(
+    moment: &KinematicState,
+    track: &Track,
+    recording: &Recording,
+    sample: usize,
+) -> KinematicState {
     let mut moment = moment.feeling(&recording.increments[sample]);
     if let Some(angle) = &recording.table_angle {
         let off = angle[sample] - track.angles()[sample + 1];

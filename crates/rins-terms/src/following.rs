@@ -2,7 +2,7 @@
 
 use nalgebra::Complex;
 
-use crate::moment::Moment;
+use crate::kinematic_state::KinematicState;
 use crate::track::Track;
 
 /// How `1/(1 + τ d/dt)` follows `exp(iζ)` at a constant rate \[rad/s\], in units of it.
@@ -14,7 +14,7 @@ pub(crate) fn settled(rate: f64, time_constant: f64) -> Complex<f64> {
 /// on the way to what settles next.
 pub(crate) fn following(track: &Track, time_constant: f64) -> Vec<Complex<f64>> {
     let mut last = None;
-    let follow = |moment: Moment| {
+    let follow = |moment: KinematicState| {
         let rate = moment.mean.rate;
         let settled = settled(rate, time_constant);
         // The angle goes on meanwhile: what does not follow it turns back in units of it.

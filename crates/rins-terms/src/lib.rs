@@ -2,7 +2,7 @@
 //!
 //! **What it does.** A [`Term`] is one effect: its equation, parameters, units, usual magnitudes, what it
 //! needs, what it can be confused with. The [`catalogue`] holds them all by id. A [`Model`] is a
-//! list of terms: [`Making`] simulates it, [`compensated`] undoes it, and [`Chosen::signals`] gives what a term
+//! list of terms: [`MeasurementModel`] simulates it, [`compensated`] undoes it, and [`TermInstance::signals`] gives what a term
 //! adds to the sensors, to the
 //! encoder and to the direction of the axis, with its derivative by any parameter, which an estimator
 //! takes from there. The formula stands in one place, and is differentiated automatically.
@@ -23,9 +23,9 @@ mod compensation;
 mod edges;
 mod following;
 mod grade;
-mod making;
+mod kinematic_state;
+mod measurement_model;
 mod model;
-mod moment;
 mod page;
 mod senses;
 mod sensor_axes;
@@ -42,9 +42,9 @@ mod waves;
 pub use acting::Acting;
 pub use compensation::{NotUndone, compensated};
 pub use grade::Grade;
-pub use making::{Making, Reading};
-pub use model::{Chosen, Free, Model, Role};
-pub use moment::{Instant, Moment, Stretch, Surroundings};
+pub use kinematic_state::{Instant, KinematicState, Stretch, Surroundings};
+pub use measurement_model::{MeasurementModel, Reading};
+pub use model::{FreeParameter, Model, Role, TermInstance};
 /// A number with its derivative, of which [`Signals`] are made.
 pub use num_dual::Dual64;
 pub use page::page;
@@ -52,7 +52,7 @@ pub use sensor_axes::own_channel;
 pub use setting::{GridPoint, Setting, SettingKind, SettingPrior};
 pub use signals::{DualVector, Signals, derivatives, values};
 pub use term::{Action, Need, Noises, Owner, Parameter, Parity, Prior, Term};
-pub use track::{Moments, Track};
+pub use track::{KinematicStates, Track};
 pub use unit::Unit;
 pub use waves::sin_cos;
 

@@ -5,7 +5,7 @@ use rins_imu::{ImuSpec, Seed};
 use rins_motion::Recording;
 
 use crate::catalogue;
-use crate::moment::Moment;
+use crate::kinematic_state::KinematicState;
 use crate::setting::SettingKind;
 use crate::signals::Signals;
 use crate::term::{Action, Noises, Owner, Term};
@@ -13,7 +13,7 @@ use crate::unit::Unit;
 
 /// A term in a model: its shape, its parameters, and which of them are estimated.
 #[derive(Clone, Debug)]
-pub struct Chosen {
+pub struct TermInstance {
     /// The term.
     pub term: &'static Term,
     /// Its settings, in SI units.
@@ -35,7 +35,7 @@ pub enum Role {
     Within(f64),
 }
 
-impl PartialEq for Chosen {
+impl PartialEq for TermInstance {
     fn eq(&self, other: &Self) -> bool {
         self.term.is(other.term)
             && self.settings == other.settings
@@ -44,7 +44,7 @@ impl PartialEq for Chosen {
     }
 }
 
-impl Chosen {
+impl TermInstance {
     /// A term with its default settings and parameters of zero, all held.
     pub fn new(term: &'static Term) -> Self {
         let n = term.parameters.len();
@@ -108,7 +108,7 @@ impl Chosen {
 
     /// What it adds at `moment` to sensors whose axes are the body's, with the derivative by parameter `by`, if one is asked
     /// for.
-    pub fn signals(&self, moment: &Moment, by: Option<usize>) -> Signals {
+    pub fn signals(&self, moment: &KinematicState, by: Option<usize>) -> Signals {
         let mut duals = [Dual64::from_re(0.0); catalogue::MOST_PARAMETERS];
         for (dual, &value) in duals.iter_mut().zip(&self.values) {
             *dual = Dual64::from_re(value);
@@ -124,7 +124,7 @@ impl Chosen {
 
 /// A parameter that a model estimates.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Free {
+pub struct FreeParameter {
     /// Its full id, such as `gyro.misalignment.xz`; a second item of the same term has `#2` before the dot.
     pub id: String,
     /// The unit in which it is shown.
@@ -143,7 +143,7 @@ pub struct Free {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     /// The terms.
-    pub terms: Vec<Chosen>,
+    pub terms: Vec<TermInstance>,
 }
 
 impl Model {
@@ -151,8 +151,8 @@ impl Model {
     pub fn paper12() -> Self {
         Self {
             terms: vec![
-                Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]),
-                Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]),
+                TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]),
+                TermInstance::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]),
             ],
         }
     }
@@ -168,7 +168,7 @@ impl Model {
             &catalogue::ACCEL_MISALIGNMENT,
             &catalogue::AXIS_ATTITUDE,
         ];
-        Self { terms: terms.map(|term| Chosen::new(term).estimated()).to_vec() }
+        Self { terms: terms.map(|term| TermInstance::new(term).estimated()).to_vec() }
     }
 
     /// The same with its coefficients of temperature about this temperature \[°C\].
@@ -186,18 +186,18 @@ impl Model {
 
     /// The reference temperature of its first coefficient of temperature \[°C\], if it has one.
     pub fn reference_temperature(&self) -> Option<f64> {
-        self.terms.iter().find_map(Chosen::reference_temperature)
+        self.terms.iter().find_map(TermInstance::reference_temperature)
     }
 
     /// The same with one term more.
     #[must_use]
-    pub fn with(mut self, chosen: Chosen) -> Self {
+    pub fn with(mut self, chosen: TermInstance) -> Self {
         self.terms.push(chosen);
         self
     }
 
     /// The parameters that are estimated, in order.
-    pub fn free(&self, imu: &ImuSpec) -> Vec<Free> {
+    pub fn free(&self, imu: &ImuSpec) -> Vec<FreeParameter> {
         let mut free = Vec::new();
         for (index, chosen) in self.terms.iter().enumerate() {
             for (place, role) in chosen.roles.iter().enumerate() {
@@ -207,7 +207,7 @@ impl Model {
                     Role::Free => parameter.sigma(imu),
                     Role::Within(sigma) => *sigma,
                 };
-                free.push(Free {
+                free.push(FreeParameter {
                     id: self.id(index, place),
                     unit: parameter.unit,
                     owner: chosen.term.owner,

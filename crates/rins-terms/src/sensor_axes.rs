@@ -7,7 +7,7 @@
 
 use rins_frames::SignedAxes;
 
-use crate::model::{Chosen, Model};
+use crate::model::{Model, TermInstance};
 use crate::setting::SettingKind;
 use crate::term::{Parity, Term};
 
@@ -128,7 +128,7 @@ impl Term {
     }
 }
 
-impl Chosen {
+impl TermInstance {
     /// The own name of a parameter, and what its value in a run with these axes is multiplied by to be its own.
     ///
     /// # Panics

@@ -7,7 +7,7 @@ use rins_motion::Recording;
 
 use crate::following::settled;
 use crate::grade::Grade;
-use crate::moment::Moment;
+use crate::kinematic_state::KinematicState;
 use crate::setting::{Setting, SettingKind};
 use crate::signals::{DualVector, Signals};
 use crate::unit::Unit;
@@ -158,10 +158,10 @@ pub enum Parity {
 pub enum Action {
     /// It adds to what the sensors or the encoder read, or tilts the axis: parameters, settings, the
     /// moment, and what is added to.
-    Signal(fn(&[Dual64], &[f64], &Moment, &mut Signals)),
+    Signal(fn(&[Dual64], &[f64], &KinematicState, &mut Signals)),
     /// It does so by the rate about the gyros' own axes, which misalignments turn from the body's: parameters, settings,
     /// the moment, that rate \[rad/s\], and what is added to.
-    Sensed(fn(&[Dual64], &[f64], &Moment, &DualVector, &mut Signals)),
+    Sensed(fn(&[Dual64], &[f64], &KinematicState, &DualVector, &mut Signals)),
     /// It follows the table's angle behind a low-pass, whose time constant is the first setting: parameters, what comes of
     /// `exp(iζ)`, and what is added to.
     Following(fn(&[Dual64], Complex<f64>, &mut Signals)),
@@ -221,7 +221,12 @@ impl Term {
     /// What it adds at `moment` with these parameters, in SI units.
     ///
     /// A term that is no signal adds nothing; one that follows the table is taken to have settled.
-    pub fn signals(&self, parameters: &[f64], settings: &[f64], moment: &Moment) -> Signals {
+    pub fn signals(
+        &self,
+        parameters: &[f64],
+        settings: &[f64],
+        moment: &KinematicState,
+    ) -> Signals {
         let duals: Vec<Dual64> = parameters.iter().map(|&value| Dual64::from_re(value)).collect();
         let mut signals = Signals::default();
         self.act(&duals, settings, moment, &mut signals);
@@ -235,7 +240,7 @@ impl Term {
         &self,
         parameters: &[Dual64],
         settings: &[f64],
-        moment: &Moment,
+        moment: &KinematicState,
         signals: &mut Signals,
     ) {
         if let Action::Signal(act) = self.action {
@@ -251,7 +256,7 @@ impl Term {
     pub fn act_on(
         &self,
         (parameters, settings): (&[Dual64], &[f64]),
-        moment: &Moment,
+        moment: &KinematicState,
         sensed: &DualVector,
         signals: &mut Signals,
     ) {

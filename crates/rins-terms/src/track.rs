@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::edges::edges;
-use crate::moment::{Instant, Moment, Stretch, Surroundings, turned_back};
+use crate::kinematic_state::{Instant, KinematicState, Stretch, Surroundings, turned_back};
 use crate::senses::senses;
 use crate::slope::slopes;
 use crate::turns::turns;
@@ -11,7 +11,7 @@ use crate::turns::turns;
 /// Over so many samples on either side of an edge a table's rate goes on evenly, if no ramp begins or ends there.
 const BESIDE: usize = 4;
 
-/// The table's motion over a run, from which every sample's [`Moment`] follows.
+/// The table's motion over a run, from which every sample's [`KinematicState`] follows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// What surrounds the table.
@@ -142,17 +142,17 @@ impl Track {
     }
 
     /// What is going on over each sample, in order.
-    pub fn moments(&self) -> Moments<'_> {
+    pub fn moments(&self) -> KinematicStates<'_> {
         let around = if self.is_empty() {
             Default::default()
         } else {
             [0, 0, 1].map(|sample| self.stretch(sample))
         };
-        Moments {
+        KinematicStates {
             track: self,
             sample: 0,
             start: self.start(),
-            moment: Moment {
+            moment: KinematicState {
                 sample: 0,
                 interval: 0.0,
                 duration: self.duration(),
@@ -171,7 +171,10 @@ impl Track {
     ///
     /// The moments are those that [`moments`](Self::moments) comes to there, so that stretches of a long track can be
     /// taken apart.
-    pub fn moments_from(&self, samples: impl IntoIterator<Item = usize>) -> Vec<Moments<'_>> {
+    pub fn moments_from(
+        &self,
+        samples: impl IntoIterator<Item = usize>,
+    ) -> Vec<KinematicStates<'_>> {
         let mut at = self.moments();
         let from = |sample: usize| {
             while at.sample < sample.min(self.len()) {
@@ -183,11 +186,11 @@ impl Track {
     }
 
     /// The moment that ends where the first sample begins: what the run starts from.
-    pub fn opening(&self) -> Option<Moment> {
+    pub fn opening(&self) -> Option<KinematicState> {
         let first = self.moments().next()?;
         let start =
             Instant { time: 0.0, angle: self.angles[0], rate: first.mean.rate, ..first.end };
-        Some(Moment { mean: start, end: start, ..first })
+        Some(KinematicState { mean: start, end: start, ..first })
     }
 
     /// When the sample before began to end \[s\]: times may have gaps.
@@ -248,20 +251,20 @@ impl Track {
 
 /// The moments of a [`Track`], in order.
 #[derive(Clone, Debug)]
-pub struct Moments<'a> {
+pub struct KinematicStates<'a> {
     track: &'a Track,
     sample: usize,
     /// When the first sample began \[s\].
     start: f64,
     /// The moment of the sample before.
-    moment: Moment,
+    moment: KinematicState,
     /// The sample before, this one and the next.
     around: [Stretch; 3],
 }
 
-impl Moments<'_> {
+impl KinematicStates<'_> {
     /// The next moment, to be looked at where it is made: to copy it takes as long as to make it.
-    pub fn advance(&mut self) -> Option<&Moment> {
+    pub fn advance(&mut self) -> Option<&KinematicState> {
         let (track, sample) = (self.track, self.sample);
         let time = *track.times.get(sample)?;
         let [before, Stretch { rate, acceleration, .. }, after] = self.around;
@@ -319,10 +322,10 @@ impl Moments<'_> {
     }
 }
 
-impl Iterator for Moments<'_> {
-    type Item = Moment;
+impl Iterator for KinematicStates<'_> {
+    type Item = KinematicState;
 
-    fn next(&mut self) -> Option<Moment> {
+    fn next(&mut self) -> Option<KinematicState> {
         self.advance().copied()
     }
 
@@ -332,4 +335,4 @@ impl Iterator for Moments<'_> {
     }
 }
 
-impl ExactSizeIterator for Moments<'_> {}
+impl ExactSizeIterator for KinematicStates<'_> {}

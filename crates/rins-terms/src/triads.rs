@@ -5,7 +5,7 @@ use rins_imu::{ImuError, TriadError};
 use crate::catalogue::{
     ACCEL_BIAS, ACCEL_MISALIGNMENT, ACCEL_SCALE, GYRO_BIAS, GYRO_MISALIGNMENT, GYRO_SCALE,
 };
-use crate::model::{Chosen, Model};
+use crate::model::{Model, TermInstance};
 use crate::term::Term;
 
 /// The rows and columns of the misalignments, in the order of the terms' parameters.
@@ -32,9 +32,9 @@ impl From<&ImuError> for Model {
         let terms = TERMS.iter().zip(triads).flat_map(|([bias, scale, misalignment], triad)| {
             let crossed = OFF_DIAGONAL.map(|place| triad.matrix[place]);
             [
-                Chosen::new(bias).with_values(triad.bias.as_slice()),
-                Chosen::new(scale).with_values(triad.matrix.diagonal().as_slice()),
-                Chosen::new(misalignment).with_values(&crossed),
+                TermInstance::new(bias).with_values(triad.bias.as_slice()),
+                TermInstance::new(scale).with_values(triad.matrix.diagonal().as_slice()),
+                TermInstance::new(misalignment).with_values(&crossed),
             ]
         });
         Self { terms: terms.collect() }
@@ -59,7 +59,7 @@ impl Model {
 }
 
 /// Adds a term of eq. (1) to a triad's errors.
-fn add(triad: &mut TriadError, chosen: &Chosen) {
+fn add(triad: &mut TriadError, chosen: &TermInstance) {
     let values = &chosen.values;
     let kind = TERMS.iter().find_map(|terms| terms.iter().position(|term| term.is(chosen.term)));
     match kind {
@@ -88,7 +88,7 @@ mod tests {
         #[test]
         fn splitting_undoes_listing(gyro in any_triad(), accel in any_triad()) {
             let error = ImuError { gyro, accel };
-            let other = Chosen::new(&crate::catalogue::MOUNTING).with_values(&[1e-4, 2e-4]);
+            let other = TermInstance::new(&crate::catalogue::MOUNTING).with_values(&[1e-4, 2e-4]);
             let (same, others) = Model::from(&error).with(other.clone()).split();
             prop_assert_eq!(same, error);
             prop_assert_eq!(others.terms, vec![other]);

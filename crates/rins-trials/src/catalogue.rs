@@ -1,7 +1,7 @@
 //! The catalogue's effects as hidden ones, and as their rivals.
 
 use rins_blind::Effect;
-use rins_terms::{Chosen, SettingKind, Term, catalogue};
+use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 
 /// What the baseline holds anyway, what is a choice of frame, and what leaves nothing behind.
 static NEVER_HIDDEN: [&Term; 11] = [
@@ -30,16 +30,16 @@ pub fn is_hideable(term: &Term) -> bool {
 }
 
 /// A term with its numbers, as the generator takes it.
-pub fn hidden(chosen: &Chosen) -> Effect {
+pub fn hidden(chosen: &TermInstance) -> Effect {
     Effect::new(chosen.term.id, &chosen.values, &chosen.settings)
 }
 
 /// Every effect in every shape that a run of `duration` \[s\] could show, but for lines of any frequency.
-pub(crate) fn rivals(duration: f64) -> Vec<Chosen> {
+pub(crate) fn rivals(duration: f64) -> Vec<TermInstance> {
     let mut rivals = Vec::new();
     for term in catalogue::CATALOGUE.iter().copied().filter(|term| is_hideable(term)) {
-        let chosen = Chosen::new(term).estimated();
-        let with = |kind: SettingKind, values: &[f64]| -> Vec<Chosen> {
+        let chosen = TermInstance::new(term).estimated();
+        let with = |kind: SettingKind, values: &[f64]| -> Vec<TermInstance> {
             let setting = term.setting(kind).map(|place| &term.settings[place]);
             let fits = |value: &&f64| setting.is_some_and(|setting| setting.allows(**value));
             values.iter().filter(fits).map(|&v| chosen.clone().with_setting(kind, v)).collect()
@@ -64,7 +64,7 @@ pub(crate) fn rivals(duration: f64) -> Vec<Chosen> {
 }
 
 /// The effects of the shape that another one has: of its order, frequency or time.
-pub(crate) fn alike(chosen: &Chosen) -> Vec<Chosen> {
+pub(crate) fn alike(chosen: &TermInstance) -> Vec<TermInstance> {
     let own = chosen.term.settings.iter().zip(&chosen.settings);
     own.flat_map(|(setting, &value)| {
         let has = move |term: &&'static Term| {
@@ -74,7 +74,7 @@ pub(crate) fn alike(chosen: &Chosen) -> Vec<Chosen> {
         let terms = catalogue::CATALOGUE.iter().copied().filter(|term| is_hideable(term));
         terms
             .filter(has)
-            .map(move |term| Chosen::new(term).estimated().with_setting(setting.kind, value))
+            .map(move |term| TermInstance::new(term).estimated().with_setting(setting.kind, value))
     })
     .collect()
 }

@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
 use rins_blind::{Random, record};
 use rins_estimation::Run;
-use rins_terms::{Chosen, SettingKind, Term, catalogue};
+use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::{alike, hidden, is_hideable, rivals};
@@ -73,7 +73,7 @@ impl Ground {
         term: &'static Term,
         meant: f64,
         random: &mut Random,
-    ) -> Result<Option<(Chosen, Hidden)>, StandError> {
+    ) -> Result<Option<(TermInstance, Hidden)>, StandError> {
         let mut chosen = self.shaped(term, random);
         let told = self.stand.told(&self.plain, std::slice::from_ref(&chosen))?;
         let Some((values, dof)) = sized(&told, meant, random) else { return Ok(None) };
@@ -103,7 +103,7 @@ impl Ground {
 
     /// A dead zone, all its widths so many times as wide that it is `meant` sigmas strong: how its strength grows with
     /// them depends on the rates that fall into it. None if it is out of all proportion then, or strong at once.
-    fn widened(&self, zone: &Chosen, meant: f64) -> Result<Option<Chosen>, StandError> {
+    fn widened(&self, zone: &TermInstance, meant: f64) -> Result<Option<TermInstance>, StandError> {
         let usual = |(width, p): (&f64, &rins_terms::Parameter)| {
             *width < LARGEST * p.range(&self.stand.imu).1
         };
@@ -128,7 +128,7 @@ impl Ground {
     }
 
     /// The run without noise, with an effect.
-    fn with(&self, chosen: &Chosen) -> Result<Run, StandError> {
+    fn with(&self, chosen: &TermInstance) -> Result<Run, StandError> {
         let mut quiet = quiet(&self.laboratory);
         quiet.effects.push(hidden(chosen));
         self.stand.run(&record(&quiet), quiet.interval)
@@ -140,8 +140,8 @@ impl Ground {
     }
 
     /// An effect with random settings.
-    fn shaped(&self, term: &'static Term, random: &mut Random) -> Chosen {
-        let mut chosen = Chosen::new(term).estimated();
+    fn shaped(&self, term: &'static Term, random: &mut Random) -> TermInstance {
+        let mut chosen = TermInstance::new(term).estimated();
         for setting in term.settings {
             let value = match setting.kind {
                 SettingKind::Time => self.duration * (0.1 + 0.8 * random.random::<f64>()),
@@ -170,7 +170,7 @@ impl Ground {
     /// What is left of an effect in a run beside each other one.
     fn confusable(
         &self,
-        chosen: &Chosen,
+        chosen: &TermInstance,
         run: &Run,
         strength: f64,
     ) -> Result<Vec<(String, f64)>, StandError> {

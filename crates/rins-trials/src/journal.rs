@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
 use rins_blind::{record, write};
-use rins_terms::{Chosen, Model, Term, catalogue};
+use rins_terms::{Model, Term, TermInstance, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::answer::{Analyser, Answer};
@@ -105,8 +105,8 @@ impl Trial {
 
 impl Hidden {
     /// It as a model that knows what is there and not how large it is.
-    fn as_term(&self) -> Option<Chosen> {
-        let mut chosen = Chosen::new(catalogue::term(&self.id)?).estimated();
+    fn as_term(&self) -> Option<TermInstance> {
+        let mut chosen = TermInstance::new(catalogue::term(&self.id)?).estimated();
         chosen.settings.clone_from(&self.settings);
         Some(chosen)
     }

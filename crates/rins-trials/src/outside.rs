@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use rand::RngExt;
 use rins_blind::{Channel, Random, Shape, Unknown, record};
-use rins_terms::{Chosen, SettingKind, catalogue};
+use rins_terms::{SettingKind, TermInstance, catalogue};
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::rivals;
@@ -71,7 +71,7 @@ impl Ground {
     }
 
     /// Lines on the axis of a structure, at the frequencies that it might be taken for.
-    fn lines(&self, unknown: &Unknown) -> Vec<Chosen> {
+    fn lines(&self, unknown: &Unknown) -> Vec<TermInstance> {
         let turns: Vec<f64> =
             self.laboratory.experiment.drive.segments.iter().map(|s| s.rate.abs() / TAU).collect();
         let frequencies: Vec<f64> = match &unknown.shape {
@@ -85,7 +85,7 @@ impl Ground {
         };
         let (Channel::Gyro(axis) | Channel::Accel(axis)) = unknown.channel;
         let line = |frequency: f64| {
-            Chosen::new(&catalogue::INTERFERENCE_LINE)
+            TermInstance::new(&catalogue::INTERFERENCE_LINE)
                 .estimated()
                 .with_setting(SettingKind::Frequency, frequency)
                 .with_setting(SettingKind::Axis, axis as f64 + 1.0)

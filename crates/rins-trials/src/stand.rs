@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 use rins_blind::{Experiment, Known, Log, Place, Sensors};
 use rins_estimation::{
-    Evidence, Indefinite, Noise, Reference, Rig, Run, RunError, Strengths, TriadStrengths,
+    Evidence, Indefinite, Noise, NoiseParameters, Reference, Rig, Run, RunError, TriadStrengths,
     linearise,
 };
 use rins_frames::{Dcm, EulerAngles, InFrame, Increments, Nav, Site, Table};
 use rins_imu::{ImuSpec, TriadSpec};
 use rins_motion::{Recording, Station};
-use rins_terms::{Chosen, Free, Model, catalogue};
+use rins_terms::{FreeParameter, Model, TermInstance, catalogue};
 
 /// The velocity of a table on its base, 1σ \[m/s\].
 const VELOCITY: f64 = 1e-6;
@@ -61,7 +61,7 @@ impl Stand {
             wobble: known.wobble.unwrap_or(NO_WOBBLE),
             velocity: VELOCITY,
         };
-        let strengths = Strengths {
+        let strengths = NoiseParameters {
             gyro: strengths(&experiment.gyro.noise),
             accel: strengths(&experiment.accel.noise),
             jitter: 0.0,
@@ -82,7 +82,7 @@ impl Stand {
     ///
     /// # Errors
     /// [`StandError`] if the noise makes no covariance.
-    pub fn told(&self, run: &Run, more: &[Chosen]) -> Result<Told, StandError> {
+    pub fn told(&self, run: &Run, more: &[TermInstance]) -> Result<Told, StandError> {
         let mut model = self.model.clone();
         model.terms.extend(more.iter().cloned());
         let free = model.free(&self.imu);
@@ -108,7 +108,7 @@ pub struct Told {
 }
 
 impl Told {
-    fn of(evidence: &Evidence, free: &[Free], baseline: usize) -> Self {
+    fn of(evidence: &Evidence, free: &[FreeParameter], baseline: usize) -> Self {
         let scale = DVector::from_iterator(free.len(), free.iter().map(|f| f.sigma));
         let all = DMatrix::from_fn(free.len(), free.len(), |row, column| {
             evidence.information[(row, column)] * scale[row] * scale[column]

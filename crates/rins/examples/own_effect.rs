@@ -1,13 +1,13 @@
 //! An effect that the catalogue has not: a gyro whose reading bends with the square of its rate, made, and estimated beside the
 //! others.
 
-use rins::estimation::{NoiseKnowledge, Reference, Rig, Run, Strengths, fit};
+use rins::estimation::{NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit};
 use rins::frames::units::{DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
 use rins::frames::{EulerAngles, Site};
 use rins::imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins::motion::{Profile, Segment, Station};
 use rins::simulation::{Scenario, simulate};
-use rins::terms::{Action, Chosen, Model, Owner, Parameter, Parity, Prior, Term, Unit};
+use rins::terms::{Action, Model, Owner, Parameter, Parity, Prior, Term, TermInstance, Unit};
 
 static BEND: Term = Term {
     id: "gyro_bend",
@@ -48,15 +48,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             gyro: NoiseModel::white(imu.gyro.noise_density),
             accel: NoiseModel::white(imu.accel.noise_density),
         }),
-        effects: Model::default().with(Chosen::new(&BEND).with_values(&[truth])),
+        effects: Model::default().with(TermInstance::new(&BEND).with_values(&[truth])),
         ..Scenario::perfect(station, nav_from_table, profile, 0.02)
     };
     let reference = Reference::Encoder { noise: 5e-7 };
     let rig = Rig { station, nav_from_table, reference, wobble: 5e-9, velocity: 1e-6 };
     let runs = [Run::new(rig, simulate(&scenario)?.recording)?];
 
-    let model = Model::full().with(Chosen::new(&BEND).estimated());
-    let found = fit(&runs, &model, &imu, NoiseKnowledge::Given(Strengths::of(&imu)), |_| ())?;
+    let model = Model::full().with(TermInstance::new(&BEND).estimated());
+    let found = fit(&runs, &model, &imu, NoiseKnowledge::Given(NoiseParameters::of(&imu)), |_| ())?;
     let bend = found.parameter("gyro_bend.k").ok_or("it is estimated")?;
     let unit = bend.parameter.unit;
     let (value, sigma) = (bend.value / unit.factor, bend.sigma / unit.factor);

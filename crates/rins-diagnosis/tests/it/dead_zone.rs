@@ -2,13 +2,14 @@
 
 use rins_estimation::NoiseKnowledge;
 use rins_frames::units::DEG_PER_HOUR;
-use rins_terms::{Chosen, Model, SettingKind, catalogue};
+use rins_terms::{Model, SettingKind, TermInstance, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::support::{SEED, run};
 
 fn zones(widths: [f64; 3], axes: f64) -> Model {
-    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_setting(SettingKind::RateAxes, axes);
+    let zone =
+        TermInstance::new(&catalogue::GYRO_DEAD_ZONE).with_setting(SettingKind::RateAxes, axes);
     Model { terms: vec![zone.with_values(&widths.map(|width| width * DEG_PER_HOUR))] }
 }
 
@@ -46,7 +47,7 @@ fn dead_zones_are_found_with_their_widths_about_whichever_axes() {
 fn a_field_that_gyros_feel_is_no_dead_zone() {
     let mut values = [0.0; 9];
     values[0] = 0.1 * rins_terms::Unit::DEG_PER_HOUR_PER_GAUSS.factor;
-    let field = Chosen::new(&catalogue::GYRO_MAGNETIC).with_values(&values);
+    let field = TermInstance::new(&catalogue::GYRO_MAGNETIC).with_values(&values);
     let run = run(&RATES, Model { terms: vec![field] }, 0.0, SEED);
     let diagnosis = found(&run, NoiseKnowledge::Likely);
     assert!(!diagnosis.causes.is_empty());

@@ -2,7 +2,7 @@
 
 use rins_estimation::{NoiseKnowledge, Run};
 use rins_frames::units::ARCSEC;
-use rins_terms::{Chosen, Model, SettingKind, Term, catalogue};
+use rins_terms::{Model, SettingKind, Term, TermInstance, catalogue};
 
 use crate::hidden::{RATES, found, hiding};
 use crate::support::{INTERVAL, SEED, run};
@@ -17,7 +17,8 @@ fn what_an_encoder_does_at_once_is_named_in_its_sample() {
         (&catalogue::DROPPED_SAMPLES, 20e-3),
     ];
     for (term, size) in cases {
-        let event = Chosen::new(term).with_setting(SettingKind::Time, TIME).with_values(&[size]);
+        let event =
+            TermInstance::new(term).with_setting(SettingKind::Time, TIME).with_values(&[size]);
         let run = run(&RATES, Model::default().with(event), 0.0, SEED);
         let diagnosis = found(&run, NoiseKnowledge::Likely);
         let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
@@ -33,7 +34,8 @@ fn what_an_encoder_does_at_once_is_named_in_its_sample() {
 /// A step of the base is over within an epoch, and no grid of times would meet it.
 #[test]
 fn a_step_is_found_at_its_instant() {
-    let mut step = Chosen::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 137.31);
+    let mut step =
+        TermInstance::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 137.31);
     step.values[0] = 0.3 * ARCSEC;
     let hidden = Model { terms: vec![step] };
     let diagnosis = found(&run(&RATES, hidden, 0.0, SEED), NoiseKnowledge::Likely);
@@ -93,7 +95,7 @@ fn angles_that_are_one_sample_off_are_late_and_no_more() {
 fn a_base_that_tips_over_is_found_in_its_samples() {
     let tilt = [3.0 * ARCSEC, -2.0 * ARCSEC, 1.2 * ARCSEC];
     for duration in [0.0, 0.2] {
-        let step = Chosen::new(&catalogue::BASE_TILT_STEP)
+        let step = TermInstance::new(&catalogue::BASE_TILT_STEP)
             .with_setting(SettingKind::Time, 151.13)
             .with_setting(SettingKind::Duration, duration);
         let hidden = Model { terms: vec![step.with_values(&tilt)] };

@@ -1,23 +1,23 @@
 //! What is gained is measured on data that played no part: something where an effect is, nothing where none is.
 
 use rins_diagnosis::{Gain, GainError, GainVerdict, Overlay};
-use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::EulerAngles;
 use rins_frames::units::{ARCSEC, DEG, PPM};
-use rins_terms::{Chosen, Model, SettingKind, catalogue};
+use rins_terms::{Model, SettingKind, TermInstance, catalogue};
 
 use crate::support::{SEED, fibre, run, run_at};
 
 /// Stretches of 50 s: a rest, and such of five revolutions and more.
 const RATES: [f64; 5] = [0.0, 40.0, -40.0, 80.0, -80.0];
 
-fn asymmetric() -> Chosen {
-    Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY)
+fn asymmetric() -> TermInstance {
+    TermInstance::new(&catalogue::GYRO_SCALE_ASYMMETRY)
 }
 
 fn fitted(run: &Run, model: &Model) -> Fit {
     let imu = fibre();
-    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     fit(std::slice::from_ref(run), model, &imu, known, |_| ()).unwrap()
 }
 
@@ -34,7 +34,7 @@ fn hiding(ppm: f64, seed: u64) -> Run {
 
 fn within(run: &Run) -> Gain {
     let (before, after) = fits(run);
-    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     Gain::within(std::slice::from_ref(run), (&before, &after), &fibre(), known).unwrap()
 }
 
@@ -54,7 +54,7 @@ fn an_effect_that_is_there_foretells_better() {
 /// An asymmetry grows with the rate, a step that was taken for it does not.
 #[test]
 fn what_was_found_at_slower_rates_foretells_the_fastest() {
-    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     let there = hiding(3.0, SEED);
     let (before, after) = fits(&there);
     let runs = std::slice::from_ref(&there);
@@ -102,7 +102,7 @@ fn the_last_of_every_stretch_is_held_out_in_whole_revolutions() {
 /// What belongs to the sensor was found in one run and holds in another; one that is wrong does harm there.
 #[test]
 fn what_was_found_is_carried_to_another_run() {
-    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     let found = hiding(3.0, SEED);
     let (before, after) = fits(&found);
     let on = |other: &Run| {
@@ -121,14 +121,14 @@ fn what_was_found_is_carried_to_another_run() {
 #[test]
 fn what_one_run_does_not_show_is_not_held_against_another() {
     let hidden = || {
-        let scale = Chosen::new(&catalogue::ACCEL_SCALE).with_values(&[3e-4, -2e-4, 2e-4]);
+        let scale = TermInstance::new(&catalogue::ACCEL_SCALE).with_values(&[3e-4, -2e-4, 2e-4]);
         Model { terms: vec![asymmetric().with_values(&[3.0 * PPM]), scale] }
     };
     let at = |roll: f64, seed| {
         let attitude = EulerAngles { roll: roll * DEG, pitch: 0.0, yaw: 40.0 * DEG };
         run_at(attitude, &RATES, hidden(), 0.0, seed)
     };
-    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     let level = [at(0.0, SEED)];
     let (before, after) = fits(&level[0]);
     let gain = Gain::on(&[at(80.0, SEED + 1)], &level, (&before, &after), &fibre(), known).unwrap();
@@ -140,12 +140,13 @@ fn what_one_run_does_not_show_is_not_held_against_another() {
 /// Navigation starts from where the base is by then. Level to 60 seconds of arc it would gain 3 mm/s every second.
 #[test]
 fn base_that_gave_way_is_where_navigation_starts() {
-    let step = || Chosen::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 80.0);
+    let step =
+        || TermInstance::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 80.0);
     let hidden = Model { terms: vec![step().with_values(&[60.0 * ARCSEC, 0.0, 0.0])] };
     let run = run(&RATES, hidden, 0.0, SEED);
     let model = Model::full();
     let (before, after) = (fitted(&run, &model), fitted(&run, &model.with(step().estimated())));
-    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     let runs = std::slice::from_ref(&run);
     let gain = Gain::within(runs, (&before, &after), &fibre(), known).unwrap();
     let drift = gain.drifts.last().unwrap();
@@ -158,7 +159,7 @@ fn base_that_gave_way_is_where_navigation_starts() {
 fn too_short_a_run_holds_nothing_to_measure_by() {
     let run = run(&[5.0, -5.0], Model::default(), 0.0, SEED);
     let (before, after) = fits(&run);
-    let known = NoiseKnowledge::Given(Strengths::of(&fibre()));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     let refused = Gain::within(std::slice::from_ref(&run), (&before, &after), &fibre(), known);
     assert_eq!(refused, Err(GainError::TooLittle { blocks: 0 }));
 }
@@ -166,7 +167,8 @@ fn too_short_a_run_holds_nothing_to_measure_by() {
 /// Of an eccentric encoder the second harmonic stays in gyro z, in the table angle, until the model has it.
 #[test]
 fn what_the_model_lacks_stays_in_the_residual() {
-    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 2.0);
+    let harmonic =
+        TermInstance::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 2.0);
     let hidden = Model { terms: vec![harmonic.clone().with_values(&[2.0 * ARCSEC, 0.0])] };
     let run = run(&RATES, hidden, 0.0, SEED);
     let amplitude = |model: &Model| {

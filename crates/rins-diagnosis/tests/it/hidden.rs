@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use rins_diagnosis::{
-    Along, Diagnosis, FALSE_ALARMS, Structure, Unexplained, chance, diagnose, limits, suppose,
+    Diagnosis, FALSE_ALARMS, Stratum, Structure, Unexplained, chance, diagnose, limits, suppose,
 };
-use rins_estimation::{NoiseKnowledge, Run, Strengths};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Run};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::Seed;
-use rins_terms::{Chosen, Model, SettingKind, Term, Unit, catalogue};
+use rins_terms::{Model, SettingKind, Term, TermInstance, Unit, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{SEED, STRONG, fibre, run};
@@ -17,20 +17,20 @@ use crate::support::{SEED, STRONG, fibre, run};
 /// Three rates, both ways: most effects differ here.
 pub(crate) const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
 
-pub(crate) fn found(run: &Run, knowledge: fn(Strengths) -> NoiseKnowledge) -> Diagnosis {
+pub(crate) fn found(run: &Run, knowledge: fn(NoiseParameters) -> NoiseKnowledge) -> Diagnosis {
     let imu = fibre();
     diagnose(
         std::slice::from_ref(run),
         &Model::full(),
         &imu,
-        knowledge(Strengths::of(&imu)),
+        knowledge(NoiseParameters::of(&imu)),
         |_| (),
     )
     .unwrap()
 }
 
 pub(crate) fn hiding(effects: &[(&'static Term, &[f64])]) -> Model {
-    let chosen = effects.iter().map(|(term, values)| Chosen::new(term).with_values(values));
+    let chosen = effects.iter().map(|(term, values)| TermInstance::new(term).with_values(values));
     Model { terms: chosen.collect() }
 }
 
@@ -70,7 +70,7 @@ fn hidden_effects_are_named_with_their_size() {
 fn the_power_of_the_rate_is_estimated_and_its_uncertainty_is_in_the_amplitudes() {
     const EXPONENT: f64 = 1.4;
     let values = [0.0, 12.0 * MICRO_G, -8.0 * MICRO_G];
-    let shaken = Chosen::new(&catalogue::ACCEL_VIBRATION_RECTIFICATION);
+    let shaken = TermInstance::new(&catalogue::ACCEL_VIBRATION_RECTIFICATION);
     let shaken = shaken.with_setting(SettingKind::Exponent, EXPONENT).with_values(&values);
     let run = run(&RATES, Model::default().with(shaken.clone()), 0.0, SEED);
     let diagnosis = found(&run, NoiseKnowledge::Given);
@@ -90,7 +90,7 @@ fn the_power_of_the_rate_is_estimated_and_its_uncertainty_is_in_the_amplitudes()
 /// noise ends, neither without the latency nor with it.
 #[test]
 fn half_a_sample_does_not_make_flicker_of_white_noise() {
-    let sheet = Strengths::of(&fibre());
+    let sheet = NoiseParameters::of(&fibre());
     let late = hiding(&[(&catalogue::ENCODER_LATENCY, &[20e-3])]);
     let run = run(&[10.0, -10.0, 10.0, -10.0], late, 0.005 * DEG_PER_HOUR, SEED);
     let diagnosis = found(&run, NoiseKnowledge::Likely);
@@ -165,7 +165,7 @@ fn jitter_on_a_table_that_ramps_leaves_nothing() {
 #[test]
 fn effects_that_mask_each_other_are_both_found() {
     let imu = fibre();
-    let knowledge = NoiseKnowledge::Given(Strengths::of(&imu));
+    let knowledge = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     let terms = [&catalogue::GYRO_SCALE_RAMP, &catalogue::GYRO_SCALE_NONLINEARITY];
     // The first is 24 of its sigmas beside the other.
     let hidden: [&[f64]; 2] = [&[13.5e-9], &[-38.4e-6, 40.8e-6]];
@@ -173,7 +173,8 @@ fn effects_that_mask_each_other_are_both_found() {
     let run = run(&RATES, effects, 0.0, SEED);
     let runs = std::slice::from_ref(&run);
     let gain = |terms: &[&'static Term]| {
-        let supposed: Vec<_> = terms.iter().map(|term| Chosen::new(term).estimated()).collect();
+        let supposed: Vec<_> =
+            terms.iter().map(|term| TermInstance::new(term).estimated()).collect();
         let fitted = suppose(runs, &Model::full(), &supposed, &imu, knowledge).unwrap();
         fitted.after.log_likelihood - fitted.before.log_likelihood
     };
@@ -324,7 +325,7 @@ fn an_effect_that_comes_and_goes_is_inconstant() {
         .copy_from_slice(&angles[..half]);
     let diagnosis = found(&sometimes, NoiseKnowledge::Given);
     assert!(names(&diagnosis, "encoder_eccentricity"), "{:?}", diagnosis.causes);
-    let inconstant = |one: &&Unexplained| one.structure == Structure::Inconstant(Along::Time);
+    let inconstant = |one: &&Unexplained| one.structure == Structure::Inconstant(Stratum::Time);
     let found_on = diagnosis.unexplained.iter().find(inconstant);
     let one = found_on.unwrap_or_else(|| panic!("{:?}", diagnosis.unexplained));
     assert!(one.ln_p < -STRONG, "{one:?}");

@@ -1,36 +1,36 @@
 //! Lines, slower and faster than an epoch: of a sensor, of the base, and such as come and go.
 
-use rins_diagnosis::{Along, Cause, Diagnosis, Structure, suppose};
-use rins_estimation::{NoiseKnowledge, Strengths};
+use rins_diagnosis::{Cause, Diagnosis, Stratum, Structure, suppose};
+use rins_estimation::{NoiseKnowledge, NoiseParameters};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
-use rins_terms::{Chosen, Model, SettingKind, catalogue};
+use rins_terms::{Model, SettingKind, TermInstance, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::outside::with;
 use crate::support::{SEED, STRONG, fibre, run};
 
-fn line(frequency: f64, axis: f64, values: &[f64]) -> Chosen {
-    Chosen::new(&catalogue::INTERFERENCE_LINE)
+fn line(frequency: f64, axis: f64, values: &[f64]) -> TermInstance {
+    TermInstance::new(&catalogue::INTERFERENCE_LINE)
         .with_setting(SettingKind::Frequency, frequency)
         .with_setting(SettingKind::Axis, axis)
         .with_values(values)
 }
 
 /// With these amplitudes \[arcsec\].
-fn sway(frequency: f64, values: &[f64; 6]) -> Chosen {
+fn sway(frequency: f64, values: &[f64; 6]) -> TermInstance {
     let values = values.map(|value| value * ARCSEC);
-    Chosen::new(&catalogue::BASE_SWAY)
+    TermInstance::new(&catalogue::BASE_SWAY)
         .with_setting(SettingKind::Frequency, frequency)
         .with_values(&values)
 }
 
-fn hiding(terms: &[Chosen], rates: &[f64]) -> Diagnosis {
+fn hiding(terms: &[TermInstance], rates: &[f64]) -> Diagnosis {
     let hidden = Model { terms: terms.to_vec() };
     found(&run(rates, hidden, 0.0, SEED), NoiseKnowledge::Likely)
 }
 
 /// That the frequency of a cause and all its amplitudes are these, within their sigmas.
-fn assert_is(cause: &Cause, truth: &Chosen) {
+fn assert_is(cause: &Cause, truth: &TermInstance) {
     assert_eq!(cause.term.id, truth.term.id);
     assert_eq!(cause.settings[1..], truth.settings[1..], "{cause:?}");
     let (place, sigma) = cause.sought.unwrap();
@@ -53,10 +53,10 @@ fn a_supposed_line_is_measured() {
     let supposed = [
         line(7.3098, 2.0, &[0.0; 4]).estimated(),
         sway(2.3, &[0.0; 6]).estimated(),
-        Chosen::new(&catalogue::ACCEL_LEVER_ARM).estimated(),
+        TermInstance::new(&catalogue::ACCEL_LEVER_ARM).estimated(),
     ];
     let imu = fibre();
-    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     let runs = std::slice::from_ref(&run);
     let diagnosis = suppose(runs, &Model::full(), &supposed, &imu, known).unwrap();
     assert_eq!(diagnosis.causes.len(), 3);
@@ -137,7 +137,7 @@ fn sway_of_a_table_at_rest_may_be_a_line() {
 
 /// Whether something of the catalogue was found that is not the same all along the time.
 fn changes(diagnosis: &Diagnosis) -> bool {
-    let along_time = Structure::Inconstant(Along::Time);
+    let along_time = Structure::Inconstant(Stratum::Time);
     diagnosis.unexplained.iter().any(|one| one.structure == along_time)
 }
 

@@ -3,7 +3,7 @@
 use rins_diagnosis::Cause;
 use rins_estimation::NoiseKnowledge;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
-use rins_terms::{Chosen, Model, SettingKind, Term, catalogue};
+use rins_terms::{Model, SettingKind, Term, TermInstance, catalogue};
 
 use crate::hidden::{RATES, found};
 use crate::support::{SEED, run};
@@ -12,7 +12,8 @@ use crate::support::{SEED, run};
 #[test]
 fn a_high_harmonic_of_the_encoder_is_named_with_its_order() {
     let values = [0.2 * ARCSEC, -0.3 * ARCSEC];
-    let harmonic = Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 37.0);
+    let harmonic =
+        TermInstance::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 37.0);
     let hidden = Model { terms: vec![harmonic.with_values(&values)] };
     let diagnosis = found(&run(&RATES, hidden, 0.0, SEED), NoiseKnowledge::Given);
     let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
@@ -40,7 +41,7 @@ fn what_happens_twice_is_named_twice() {
     ];
     for (term, times, values) in cases {
         let at = |event: usize| {
-            Chosen::new(term)
+            TermInstance::new(term)
                 .with_setting(SettingKind::Time, times[event])
                 .with_values(values[event])
         };
@@ -65,7 +66,7 @@ fn what_happens_twice_is_named_twice() {
 #[test]
 fn warm_up_of_two_time_constants_is_two() {
     let warm_up = |values: [f64; 3], time_constant: f64| {
-        let chosen = Chosen::new(&catalogue::GYRO_WARMUP)
+        let chosen = TermInstance::new(&catalogue::GYRO_WARMUP)
             .with_setting(SettingKind::TimeConstant, time_constant);
         chosen.with_values(&values.map(|value| value * DEG_PER_HOUR))
     };

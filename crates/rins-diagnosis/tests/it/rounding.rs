@@ -1,10 +1,10 @@
 //! Sensors and encoders that read in steps: the rounding is no effect.
 
 use rins_diagnosis::diagnose;
-use rins_estimation::{NoiseKnowledge, Run, Strengths};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Run};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_imu::rounded;
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 use crate::hidden::{RATES, found, hiding};
 use crate::support::{SEED, STRONG, fibre, run};
@@ -28,7 +28,7 @@ fn in_steps(run: &Run, step: f64) -> Run {
 #[test]
 fn steps_of_an_encoder_are_no_effect() {
     let plain = run(&RATES, Model::default(), 0.0, SEED);
-    let lever = Chosen::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[3e-3, -2e-3]);
+    let lever = TermInstance::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[3e-3, -2e-3]);
     let lever = run(&RATES, Model::default().with(lever), 0.0, SEED);
     for step in [3.7 * ARCSEC, 5.0 * ARCSEC, 40.0 * ARCSEC] {
         let coarse = in_steps(&plain, step);
@@ -61,7 +61,7 @@ fn steps_that_the_sheet_states_are_no_effect() {
     let model = hiding(&[(&catalogue::GYRO_QUANTISATION, &[0.0, step])]);
     let runs = [run(&RATES, model, 0.0, SEED)];
     let mut imu = fibre();
-    let known = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let known = NoiseKnowledge::Likely(NoiseParameters::of(&imu));
     for (stated, named) in [(1.0, 0), (0.3, 1)] {
         imu.gyro.resolution = Some(stated * step);
         let diagnosis = diagnose(&runs, &Model::full(), &imu, known, |_| ()).unwrap();

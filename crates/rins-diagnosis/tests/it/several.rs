@@ -1,9 +1,9 @@
 //! Several runs of one unit, each of which knows its own part only.
 
 use rins_diagnosis::{Structure, suppose};
-use rins_estimation::{NoiseKnowledge, Strengths};
+use rins_estimation::{NoiseKnowledge, NoiseParameters};
 use rins_frames::units::{DEG_PER_HOUR, STANDARD_GRAVITY};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 use crate::hidden::RATES;
 use crate::support::{SEED, fibre, run};
@@ -13,11 +13,11 @@ use crate::support::{SEED, fibre, run};
 fn what_is_the_same_in_all_runs_is_constant_in_each() {
     let per_g = DEG_PER_HOUR / STANDARD_GRAVITY;
     let values = [0.0, 0.3, 0.0, 0.2, 0.0, 0.0, -0.3, 0.0, 0.0].map(|value| value * per_g);
-    let supposed = Chosen::new(&catalogue::GYRO_G_SENSITIVITY).estimated();
+    let supposed = TermInstance::new(&catalogue::GYRO_G_SENSITIVITY).estimated();
     let hidden = Model { terms: vec![supposed.clone().with_values(&values)] };
     let runs = [run(&RATES, hidden.clone(), 0.0, SEED), run(&[15.0, -30.0], hidden, 0.0, SEED + 1)];
     let imu = fibre();
-    let knowledge = NoiseKnowledge::Given(Strengths::of(&imu));
+    let knowledge = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     let diagnosis = suppose(&runs, &Model::full(), &[supposed], &imu, knowledge).unwrap();
     let changes = diagnosis.unexplained.iter();
     let changes = changes.filter(|one| matches!(one.structure, Structure::Inconstant(_)));

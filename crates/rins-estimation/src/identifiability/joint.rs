@@ -8,9 +8,9 @@ use crate::evidence::Indefinite;
 use crate::identifiability::{Identifiability, Unknown, scaled};
 use crate::layout::{Joined, Layout};
 use crate::linear::linearise;
+use crate::noise_parameters::{Noise, NoiseParameters};
 use crate::posterior::Evidence;
 use crate::run::Run;
-use crate::strengths::{Noise, Strengths};
 
 /// The evidence of several runs on all their unknowns.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +61,7 @@ pub fn joint(
     runs: &[Run],
     model: &Model,
     imu: &ImuSpec,
-    strengths: &Strengths,
+    strengths: &NoiseParameters,
 ) -> Result<Joint, JointError> {
     let Joined { models, free, layout } = Joined::of(model, imu, runs);
     let Layout { all, places, signs } = layout;

@@ -15,7 +15,7 @@ use rins_terms::Unit;
 
 pub use gauge::{GAUGES, Gauge, gauge_of};
 pub use joint::{Joint, JointError, joint};
-pub use rank::{EXACT, Lost, Rank};
+pub use rank::{EXACT, Rank, Unobservable};
 pub use separation::{Direction, Separation, distance, separation};
 
 /// A parameter whose value is sought.
@@ -46,7 +46,7 @@ pub struct Alias {
 
 /// What data tell of a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shown {
+pub enum Observable {
     /// The parameter itself.
     Alone,
     /// Only the sum of the parameter and of its aliases, each times its coefficient.
@@ -67,7 +67,7 @@ pub enum Shown {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// What of it the data tell.
-    pub shown: Shown,
+    pub shown: Observable,
     /// What stands beside it in the sum that is told; none if it is told alone, or not at all.
     pub aliases: Vec<Alias>,
     /// Its 1σ, or that of the sum with its aliases, by the data alone, in SI units; infinite if they tell nothing.
@@ -129,7 +129,7 @@ impl Identifiability {
         let rank = Rank::of(&scaled);
         let posterior = with_prior(&scaled);
         let nothing = |(variance, sigma): (&f64, &f64)| Seen {
-            shown: Shown::Nothing,
+            shown: Observable::Nothing,
             aliases: Vec::new(),
             data_sigma: f64::INFINITY,
             sigma: variance.sqrt() * sigma,
@@ -172,7 +172,7 @@ impl Identifiability {
         let aliases: Vec<Alias> = beside
             .iter()
             .map(|&lost| {
-                let Lost { unknown, exactly, .. } = self.rank.lost[lost];
+                let Unobservable { unknown, exactly, .. } = self.rank.lost[lost];
                 let coefficient = shares[lost] * unit / self.unknowns[unknown].sigma;
                 Alias { unknown, coefficient, exactly }
             })
@@ -180,16 +180,18 @@ impl Identifiability {
         let seen = &mut self.seen[kept];
         seen.data_sigma = sigma * unit;
         seen.identifiable = aliases.is_empty() && own < SEEN;
-        seen.shown = if aliases.is_empty() { Shown::Alone } else { Shown::Combination };
+        seen.shown = if aliases.is_empty() { Observable::Alone } else { Observable::Combination };
         seen.aliases = aliases;
     }
 
     /// Names what no schedule would tell, of what the data show at all.
     fn name_gauges(&mut self) {
-        let shown = self.unknowns.iter().zip(&self.seen).filter(|(_, s)| s.shown != Shown::Nothing);
+        let shown =
+            self.unknowns.iter().zip(&self.seen).filter(|(_, s)| s.shown != Observable::Nothing);
         let shown: Vec<&str> = shown.map(|(unknown, _)| unknown.model_id.as_str()).collect();
         for gauge in GAUGES.iter().filter(|gauge| gauge.is_open(&shown)) {
-            let of_gauge = |lost: &&Lost| gauge.holds(&self.unknowns[lost.unknown].model_id);
+            let of_gauge =
+                |lost: &&Unobservable| gauge.holds(&self.unknowns[lost.unknown].model_id);
             for lost in self.rank.lost.iter().filter(of_gauge) {
                 self.seen[lost.unknown].gauge.get_or_insert(gauge);
             }
@@ -198,7 +200,7 @@ impl Identifiability {
 
     /// Of an unknown that is lost: what stands for it.
     fn see_lost(&mut self, place: usize) {
-        let Lost { unknown, exactly, visible } = self.rank.lost[place];
+        let Unobservable { unknown, exactly, visible } = self.rank.lost[place];
         if !visible {
             return;
         }
@@ -229,7 +231,7 @@ impl Identifiability {
         let data_sigma = self.seen[kept].data_sigma / own.abs();
         let seen = &mut self.seen[unknown];
         (seen.aliases, seen.data_sigma) = (aliases, data_sigma);
-        seen.shown = Shown::Part { of, exactly };
+        seen.shown = Observable::Part { of, exactly };
     }
 
     /// Of unknowns that are not observable by themselves: the sums of several that are.
@@ -276,9 +278,9 @@ impl Identifiability {
                 seen.aliases = aliases;
                 seen.data_sigma = data_sigma * unit / shares[row].abs();
                 seen.shown = if unknown == leading {
-                    Shown::Combination
+                    Observable::Combination
                 } else {
-                    Shown::Part { of: vec![leading], exactly: false }
+                    Observable::Part { of: vec![leading], exactly: false }
                 };
             }
         }

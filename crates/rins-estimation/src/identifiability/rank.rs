@@ -22,7 +22,7 @@ pub struct Rank {
     /// The unknowns that are kept, the best seen first.
     pub kept: Vec<usize>,
     /// The others.
-    pub lost: Vec<Lost>,
+    pub lost: Vec<Unobservable>,
     /// Of each that is kept (row) how much one of each that is lost (column) amounts to.
     pub coefficients: DMatrix<f64>,
     /// The 1σ of each that is kept, with all that is lost at zero.
@@ -35,7 +35,7 @@ pub struct Rank {
 
 /// An unknown that those kept stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lost {
+pub struct Unobservable {
     /// Which.
     pub unknown: usize,
     /// Whether what it does is the sum of what others do exactly, and not only to within what the data show.
@@ -55,9 +55,9 @@ impl Rank {
         while let Some(next) = elimination.next(0.0) {
             elimination.keep(next);
         }
-        let lost: Vec<Lost> = (0..information.nrows())
+        let lost: Vec<Unobservable> = (0..information.nrows())
             .filter(|unknown| !kept.contains(unknown))
-            .map(|unknown| Lost {
+            .map(|unknown| Unobservable {
                 unknown,
                 exactly: !elimination.is_kept[unknown],
                 visible: information[(unknown, unknown)] >= KNOWN,

@@ -5,13 +5,13 @@ use rins_frames::{EulerAngles, Site};
 use rins_imu::{ImuNoise, ImuSpec, NoiseModel, Seed, TriadSpec};
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 use rins_testing::assert_close;
 
 use super::*;
 use crate::fit::fit;
+use crate::noise_parameters::{NoiseKnowledge, NoiseParameters};
 use crate::run::{Reference, Rig, Run};
-use crate::strengths::{NoiseKnowledge, Strengths};
 
 const IMU: ImuSpec = ImuSpec {
     gyro: TriadSpec::white(0.02 * DEG_PER_HOUR, 0.1 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC),
@@ -40,17 +40,17 @@ fn run(rates: &[(f64, f64)], tilt: f64, azimuth: f64) -> Run {
 }
 
 fn model(ids: &[&str]) -> Model {
-    let term = |id: &&str| Chosen::new(catalogue::term(id).unwrap()).estimated();
+    let term = |id: &&str| TermInstance::new(catalogue::term(id).unwrap()).estimated();
     Model { terms: ids.iter().map(term).collect() }
 }
 
 /// What the errors of the spin axis, biases, attitude and mounting are told apart by.
 fn of_baseline(rates: &[(f64, f64)]) -> Identifiability {
     let baseline = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
-        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
-        .with(Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]));
+        .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(TermInstance::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]));
     let run = run(rates, 25.0, 0.0);
-    joint(&[run], &baseline, &IMU, &Strengths::of(&IMU)).unwrap().identifiability()
+    joint(&[run], &baseline, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability()
 }
 
 #[test]
@@ -61,10 +61,10 @@ fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
     assert!(told.rank.most_null < 1e-4 * told.rank.least_told, "{:?}", told.rank);
     // Without the mounting, which limits the misalignments more than a bias does:
     let spin = model(&["gyro.bias", "accel.bias", "axis.attitude"])
-        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
-        .with(Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]));
+        .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(TermInstance::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]));
     let run = run(&[(10.0, 360.0)], 25.0, 0.0);
-    let told = joint(&[run], &spin, &IMU, &Strengths::of(&IMU)).unwrap().identifiability();
+    let told = joint(&[run], &spin, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability();
     assert_eq!(told.rank.rank() + 3, told.unknowns.len());
     // b + (S, M) ω with ω of the table and the Earth: the combination is S + b/ω.
     // The axis is tilted to the south.
@@ -76,12 +76,12 @@ fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
         ("gyro.misalignment.yz", "gyro.bias.y"),
     ] {
         let (kept, lost) = (told.find(kept).unwrap(), told.find(lost).unwrap());
-        assert_eq!(told.seen[kept].shown, Shown::Combination);
+        assert_eq!(told.seen[kept].shown, Observable::Combination);
         let aliases = &told.seen[kept].aliases;
         assert_eq!(aliases.len(), 1);
         assert_eq!((aliases[0].unknown, aliases[0].exactly), (lost, true));
         assert_close!(aliases[0].coefficient * rate, 1.0, 1e-6);
-        assert_eq!(told.seen[lost].shown, Shown::Part { of: vec![kept], exactly: true });
+        assert_eq!(told.seen[lost].shown, Observable::Part { of: vec![kept], exactly: true });
         // The other is told in the same sum, as many times better as it counts there.
         assert_eq!(told.seen[lost].aliases[0].unknown, kept);
         assert_close!(told.seen[lost].aliases[0].coefficient / rate, 1.0, 1e-6);
@@ -101,7 +101,7 @@ fn a_reversal_rates_or_dwells_tell_all_of_the_baseline() {
     for rates in [vec![(10.0, 180.0), (-10.0, 180.0)], ladder, dwells] {
         let told = of_baseline(&rates);
         assert!(told.rank.lost.is_empty(), "{rates:?}: {:?}", told.rank);
-        assert!(told.seen.iter().all(|seen| seen.identifiable && seen.shown == Shown::Alone));
+        assert!(told.seen.iter().all(|seen| seen.identifiable && seen.shown == Observable::Alone));
     }
 }
 
@@ -124,7 +124,7 @@ fn gauges_stay_lost_under_a_rich_schedule() {
     let full = Model::full();
     let more = model(&["mounting", "encoder.zero", "wrong_gravity"]);
     let model = Model { terms: full.terms.into_iter().chain(more.terms).collect() };
-    let told = joint(&runs, &model, &IMU, &Strengths::of(&IMU)).unwrap().identifiability();
+    let told = joint(&runs, &model, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability();
     let named = |name: &str| {
         told.seen.iter().filter(|seen| seen.gauge.is_some_and(|gauge| gauge.name == name)).count()
     };
@@ -162,10 +162,10 @@ fn gauges_are_null_directions() {
             let found = model.terms.iter_mut().find(|chosen| chosen.term.is(term));
             match found {
                 Some(chosen) => *chosen = chosen.clone().estimating(&[name]),
-                None => model.terms.push(Chosen::new(term).estimating(&[name])),
+                None => model.terms.push(TermInstance::new(term).estimating(&[name])),
             }
         }
-        let joint = joint(&runs, &model, &IMU, &Strengths::of(&IMU)).unwrap();
+        let joint = joint(&runs, &model, &IMU, &NoiseParameters::of(&IMU)).unwrap();
         let information = &joint.evidence.information;
         let size = information.diagonal().map(f64::sqrt);
         let unit = information.component_div(&(&size * size.transpose()));
@@ -180,10 +180,10 @@ fn gauges_are_null_directions() {
 /// eccentricity, in units of the priors, and where the latter two stand.
 fn of_one_per_turn(rates: &[(f64, f64)]) -> (DMatrix<f64>, Vec<usize>, Vec<usize>) {
     let model = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
-        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
-        .with(Chosen::new(&catalogue::GYRO_G_SENSITIVITY).estimating(&["zx", "zy"]))
-        .with(Chosen::new(&catalogue::ENCODER_ECCENTRICITY).estimated());
-    let joint = joint(&[run(rates, 25.0, 0.0)], &model, &IMU, &Strengths::of(&IMU)).unwrap();
+        .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(TermInstance::new(&catalogue::GYRO_G_SENSITIVITY).estimating(&["zx", "zy"]))
+        .with(TermInstance::new(&catalogue::ENCODER_ECCENTRICITY).estimated());
+    let joint = joint(&[run(rates, 25.0, 0.0)], &model, &IMU, &NoiseParameters::of(&IMU)).unwrap();
     let n = joint.unknowns.len();
     (joint.information(), vec![n - 4, n - 3], vec![n - 2, n - 1])
 }
@@ -213,12 +213,12 @@ fn two_harmonics_that_differ_in_sign_separate_by_the_closed_form() {
 #[test]
 fn one_signature_under_two_names_is_never_told_apart() {
     let model = model(&["gyro.bias", "accel.bias", "axis.attitude"])
-        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
-        .with(Chosen::new(&catalogue::GYRO_BIAS_RAMP).estimating(&["z"]))
-        .with(Chosen::new(&catalogue::GYRO_SCALE_RAMP).estimated());
+        .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(TermInstance::new(&catalogue::GYRO_BIAS_RAMP).estimating(&["z"]))
+        .with(TermInstance::new(&catalogue::GYRO_SCALE_RAMP).estimated());
     let kappa = |rates: &[(f64, f64)]| {
         let run = run(rates, 25.0, 0.0);
-        let joint = joint(&[run], &model, &IMU, &Strengths::of(&IMU)).unwrap();
+        let joint = joint(&[run], &model, &IMU, &NoiseParameters::of(&IMU)).unwrap();
         let n = joint.unknowns.len();
         separation(&joint.information(), &[n - 2], &[n - 1]).kappa()
     };
@@ -242,13 +242,15 @@ fn simulated_runs_tell_two_effects_apart_as_predicted() {
     const RUNS: u64 = 12;
     let rates = [(10.0, 45.0), (-10.0, 45.0)];
     let second = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
-        .with(Chosen::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
-        .with(Chosen::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]))
-        .with(Chosen::new(&catalogue::ENCODER_ECCENTRICITY).estimated());
-    let both =
-        second.clone().with(Chosen::new(&catalogue::GYRO_G_SENSITIVITY).estimating(&["zx", "zy"]));
+        .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
+        .with(TermInstance::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]))
+        .with(TermInstance::new(&catalogue::ENCODER_ECCENTRICITY).estimated());
+    let both = second
+        .clone()
+        .with(TermInstance::new(&catalogue::GYRO_G_SENSITIVITY).estimating(&["zx", "zy"]));
     let planned = run(&rates, 25.0, 0.0);
-    let joint = joint(std::slice::from_ref(&planned), &both, &IMU, &Strengths::of(&IMU)).unwrap();
+    let joint =
+        joint(std::slice::from_ref(&planned), &both, &IMU, &NoiseParameters::of(&IMU)).unwrap();
     let n = joint.unknowns.len();
     let (of_first, of_second) = ([n - 2, n - 1], [n - 4, n - 3]);
     let mut information = joint.information();
@@ -256,10 +258,10 @@ fn simulated_runs_tell_two_effects_apart_as_predicted() {
     let direction = separation(&information, &of_first, &of_second).directions.remove(0);
     let size: Vec<f64> =
         direction.along.iter().map(|part| part * joint.unknowns[n - 1].sigma).collect();
-    let mut g_sensitivity = Chosen::new(&catalogue::GYRO_G_SENSITIVITY);
+    let mut g_sensitivity = TermInstance::new(&catalogue::GYRO_G_SENSITIVITY);
     g_sensitivity.values[6..8].copy_from_slice(&size);
-    let eccentricity =
-        Chosen::new(&catalogue::ENCODER_ECCENTRICITY).with_values(&[3.0 * ARCSEC, -4.0 * ARCSEC]);
+    let eccentricity = TermInstance::new(&catalogue::ENCODER_ECCENTRICITY)
+        .with_values(&[3.0 * ARCSEC, -4.0 * ARCSEC]);
     let gain: f64 = (0..RUNS)
         .map(|seed| {
             let segments =
@@ -280,7 +282,7 @@ fn simulated_runs_tell_two_effects_apart_as_predicted() {
             let recording = simulate(&scenario).unwrap().recording;
             let run = [Run::new(planned.rig, recording).unwrap()];
             let left = |model: &Model| {
-                fit(&run, model, &IMU, NoiseKnowledge::Given(Strengths::of(&IMU)), |_| {})
+                fit(&run, model, &IMU, NoiseKnowledge::Given(NoiseParameters::of(&IMU)), |_| {})
                     .unwrap()
                     .evidence
                     .square

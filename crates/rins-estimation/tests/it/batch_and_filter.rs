@@ -1,7 +1,7 @@
 //! The batch and the filter solve one model two ways.
 
 use rins_estimation::{
-    Evidence, Filter, Noise, NoiseKnowledge, Strengths, TriadStrengths, fit, linearise,
+    Evidence, Filter, Noise, NoiseKnowledge, NoiseParameters, TriadStrengths, fit, linearise,
 };
 use rins_frames::units::{DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::{Axis, ImuError, TriadError};
@@ -26,8 +26,8 @@ fn filter_ends_where_the_batch_does() {
     let parted = run.clone().leaving_out(vec![400..700, 1500..1600]);
     let sigmas: Vec<f64> = free.iter().map(|f| f.sigma).collect();
     let nothing = vec![0.0; sigmas.len()];
-    let sheet = Strengths::of(&imu);
-    let coloured = Strengths {
+    let sheet = NoiseParameters::of(&imu);
+    let coloured = NoiseParameters {
         gyro: TriadStrengths { flicker: 0.02 * DEG_PER_HOUR, walk: 1e-10, ..sheet.gyro },
         accel: TriadStrengths { flicker: 10.0 * MICRO_G, ..sheet.accel },
         jitter: 1e-6,
@@ -61,7 +61,7 @@ fn iteration_ends_where_a_step_is_nothing() {
     let truth = (ImuError { gyro, ..ImuError::default() }, Model::default());
     let run = run(&scenario(tilted(25.0, 0.0), turns, truth, Some(white(&imu)), 4));
     let mut seen = 0;
-    let strengths = Strengths::of(&imu);
+    let strengths = NoiseParameters::of(&imu);
     let fitted = fit(&[run], &Model::full(), &imu, NoiseKnowledge::Given(strengths), |_| seen += 1);
     let fitted = fitted.unwrap();
     assert_eq!(seen, fitted.iterations.len());

@@ -1,16 +1,16 @@
 //! Noise that remembers: its strength is found, and it is charged to the sigmas.
 
-use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::units::{DEG_PER_HOUR, MICRO_G};
 use rins_imu::{ImuError, ImuNoise, NoiseModel};
 use rins_terms::Model;
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-fn fitted(run: &Run, knowledge: fn(Strengths) -> NoiseKnowledge) -> Fit {
+fn fitted(run: &Run, knowledge: fn(NoiseParameters) -> NoiseKnowledge) -> Fit {
     let imu = fibre();
     let runs = std::slice::from_ref(run);
-    fit(runs, &Model::full(), &imu, knowledge(Strengths::of(&imu)), |_| ()).unwrap()
+    fit(runs, &Model::full(), &imu, knowledge(NoiseParameters::of(&imu)), |_| ()).unwrap()
 }
 
 fn turned(noise: ImuNoise, seed: u64) -> Run {

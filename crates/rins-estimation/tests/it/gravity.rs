@@ -2,14 +2,14 @@
 
 use nalgebra::Vector3;
 use rins_estimation::{
-    NoiseKnowledge, Reference, Rig, Run, Strengths, axis_from_gravity, fit, turning_span,
+    NoiseKnowledge, NoiseParameters, Reference, Rig, Run, axis_from_gravity, fit, turning_span,
 };
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_frames::{InFrame, Increments};
 use rins_imu::{Axis, ImuError, ImuSpec, TriadError, TriadSpec};
 use rins_motion::Recording;
 use rins_simulation::{TableRecord, simulate};
-use rins_terms::{Chosen, Model, Role, catalogue};
+use rins_terms::{Model, Role, TermInstance, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{profile, scenario, tilted, white};
@@ -30,7 +30,7 @@ fn wheel(seed: u64) -> Recording {
         accel: TriadError::default().with_bias(Axis::X, 3000.0 * MICRO_G),
     };
     let arm = catalogue::term("accel_lever_arm").unwrap();
-    let effects = Model::default().with(Chosen::new(arm).with_values(&[43e-3, -20e-3]));
+    let effects = Model::default().with(TermInstance::new(arm).with_values(&[43e-3, -20e-3]));
     let turns = profile(&[(0.0, 5.0), (60.0, 25.0), (150.0, 40.0), (-90.0, 70.0), (0.0, 24.0)]);
     let scenario = scenario(tilted(85.0, 20.0), turns, (error, effects), Some(white(&imu)), seed);
     simulate(&rins_simulation::Scenario { table: TableRecord::Nothing, ..scenario })
@@ -64,14 +64,14 @@ fn a_wheel_shows_its_lever_arm_and_the_scale_of_its_gyro() {
         velocity: 1e-6,
     };
     let arm = catalogue::term("accel_lever_arm").unwrap();
-    let mut model = Model::full().with(Chosen::new(arm).estimated());
+    let mut model = Model::full().with(TermInstance::new(arm).estimated());
     for axis in ["x", "y"] {
         model = model.with_role(&format!("accel_lever_arm.r_{axis}"), Role::Within(0.5));
         model = model.with_role(&format!("axis.attitude.{axis}"), Role::Within(0.05));
     }
     model = model.with_role("axis.attitude.z", Role::Within(0.1));
     let imu = mems();
-    let strengths = Strengths::of(&imu);
+    let strengths = NoiseParameters::of(&imu);
     let run = Run::new(rig, recording).unwrap();
     let fit = fit(&[run], &model, &imu, NoiseKnowledge::Given(strengths), |_| ()).unwrap();
     for (id, truth, within) in [

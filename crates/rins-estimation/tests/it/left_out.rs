@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use rins_estimation::{Fit, Foretold, Known, NoiseKnowledge, Run, Strengths, fit, linearise};
+use rins_estimation::{Fit, Foretold, Known, NoiseKnowledge, NoiseParameters, Run, fit, linearise};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::{Axis, ImuError, TriadError};
@@ -25,7 +25,7 @@ fn turned() -> Run {
 
 fn fitted(run: &Run) -> Fit {
     let imu = fibre();
-    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     fit(std::slice::from_ref(run), &Model::full(), &imu, known, |_| ()).unwrap()
 }
 

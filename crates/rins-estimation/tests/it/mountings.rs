@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::SignedAxes;
 use rins_frames::units::ARCSEC;
 use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadError, TriadSpec};
-use rins_terms::{Chosen, Model, Owner, Role, catalogue};
+use rins_terms::{Model, Owner, Role, TermInstance, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -51,7 +51,7 @@ fn remounted(
     (imu, seed): (&ImuSpec, u64),
 ) -> Run {
     let turns = profile(&[(0.0, 10.0), (15.0, 30.0), (-15.0, 30.0)]);
-    let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&askew);
+    let mounting = TermInstance::new(&catalogue::MOUNTING).with_values(&askew);
     let truth = (error.along(&axes.matrix()), Model::default().with(mounting));
     run(&scenario(tilted(tilt, yaw), turns, truth, Some(white(imu)), seed)).with_axes(axes)
 }
@@ -61,7 +61,7 @@ fn fitted(runs: &[Run], model: &Model) -> Fit {
 }
 
 fn fitted_as(imu: &ImuSpec, runs: &[Run], model: &Model) -> Fit {
-    fit(runs, model, imu, NoiseKnowledge::Given(Strengths::of(imu)), |_| ()).unwrap()
+    fit(runs, model, imu, NoiseKnowledge::Given(NoiseParameters::of(imu)), |_| ()).unwrap()
 }
 
 /// What a parameter truly is along the axes of the first run.
@@ -96,7 +96,7 @@ fn squares(imus: Range<u64>, askew: bool) -> f64 {
     let imu = if askew { tactical() } else { fibre() };
     let mut model = Model::full();
     if askew {
-        let mut mounting = Chosen::new(&catalogue::MOUNTING);
+        let mut mounting = TermInstance::new(&catalogue::MOUNTING);
         mounting.roles.fill(Role::Within(ASKEW));
         model = model.with(mounting);
     }
@@ -184,7 +184,7 @@ fn one_run_is_the_same_about_any_axis() {
 fn what_belongs_to_the_axis_of_rotation_is_another_gyros_in_another_mounting() {
     let error = drawn(3);
     let [x, y, _, minus_x, ..] = mountings();
-    let asymmetry = Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY).estimated();
+    let asymmetry = TermInstance::new(&catalogue::GYRO_SCALE_ASYMMETRY).estimated();
     let model = Model::full().with(asymmetry);
     let ids = |second: SignedAxes| -> Vec<(String, Option<usize>)> {
         let runs = [mounted(&error, x, (5.0, 0.0), 1), mounted(&error, second, (50.0, 90.0), 2)];
@@ -232,7 +232,7 @@ fn what_is_expected_goes_with_the_sensor() {
 fn estimates_are_the_same_along_any_axes() {
     let error = drawn(11);
     let [x, _, minus_z, ..] = [0, 1, 5].map(|k| mountings()[k]);
-    let asymmetry = Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY).estimated();
+    let asymmetry = TermInstance::new(&catalogue::GYRO_SCALE_ASYMMETRY).estimated();
     let model = Model::full().with(asymmetry);
     let runs = [mounted(&error, x, (5.0, 0.0), 1), mounted(&error, minus_z, (50.0, 90.0), 2)];
     let fit = fitted(&runs, &model);

@@ -1,7 +1,7 @@
 //! Estimates against what was stated of them: quiet for sensors that are as stated, loud for others.
 
 use rayon::prelude::*;
-use rins_estimation::{Departure, Quantity, Strengths};
+use rins_estimation::{Departure, NoiseParameters, Quantity};
 use rins_imu::ImuError;
 
 use crate::mountings::drawn;
@@ -15,7 +15,7 @@ fn departures(error: &ImuError, seed: u64) -> Vec<(String, Departure)> {
         Quantity::Parameter(place) => (told.unknowns[place].id.clone(), departure),
         of => (format!("{of:?}"), departure),
     };
-    fit.prior_departures(&told, &Strengths::of(&fibre())).into_iter().map(named).collect()
+    fit.prior_departures(&told, &NoiseParameters::of(&fibre())).into_iter().map(named).collect()
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! What cannot be estimated is refused, with the figure.
 
-use rins_estimation::{FitError, NoiseKnowledge, Reference, Run, RunError, Strengths, fit};
+use rins_estimation::{FitError, NoiseKnowledge, NoiseParameters, Reference, Run, RunError, fit};
 use rins_imu::ImuError;
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted};
 
@@ -42,15 +42,17 @@ fn run_lacks_its_reference_is_too_short_or_level() {
 #[test]
 fn nothing_to_estimate_is_said() {
     let imu = fibre();
-    let strengths = Strengths::of(&imu);
+    let strengths = NoiseParameters::of(&imu);
     let of = |runs: &[Run], model: &Model| {
         fit(runs, model, &imu, NoiseKnowledge::Given(strengths), |_| ()).unwrap_err()
     };
     assert_eq!(of(&[], &Model::full()), FitError::NoRun);
     assert_eq!(of(&[any_run()], &Model::default()), FitError::NothingFree);
     let mut many = Model::full();
-    many.terms
-        .extend(std::iter::repeat_n(Chosen::new(&catalogue::ENCODER_HARMONIC).estimated(), 128));
+    many.terms.extend(std::iter::repeat_n(
+        TermInstance::new(&catalogue::ENCODER_HARMONIC).estimated(),
+        128,
+    ));
     let refusal = of(&[any_run()], &many);
     assert!(
         matches!(refusal, FitError::ManyParameters { parameters: 257.., most: 256 }),

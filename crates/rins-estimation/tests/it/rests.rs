@@ -1,6 +1,6 @@
 //! Many rests of one IMU that was never switched off: gravity in many attitudes tells the accelerometers' errors.
 
-use rins_estimation::{Fit, NoiseKnowledge, Reference, Run, Shown, Strengths, fit};
+use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Observable, Reference, Run, fit};
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_frames::{Dcm, EulerAngles, InFrame, Table};
 use rins_imu::{Axis, ImuError, ImuSpec, TriadError, TriadSpec};
@@ -84,7 +84,7 @@ fn fitted(runs: &[Run]) -> Fit {
     let model = ["x", "y", "z"].iter().fold(Model::full(), |model, axis| {
         model.with_role(&format!("axis.attitude.{axis}"), Role::Within(ANY))
     });
-    fit(runs, &model, &imu, NoiseKnowledge::Likely(Strengths::of(&imu)), |_| ())
+    fit(runs, &model, &imu, NoiseKnowledge::Likely(NoiseParameters::of(&imu)), |_| ())
         .unwrap()
         .marginal(|estimate| estimate.parameter.owner != Owner::Placement)
 }
@@ -123,7 +123,7 @@ fn what_rests_do_not_show_is_said_to_be_hidden() {
     let fit = fitted(&rests(2000.0, 0));
     let told = fit.identifiability();
     for id in ["gyro.scale.x", "gyro.scale.z", "gyro.misalignment.xz"] {
-        assert_eq!(told.seen[told.find(id).unwrap()].shown, Shown::Nothing, "{id}");
+        assert_eq!(told.seen[told.find(id).unwrap()].shown, Observable::Nothing, "{id}");
     }
     let bias = fit.parameter("gyro.bias.y").unwrap();
     assert!((bias.value - 250.0 * DEG_PER_HOUR).abs() < 4.0 * bias.sigma);

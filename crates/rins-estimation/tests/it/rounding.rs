@@ -1,6 +1,6 @@
 //! An encoder that reads in steps.
 
-use rins_estimation::{AngleSteps, Noise, Run, Strengths, innovations, linearise};
+use rins_estimation::{AngleSteps, Noise, NoiseParameters, Run, innovations, linearise};
 use rins_frames::units::ARCSEC;
 use rins_imu::ImuError;
 use rins_terms::Model;
@@ -30,7 +30,7 @@ fn rounded_at(rates: &[(f64, f64)], step: f64) -> Run {
 /// The squares that all innovations of a run have together.
 fn squares(run: &Run) -> f64 {
     let linear = linearise(run, &Model::default(), &[]);
-    let noise = Noise::on(&run.rig, &Strengths::of(&fibre()));
+    let noise = Noise::on(&run.rig, &NoiseParameters::of(&fibre()));
     let all = innovations(&linear, &noise, &[]).unwrap();
     all.iter().map(nalgebra::Matrix::norm_squared).sum()
 }

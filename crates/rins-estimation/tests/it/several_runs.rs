@@ -1,6 +1,6 @@
 //! Runs at several tilts tell what one does not, and each keeps what is its own.
 
-use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::units::{DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::{Axis, ImuError, TriadError};
 use rins_terms::{Model, Owner};
@@ -28,7 +28,8 @@ fn at(tilt: f64, bias: f64, seed: u64) -> Run {
 
 fn fitted(runs: &[Run]) -> Fit {
     let imu = fibre();
-    fit(runs, &Model::full(), &imu, NoiseKnowledge::Given(Strengths::of(&imu)), |_| ()).unwrap()
+    fit(runs, &Model::full(), &imu, NoiseKnowledge::Given(NoiseParameters::of(&imu)), |_| ())
+        .unwrap()
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! Quicker ways end where the exact ones do.
 
 use rins_estimation::{
-    Evidence, Linear, Noise, NoiseKnowledge, Run, Strengths, fit, fit_near, linearise,
+    Evidence, Linear, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_near, linearise,
     linearise_coarsely,
 };
 use rins_frames::units::PPM;
 use rins_imu::{Axis, ImuError, TriadError};
-use rins_terms::{Chosen, Model, SettingKind, catalogue};
+use rins_terms::{Model, SettingKind, TermInstance, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -22,17 +22,17 @@ fn turned() -> Run {
 fn many() -> Model {
     let mut model = Model::full();
     let terms = [
-        Chosen::new(&catalogue::GYRO_THERMAL_BIAS),
-        Chosen::new(&catalogue::GYRO_BIAS_STEP).with_setting(SettingKind::Time, 71.3),
-        Chosen::new(&catalogue::GYRO_G_SENSITIVITY),
-        Chosen::new(&catalogue::ACCEL_LEVER_ARM),
-        Chosen::new(&catalogue::ACCEL_LATENCY),
-        Chosen::new(&catalogue::ENCODER_LATENCY),
-        Chosen::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 6.0),
-        Chosen::new(&catalogue::TABLE_WOBBLE).with_setting(SettingKind::Order, 3.0),
-        Chosen::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 88.9),
+        TermInstance::new(&catalogue::GYRO_THERMAL_BIAS),
+        TermInstance::new(&catalogue::GYRO_BIAS_STEP).with_setting(SettingKind::Time, 71.3),
+        TermInstance::new(&catalogue::GYRO_G_SENSITIVITY),
+        TermInstance::new(&catalogue::ACCEL_LEVER_ARM),
+        TermInstance::new(&catalogue::ACCEL_LATENCY),
+        TermInstance::new(&catalogue::ENCODER_LATENCY),
+        TermInstance::new(&catalogue::ENCODER_HARMONIC).with_setting(SettingKind::Order, 6.0),
+        TermInstance::new(&catalogue::TABLE_WOBBLE).with_setting(SettingKind::Order, 3.0),
+        TermInstance::new(&catalogue::BASE_TILT_STEP).with_setting(SettingKind::Time, 88.9),
     ];
-    model.terms.extend(terms.map(Chosen::estimated));
+    model.terms.extend(terms.map(TermInstance::estimated));
     model
 }
 
@@ -41,7 +41,7 @@ fn coarse_pieces_show_each_effect_as_well() {
     let (run, model, imu) = (turned(), many(), fibre());
     let free = model.free(&imu);
     let columns: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
-    let noise = Noise::on(&run.rig, &Strengths::of(&imu));
+    let noise = Noise::on(&run.rig, &NoiseParameters::of(&imu));
     let said = |linear: Linear| Evidence::of(&linear, &noise).unwrap();
     let fine = said(linearise(&run, &model, &columns));
     let coarse = said(linearise_coarsely(&run, &model, &columns));
@@ -71,10 +71,10 @@ fn coarse_pieces_show_each_effect_as_well() {
 fn a_fit_beside_another_ends_where_one_from_nothing_does() {
     let (run, imu) = (turned(), fibre());
     let runs = std::slice::from_ref(&run);
-    let knowledge = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let knowledge = NoiseKnowledge::Likely(NoiseParameters::of(&imu));
     let first = fit(runs, &Model::full(), &imu, knowledge, |_| ()).unwrap();
     let mut model = Model::full();
-    model.terms.push(Chosen::new(&catalogue::ACCEL_LEVER_ARM).estimated());
+    model.terms.push(TermInstance::new(&catalogue::ACCEL_LEVER_ARM).estimated());
     let alone = fit(runs, &model, &imu, knowledge, |_| ()).unwrap();
     let beside = fit_near(&first, runs, &model, &imu, knowledge).unwrap();
     for (one, other) in alone.parameters.iter().zip(&beside.parameters) {
@@ -91,7 +91,7 @@ fn threads_change_no_bit() {
     let (run, model, imu) = (turned(), many(), fibre());
     let columns: Vec<(usize, usize)> =
         model.free(&imu).iter().map(|f| (f.term, f.parameter)).collect();
-    let noise = Noise::on(&run.rig, &Strengths::of(&imu));
+    let noise = Noise::on(&run.rig, &NoiseParameters::of(&imu));
     let said = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| Evidence::of(&linearise_coarsely(&run, &model, &columns), &noise)).unwrap()

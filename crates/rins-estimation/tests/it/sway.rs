@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{Rotation3, Vector3};
-use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths, Turned, attitudes, fit};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Run, Turned, attitudes, fit};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_frames::{Dcm, InFrame, Table};
 use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadSpec};
@@ -54,7 +54,7 @@ fn swaying() -> (Run, Vec<Rotation3<f64>>) {
 fn base_that_sways_is_told_from_noise() {
     let imu = coarse();
     let (run, _) = swaying();
-    let likely = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let likely = NoiseKnowledge::Likely(NoiseParameters::of(&imu));
     let found = fit(&[run], &Model::full(), &imu, likely, |_| ()).unwrap();
     let noise = &found.noise[0];
     let white = noise.imu.gyro.white / imu.gyro.noise_density;
@@ -74,7 +74,7 @@ fn base_that_sways_is_told_from_noise() {
 fn attitude_of_a_base_that_sways_is_known() {
     let imu = coarse();
     let (run, truth) = swaying();
-    let likely = NoiseKnowledge::Likely(Strengths::of(&imu));
+    let likely = NoiseKnowledge::Likely(NoiseParameters::of(&imu));
     let found = fit(std::slice::from_ref(&run), &Model::full(), &imu, likely, |_| ()).unwrap();
     let known = attitudes(&run, &found.linear[0], &found.noise[0]).unwrap();
     assert_eq!(known.last().unwrap().samples, truth.len());

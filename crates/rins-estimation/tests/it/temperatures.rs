@@ -2,11 +2,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{Estimate, Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_estimation::{Estimate, Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::units::{DEG_PER_HOUR, PPM};
 use rins_imu::{ImuError, Seed, Sensor};
 use rins_simulation::Temperature;
-use rins_terms::{Chosen, Model, Role, catalogue};
+use rins_terms::{Model, Role, TermInstance, catalogue};
 
 use crate::mountings::{drawn, truth};
 use crate::support::{fibre, profile, run, scenario, tilted, white};
@@ -18,16 +18,16 @@ const IMUS: u64 = 200;
 const BIAS_PER_KELVIN: f64 = 0.02 * DEG_PER_HOUR;
 const SCALE_PER_KELVIN: f64 = 10.0 * PPM;
 
-fn within(chosen: Chosen, sigma: f64) -> Chosen {
+fn within(chosen: TermInstance, sigma: f64) -> TermInstance {
     let roles = vec![Role::Within(sigma); chosen.values.len()];
-    Chosen { roles, ..chosen }
+    TermInstance { roles, ..chosen }
 }
 
 /// What is estimated, about a reference temperature \[°C\].
 fn model(reference: f64) -> Model {
     Model::full()
-        .with(within(Chosen::new(&catalogue::GYRO_THERMAL_BIAS), BIAS_PER_KELVIN))
-        .with(within(Chosen::new(&catalogue::GYRO_THERMAL_SCALE), SCALE_PER_KELVIN))
+        .with(within(TermInstance::new(&catalogue::GYRO_THERMAL_BIAS), BIAS_PER_KELVIN))
+        .with(within(TermInstance::new(&catalogue::GYRO_THERMAL_SCALE), SCALE_PER_KELVIN))
         .about_temperature(reference)
 }
 
@@ -52,8 +52,8 @@ fn drawn_runs(seed: u64) -> Drawn {
     let mut temperature = || (15.0 + 25.0 * random.sample()).clamp(-40.0, 85.0);
     let reference = temperature();
     let effects = Model::default()
-        .with(Chosen::new(&catalogue::GYRO_THERMAL_BIAS).with_values(&coefficients[..3]))
-        .with(Chosen::new(&catalogue::GYRO_THERMAL_SCALE).with_values(&coefficients[3..]))
+        .with(TermInstance::new(&catalogue::GYRO_THERMAL_BIAS).with_values(&coefficients[..3]))
+        .with(TermInstance::new(&catalogue::GYRO_THERMAL_SCALE).with_values(&coefficients[3..]))
         .about_temperature(reference);
     let runs = (0..2_u64)
         .zip(errors)
@@ -73,7 +73,7 @@ fn drawn_runs(seed: u64) -> Drawn {
 
 fn fitted(drawn: &Drawn, reference: f64) -> Fit {
     let imu = fibre();
-    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     fit(&drawn.runs, &model(reference), &imu, known, |_| ()).unwrap()
 }
 

@@ -1,9 +1,9 @@
 //! Every effect of the catalogue: made by the simulator, found by the estimator.
 
 use rayon::prelude::*;
-use rins_estimation::{NoiseKnowledge, Run, Strengths, fit, joint};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Run, fit, joint};
 use rins_imu::ImuError;
-use rins_terms::{Chosen, Model, Role, SettingKind, Term, catalogue};
+use rins_terms::{Model, Role, SettingKind, Term, TermInstance, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -31,9 +31,9 @@ fn runs(effects: &Model, seed: Option<u64>) -> Vec<Run> {
 
 /// The 1σ that is foreseen for each parameter of a term beside the full model, or none where the data
 /// say less than what is expected anyway.
-fn foreseen(chosen: &Chosen, runs: &[Run]) -> Vec<Option<f64>> {
+fn foreseen(chosen: &TermInstance, runs: &[Run]) -> Vec<Option<f64>> {
     let imu = fibre();
-    let strengths = Strengths::of(&imu);
+    let strengths = NoiseParameters::of(&imu);
     let model = Model::full().with(chosen.clone());
     let joint = joint(runs, &model, &imu, &strengths).unwrap();
     let sigmas: Vec<f64> = joint.unknowns.iter().map(|unknown| unknown.sigma).collect();
@@ -50,9 +50,9 @@ fn foreseen(chosen: &Chosen, runs: &[Run]) -> Vec<Option<f64>> {
 }
 
 /// A term as it is made here: within the run, and where its derivative is not zero.
-fn shaped(term: &'static Term) -> Chosen {
+fn shaped(term: &'static Term) -> TermInstance {
     let imu = fibre();
-    let mut chosen = Chosen::new(term)
+    let mut chosen = TermInstance::new(term)
         .with_setting(SettingKind::Time, 70.0)
         .with_setting(SettingKind::TimeConstant, 40.0);
     for (role, parameter) in chosen.roles.iter_mut().zip(term.parameters) {
@@ -91,7 +91,7 @@ fn faults(term: &'static Term, seed: u64) -> (usize, Vec<String>) {
     let truth = made.values.clone();
     let runs = runs(&Model::default().with(made), Some(seed));
     let model = Model::full().with(estimated.clone());
-    let strengths = Strengths::of(&imu);
+    let strengths = NoiseParameters::of(&imu);
     let fit = match fit(&runs, &model, &imu, NoiseKnowledge::Given(strengths), |_| ()) {
         Ok(fit) => fit,
         Err(error) => return (1, vec![format!("{}: {error}", term.id)]),

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
-use rins_estimation::{Fit, NoiseKnowledge, Run, Strengths, fit};
+use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_imu::ImuError;
 use rins_terms::{Model, Owner};
 
@@ -28,7 +28,7 @@ pub(crate) fn turned(error: &ImuError, seed: u64) -> Run {
 
 pub(crate) fn fitted(run: &Run) -> Fit {
     let imu = fibre();
-    let known = NoiseKnowledge::Given(Strengths::of(&imu));
+    let known = NoiseKnowledge::Given(NoiseParameters::of(&imu));
     fit(std::slice::from_ref(run), &Model::full(), &imu, known, |_| ()).unwrap()
 }
 

@@ -34,7 +34,7 @@ pub struct NoiseSeen {
     /// The deviation at each averaging time.
     pub points: Vec<AllanPoint>,
     /// The strength of each of [`NoiseLaw::ALL`].
-    pub strengths: [Strength; 4],
+    pub strengths: [NoiseTerm; 4],
     /// What the Allan variance is off the sum of the laws beyond chance, relative to it: zero where
     /// the laws explain it. All sigmas hold it.
     pub disagreement: f64,
@@ -45,7 +45,7 @@ pub struct NoiseSeen {
 
 /// How strong a noise is, in the unit of its [`NoiseLaw`].
 #[derive(Clone, Debug, PartialEq)]
-pub enum Strength {
+pub enum NoiseTerm {
     /// It shows.
     Seen {
         /// The strength.
@@ -242,13 +242,13 @@ impl<'a> Fit<'a> {
     }
 
     /// How strong a law is where those of `squares` are there.
-    fn strength(&self, squares: &Vector4<f64>, law: usize) -> Strength {
+    fn strength(&self, squares: &Vector4<f64>, law: usize) -> NoiseTerm {
         let mut laws = present(squares);
         if laws[law] {
             let sigma = self.found(laws, squares, law).map_or(f64::INFINITY, |(_, sigma)| sigma);
             let value = squares[law].sqrt();
             let rivals = self.rivals(laws, law);
-            return Strength::Seen { value, sigma: sigma / (2.0 * value), rivals };
+            return NoiseTerm::Seen { value, sigma: sigma / (2.0 * value), rivals };
         }
         laws[law] = true;
         let above = |squares: &Vector4<f64>| {
@@ -258,7 +258,7 @@ impl<'a> Fit<'a> {
         // The stronger it is, the more it scatters itself.
         let mut with = *squares;
         with[law] = above(squares);
-        Strength::NotSeen { below: above(&with).sqrt() }
+        NoiseTerm::NotSeen { below: above(&with).sqrt() }
     }
 
     /// The laws that may stand in the place of `law` among `laws`.

@@ -29,8 +29,8 @@ fn seen(model: &NoiseModel, n_runs: u64) -> Vec<NoiseSeen> {
 /// How many sigma each strength that was seen is off the truth.
 fn scores(seen: &[NoiseSeen], law: NoiseLaw, truth: f64) -> Vec<f64> {
     let score = |seen: &NoiseSeen| match &seen.strengths[law as usize] {
-        Strength::Seen { value, sigma, .. } => Some((value - truth) / sigma),
-        Strength::NotSeen { .. } => None,
+        NoiseTerm::Seen { value, sigma, .. } => Some((value - truth) / sigma),
+        NoiseTerm::NotSeen { .. } => None,
     };
     seen.iter().filter_map(score).collect()
 }
@@ -129,10 +129,10 @@ fn weak_flicker_is_bounded_or_has_its_rival() {
     let (mut bounded, mut misnamed) = (0, 0);
     for seen in &seen {
         match &seen.strengths[NoiseLaw::Flicker as usize] {
-            Strength::NotSeen { below } => bounded += usize::from(*below >= 0.5),
-            Strength::Seen { .. } => bounded += 1,
+            NoiseTerm::NotSeen { below } => bounded += usize::from(*below >= 0.5),
+            NoiseTerm::Seen { .. } => bounded += 1,
         }
-        if let Strength::Seen { rivals, .. } = &seen.strengths[NoiseLaw::RandomWalk as usize] {
+        if let NoiseTerm::Seen { rivals, .. } = &seen.strengths[NoiseLaw::RandomWalk as usize] {
             misnamed += usize::from(!rivals.contains(&NoiseLaw::Flicker));
         }
     }
@@ -198,7 +198,8 @@ fn lines_are_found_with_their_frequency_and_amplitude_and_leave_the_noise() {
         frequency += ((line.frequency - hertz) / line.frequency_sigma).powi(2) / 200.0;
         amplitude += ((line.amplitude - size) / line.amplitude_sigma).powi(2) / 200.0;
         let plan = AllanPlan::new(samples, INTERVAL).unwrap();
-        if let Strength::Seen { value, sigma, .. } = plan.noise(&increments).unwrap().strengths[1] {
+        if let NoiseTerm::Seen { value, sigma, .. } = plan.noise(&increments).unwrap().strengths[1]
+        {
             white += ((value - 0.5) / sigma).powi(2);
             seen += 1.0;
         }
@@ -255,8 +256,8 @@ fn line_that_wanders_is_found_with_its_band_and_is_no_quantisation() {
         assert!(off.abs() < 4.0 * line.amplitude_sigma + 0.05 * size, "{run}: {off} {line:?}");
         let plan = AllanPlan::new(samples, INTERVAL).unwrap();
         let strengths = plan.noise(&increments).unwrap().strengths;
-        seen += usize::from(matches!(strengths[0], Strength::Seen { .. }));
-        let Strength::Seen { value, .. } = strengths[1] else { panic!("{run}: {strengths:?}") };
+        seen += usize::from(matches!(strengths[0], NoiseTerm::Seen { .. }));
+        let NoiseTerm::Seen { value, .. } = strengths[1] else { panic!("{run}: {strengths:?}") };
         noise.push(value);
     }
     noise.sort_by(f64::total_cmp);

@@ -4,7 +4,7 @@ use rins_frames::Increments;
 
 use super::expected::{CHANNELS, Expected};
 use super::suspicion::Suspicion;
-use crate::comb::{Comb, alike, comb};
+use crate::quantization_grid::{QuantizationGrid, alike, comb};
 use crate::sticking::steps;
 use rins_motion::{Recording, median};
 
@@ -161,7 +161,7 @@ pub(super) fn resolution_of(
 
 /// The comb on which readings stand, if most teeth are shared by several samples: the digits of a
 /// log are no sensor's.
-fn resolution(readings: &[f64]) -> Option<Comb> {
+fn resolution(readings: &[f64]) -> Option<QuantizationGrid> {
     let comb = comb(readings)?;
     let mut sorted = readings.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! Terms read from files.
 
 use rins_frames::SignedAxes;
-use rins_terms::{Chosen, Role, SettingKind, Term, Unit, catalogue};
+use rins_terms::{Role, SettingKind, Term, TermInstance, Unit, catalogue};
 
 use crate::document::{Entry, Node};
 use crate::error::{IoError, KeyProblem};
@@ -29,7 +29,7 @@ pub(crate) fn tables<'d>(section: &Section<'d>, key: &str) -> Result<Vec<Section
 /// Refuses a bias, scale error or misalignment, which has a key of its own in the section that `place` tells.
 pub(crate) fn refuse_triads(
     section: &Section<'_>,
-    chosen: &Chosen,
+    chosen: &TermInstance,
     place: impl Fn(&str) -> String,
 ) -> Result<(), IoError> {
     match chosen.term.id.split_once('.') {
@@ -42,7 +42,11 @@ pub(crate) fn refuse_triads(
 }
 
 /// The term that a table describes along the sensors' own axes, in a run with these axes.
-pub(crate) fn read(section: &Section<'_>, use_: Use, axes: &SignedAxes) -> Result<Chosen, IoError> {
+pub(crate) fn read(
+    section: &Section<'_>,
+    use_: Use,
+    axes: &SignedAxes,
+) -> Result<TermInstance, IoError> {
     let term = named(section)?;
     // Noise and what happens to a log are no signals, and cannot be estimated.
     let estimated = use_ != Use::Effect && term.is_signal();
@@ -62,7 +66,7 @@ pub(crate) fn read(section: &Section<'_>, use_: Use, axes: &SignedAxes) -> Resul
         let problem = KeyProblem::Unknown { suggestion: None, known: known.join(", ") };
         return Err(section.error(stray, problem));
     }
-    let mut chosen = Chosen::new(term);
+    let mut chosen = TermInstance::new(term);
     for (setting, slot) in term.settings.iter().zip(&mut chosen.settings) {
         if let Some(value) = number(section, setting.name, setting.unit)? {
             let (low, high) = setting.within;
@@ -101,7 +105,7 @@ pub(crate) fn read_about(
     use_: Use,
     axes: &SignedAxes,
     reference: Option<f64>,
-) -> Result<Chosen, IoError> {
+) -> Result<TermInstance, IoError> {
     let chosen = read(section, use_, axes)?;
     let reference = reference.filter(|_| !section.has(catalogue::REFERENCE_TEMPERATURE.name));
     let about =

@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use rins_frames::SignedAxes;
-use rins_terms::{Chosen, Model, Role, Unit};
+use rins_terms::{Model, Role, TermInstance, Unit};
 
 use super::read::Use;
 use crate::parameter::Parameter;
 
 /// A term of a run with these axes as a `[[term]]` of a file, along the sensors' own axes.
-pub(crate) fn written(chosen: &Chosen, use_: Use, axes: &SignedAxes) -> String {
+pub(crate) fn written(chosen: &TermInstance, use_: Use, axes: &SignedAxes) -> String {
     let term = chosen.term;
     let (own, order) = (term.own_names(axes), term.own_order(axes));
     let settings = term.own_settings(&chosen.settings, axes);

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR};
 use rins_io::{IoError, ModelFile};
 use rins_terms::catalogue::{CATALOGUE, MOST_PARAMETERS};
-use rins_terms::{Chosen, Model, Role};
+use rins_terms::{Model, Role, TermInstance};
 
 use crate::support::assert_refused;
 
@@ -65,7 +65,7 @@ fn presets_are_bases_alone() {
 }
 
 /// A term of the catalogue with any settings, values and roles that it may have.
-fn any_chosen() -> impl Strategy<Value = Chosen> {
+fn any_chosen() -> impl Strategy<Value = TermInstance> {
     let numbers = || prop::collection::vec(0.0..1.0_f64, MOST_PARAMETERS);
     (
         prop::sample::select(CATALOGUE),
@@ -74,7 +74,7 @@ fn any_chosen() -> impl Strategy<Value = Chosen> {
         prop::collection::vec(0..3_u8, MOST_PARAMETERS),
     )
         .prop_map(|(term, settings, values, roles)| {
-            let mut chosen = Chosen::new(term);
+            let mut chosen = TermInstance::new(term);
             for ((slot, setting), part) in
                 chosen.settings.iter_mut().zip(term.settings).zip(settings)
             {
@@ -105,7 +105,7 @@ proptest! {
     ) {
         let mut model = [Model::full(), Model::paper12(), Model::default()][base].clone();
         for chosen in terms {
-            let listed = |other: &&mut Chosen| {
+            let listed = |other: &&mut TermInstance| {
                 other.term.id == chosen.term.id && other.settings == chosen.settings
             };
             match model.terms.iter_mut().find(listed) {

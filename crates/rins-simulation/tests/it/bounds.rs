@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rins_imu::{Axis, ImuNoise, NoiseModel, Quantisation, TriadError};
 use rins_motion::{Profile, Segment};
 use rins_simulation::{Encoder, Scenario, ScenarioError, TableRecord, Temperature, simulate};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 
 use crate::{perfect, realistic};
 
@@ -59,8 +59,9 @@ fn refusal_tells_figure_and_range() {
 
 #[test]
 fn impossible_effects_are_named() {
-    let zero =
-        |value| Model { terms: vec![Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[value])] };
+    let zero = |value| Model {
+        terms: vec![TermInstance::new(&catalogue::ENCODER_ZERO).with_values(&[value])],
+    };
     let scenario = Scenario { effects: zero(f64::INFINITY), ..perfect() };
     assert_eq!(
         refusal(&scenario).to_string(),
@@ -145,7 +146,8 @@ fn changed(which: usize, value: f64) -> Option<Scenario> {
         14 => encoder.zero = value,
         15 => scenario.temperature = Some(Temperature::Constant(value)),
         16 => {
-            let rotated = Chosen::new(&catalogue::AXIS_ATTITUDE).with_values(&[value, 0.0, 1e-4]);
+            let rotated =
+                TermInstance::new(&catalogue::AXIS_ATTITUDE).with_values(&[value, 0.0, 1e-4]);
             scenario.effects = Model { terms: vec![rotated] };
         }
         17 => {

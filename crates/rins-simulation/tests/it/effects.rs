@@ -4,7 +4,7 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use rins_frames::{Dcm, Increments, Table};
 use rins_imu::{ImuError, ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins_simulation::{Encoder, Scenario, TableRecord, Temperature, simulate};
-use rins_terms::{Chosen, Model, catalogue};
+use rins_terms::{Model, TermInstance, catalogue};
 use rins_testing::assert_close;
 
 use crate::{perfect, realistic};
@@ -37,7 +37,7 @@ fn the_terms_of_eq_1_are_eq_1() {
 /// Noise, resolution and the encoder's own errors come on top, from the same random numbers.
 #[test]
 fn an_effect_on_the_encoder_leaves_the_rest_alone() {
-    let zero = Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[20.0 * ARCSEC]);
+    let zero = TermInstance::new(&catalogue::ENCODER_ZERO).with_values(&[20.0 * ARCSEC]);
     let effects = Model { terms: vec![zero] };
     let with = simulate(&Scenario { effects, ..realistic() }).unwrap().recording;
     let TableRecord::Angle(encoder) = realistic().table else { panic!("an encoder") };
@@ -54,7 +54,7 @@ fn an_effect_on_the_encoder_leaves_the_rest_alone() {
 #[test]
 fn a_tilted_axis_is_another_axis() {
     let tilt = [300.0 * ARCSEC, -200.0 * ARCSEC, 500.0 * ARCSEC];
-    let tilted = Chosen::new(&catalogue::AXIS_ATTITUDE).with_values(&tilt);
+    let tilted = TermInstance::new(&catalogue::AXIS_ATTITUDE).with_values(&tilt);
     let effects = Model { terms: vec![tilted] };
     let imu_error = realistic().imu_error;
     let with = simulate(&Scenario { effects, imu_error, ..perfect() }).unwrap();
@@ -75,7 +75,7 @@ fn a_tilted_axis_is_another_axis() {
 
 #[test]
 fn a_body_that_is_mounted_askew_stands_askew() {
-    let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&[0.01 * DEG, 0.0]);
+    let mounting = TermInstance::new(&catalogue::MOUNTING).with_values(&[0.01 * DEG, 0.0]);
     let run =
         simulate(&Scenario { effects: Model { terms: vec![mounting] }, ..perfect() }).unwrap();
     let straight = simulate(&perfect()).unwrap();
@@ -132,7 +132,7 @@ fn every_effect_of_the_catalogue_shows_in_a_run() {
             if saturates { 0.05 } else { parameter.range(&sheet()).1 }
         };
         let values: Vec<f64> = term.parameters.iter().map(value).collect();
-        let chosen = Chosen::new(term).with_values(&values);
+        let chosen = TermInstance::new(term).with_values(&values);
         let effects = Model { terms: vec![chosen] };
         let with = simulate(&Scenario { effects, ..scenario.clone() }).unwrap();
         assert!(with.recording != without, "{} does nothing", term.id);
@@ -145,7 +145,8 @@ fn every_effect_of_the_catalogue_shows_in_a_run() {
 
 #[test]
 fn an_effect_on_the_noise_is_other_noise() {
-    let louder = Chosen::new(catalogue::term("gyro_noise_level").unwrap()).with_values(&[1.0]);
+    let louder =
+        TermInstance::new(catalogue::term("gyro_noise_level").unwrap()).with_values(&[1.0]);
     let effects = Model { terms: vec![louder] };
     let quiet = Scenario {
         noise: Some(ImuNoise { gyro: NoiseModel::white(1e-6), ..ImuNoise::default() }),
@@ -159,7 +160,7 @@ fn an_effect_on_the_noise_is_other_noise() {
 
 #[test]
 fn a_thermal_effect_needs_a_temperature() {
-    let thermal = Chosen::new(catalogue::term("gyro_thermal_bias").unwrap());
+    let thermal = TermInstance::new(catalogue::term("gyro_thermal_bias").unwrap());
     let scenario = Scenario { effects: Model { terms: vec![thermal] }, ..perfect() };
     assert_eq!(
         simulate(&scenario).unwrap_err().to_string(),

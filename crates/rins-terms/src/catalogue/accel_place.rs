@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{named, usual};
-use crate::moment::Moment;
+use crate::kinematic_state::KinematicState;
 use crate::term::{Action, Owner, Parity, Prior, Term};
 use crate::unit::Unit;
 
@@ -11,7 +11,7 @@ use crate::unit::Unit;
 ///
 /// The centripetal, the tangential and the Coriolis acceleration. The Earth's own centripetal
 /// acceleration is part of gravity.
-fn felt_at(moment: &Moment, place: &Vector3<f64>) -> Vector3<f64> {
+fn felt_at(moment: &KinematicState, place: &Vector3<f64>) -> Vector3<f64> {
     let spin = Vector3::z() * moment.mean.rate;
     let velocity = spin.cross(place);
     let earth = moment.rate - spin;

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use num_dual::{Dual64, DualNum};
 
 use crate::catalogue::parameters::{TIME, parameter, usual};
-use crate::moment::{Instant, Moment, Stretch};
+use crate::kinematic_state::{Instant, KinematicState, Stretch};
 use crate::signals::DualVector;
 use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
@@ -27,18 +27,18 @@ fn turned_within(delay: Dual64, rate: f64, [before, after]: [Stretch; 2]) -> Dua
 }
 
 /// The sample that a moment is of.
-fn own(moment: &Moment) -> Stretch {
+fn own(moment: &KinematicState) -> Stretch {
     let Instant { rate, acceleration, .. } = moment.mean;
     Stretch { duration: moment.interval, rate, acceleration }
 }
 
 /// The same from the end of a sample.
-fn turned_to_end(delay: Dual64, moment: &Moment) -> Dual64 {
+fn turned_to_end(delay: Dual64, moment: &KinematicState) -> Dual64 {
     turned_within(delay, moment.end.rate, [own(moment), moment.beside[1]])
 }
 
 /// The same from its middle.
-fn turned_to_middle(delay: Dual64, moment: &Moment) -> Dual64 {
+fn turned_to_middle(delay: Dual64, moment: &KinematicState) -> Dual64 {
     delay * moment.mean.rate - delay * delay * (0.5 * moment.mean.acceleration)
 }
 

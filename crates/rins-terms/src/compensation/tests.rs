@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::catalogue;
-use crate::making::Making;
-use crate::model::Chosen;
+use crate::measurement_model::MeasurementModel;
+use crate::model::TermInstance;
 use crate::setting::SettingKind;
 use crate::term::Term;
 use proptest::prelude::*;
@@ -58,7 +58,7 @@ fn run(model: &Model, encoder: bool) -> (Surroundings, Recording, Recording) {
         temperature: Some(temperature),
         ..Recording::default()
     };
-    let mut making = Making::new(model, &track);
+    let mut making = MeasurementModel::new(model, &track);
     let mut read = truth.clone();
     for (sample, moment) in track.moments().enumerate() {
         let reading = making.read(&moment, &truth.increments[sample]);
@@ -99,7 +99,7 @@ proptest! {
         };
         let error = ImuError { gyro: triad(&errors[..12]), accel: triad(&errors[12..]) };
         let model = Model::from(&error)
-            .with(Chosen::new(&catalogue::ENCODER_ZERO).with_values(&[zero]));
+            .with(TermInstance::new(&catalogue::ENCODER_ZERO).with_values(&[zero]));
         let (around, truth, read) = run(&model, encoder);
         prop_assert!((read.increments[0].angle - truth.increments[0].angle).norm() > 1e-6);
         assert_same(&compensated(&model, around, &read).unwrap(), &truth);
@@ -107,14 +107,16 @@ proptest! {
 }
 
 /// A term of the catalogue, each parameter as large as it is usual at most.
-fn largest_usual(term: &'static Term) -> Chosen {
+fn largest_usual(term: &'static Term) -> TermInstance {
     let values = term.parameters.iter().map(|parameter| parameter.range(&sheet()).1);
     // Steps come in the middle of the run.
-    Chosen::new(term).with_values(&values.collect::<Vec<_>>()).with_setting(SettingKind::Time, 18.0)
+    TermInstance::new(term)
+        .with_values(&values.collect::<Vec<_>>())
+        .with_setting(SettingKind::Time, 18.0)
 }
 
 /// Whether a term moves the table at any time of the run.
-fn moves(chosen: &Chosen) -> bool {
+fn moves(chosen: &TermInstance) -> bool {
     let (around, truth, _) = run(&Model::default(), true);
     let track = turning(&truth, around, 0.0);
     track.moments().any(|moment| chosen.signals(&moment, None).tilt != Signals::default().tilt)
@@ -158,8 +160,8 @@ fn a_rate_that_was_not_read_is_not_made_up() {
 /// An IMU on a tilting table feels the tilt, and goes on feeling it.
 #[test]
 fn true_motion_stays() {
-    let scale = Chosen::new(&catalogue::GYRO_SCALE).with_values(&[100.0 * PPM; 3]);
-    let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&[100.0 * ARCSEC, 0.0]);
+    let scale = TermInstance::new(&catalogue::GYRO_SCALE).with_values(&[100.0 * PPM; 3]);
+    let mounting = TermInstance::new(&catalogue::MOUNTING).with_values(&[100.0 * ARCSEC, 0.0]);
     let tilting = Model { terms: vec![mounting.clone()] };
     let (around, _, felt) = run(&tilting, true);
     let both = tilting.with(scale);
@@ -171,7 +173,7 @@ fn true_motion_stays() {
 #[test]
 fn what_cannot_be_undone_is_refused() {
     let refusal = |scale: [f64; 3]| {
-        let chosen = Chosen::new(&catalogue::GYRO_SCALE).with_values(&scale);
+        let chosen = TermInstance::new(&catalogue::GYRO_SCALE).with_values(&scale);
         let model = Model { terms: vec![chosen] };
         let (around, _, read) = run(&model, true);
         compensated(&model, around, &read).err()

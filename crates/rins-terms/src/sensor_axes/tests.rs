@@ -9,8 +9,8 @@ use rins_testing::assert_close;
 
 use super::{own_channel, sign_of};
 use crate::catalogue::{self, CATALOGUE};
-use crate::model::{Chosen, Model, Role};
-use crate::moment::{Instant, Moment, Surroundings};
+use crate::kinematic_state::{Instant, KinematicState, Surroundings};
+use crate::model::{Model, Role, TermInstance};
 use crate::setting::SettingKind;
 use crate::signals::values;
 use crate::term::Parity;
@@ -29,12 +29,12 @@ fn rotations() -> Vec<SignedAxes> {
 }
 
 /// A moment at which an IMU feels this.
-fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> Moment {
+fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> KinematicState {
     let site = Site { latitude: 0.6, longitude: 0.0, height: 0.0 };
     let attitude = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 0.0 };
     let still =
         Instant { time: 3.0, temperature: Some(25.0), warming_rate: 0.1, ..Instant::default() };
-    Moment {
+    KinematicState {
         sample: 0,
         interval: 0.01,
         duration: 10.0,
@@ -48,7 +48,7 @@ fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> Moment {
 }
 
 /// Terms that know of no axis of rotation: what they do is the same whichever it is.
-fn of_the_sensors() -> Vec<Chosen> {
+fn of_the_sensors() -> Vec<TermInstance> {
     [
         &catalogue::GYRO_BIAS,
         &catalogue::GYRO_SCALE,
@@ -74,7 +74,7 @@ fn of_the_sensors() -> Vec<Chosen> {
         &catalogue::ACCEL_CROSS_COUPLING,
         &catalogue::INTERFERENCE_LINE,
     ]
-    .map(Chosen::new)
+    .map(TermInstance::new)
     .to_vec()
 }
 
@@ -134,8 +134,8 @@ proptest! {
             moment
         };
         for chosen in [
-            Chosen::new(&catalogue::ACCEL_LEVER_ARM).with_values(&arm),
-            Chosen::new(&catalogue::ACCEL_SIZE_EFFECT).with_values(&places),
+            TermInstance::new(&catalogue::ACCEL_LEVER_ARM).with_values(&arm),
+            TermInstance::new(&catalogue::ACCEL_SIZE_EFFECT).with_values(&places),
         ] {
             let here = values(&chosen.signals(&turning(1.0), None).accel);
             let there = values(&chosen.carried(&axes).signals(&turning(end), None).accel);
@@ -147,7 +147,7 @@ proptest! {
 #[test]
 fn what_spins_about_x_has_its_names_along_x() {
     let axes = about([1, 2, 0], [1.0; 3]);
-    let model = Model::full().with(Chosen::new(&catalogue::GYRO_SCALE_NONLINEARITY));
+    let model = Model::full().with(TermInstance::new(&catalogue::GYRO_SCALE_NONLINEARITY));
     let own = |id: &str| {
         let (term, parameter) = model.find(id).unwrap();
         model.own_id(term, parameter, &axes)
@@ -173,7 +173,8 @@ fn what_spins_about_x_has_its_names_along_x() {
 #[test]
 fn what_another_run_has_not_starts_at_nothing_in_the_same_role() {
     let axes = about([1, 2, 0], [1.0; 3]);
-    let chosen = Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY).with_values(&[1e-6]).estimated();
+    let chosen =
+        TermInstance::new(&catalogue::GYRO_SCALE_ASYMMETRY).with_values(&[1e-6]).estimated();
     let carried = chosen.carried(&axes);
     assert_eq!((carried.values[0], carried.roles[0]), (0.0, Role::Free));
     assert_eq!(chosen.without_place(&axes), ["z"]);

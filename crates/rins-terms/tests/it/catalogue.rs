@@ -7,7 +7,7 @@ use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
 use rins_imu::{NoiseModel, Seed};
 use rins_terms::catalogue::{CATALOGUE, MOST_PARAMETERS, term};
 use rins_terms::{
-    Action, Chosen, Model, Noises, Parameter, Prior, SettingKind, Signals, Term, values,
+    Action, Model, Noises, Parameter, Prior, SettingKind, Signals, Term, TermInstance, values,
 };
 
 use crate::support::{run, sheet};
@@ -102,8 +102,8 @@ fn largest(parameter: &Parameter) -> Vec<f64> {
 }
 
 /// The settings with which a term acts within the run of these tests.
-fn chosen(term: &'static Term) -> Chosen {
-    Chosen::new(term).with_setting(SettingKind::Time, 50.0)
+fn chosen(term: &'static Term) -> TermInstance {
+    TermInstance::new(term).with_setting(SettingKind::Time, 50.0)
 }
 
 /// Whether a sensor of navigation grade could ever notice.

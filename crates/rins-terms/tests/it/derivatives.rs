@@ -6,14 +6,16 @@ use rins_frames::units::DEG;
 use rins_frames::{Dcm, EulerAngles, Site, Table};
 use rins_motion::Station;
 use rins_terms::catalogue::CATALOGUE;
-use rins_terms::{Acting, Chosen, Dual64, Instant, Model, Moment, Signals, Stretch, Surroundings};
+use rins_terms::{
+    Acting, Dual64, Instant, KinematicState, Model, Signals, Stretch, Surroundings, TermInstance,
+};
 use rins_testing::assert_close;
 use rins_testing::{any_euler_angles, any_latitude};
 
 use crate::support::sheet;
 
 /// Any moment of a table anywhere, at any rate and acceleration that tables have.
-fn any_moment() -> impl Strategy<Value = Moment> {
+fn any_moment() -> impl Strategy<Value = KinematicState> {
     let table = (0.0..3600.0_f64, -20.0..20.0_f64, -1.0..1.0_f64, -0.5..0.5_f64);
     let heat = (-20.0..20.0_f64, -0.1..0.1_f64);
     (any_latitude(), any_euler_angles(), table, heat).prop_map(
@@ -46,7 +48,7 @@ fn any_moment() -> impl Strategy<Value = Moment> {
                 rate: rate + sense * acceleration * interval,
                 acceleration,
             });
-            let mut moment = Moment {
+            let mut moment = KinematicState {
                 beside,
                 sample: 0,
                 interval,
@@ -91,11 +93,11 @@ proptest! {
                 continue;
             }
             let at = |place: usize, change: f64| {
-                let mut chosen = Chosen::new(term).with_values(&values);
+                let mut chosen = TermInstance::new(term).with_values(&values);
                 chosen.values[place] += change;
                 numbers(&chosen.signals(&moment, None))
             };
-            let chosen = Chosen::new(term).with_values(&values);
+            let chosen = TermInstance::new(term).with_values(&values);
             for (place, parameter) in term.parameters.iter().enumerate() {
                 let step = 1e-3 * values[place].abs();
                 let exact = numbers(&chosen.signals(&moment, Some(place)));
@@ -124,9 +126,9 @@ fn a_dead_zone_of_no_width_has_no_slope() {
         crate::support::turning(&[rins_motion::Segment { rate: 5.0 * DEG, duration: 1.0 }]).track;
     let moment = track.moments().next().unwrap();
     let term = rins_terms::catalogue::term("gyro_dead_zone").unwrap();
-    let signals = Chosen::new(term).signals(&moment, Some(2));
+    let signals = TermInstance::new(term).signals(&moment, Some(2));
     assert_eq!(signals.gyro[2].eps, 0.0);
-    let wide = Chosen::new(term).with_values(&[0.0, 0.0, 1e-6]).signals(&moment, Some(2));
+    let wide = TermInstance::new(term).with_values(&[0.0, 0.0, 1e-6]).signals(&moment, Some(2));
     assert!(wide.gyro[2].eps < 0.0);
 }
 
@@ -139,7 +141,7 @@ fn slopes_of_a_dead_zone_add_up_over_a_sweep() {
     let mut moment = track.moments().next().unwrap();
     let mut zone = |width: f64, rate: f64| {
         moment.rate.x = rate;
-        let zone = Chosen::new(&rins_terms::catalogue::GYRO_DEAD_ZONE);
+        let zone = TermInstance::new(&rins_terms::catalogue::GYRO_DEAD_ZONE);
         zone.with_values(&[width, 0.0, 0.0]).signals(&moment, Some(0)).gyro[0]
     };
     // Far from the edge it is that of -d²/2ω, within a part of d²/2ω².
@@ -159,8 +161,9 @@ fn a_misalignment_turns_a_dead_zone_too() {
     let mut moment = track.moments().next().unwrap();
     moment.rate = Vector3::new(3e-6, -4e-5, 0.1);
     let misalignment =
-        Chosen::new(&rins_terms::catalogue::GYRO_MISALIGNMENT).with_values(&[1e-5; 6]);
-    let zone = Chosen::new(&rins_terms::catalogue::GYRO_DEAD_ZONE).with_values(&[1e-5, 2e-5, 1e-6]);
+        TermInstance::new(&rins_terms::catalogue::GYRO_MISALIGNMENT).with_values(&[1e-5; 6]);
+    let zone =
+        TermInstance::new(&rins_terms::catalogue::GYRO_DEAD_ZONE).with_values(&[1e-5, 2e-5, 1e-6]);
     let model = Model { terms: vec![zone, misalignment] };
     let read = |model: &Model| numbers(&model.signals(&moment));
     for (term, chosen) in model.terms.iter().enumerate() {
@@ -198,8 +201,8 @@ fn an_attitude_moves_a_dead_zone() {
         crate::support::turning(&[rins_motion::Segment { rate: 5.0 * DEG, duration: 1.0 }]).track;
     let moment = track.moments().next().unwrap();
     let around = moment.surroundings;
-    let zone = Chosen::new(&rins_terms::catalogue::GYRO_DEAD_ZONE).with_values(&[8e-5; 3]);
-    let attitude = Chosen::new(&rins_terms::catalogue::AXIS_ATTITUDE);
+    let zone = TermInstance::new(&rins_terms::catalogue::GYRO_DEAD_ZONE).with_values(&[8e-5; 3]);
+    let attitude = TermInstance::new(&rins_terms::catalogue::AXIS_ATTITUDE);
     let model = Model { terms: vec![attitude, zone.clone()] };
     let mut shown = 0.0_f64;
     for place in 0..3 {
@@ -211,7 +214,7 @@ fn an_attitude_moves_a_dead_zone() {
             let around = Surroundings::new(around.station, around.nav_from_table * turn);
             let spin = Vector3::z() * moment.mean.rate;
             let rate = moment.in_body(&around.earth_rate) + spin;
-            numbers(&zone.signals(&Moment { rate, ..moment }, None))
+            numbers(&zone.signals(&KinematicState { rate, ..moment }, None))
         };
         for ((above, below), exact) in turned(1e-4).iter().zip(&turned(-1e-4)).zip(&by.gyro) {
             let slope = (above.re - below.re) / 2e-4;

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rins_frames::units::DEG_PER_SECOND;
 use rins_motion::Segment;
-use rins_terms::{Chosen, SettingKind, Signals, catalogue, derivatives};
+use rins_terms::{SettingKind, Signals, TermInstance, catalogue, derivatives};
 
 use crate::support::{Run, run, turning};
 
@@ -14,7 +14,7 @@ fn steady() -> Run {
 /// The derivatives by parameters, one row a sample, one list of ten numbers each, over a run.
 fn columns(run: &Run, id: &str) -> Vec<Vec<f64>> {
     let term = catalogue::term(id).unwrap();
-    let chosen = Chosen::new(term).with_setting(SettingKind::Time, 10.0);
+    let chosen = TermInstance::new(term).with_setting(SettingKind::Time, 10.0);
     (0..term.parameters.len())
         .map(|place| {
             // The ramp up is no steady turning.

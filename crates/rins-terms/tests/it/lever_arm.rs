@@ -2,7 +2,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 use rins_frames::{EARTH_RATE, InFrame, Nav};
-use rins_terms::{Chosen, Instant, Moment, Surroundings, catalogue, values};
+use rins_terms::{Instant, KinematicState, Surroundings, TermInstance, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::run;
@@ -26,11 +26,11 @@ fn differenced(surroundings: &Surroundings, r_b: &Vector3<f64>, angle: f64) -> V
     attitude(0.0).transpose() * acceleration
 }
 
-fn moment(angle: f64) -> Moment {
+fn moment(angle: f64) -> KinematicState {
     let track = run().track;
     let moment = track.moments().next().unwrap();
     let mean = Instant { angle, rate: RATE, acceleration: ACCELERATION, ..moment.mean };
-    let mut moment = Moment { mean, ..moment };
+    let mut moment = KinematicState { mean, ..moment };
     let earth = moment.surroundings.earth_rate;
     moment.rate = moment.in_body(&earth) + Vector3::z() * RATE;
     moment
@@ -44,7 +44,7 @@ const WITHIN: f64 = 2e-9;
 fn lever_arm_is_the_second_derivative_of_a_position() {
     for angle in [0.0, 1.0, 4.0] {
         let moment = moment(angle);
-        let arm = Chosen::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[0.08, -0.05]);
+        let arm = TermInstance::new(&catalogue::ACCEL_LEVER_ARM).with_values(&[0.08, -0.05]);
         let got = values(&arm.signals(&moment, None).accel);
         let want = differenced(&moment.surroundings, &Vector3::new(0.08, -0.05, 0.0), angle);
         for axis in 0..3 {
@@ -58,7 +58,7 @@ fn lever_arm_is_the_second_derivative_of_a_position() {
 fn each_accelerometer_feels_the_place_where_it_is() {
     let moment = moment(2.0);
     let places = [0.03, 0.01, -0.02, 0.04];
-    let size = Chosen::new(&catalogue::ACCEL_SIZE_EFFECT).with_values(&places);
+    let size = TermInstance::new(&catalogue::ACCEL_SIZE_EFFECT).with_values(&places);
     let got = values(&size.signals(&moment, None).accel);
     let at = |x, y| differenced(&moment.surroundings, &Vector3::new(x, y, 0.0), 2.0);
     assert_close!(got.x, at(0.03, 0.01).x, WITHIN);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rins_terms::{Chosen, SettingKind, catalogue, values};
+use rins_terms::{SettingKind, TermInstance, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
@@ -12,7 +12,7 @@ fn line_is_integrated_over_its_sample() {
     const PARTS: u32 = 2000;
     let track = run().track;
     for frequency in [0.3, 7.0, 24.9, 60.0] {
-        let line = Chosen::new(&catalogue::INTERFERENCE_LINE)
+        let line = TermInstance::new(&catalogue::INTERFERENCE_LINE)
             .with_setting(SettingKind::Frequency, frequency)
             .with_setting(SettingKind::Axis, 2.0)
             .with_values(&[1.0, 0.5, 0.2, -3.0]);
@@ -38,7 +38,7 @@ fn line_is_integrated_over_its_sample() {
 #[test]
 fn line_of_a_whole_turn_a_sample_is_not_seen() {
     let track = run().track;
-    let line = Chosen::new(&catalogue::INTERFERENCE_LINE)
+    let line = TermInstance::new(&catalogue::INTERFERENCE_LINE)
         .with_setting(SettingKind::Frequency, 1.0 / INTERVAL)
         .with_values(&[1.0; 4]);
     for moment in track.moments().step_by(371) {

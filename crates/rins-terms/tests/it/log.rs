@@ -3,12 +3,12 @@
 use rins_frames::units::{ARCSEC, DEG_PER_SECOND, MICRO_G};
 use rins_imu::Seed;
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, SettingKind, catalogue};
+use rins_terms::{Model, SettingKind, TermInstance, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
 
-fn distorted(chosen: Chosen) -> (Recording, Recording) {
+fn distorted(chosen: TermInstance) -> (Recording, Recording) {
     let before = run().recording;
     let mut after = before.clone();
     Model::default().with(chosen).distort(Seed::new(7), &mut after);
@@ -17,7 +17,7 @@ fn distorted(chosen: Chosen) -> (Recording, Recording) {
 
 #[test]
 fn stuck_samples_come_in_runs_and_are_as_many_as_said() {
-    let stuck = Chosen::new(&catalogue::STUCK_SAMPLES)
+    let stuck = TermInstance::new(&catalogue::STUCK_SAMPLES)
         .with_values(&[0.1])
         .with_setting(SettingKind::SampleCount, 4.0);
     // While the table rests samples repeat anyway: count where it turns.
@@ -34,7 +34,7 @@ fn stuck_samples_come_in_runs_and_are_as_many_as_said() {
 #[test]
 fn outliers_are_as_many_and_as_large_as_said() {
     let sigma = 1e-3;
-    let outliers = Chosen::new(&catalogue::OUTLIERS).with_values(&[0.01, 0.0, sigma]);
+    let outliers = TermInstance::new(&catalogue::OUTLIERS).with_values(&[0.01, 0.0, sigma]);
     let (before, after) = distorted(outliers);
     let spikes: Vec<f64> = before
         .increments
@@ -56,7 +56,7 @@ fn outliers_are_as_many_and_as_large_as_said() {
 #[test]
 fn jitter_scatters_the_angle_by_the_rate() {
     let sigma = 1e-3;
-    let jitter = Chosen::new(&catalogue::TIMESTAMP_JITTER).with_values(&[sigma]);
+    let jitter = TermInstance::new(&catalogue::TIMESTAMP_JITTER).with_values(&[sigma]);
     let (before, after) = distorted(jitter);
     let rates = before.table_rate.unwrap();
     let (was, is) = (before.table_angle.unwrap(), after.table_angle.unwrap());
@@ -76,7 +76,8 @@ fn jitter_scatters_the_angle_by_the_rate() {
 
 #[test]
 fn readings_end_at_the_range() {
-    let clipped = Chosen::new(&catalogue::GYRO_SATURATION).with_values(&[12.0 * DEG_PER_SECOND]);
+    let clipped =
+        TermInstance::new(&catalogue::GYRO_SATURATION).with_values(&[12.0 * DEG_PER_SECOND]);
     let (before, after) = distorted(clipped);
     let rates = |recording: &Recording| -> Vec<f64> {
         recording.increments.iter().map(|i| i.rates().angular_rate.components().z).collect()
@@ -84,7 +85,7 @@ fn readings_end_at_the_range() {
     for (was, is) in rates(&before).into_iter().zip(rates(&after)) {
         assert_close!(is, was.min(12.0 * DEG_PER_SECOND), 1e-15);
     }
-    let clipped = Chosen::new(&catalogue::ACCEL_SATURATION).with_values(&[5.0]);
+    let clipped = TermInstance::new(&catalogue::ACCEL_SATURATION).with_values(&[5.0]);
     let (_, after) = distorted(clipped);
     let force = |k: usize| *after.increments[k].rates().specific_force.components();
     let largest = (0..after.len()).map(|k| force(k).amax()).fold(0.0, f64::max);
@@ -93,7 +94,7 @@ fn readings_end_at_the_range() {
 
 #[test]
 fn axes_and_senses_are_exchanged() {
-    let axes = Chosen::new(&catalogue::AXIS_CONVENTION)
+    let axes = TermInstance::new(&catalogue::AXIS_CONVENTION)
         .with_setting(SettingKind::Triads, 1.0)
         .with_values(&[-2.0, 1.0, 0.0]);
     let (before, after) = distorted(axes);
@@ -102,7 +103,7 @@ fn axes_and_senses_are_exchanged() {
         assert_eq!([is_angle.x, is_angle.y, is_angle.z], [-was_angle.y, was_angle.x, was_angle.z]);
         assert_eq!(was.velocity, is.velocity);
     }
-    let (before, after) = distorted(Chosen::new(&catalogue::TABLE_SENSE).with_values(&[1.0]));
+    let (before, after) = distorted(TermInstance::new(&catalogue::TABLE_SENSE).with_values(&[1.0]));
     let (was, is) = (before.table_angle.unwrap(), after.table_angle.unwrap());
     assert!(was.iter().zip(&is).all(|(was, is)| (was + is).abs() < 1e-15));
     assert!(is.iter().any(|angle| *angle < -1.0));
@@ -110,7 +111,7 @@ fn axes_and_senses_are_exchanged() {
 
 #[test]
 fn two_items_of_one_fault_have_random_numbers_of_their_own() {
-    let one = Chosen::new(&catalogue::TIMESTAMP_JITTER).with_values(&[1e-3]);
+    let one = TermInstance::new(&catalogue::TIMESTAMP_JITTER).with_values(&[1e-3]);
     let (was, single) = distorted(one.clone());
     let mut twice = was.clone();
     Model::default().with(one.clone()).with(one).distort(Seed::new(7), &mut twice);

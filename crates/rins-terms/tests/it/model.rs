@@ -1,6 +1,6 @@
 //! A model's parameters by their ids.
 
-use rins_terms::{Chosen, Model, Role, SettingKind, catalogue};
+use rins_terms::{Model, Role, SettingKind, TermInstance, catalogue};
 
 use crate::support::{run, sheet};
 
@@ -19,7 +19,7 @@ fn presets_estimate_what_they_say() {
 #[test]
 fn items_of_one_term_are_numbered_and_found() {
     let harmonic = |order: f64| {
-        Chosen::new(&catalogue::ENCODER_HARMONIC)
+        TermInstance::new(&catalogue::ENCODER_HARMONIC)
             .with_setting(SettingKind::Order, order)
             .estimated()
     };

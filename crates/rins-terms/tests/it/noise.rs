@@ -1,7 +1,7 @@
 //! Noise that terms make of a data sheet's.
 
 use rins_imu::{ImuNoise, NoiseModel, Quantisation};
-use rins_terms::{Chosen, Model, Noises, catalogue};
+use rins_terms::{Model, Noises, TermInstance, catalogue};
 use rins_testing::assert_close;
 
 fn sheet() -> Noises {
@@ -12,11 +12,11 @@ fn sheet() -> Noises {
 #[test]
 fn densities_add_and_levels_multiply() {
     let model = Model::default()
-        .with(Chosen::new(&catalogue::GYRO_NOISE_LEVEL).with_values(&[0.5]))
-        .with(Chosen::new(&catalogue::ACCEL_NOISE_LEVEL).with_values(&[-0.5]))
-        .with(Chosen::new(&catalogue::GYRO_BIAS_INSTABILITY).with_values(&[4.0]))
-        .with(Chosen::new(&catalogue::ACCEL_BIAS_INSTABILITY).with_values(&[7.0]))
-        .with(Chosen::new(&catalogue::GYRO_RATE_RANDOM_WALK).with_values(&[0.3]));
+        .with(TermInstance::new(&catalogue::GYRO_NOISE_LEVEL).with_values(&[0.5]))
+        .with(TermInstance::new(&catalogue::ACCEL_NOISE_LEVEL).with_values(&[-0.5]))
+        .with(TermInstance::new(&catalogue::GYRO_BIAS_INSTABILITY).with_values(&[4.0]))
+        .with(TermInstance::new(&catalogue::ACCEL_BIAS_INSTABILITY).with_values(&[7.0]))
+        .with(TermInstance::new(&catalogue::GYRO_RATE_RANDOM_WALK).with_values(&[0.3]));
     let noises = model.stirred(sheet());
     assert_close!(noises.imu.gyro.white_density, 3.0, 1e-12);
     assert_close!(noises.imu.accel.white_density, 2.5, 1e-12);
@@ -29,8 +29,8 @@ fn densities_add_and_levels_multiply() {
 #[test]
 fn least_bit_is_of_increments_where_both_are_given() {
     let bit = |values: &[f64]| {
-        let model =
-            Model::default().with(Chosen::new(&catalogue::GYRO_QUANTISATION).with_values(values));
+        let model = Model::default()
+            .with(TermInstance::new(&catalogue::GYRO_QUANTISATION).with_values(values));
         model.stirred(sheet()).imu.gyro.quantisation
     };
     assert_eq!(bit(&[1e-6, 1e-5]), Some(Quantisation::Increment(1e-6)));

@@ -1,6 +1,6 @@
 //! What is read while the table speeds up or slows down, against the motion itself.
 
-use rins_terms::{Chosen, SettingKind, catalogue, values};
+use rins_terms::{SettingKind, TermInstance, catalogue, values};
 
 use crate::support::{INTERVAL, run};
 
@@ -36,7 +36,7 @@ fn acceleration_is_that_of_the_sample_where_ramps_begin_and_end() {
 fn late_readings_are_earlier_ones_in_every_sample() {
     let run = run();
     let angle = |time: f64| run.motion.profile.angle(time.max(0.0));
-    let late = |term, delay: f64| Chosen::new(term).with_values(&[delay]);
+    let late = |term, delay: f64| TermInstance::new(term).with_values(&[delay]);
     let lag = late(&catalogue::GYRO_LAG, LATE);
     let latency = late(&catalogue::ENCODER_LATENCY, LATE);
     let lost = late(&catalogue::DROPPED_SAMPLES, LATE).with_setting(SettingKind::Time, 0.0);

@@ -6,13 +6,15 @@ use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, STANDARD_GRAVITY};
 use rins_frames::{EulerAngles, Site};
 use rins_motion::Station;
-use rins_terms::{Acting, Chosen, Model, Moment, SettingKind, Surroundings, catalogue, values};
+use rins_terms::{
+    Acting, KinematicState, Model, SettingKind, Surroundings, TermInstance, catalogue, values,
+};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, run};
 
 /// A moment of a run, at 10 deg/s, with a force of (0.5, -0.2, 0.8) g and a temperature of 23 °C.
-fn moment() -> Moment {
+fn moment() -> KinematicState {
     let mut moment = run().track.moments().nth(1200).unwrap();
     moment.mean.rate = 10.0 * DEG_PER_SECOND;
     moment.rate = Vector3::new(0.0, 0.0, 10.0 * DEG_PER_SECOND);
@@ -26,7 +28,7 @@ fn moment() -> Moment {
 fn adds(id: &str, value: f64) -> (Vector3<f64>, Vector3<f64>) {
     let (term, name) = id.rsplit_once('.').unwrap();
     let term = catalogue::term(term).unwrap();
-    let mut chosen = Chosen::new(term);
+    let mut chosen = TermInstance::new(term);
     let place = term.parameters.iter().position(|p| p.name == name).unwrap();
     chosen.values[place] = value * term.parameters[place].unit.factor;
     let signals = chosen.signals(&moment(), None);
@@ -76,7 +78,7 @@ fn a_scale_error_is_odd_or_even_in_the_rate() {
     back.mean.rate = -back.mean.rate;
     back.rate = -back.rate;
     for (id, place, value, want) in cases {
-        let mut chosen = Chosen::new(catalogue::term(id).unwrap());
+        let mut chosen = TermInstance::new(catalogue::term(id).unwrap());
         chosen.values[place] = value;
         let gyro = values(&chosen.signals(&back, None).gyro) / DEG_PER_HOUR;
         assert_close!(gyro.z, want, 1e-9);
@@ -112,7 +114,7 @@ fn accelerometers_read_by_name_and_unit() {
 fn dead_zone_follows_the_lock_in_equation() {
     let mut moment = moment();
     moment.rate = Vector3::new(0.3, -0.5, 10.0) * DEG_PER_HOUR;
-    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
+    let zone = TermInstance::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
     let read = (values(&zone.signals(&moment, None).gyro) + moment.rate) / DEG_PER_HOUR;
     assert_close!(read.x, 0.0, 1e-15);
     assert_close!(read.y, -0.3, 1e-12); // √(0.5² - 0.4²)
@@ -127,8 +129,8 @@ fn dead_zone_is_about_the_gyros_own_axis_or_the_bodys() {
     let seen = 100.0 * ARCSEC * 36_000.0;
     moment.rate = Vector3::new(0.1 - seen, 0.1, 36_000.0) * DEG_PER_HOUR;
     let misalignment = [0.0, 100.0, 0.0, 100.0, 0.0, 0.0].map(|arcsec| arcsec * ARCSEC);
-    let misalignment = Chosen::new(&catalogue::GYRO_MISALIGNMENT).with_values(&misalignment);
-    let zone = Chosen::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
+    let misalignment = TermInstance::new(&catalogue::GYRO_MISALIGNMENT).with_values(&misalignment);
+    let zone = TermInstance::new(&catalogue::GYRO_DEAD_ZONE).with_values(&[0.4 * DEG_PER_HOUR; 3]);
     let lost = |axes: f64, in_order: bool| {
         let mut terms =
             vec![misalignment.clone(), zone.clone().with_setting(SettingKind::RateAxes, axes)];
@@ -152,7 +154,7 @@ fn dead_zone_is_about_the_gyros_own_axis_or_the_bodys() {
 #[test]
 fn step_falls_within_a_sample_by_its_share() {
     let run = run();
-    let step = Chosen::new(&catalogue::GYRO_BIAS_STEP)
+    let step = TermInstance::new(&catalogue::GYRO_BIAS_STEP)
         .with_setting(SettingKind::Time, 50.0 + 0.25 * INTERVAL)
         .with_values(&[1.0, 0.0, 0.0]);
     let read: Vec<f64> =
@@ -168,13 +170,13 @@ fn step_falls_within_a_sample_by_its_share() {
 #[test]
 fn ramp_and_warm_up_go_with_time() {
     let run = run();
-    let at = |chosen: &Chosen, sample: usize| {
+    let at = |chosen: &TermInstance, sample: usize| {
         let moment = run.track.moments().nth(sample).unwrap();
         values(&chosen.signals(&moment, None).gyro).z
     };
-    let ramp = Chosen::new(&catalogue::GYRO_BIAS_RAMP).with_values(&[0.0, 0.0, 2.0]);
+    let ramp = TermInstance::new(&catalogue::GYRO_BIAS_RAMP).with_values(&[0.0, 0.0, 2.0]);
     assert_close!(at(&ramp, 2000) - at(&ramp, 1000), 2.0 * 1000.0 * INTERVAL, 1e-9);
-    let warm_up = Chosen::new(&catalogue::GYRO_WARMUP)
+    let warm_up = TermInstance::new(&catalogue::GYRO_WARMUP)
         .with_setting(SettingKind::TimeConstant, 20.0)
         .with_values(&[0.0, 0.0, 1.0]);
     assert_close!(at(&warm_up, 3000) / at(&warm_up, 2000), (-1.0_f64).exp(), 1e-9);
@@ -184,8 +186,8 @@ fn ramp_and_warm_up_go_with_time() {
 #[test]
 fn hysteresis_and_backlash_remember_the_last_change() {
     let run = run();
-    let hysteresis = Chosen::new(&catalogue::GYRO_HYSTERESIS).with_values(&[1.0]);
-    let backlash = Chosen::new(&catalogue::ENCODER_BACKLASH).with_values(&[1.0]);
+    let hysteresis = TermInstance::new(&catalogue::GYRO_HYSTERESIS).with_values(&[1.0]);
+    let backlash = TermInstance::new(&catalogue::ENCODER_BACKLASH).with_values(&[1.0]);
     // Rates of 0, 10, -10, 20, -5 and 0 deg/s, of 20 s each.
     for (time, changed, sense) in [
         (10.0, 0.0, 0.0),
@@ -207,7 +209,7 @@ fn heat_from_one_side_lags_and_fades() {
     const PARTS: u32 = 100;
     let run = run();
     let heat = Model::default().with(
-        Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
+        TermInstance::new(&catalogue::THERMAL_ONE_PER_TURN)
             .with_setting(SettingKind::TimeConstant, LAG)
             .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]),
     );
@@ -250,7 +252,7 @@ fn heat_from_one_side_lags_and_fades() {
 fn heat_from_one_side_settles() {
     const LAG: f64 = 4.0;
     let moment = moment();
-    let heat = Chosen::new(&catalogue::THERMAL_ONE_PER_TURN)
+    let heat = TermInstance::new(&catalogue::THERMAL_ONE_PER_TURN)
         .with_setting(SettingKind::TimeConstant, LAG)
         .with_values(&[1.0, 0.0, 0.0, 1.0, 0.3, -0.4]);
     let got = values(&heat.signals(&moment, None).gyro);
@@ -271,7 +273,7 @@ fn wrong_latitude_is_the_earths_rate_there_less_that_here() {
     let (here, there) = (around(34.0 * DEG), around(34.7 * DEG));
     let mut moment = moment();
     moment.surroundings = here;
-    let wrong = Chosen::new(&catalogue::WRONG_LATITUDE).with_values(&[0.7 * DEG]);
+    let wrong = TermInstance::new(&catalogue::WRONG_LATITUDE).with_values(&[0.7 * DEG]);
     let got = values(&wrong.signals(&moment, None).gyro);
     let want = moment.in_body(&(there.earth_rate - here.earth_rate));
     assert!((got - want).norm() < 1e-12 * want.norm());
@@ -307,7 +309,7 @@ fn magnetic_field_stays_with_the_table() {
     let mut values_of_k = [0.0; 9];
     // What gyro x shows of a field along y, 1 deg/h/G.
     values_of_k[1] = DEG_PER_HOUR / gauss;
-    let magnetic = Chosen::new(&catalogue::GYRO_MAGNETIC).with_values(&values_of_k);
+    let magnetic = TermInstance::new(&catalogue::GYRO_MAGNETIC).with_values(&values_of_k);
     for (angle, want) in [(0.0, 0.0), (FRAC_PI_2, -0.2), (PI, 0.0), (-FRAC_PI_2, 0.2)] {
         moment.mean.angle = angle;
         let read = values(&magnetic.signals(&moment, None).gyro) / DEG_PER_HOUR;
@@ -319,8 +321,8 @@ fn magnetic_field_stays_with_the_table() {
 #[test]
 fn encoder_reads_its_harmonics_by_cosine_and_sine() {
     let mut moment = moment();
-    let eccentric = Chosen::new(&catalogue::ENCODER_ECCENTRICITY).with_values(&[3.0, 4.0]);
-    let oval = Chosen::new(&catalogue::ENCODER_HARMONIC)
+    let eccentric = TermInstance::new(&catalogue::ENCODER_ECCENTRICITY).with_values(&[3.0, 4.0]);
+    let oval = TermInstance::new(&catalogue::ENCODER_HARMONIC)
         .with_setting(SettingKind::Order, 3.0)
         .with_values(&[1.0, 2.0]);
     for (angle, one, three) in [(0.0, 3.0, 1.0), (FRAC_PI_2, 4.0, -2.0), (PI, -3.0, -1.0)] {

@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rins_frames::units::{ARCSEC, DEG_PER_SECOND};
 use rins_frames::{Body, Dcm, EARTH_RATE};
 use rins_motion::Segment;
-use rins_terms::{Chosen, Making, Model, SettingKind, catalogue, values};
+use rins_terms::{MeasurementModel, Model, SettingKind, TermInstance, catalogue, values};
 use rins_testing::assert_close;
 
 use crate::support::{INTERVAL, Run, run, turning};
@@ -36,9 +36,9 @@ fn tilting_table_is_felt_as_differenced_attitudes_are() {
     const PARTS: u32 = 50;
     let run = steady();
     let model = Model::default()
-        .with(Chosen::new(&catalogue::TABLE_WOBBLE).with_values(&[WOBBLE.0, WOBBLE.1]))
-        .with(Chosen::new(&catalogue::BASE_TILT_RAMP).with_values(&[RAMP.0, RAMP.1]));
-    let mut making = Making::new(&model, &run.track);
+        .with(TermInstance::new(&catalogue::TABLE_WOBBLE).with_values(&[WOBBLE.0, WOBBLE.1]))
+        .with(TermInstance::new(&catalogue::BASE_TILT_RAMP).with_values(&[RAMP.0, RAMP.1]));
+    let mut making = MeasurementModel::new(&model, &run.track);
     let pole = nalgebra::Unit::new_normalize(*run.motion.station.site.earth_rate().components());
     for (moment, truth) in run.track.moments().zip(&run.recording.increments) {
         let reading = making.read(&moment, truth);
@@ -63,17 +63,18 @@ fn tilting_table_is_felt_as_differenced_attitudes_are() {
 
 #[test]
 fn wobble_of_order_one_is_the_mounting() {
-    let wobble = Chosen::new(&catalogue::TABLE_WOBBLE)
+    let wobble = TermInstance::new(&catalogue::TABLE_WOBBLE)
         .with_setting(SettingKind::Order, 1.0)
         .with_values(&[30.0 * ARCSEC, -20.0 * ARCSEC]);
-    let mounting = Chosen::new(&catalogue::MOUNTING).with_values(&[30.0 * ARCSEC, -20.0 * ARCSEC]);
+    let mounting =
+        TermInstance::new(&catalogue::MOUNTING).with_values(&[30.0 * ARCSEC, -20.0 * ARCSEC]);
     let run = run();
     for moment in run.track.moments().step_by(41) {
         assert_eq!(wobble.signals(&moment, None), mounting.signals(&moment, None));
     }
     // And the mounting is a fixed rotation of the body.
     let model = Model::default().with(mounting);
-    let mut making = Making::new(&model, &run.track);
+    let mut making = MeasurementModel::new(&model, &run.track);
     let body = Vector3::new(30.0 * ARCSEC, -20.0 * ARCSEC, 0.0);
     let mounted = Dcm::<Body, Body>::from_rotation_vector(&body).inverse();
     for (moment, truth) in run.track.moments().zip(&run.recording.increments) {
@@ -86,10 +87,10 @@ fn wobble_of_order_one_is_the_mounting() {
 
 #[test]
 fn rate_ripple_is_felt_and_read_alike() {
-    let ripple = Chosen::new(&catalogue::TABLE_RATE_RIPPLE).with_values(&[1e-3, 5e-4]);
+    let ripple = TermInstance::new(&catalogue::TABLE_RATE_RIPPLE).with_values(&[1e-3, 5e-4]);
     let model = Model::default().with(ripple);
     let run = run();
-    let mut making = Making::new(&model, &run.track);
+    let mut making = MeasurementModel::new(&model, &run.track);
     let opening = model.signals(&run.track.opening().unwrap());
     let (mut turned, mut largest) = (opening.angle.re, 0.0_f64);
     for (moment, truth) in run.track.moments().zip(&run.recording.increments) {
@@ -107,7 +108,7 @@ fn rate_ripple_is_felt_and_read_alike() {
 fn a_base_gives_way_evenly_over_its_time() {
     const TIME: f64 = 30.0;
     const DURATION: f64 = 1.0;
-    let step = Chosen::new(&catalogue::BASE_TILT_STEP)
+    let step = TermInstance::new(&catalogue::BASE_TILT_STEP)
         .with_setting(SettingKind::Time, TIME)
         .with_setting(SettingKind::Duration, DURATION)
         .with_values(&[1.0, -2.0, 0.5]);
@@ -124,9 +125,10 @@ fn a_base_gives_way_evenly_over_its_time() {
 #[test]
 fn turning_base_adds_to_the_earths_rate_about_the_vertical() {
     let rate = 1e-5;
-    let model = Model::default().with(Chosen::new(&catalogue::BASE_ROTATION).with_values(&[rate]));
+    let model =
+        Model::default().with(TermInstance::new(&catalogue::BASE_ROTATION).with_values(&[rate]));
     let run = steady();
-    let mut making = Making::new(&model, &run.track);
+    let mut making = MeasurementModel::new(&model, &run.track);
     for (moment, truth) in run.track.moments().zip(&run.recording.increments) {
         let felt = making.read(&moment, truth).increments;
         let up = truth.velocity * (1.0 / truth.velocity.norm());

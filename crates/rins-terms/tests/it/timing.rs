@@ -1,6 +1,6 @@
 //! Late readings against the same motion read earlier.
 
-use rins_terms::{Chosen, Making, Model, SettingKind, catalogue};
+use rins_terms::{MeasurementModel, Model, SettingKind, TermInstance, catalogue};
 use rins_testing::assert_close;
 
 use crate::support::{ACCELERATION, INTERVAL, Run, run};
@@ -24,7 +24,7 @@ fn corner(delay: f64) -> f64 {
 /// The errors of the angle against those of `shifted` times.
 fn check_angle(model: &Model, shifted: impl Fn(f64) -> f64, largest_delay: f64) {
     let run = run();
-    let mut making = Making::new(model, &run.track);
+    let mut making = MeasurementModel::new(model, &run.track);
     for (moment, truth) in run.track.moments().zip(&run.recording.increments) {
         let time = moment.end.time;
         let got = making.read(&moment, truth).angle_error;
@@ -37,20 +37,20 @@ fn check_angle(model: &Model, shifted: impl Fn(f64) -> f64, largest_delay: f64) 
 #[test]
 fn late_encoder_reads_an_earlier_angle() {
     for delay in DELAYS {
-        let late = Chosen::new(catalogue::term("readout_lag").unwrap()).with_values(&[delay]);
+        let late = TermInstance::new(catalogue::term("readout_lag").unwrap()).with_values(&[delay]);
         check_angle(&Model::default().with(late), |time| time - delay, delay);
     }
 }
 
 #[test]
 fn drifting_clock_reads_later_and_later() {
-    let drift = Chosen::new(&catalogue::CLOCK_DRIFT).with_values(&[50e-6]);
+    let drift = TermInstance::new(&catalogue::CLOCK_DRIFT).with_values(&[50e-6]);
     check_angle(&Model::default().with(drift), |time| time * (1.0 - 50e-6), 6e-3);
 }
 
 #[test]
 fn dropped_samples_leave_later_angles() {
-    let dropped = Chosen::new(&catalogue::DROPPED_SAMPLES)
+    let dropped = TermInstance::new(&catalogue::DROPPED_SAMPLES)
         .with_setting(SettingKind::Time, 47.0)
         .with_values(&[0.01]);
     let shifted = |time: f64| if time < 47.0 { time } else { time + 0.01 };
@@ -62,9 +62,9 @@ fn late_sensors_read_earlier_motion() {
     let run = run();
     for delay in DELAYS {
         let model = Model::default()
-            .with(Chosen::new(&catalogue::GYRO_LAG).with_values(&[delay]))
-            .with(Chosen::new(&catalogue::ACCEL_LATENCY).with_values(&[delay]));
-        let mut making = Making::new(&model, &run.track);
+            .with(TermInstance::new(&catalogue::GYRO_LAG).with_values(&[delay]))
+            .with(TermInstance::new(&catalogue::ACCEL_LATENCY).with_values(&[delay]));
+        let mut making = MeasurementModel::new(&model, &run.track);
         let mut shown = 0.0_f64;
         for (moment, truth) in run.track.moments().zip(&run.recording.increments) {
             let (from, to) = (moment.end.time - INTERVAL - delay, moment.end.time - delay);

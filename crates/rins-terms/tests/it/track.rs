@@ -1,13 +1,13 @@
 //! A track taken apart.
 
-use rins_terms::{Moment, Track};
+use rins_terms::{KinematicState, Track};
 
 use crate::support::run;
 
 #[test]
 fn stretch_begins_with_the_moment_that_the_whole_comes_to() {
     let track = run().track;
-    let whole: Vec<Moment> = track.moments().collect();
+    let whole: Vec<KinematicState> = track.moments().collect();
     let starts = [0, 1, 517, 517, 3000, track.len() - 1, track.len()];
     for (start, moments) in starts.into_iter().zip(track.moments_from(starts)) {
         assert_eq!(moments.len(), track.len() - start);

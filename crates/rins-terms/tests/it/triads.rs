@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use rins_imu::{ImuError, TriadError};
-use rins_terms::{Making, Model};
+use rins_terms::{MeasurementModel, Model};
 use rins_testing::any_matrix;
 
 use crate::support::run;
@@ -39,7 +39,7 @@ proptest! {
         };
         let model = with(with(Model::full(), "gyro", &error.gyro), "accel", &error.accel);
         let run = run();
-        let mut making = Making::new(&model, &run.track);
+        let mut making = MeasurementModel::new(&model, &run.track);
         for (moment, truth) in run.track.moments().zip(&run.recording.increments).step_by(53) {
             let got = making.read(&moment, truth).increments;
             let want = error.measure(truth);

@@ -5,7 +5,9 @@ use rins_blind::{Experiment, LAWS, Log, record};
 use rins_frames::{Body, InFrame};
 use rins_motion::{Profile, Segment};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
-use rins_terms::{Chosen, Making, Model, SettingKind, Surroundings, Term, Track, catalogue};
+use rins_terms::{
+    MeasurementModel, Model, SettingKind, Surroundings, Term, TermInstance, Track, catalogue,
+};
 use rins_trials::{Stand, hidden, is_hideable, recording};
 
 use crate::bench::{DEGREE, experiment, known};
@@ -28,16 +30,16 @@ fn tolerance(id: &str) -> f64 {
 }
 
 /// A usual size of every parameter, large enough to show, in different directions.
-fn sized(term: &'static Term, experiment: &Experiment) -> Chosen {
+fn sized(term: &'static Term, experiment: &Experiment) -> TermInstance {
     let imu = Stand::of(experiment, &known(experiment)).imu;
     let part = |place: usize| [0.3, -0.2, 0.25][place % 3];
     let size = |(place, p): (usize, &rins_terms::Parameter)| p.range(&imu).1 * part(place);
     let values: Vec<f64> = term.parameters.iter().enumerate().map(size).collect();
-    Chosen::new(term).with_values(&values).with_setting(SettingKind::Time, 77.7)
+    TermInstance::new(term).with_values(&values).with_setting(SettingKind::Time, 77.7)
 }
 
 /// What `effect` adds, by the catalogue, to a run whose log without it is `plain`.
-fn predicted(effect: Chosen, experiment: &Experiment, plain: &Log) -> [Vec<Vector3<f64>>; 3] {
+fn predicted(effect: TermInstance, experiment: &Experiment, plain: &Log) -> [Vec<Vector3<f64>>; 3] {
     let stand = Stand::of(experiment, &known(experiment));
     let rig = stand.run(plain, experiment.interval).expect("it is long enough").rig;
     let track = Track::new(
@@ -48,12 +50,13 @@ fn predicted(effect: Chosen, experiment: &Experiment, plain: &Log) -> [Vec<Vecto
         Some(plain.temperature.clone()),
     );
     // What is slow is so about the gyros' own axes.
-    let is_misalignment = |chosen: &&Chosen| chosen.term.id == catalogue::GYRO_MISALIGNMENT.id;
+    let is_misalignment =
+        |chosen: &&TermInstance| chosen.term.id == catalogue::GYRO_MISALIGNMENT.id;
     let without =
         Model { terms: stand.model.terms.iter().filter(is_misalignment).cloned().collect() };
     // The generator's coefficients are about the temperature at the start.
     let with = without.clone().with(effect).about_temperature(plain.temperature[0]);
-    let mut made = [Making::new(&with, &track), Making::new(&without, &track)];
+    let mut made = [MeasurementModel::new(&with, &track), MeasurementModel::new(&without, &track)];
     let mut signals = [Vec::new(), Vec::new(), Vec::new()];
     for moment in track.moments() {
         let interval = experiment.interval;
@@ -115,7 +118,7 @@ fn every_signal_is_what_the_catalogue_says() {
 }
 
 /// How far apart generator and catalogue are on a dead zone, as a part of it, where an IMU is so mounted.
-fn apart(zone: Chosen, mounting: [f64; 2]) -> f64 {
+fn apart(zone: TermInstance, mounting: [f64; 2]) -> f64 {
     let base = Experiment { mounting, ..experiment(&RATES, 20.0) };
     let plain = record(&base);
     let log = record(&Experiment { effects: vec![hidden(&zone)], ..base.clone() });
@@ -131,7 +134,7 @@ fn apart(zone: Chosen, mounting: [f64; 2]) -> f64 {
 fn a_dead_zone_is_about_the_gyros_own_axis() {
     let zone = |axes: f64| {
         let widths = [1.0, 2.0, 0.0].map(|width| width * DEGREE / 3600.0);
-        Chosen::new(&catalogue::GYRO_DEAD_ZONE)
+        TermInstance::new(&catalogue::GYRO_DEAD_ZONE)
             .with_values(&widths)
             .with_setting(SettingKind::RateAxes, axes)
     };

@@ -6,9 +6,9 @@ use anyhow::Context;
 use nalgebra::Vector3;
 use rins_frames::{Increments, SignedAxes};
 use rins_imu::{
-    AllanPlan, Axis, NoiseLaw, NoiseSeen, SpectralLine, Strength, Triad, TriadSpec, take_out_lines,
+    AllanPlan, Axis, NoiseLaw, NoiseSeen, NoiseTerm, SpectralLine, Triad, TriadSpec, take_out_lines,
 };
-use rins_inspection::Combs;
+use rins_inspection::QuantizationGrids;
 use rins_io::{Gaps, Loaded, LogFormat, shown};
 use rins_report::number::figure;
 use rins_terms::{Unit, catalogue};
@@ -200,8 +200,8 @@ fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -
     let place = NoiseLaw::ALL.iter().position(|law| *law == NoiseLaw::Quantisation)?;
     let strength = &mut seen.strengths[place];
     match *strength {
-        Strength::Seen { value, sigma, .. } if value > most + BEYOND_RESOLUTION * sigma => {
-            *strength = Strength::NotSeen { below: most };
+        NoiseTerm::Seen { value, sigma, .. } if value > most + BEYOND_RESOLUTION * sigma => {
+            *strength = NoiseTerm::NotSeen { below: most };
             let (_, _, unit) = term(triad, NoiseLaw::Quantisation);
             Some(format!(
                 "An apparent quantization noise of {} {} in {triad} {axis} is more than the resolution makes, {}: vibration, or a filter.",
@@ -210,19 +210,19 @@ fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -
                 figure(most / unit.factor, 3)
             ))
         }
-        Strength::NotSeen { ref mut below } => {
+        NoiseTerm::NotSeen { ref mut below } => {
             *below = below.min(most);
             None
         }
-        Strength::Seen { .. } => None,
+        NoiseTerm::Seen { .. } => None,
     }
 }
 
 /// The 1σ that the resolution of each channel makes of an increment, along the sensors' own axes \[rad or m/s\].
 fn resolutions(loaded: &Loaded, interval: f64) -> [Option<f64>; 6] {
-    let combs = Combs::of(&loaded.recording);
+    let combs = QuantizationGrids::of(&loaded.recording);
     let step = |channel: usize| {
-        let Combs { increments, rates } = combs[channel];
+        let QuantizationGrids { increments, rates } = combs[channel];
         let of_rates = rates.map(|comb| comb.step * interval);
         let steps = increments.map(|comb| comb.step).into_iter().chain(of_rates);
         steps.max_by(f64::total_cmp).map(|step| step / 12.0_f64.sqrt())

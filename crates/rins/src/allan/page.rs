@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use rins_imu::{CONFIDENCE, NoiseLaw, Strength, Triad};
+use rins_imu::{CONFIDENCE, NoiseLaw, NoiseTerm, Triad};
 
 use super::noise::{Channel, Rest, term};
 use crate::table::{aligned, report_table};
@@ -126,11 +126,11 @@ fn rows(channels: &[Channel]) -> Vec<Vec<String>> {
     std::iter::once(head).chain(rows).collect()
 }
 
-fn row(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Vec<String> {
+fn row(channel: &Channel, law: NoiseLaw, strength: &NoiseTerm) -> Vec<String> {
     let (_, symbol, unit) = term(channel.triad, law);
     let sensor = format!("{} {}", channel.triad, channel.axis);
     let (value, sigma, remark) = match strength {
-        Strength::Seen { value, sigma, rivals } => {
+        NoiseTerm::Seen { value, sigma, rivals } => {
             let (shown, sigma) = estimate(value / unit.factor, sigma / unit.factor);
             let rivals: Vec<&str> = rivals.iter().map(|rival| words(*rival)).collect();
             let mut remarks = Vec::new();
@@ -146,7 +146,7 @@ fn row(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Vec<String> {
             }
             (shown, sigma, remarks.join("; "))
         }
-        Strength::NotSeen { below } => {
+        NoiseTerm::NotSeen { below } => {
             (format!("< {}", figure(below / unit.factor, 2)), "–".into(), "not significant".into())
         }
     };

@@ -1,6 +1,6 @@
 //! The noise, for a machine.
 
-use rins_imu::{AllanPoint, CONFIDENCE, NoiseLaw, Strength, Triad};
+use rins_imu::{AllanPoint, CONFIDENCE, NoiseLaw, NoiseTerm, Triad};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -152,14 +152,14 @@ impl From<&Channel> for ChannelResult {
 }
 
 impl NoiseTermResult {
-    fn of(channel: &Channel, law: NoiseLaw, strength: &Strength) -> Self {
+    fn of(channel: &Channel, law: NoiseLaw, strength: &NoiseTerm) -> Self {
         let (id, symbol, unit) = term(channel.triad, law);
         let sheet = channel.sheet(law);
         let (value, sigma, below, rivals) = match strength {
-            Strength::Seen { value, sigma, rivals } => {
+            NoiseTerm::Seen { value, sigma, rivals } => {
                 (Some(value / unit.factor), Some(sigma / unit.factor), None, rivals.as_slice())
             }
-            Strength::NotSeen { below } => (None, None, Some(below / unit.factor), &[][..]),
+            NoiseTerm::NotSeen { below } => (None, None, Some(below / unit.factor), &[][..]),
         };
         let rivals = rivals.iter().map(|rival| term(channel.triad, *rival).0.to_owned());
         Self {

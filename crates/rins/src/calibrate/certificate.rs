@@ -7,12 +7,15 @@ use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
 use rins_design::{Asked, Budget, Truth};
 use rins_estimation::{
-    Departure, Estimate, Fit, Identifiability, InRun, Lost, Reference, Run, Strengths, fit,
+    Departure, Estimate, Fit, Identifiability, InRun, NoiseParameters, Reference, Run,
+    Unobservable, fit,
 };
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, NotUndone, Owner, Role, Surroundings, catalogue, compensated};
+use rins_terms::{
+    Model, NotUndone, Owner, Role, Surroundings, TermInstance, catalogue, compensated,
+};
 
 use crate::check::steady_rates;
 use crate::log::repairs;
@@ -43,7 +46,7 @@ pub(crate) struct Certificate {
     /// Whether the noise was found, or given.
     pub(crate) noise: NoiseChoice,
     /// What else was found that the model is to hold, such as noise: what it adds to no signal.
-    pub(crate) besides: Vec<Chosen>,
+    pub(crate) besides: Vec<TermInstance>,
     /// What else a reader must know.
     pub(crate) remarks: Vec<String>,
 }
@@ -101,7 +104,7 @@ impl Certificate {
         if let [_] = case.runs[..] {
             told.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
         }
-        let departures = fit.prior_departures(&told, &Strengths::of(case.imu()));
+        let departures = fit.prior_departures(&told, &NoiseParameters::of(case.imu()));
         let held = held(&fit, &told);
         let fit = fit.with_prior_values_at(&held);
         let mut certified = Vec::with_capacity(case.runs.len());
@@ -218,7 +221,7 @@ fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
             Some(fit.models[run].terms[here.term].roles[here.parameter])
         };
         let role = (0..fit.models.len()).find_map(role);
-        let visible = |lost: &Lost| lost.unknown != place || lost.visible;
+        let visible = |lost: &Unobservable| lost.unknown != place || lost.visible;
         role == Some(Role::Free) || !told.rank.lost.iter().all(visible)
     };
     told.unobservable().into_iter().filter(is_held).collect()

@@ -12,7 +12,7 @@ use rins_diagnosis::{
 use rins_estimation::{Estimate, Fit, Indefinite, Noise, Run};
 use rins_imu::{ImuSpec, Seed};
 use rins_inspection::Repeats;
-use rins_terms::{Chosen, Model, Unit};
+use rins_terms::{Model, TermInstance, Unit};
 
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
@@ -71,7 +71,7 @@ pub(crate) struct Found {
 #[derive(Default)]
 pub(crate) struct Asked {
     /// The effects that are supposed to be there, if none are searched for.
-    pub(crate) supposed: Option<Vec<Chosen>>,
+    pub(crate) supposed: Option<Vec<TermInstance>>,
     /// The run on which the gain is measured, if it is another.
     pub(crate) held_out: Option<Prepared>,
     /// Whether it is measured at the fastest rate too.
@@ -247,8 +247,8 @@ impl Named {
 }
 
 /// A cause as a term with the values that were found.
-fn with_values(cause: &Cause) -> Chosen {
-    let mut chosen = Chosen::new(cause.term);
+fn with_values(cause: &Cause) -> TermInstance {
+    let mut chosen = TermInstance::new(cause.term);
     chosen.settings.clone_from(&cause.settings);
     for estimate in &cause.parameters {
         chosen.values[estimate.parameter.parameter] = estimate.value;
@@ -257,7 +257,7 @@ fn with_values(cause: &Cause) -> Chosen {
 }
 
 /// The same, if it is noise, or what a logger does.
-fn no_signal(cause: &Cause) -> Option<Chosen> {
+fn no_signal(cause: &Cause) -> Option<TermInstance> {
     (!cause.term.is_signal()).then(|| with_values(cause))
 }
 
@@ -269,7 +269,7 @@ fn separating_test(
     (cause, rival): (&Cause, &Rival),
 ) -> anyhow::Result<Option<NextTest>> {
     let found = with_values(cause);
-    let mut alternative = Chosen::new(rival.term);
+    let mut alternative = TermInstance::new(rival.term);
     alternative.settings.clone_from(&rival.settings);
     let pair = Confused { found: &found, alternative: &alternative };
     Ok(next_test(run, imu, model, pair)?)

@@ -15,7 +15,7 @@ mod words;
 use std::path::{Path, PathBuf};
 
 use rins_io::{ModelFile, shown};
-use rins_terms::Chosen;
+use rins_terms::TermInstance;
 
 use self::found::{Asked, Found};
 pub use self::measured::{DriftPairResult, GainResult, PairResult};
@@ -106,7 +106,7 @@ fn found(logs: Vec<Log>, options: &DiagnoseOptions) -> anyhow::Result<Found> {
 }
 
 /// The effects of a model file beyond a case's model.
-fn hypothesis(file: &Path, case: &Case) -> anyhow::Result<Vec<Chosen>> {
+fn hypothesis(file: &Path, case: &Case) -> anyhow::Result<Vec<TermInstance>> {
     let mut terms = ModelFile::read_along(file, &case.runs[0].loaded.rig.spin)?.model.terms;
     terms.retain(|chosen| !case.model.terms.iter().any(|own| own.term.is(chosen.term)));
     let silent = terms.iter().find(|chosen| !chosen.term.is_signal());

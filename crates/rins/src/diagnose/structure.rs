@@ -1,6 +1,6 @@
 //! What no effect explains, in words.
 
-use rins_diagnosis::{Along, Structure, Unexplained};
+use rins_diagnosis::{Stratum, Structure, Unexplained};
 
 use rins_report::number::figure;
 
@@ -63,11 +63,11 @@ fn order_in_words(order: f64) -> String {
     format!("{size}{ending} order in table angle{against}")
 }
 
-const fn along_in_words(along: Along) -> &'static str {
+const fn along_in_words(along: Stratum) -> &'static str {
     match along {
-        Along::Time => "time",
-        Along::Sense => "the direction of rotation",
-        Along::Rate => "the table's rate",
+        Stratum::Time => "time",
+        Stratum::Sense => "the direction of rotation",
+        Stratum::Rate => "the table's rate",
     }
 }
 

@@ -3,7 +3,7 @@
 use rins_frames::units::DEG;
 use rins_io::{CalibratedRange, Calibration, Loaded};
 use rins_motion::Recording;
-use rins_terms::{Chosen, Model, Need, Role};
+use rins_terms::{Model, Need, Role, TermInstance};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -157,9 +157,9 @@ pub(crate) fn ensure_temperature(
     model: &Model,
     recording: &Recording,
 ) -> anyhow::Result<()> {
-    let needs = |chosen: &&Chosen| chosen.term.needs.contains(&Need::Temperature);
+    let needs = |chosen: &&TermInstance| chosen.term.needs.contains(&Need::Temperature);
     let needing = model.terms.iter().find(needs).filter(|_| recording.temperature.is_none());
-    if let Some(Chosen { term, .. }) = needing {
+    if let Some(TermInstance { term, .. }) = needing {
         anyhow::bail!(
             "{log}: {holder} holds {}, which depends on temperature, and the log has none: declare its column as [log] \
              temperature",

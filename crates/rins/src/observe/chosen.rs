@@ -5,7 +5,7 @@ use std::path::Path;
 use rins_design::Effect;
 use rins_imu::ImuSpec;
 use rins_io::{ModelFile, Quantity, nearest};
-use rins_terms::{Chosen, Model, Role, Term, catalogue};
+use rins_terms::{Model, Role, Term, TermInstance, catalogue};
 
 /// A parameter and the 1σ that is wanted of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,8 +55,8 @@ fn everything() -> Model {
 }
 
 /// A term whose parameters are sought, where it is linear.
-fn sought(term: &'static Term) -> Chosen {
-    let mut chosen = Chosen::new(term).estimated();
+fn sought(term: &'static Term) -> TermInstance {
+    let mut chosen = TermInstance::new(term).estimated();
     if term.is(&catalogue::GYRO_DEAD_ZONE) {
         // Its square counts: a width of zero shows nothing, a usual one does.
         for (value, parameter) in chosen.values.iter_mut().zip(term.parameters) {

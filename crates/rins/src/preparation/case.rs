@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use rins_estimation::{NoiseKnowledge, Reference, Run, Strengths};
+use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Run};
 use rins_frames::EARTH_RATE;
 use rins_frames::units::DEG_PER_HOUR;
 use rins_imu::ImuSpec;
 use rins_report::number::figure;
-use rins_terms::{Chosen, Model, Role, catalogue};
+use rins_terms::{Model, Role, TermInstance, catalogue};
 
 use super::prepared::Prepared;
 use crate::log::ensure_temperature;
@@ -107,7 +107,7 @@ impl Case {
 
     /// What is known of the random errors: what the data sheet states, and what of them is in the model.
     pub(crate) fn knowledge(&self) -> NoiseKnowledge {
-        let sheet = Strengths::of(self.imu()).with(&self.model);
+        let sheet = NoiseParameters::of(self.imu()).with(&self.model);
         match self.noise {
             NoiseChoice::Likely => NoiseKnowledge::Likely(sheet),
             NoiseChoice::Given => NoiseKnowledge::Given(sheet),
@@ -138,7 +138,7 @@ fn with_azimuth(
     };
     let azimuth = &catalogue::AXIS_AZIMUTH;
     if preset && !model.terms.iter().any(|chosen| chosen.term.is(azimuth)) {
-        model = model.with(Chosen::new(azimuth).estimated());
+        model = model.with(TermInstance::new(azimuth).estimated());
         remarks.push(format!(
             "The azimuth of the axis is not known: what the Earth's horizontal rate differs by from that of the assumed one is \
              estimated too ({}; a priori 0 ± {} deg/h north, 0 ± {} deg/h east).",
@@ -166,7 +166,7 @@ fn on_these_runs(
     let by_gravity = runs.iter().any(|run| run.run.rig.reference == Reference::Gravity);
     let arm = &catalogue::ACCEL_LEVER_ARM;
     if by_gravity && preset && !model.terms.iter().any(|chosen| chosen.term.is(arm)) {
-        model = model.with(Chosen::new(arm).estimated());
+        model = model.with(TermInstance::new(arm).estimated());
         remarks.push(
             "The accelerometers' lever arm is estimated too: without it the rotation of gravity would not show the angle."
                 .into(),

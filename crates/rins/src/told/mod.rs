@@ -4,7 +4,7 @@ mod result;
 
 use std::fmt::Write as _;
 
-use rins_estimation::{Alias, Gauge, Identifiability, Shown};
+use rins_estimation::{Alias, Gauge, Identifiability, Observable};
 
 pub use self::result::{
     GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
@@ -87,9 +87,9 @@ pub(crate) fn observability(
     let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
     match seen.shown {
         _ if seen.identifiable => OBSERVABLE.into(),
-        Shown::Alone => "prior-dominated".into(),
-        Shown::Nothing => "unobservable (prior-dominated)".into(),
-        Shown::Combination | Shown::Part { .. } => {
+        Observable::Alone => "prior-dominated".into(),
+        Observable::Nothing => "unobservable (prior-dominated)".into(),
+        Observable::Combination | Observable::Part { .. } => {
             let summand = |alias: &Alias| Summand {
                 coefficient: coefficient(told, place, alias),
                 unit: told.unknowns[alias.unknown].unit.symbol,
@@ -117,9 +117,11 @@ pub(crate) fn badge(told: &Identifiability, place: usize) -> Cell {
     let seen = &told.seen[place];
     match seen.shown {
         _ if seen.identifiable => Cell::badge(Tone::Good, OBSERVABLE),
-        Shown::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
-        Shown::Combination | Shown::Part { .. } => Cell::badge(Tone::Warning, "combination"),
-        Shown::Alone | Shown::Nothing => Cell::badge(Tone::Neutral, "unobservable"),
+        Observable::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
+        Observable::Combination | Observable::Part { .. } => {
+            Cell::badge(Tone::Warning, "combination")
+        }
+        Observable::Alone | Observable::Nothing => Cell::badge(Tone::Neutral, "unobservable"),
     }
 }
 

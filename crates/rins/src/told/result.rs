@@ -1,6 +1,6 @@
 //! The observability of parameters, for a machine.
 
-use rins_estimation::{Identifiability, Shown};
+use rins_estimation::{Identifiability, Observable};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -125,8 +125,8 @@ impl ObservabilityResult {
         let seen = &told.seen[place];
         let observability = match seen.shown {
             _ if seen.identifiable => OBSERVABLE,
-            Shown::Combination | Shown::Part { .. } => "combination",
-            Shown::Alone | Shown::Nothing => "prior_dominated",
+            Observable::Combination | Observable::Part { .. } => "combination",
+            Observable::Alone | Observable::Nothing => "prior_dominated",
         };
         let aliases = seen.aliases.iter().map(|alias| told.unknowns[alias.unknown].id.clone());
         let combination = seen.aliases.iter().map(|alias| {

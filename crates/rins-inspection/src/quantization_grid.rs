@@ -35,7 +35,7 @@ const DIGITS: f64 = 1e-9;
 
 /// How far the teeth of a comb are apart on which readings stand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Comb {
+pub struct QuantizationGrid {
     /// The distance.
     pub step: f64,
     /// Its 1σ.
@@ -46,14 +46,14 @@ pub struct Comb {
 
 /// On which comb the readings of a sensor stand, if on any: where samples are even, its increments and its rates do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Combs {
+pub struct QuantizationGrids {
     /// That of its increments \[rad or m/s\].
-    pub increments: Option<Comb>,
+    pub increments: Option<QuantizationGrid>,
     /// That of its mean rates or forces \[rad/s or m/s²\].
-    pub rates: Option<Comb>,
+    pub rates: Option<QuantizationGrid>,
 }
 
-impl Combs {
+impl QuantizationGrids {
     /// The combs of the three gyros and the three accelerometers.
     pub fn of(recording: &Recording) -> [Self; 6] {
         let samples = &recording.increments[..recording.len().min(ENOUGH)];
@@ -70,7 +70,7 @@ impl Combs {
     }
 }
 
-impl Comb {
+impl QuantizationGrid {
     /// The comb of the table angle, if there is one that is read.
     ///
     /// A table that turns evenly goes on by about as many teeth every time: what is next to each other on the comb are the
@@ -88,7 +88,7 @@ impl Comb {
 }
 
 /// The comb on which all but a few of `readings` stand, wherever its first tooth is.
-pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
+pub(crate) fn comb(readings: &[f64]) -> Option<QuantizationGrid> {
     let mut apart = distances(readings, alike(readings));
     if apart.len() < FEWEST {
         return None;
@@ -97,7 +97,7 @@ pub(crate) fn comb(readings: &[f64]) -> Option<Comb> {
     apart.select_nth_unstable_by(odd, f64::total_cmp);
     let mut smallest = apart[..=odd].to_vec();
     smallest.sort_by(f64::total_cmp);
-    let on_it = |comb: &Comb| goes_unevenly(readings, comb.step);
+    let on_it = |comb: &QuantizationGrid| goes_unevenly(readings, comb.step);
     smallest.into_iter().find_map(|first| fitted(&apart, first)).filter(on_it)
 }
 
@@ -139,7 +139,7 @@ fn distances(readings: &[f64], alike: f64) -> Vec<f64> {
 }
 
 /// The comb whose teeth are about so far apart, if these differences are between its teeth.
-fn fitted(apart: &[f64], first: f64) -> Option<Comb> {
+fn fitted(apart: &[f64], first: f64) -> Option<QuantizationGrid> {
     let off = |apart: f64, step: f64| apart / step - (apart / step).round();
     let mut step = first;
     let mut sigma = f64::INFINITY;
@@ -170,7 +170,11 @@ fn fitted(apart: &[f64], first: f64) -> Option<Comb> {
     let rest =
         if share < 1.0 { (1.0 - share) * ((1.0 - share) / (1.0 - by_chance)).ln() } else { 0.0 };
     let ln_p = -(apart.len() as f64) * (share * (share / by_chance).ln() + rest);
-    (share >= 1.0 - MOST_OFF).then_some(Comb { step, sigma: sigma.max(DIGITS * step), ln_p })
+    (share >= 1.0 - MOST_OFF).then_some(QuantizationGrid {
+        step,
+        sigma: sigma.max(DIGITS * step),
+        ln_p,
+    })
 }
 
 #[cfg(test)]
@@ -189,7 +193,7 @@ mod tests {
             let on_comb = readings().into_iter().map(|x| 0.11 + step * (x / step).round());
             // As a log of ten digits has them.
             let found = comb(&on_comb.map(|x| (x * 1e8).round() / 1e8).collect::<Vec<_>>());
-            let Comb { step: found, sigma, ln_p } = found.unwrap();
+            let QuantizationGrid { step: found, sigma, ln_p } = found.unwrap();
             assert!((found - step).abs() < 4.0 * sigma, "{found} {sigma}");
             assert!(sigma < 1e-6 && ln_p < -100.0, "{sigma} {ln_p}");
         }
@@ -212,7 +216,7 @@ mod tests {
         let read = |k: u32| (1e10 * tooth * turned(k).round()).round() / 1e10;
         let table_angle = Some((0..20_000).map(read).collect());
         let recording = Recording { table_angle, ..Recording::default() };
-        let found = Comb::of_table_angle(&recording).unwrap();
+        let found = QuantizationGrid::of_table_angle(&recording).unwrap();
         assert!((found.step / tooth - 1.0).abs() < 1e-5, "{found:?}");
     }
 

@@ -16,7 +16,7 @@ pub struct TriadStrengths {
 
 /// The random errors of an IMU, and of the clock that reads the encoder beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Strengths {
+pub struct NoiseParameters {
     /// Of the gyros \[rad/s\].
     pub gyro: TriadStrengths,
     /// Of the accelerometers \[m/s²\].
@@ -36,7 +36,7 @@ impl TriadStrengths {
     }
 }
 
-impl Strengths {
+impl NoiseParameters {
     /// Those of a data sheet; what it leaves out is zero.
     pub fn of(imu: &ImuSpec) -> Self {
         Self {
@@ -75,15 +75,15 @@ impl Strengths {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoiseKnowledge {
     /// They are this strong.
-    Given(Strengths),
+    Given(NoiseParameters),
     /// These strengths are a first guess, and the most likely ones are found from the data, those of
     /// the encoder and of the axis' wobble with them.
-    Likely(Strengths),
+    Likely(NoiseParameters),
 }
 
 impl NoiseKnowledge {
     /// The strengths that were stated, be they trusted or a first guess.
-    pub const fn sheet(&self) -> Strengths {
+    pub const fn sheet(&self) -> NoiseParameters {
         let (Self::Given(strengths) | Self::Likely(strengths)) = self;
         *strengths
     }
@@ -93,7 +93,7 @@ impl NoiseKnowledge {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
     /// Of the sensors.
-    pub imu: Strengths,
+    pub imu: NoiseParameters,
     /// 1σ of the axis' direction at a reading, each of two components \[rad\].
     pub wobble: f64,
     /// 1σ of a reading of the encoder \[rad\]; unused where there is none.
@@ -107,7 +107,7 @@ pub struct Noise {
 
 impl Noise {
     /// That of the sensors' strengths on a rig, whose base is firm.
-    pub fn on(rig: &crate::run::Rig, imu: &Strengths) -> Self {
+    pub fn on(rig: &crate::run::Rig, imu: &NoiseParameters) -> Self {
         let encoder = match rig.reference {
             crate::run::Reference::Encoder { noise } => noise,
             _ => rig.wobble,
@@ -119,23 +119,23 @@ impl Noise {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rins_terms::{Chosen, catalogue};
+    use rins_terms::{TermInstance, catalogue};
 
     #[test]
     fn noise_of_a_model_comes_to_that_of_the_sheet() {
         let triad = TriadStrengths { white: 2.0, flicker: 0.3, walk: 0.0 };
-        let sheet = Strengths { gyro: triad, accel: triad, jitter: 0.0 };
+        let sheet = NoiseParameters { gyro: triad, accel: triad, jitter: 0.0 };
         let terms = [
-            Chosen::new(&catalogue::GYRO_NOISE_LEVEL).with_values(&[0.5]),
-            Chosen::new(&catalogue::ACCEL_RATE_RANDOM_WALK).with_values(&[0.07]),
-            Chosen::new(&catalogue::TIMESTAMP_JITTER).with_values(&[1e-5]),
+            TermInstance::new(&catalogue::GYRO_NOISE_LEVEL).with_values(&[0.5]),
+            TermInstance::new(&catalogue::ACCEL_RATE_RANDOM_WALK).with_values(&[0.07]),
+            TermInstance::new(&catalogue::TIMESTAMP_JITTER).with_values(&[1e-5]),
             // What is a signal is none.
-            Chosen::new(&catalogue::GYRO_SCALE_ASYMMETRY).with_values(&[1.0]),
+            TermInstance::new(&catalogue::GYRO_SCALE_ASYMMETRY).with_values(&[1.0]),
         ];
         let found = sheet.with(&Model { terms: terms.to_vec() });
         let gyro = TriadStrengths { white: 3.0, ..triad };
         let accel = TriadStrengths { walk: 0.07, ..triad };
-        assert_eq!(found, Strengths { gyro, accel, jitter: 1e-5 });
+        assert_eq!(found, NoiseParameters { gyro, accel, jitter: 1e-5 });
         assert_eq!(sheet.with(&Model::default()), sheet);
     }
 }

@@ -114,7 +114,7 @@ impl Stretch {
 /// Gyros and accelerometers are described by means over the sample, `mean`; what is read at an instant, an
 /// encoder and the direction of the axis, is read at its `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moment {
+pub struct KinematicState {
     /// Which of its track's samples this is.
     pub sample: usize,
     /// The length of the sample's interval \[s\].
@@ -135,7 +135,7 @@ pub struct Moment {
     pub surroundings: Surroundings,
 }
 
-impl Moment {
+impl KinematicState {
     /// The same with the rate and force that a perfect IMU measures as `felt`.
     #[must_use]
     pub fn feeling(&self, felt: &Increments) -> Self {

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use rins_frames::{Dcm, InFrame, Increments, Table};
 
 use crate::acting::Acting;
+use crate::kinematic_state::KinematicState;
 use crate::model::Model;
-use crate::moment::Moment;
 use crate::signals::values;
 use crate::track::Track;
 
@@ -22,12 +22,12 @@ pub struct Reading {
 
 /// A model at work: it makes readings from true motion.
 #[derive(Clone, Debug)]
-pub struct Making<'a> {
+pub struct MeasurementModel<'a> {
     terms: Vec<Acting<'a>>,
     tilt: Vector3<f64>,
 }
 
-impl<'a> Making<'a> {
+impl<'a> MeasurementModel<'a> {
     /// A model at work from the start of `track` on.
     pub fn new(model: &'a Model, track: &Track) -> Self {
         let terms = Acting::present(model, track);
@@ -47,7 +47,7 @@ impl<'a> Making<'a> {
     ///
     /// # Panics
     /// May panic for a moment of a longer track.
-    pub fn read(&mut self, moment: &Moment, truth: &Increments) -> Reading {
+    pub fn read(&mut self, moment: &KinematicState, truth: &Increments) -> Reading {
         let mut signals = Acting::together(&self.terms, &moment.feeling(truth));
         let (before, after) = (self.tilt, values(&signals.tilt));
         self.tilt = after;
@@ -75,7 +75,7 @@ impl<'a> Making<'a> {
 /// The body's attitude is `Rot(tilt) Rz(ζ)`: all vectors of the axis frame are seen from the tilted
 /// frame, half-way, and the tilt's own rate is felt.
 fn tilted(
-    moment: &Moment,
+    moment: &KinematicState,
     truth: &Increments,
     before: &Vector3<f64>,
     after: &Vector3<f64>,
