@@ -99,7 +99,7 @@ fn assert_unexplained(seed: u64, index: u64, name: &str, channel: &str) {
 /// On a table that turns back a bump in the turn is neither an effect of gravity nor a line on top, though both follow it.
 #[test]
 fn bump_on_a_table_that_turns_back_is_not_explained() {
-    assert_unexplained(24, 278, "bump in the turn", "gyro.z");
+    assert_unexplained(24, 278, "pulse once per revolution", "gyro.z");
 }
 
 /// What is left of a sawtooth beside a line passes for flicker, multiple by multiple, or for a walk of the bias with steps in it.
