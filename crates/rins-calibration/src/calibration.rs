@@ -42,7 +42,7 @@ pub enum CalibrationError {
     NoTable,
     /// The table hardly turned.
     #[error(
-        "the table hardly turns ({spin_rate:.1e} rad/s rms): gyro errors along the spin axis do not show"
+        "the table hardly rotates ({spin_rate:.1e} rad/s rms): gyro errors along the spin axis are unobservable"
     )]
     NoTurn {
         /// The root mean square of the spin rate \[rad/s\].
@@ -50,7 +50,7 @@ pub enum CalibrationError {
     },
     /// Too few samples after the rest.
     #[error(
-        "only {samples} samples are left after the rest at the start; at least {fewest} are needed"
+        "only {samples} samples remain after the static interval at the start; at least {fewest} are needed"
     )]
     TooShort {
         /// How many there are.
@@ -60,7 +60,8 @@ pub enum CalibrationError {
     },
     /// No attitude given, and no rest to align on.
     #[error(
-        "the attitude of the axis is not given and the log does not start with {shortest} s of rest to align on"
+        "the attitude of the spin axis is not given and the log does not start with a static interval of \
+         {shortest} s for the alignment"
     )]
     NoAttitude {
         /// The shortest rest that would do \[s\].
@@ -68,11 +69,11 @@ pub enum CalibrationError {
     },
     /// The rest at the start cannot be aligned on.
     #[error(
-        "the attitude of the axis is not given, and cannot be found from the rest at the start"
+        "the attitude of the spin axis is not given, and the alignment over the static interval at the start failed"
     )]
     Alignment(#[from] AlignmentError),
     /// The filter broke off.
-    #[error("the filter broke off at {time} s")]
+    #[error("the filter failed at {time} s")]
     Update {
         /// The end of the sample's interval \[s\].
         time: f64,

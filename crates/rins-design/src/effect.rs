@@ -19,7 +19,7 @@ impl Effect {
     ///
     /// ```
     /// let arm = rins_design::Effect::of(&rins_terms::catalogue::ACCEL_LEVER_ARM);
-    /// assert_eq!(arm.ids.len(), 3);
+    /// assert_eq!(arm.ids.len(), 2);
     /// ```
     pub fn of(term: &'static Term) -> Self {
         Self { name: term.id.into(), ids: term.parameter_ids().collect(), term }

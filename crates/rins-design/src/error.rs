@@ -32,7 +32,8 @@ pub enum DesignError {
     Joint(#[from] JointError),
     /// The table turns, and nothing that would be recorded shows its angle.
     #[error(
-        "{name}: the log holds neither a table angle nor a rate, and the axis is upright: nothing tells the table's angle"
+        "{name}: the log holds neither a table angle nor a rate, and the spin axis is vertical: the table angle is \
+         unobservable"
     )]
     NoAngleReference {
         /// What the run is called.
@@ -40,7 +41,7 @@ pub enum DesignError {
     },
     /// No schedule of the library is slow enough.
     #[error(
-        "no schedule fits within the table's limits: a ramp takes longer than its part of any of them"
+        "no schedule fits within the limits of the table: a ramp takes longer than its segment in every schedule"
     )]
     NothingFits,
 }

@@ -40,7 +40,7 @@ const SHAPES: [Shape; 5] = [
     Shape { name: "forward and back twice", rates: &[1.0, -1.0, 1.0, -1.0] },
     Shape { name: "two rates, forward and back", rates: &[1.0, -1.0, 0.5, -0.5] },
     Shape {
-        name: "a rest and three rates, forward and back",
+        name: "a static interval and three rates, forward and back",
         rates: &[0.0, 1.0, -1.0, 0.5, -0.5, 0.25, -0.25],
     },
 ];

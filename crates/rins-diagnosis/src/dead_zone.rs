@@ -38,7 +38,7 @@ const fn width(name: &'static str) -> Setting {
     Setting {
         kind: SettingKind::RateThreshold,
         name,
-        meaning: "below which rate the gyro shows nothing",
+        meaning: "rate below which the gyro reads zero",
         unit: Unit::DEG_PER_HOUR,
         default: 0.0,
         within: (0.0, WIDTHS[0]),

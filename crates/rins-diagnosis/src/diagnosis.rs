@@ -104,11 +104,11 @@ pub enum DiagnosisError {
     #[error("the model cannot be fitted to the run")]
     Fit(#[from] FitError),
     /// The candidates cannot be tried.
-    #[error("the effects of the catalogue cannot be tried on the run")]
+    #[error("the effects of the catalogue cannot be tested on the run")]
     Screening(#[from] Indefinite),
     /// The runs are about different axes of the IMU.
     #[error(
-        "the runs turn about different axes of the IMU: only runs about one axis can be diagnosed together"
+        "the runs have different spin axes: only runs about one axis of the IMU can be diagnosed together"
     )]
     SeveralAxes,
 }

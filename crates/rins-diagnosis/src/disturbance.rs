@@ -59,11 +59,11 @@ const fn disturbance(
 
 /// Of a frequency \[Hz\].
 pub(crate) static IN_TIME: Term = disturbance(
-    "line of unknown cause",
+    "spectral line of unknown cause",
     &[Setting {
         kind: SettingKind::Frequency,
         name: "frequency",
-        meaning: "how often it comes back",
+        meaning: "frequency",
         unit: Unit::HERTZ,
         default: 1.0,
         within: (0.0, 1e4),
@@ -76,11 +76,11 @@ pub(crate) static IN_TIME: Term = disturbance(
 
 /// Of an order of the table angle.
 pub(crate) static IN_ANGLE: Term = disturbance(
-    "order of unknown cause",
+    "harmonic order of unknown cause",
     &[Setting {
         kind: SettingKind::Order,
         name: "order",
-        meaning: "how often it comes back in a turn",
+        meaning: "harmonic order: periods per revolution",
         unit: Unit::ONE,
         default: 1.0,
         within: (0.0, 1e3),

@@ -71,27 +71,28 @@ pub struct Gain {
 pub enum GainError {
     /// Nothing, or too little, can be held out.
     #[error(
-        "{blocks} revolutions or pieces of a rest can be held out, and {FEWEST_BLOCKS} are needed: of a stretch of constant rate \
-         whole revolutions are taken, of its last 30 % if not of all, of a rest 10 s each"
+        "{blocks} revolutions or pieces of static intervals can be held out; {FEWEST_BLOCKS} are needed. \
+         Held out are whole revolutions of the last 30 % or all of a segment of constant rate, and \
+         pieces of 10 s of a static interval"
     )]
     TooLittle {
         /// How many revolutions or pieces of a rest.
         blocks: usize,
     },
     /// The runs are about different axes of the IMU.
-    #[error("the runs turn about different axes of the IMU")]
+    #[error("the runs have different spin axes")]
     SeveralAxes,
     /// What was found at one rate cannot be tried at another.
-    #[error("the table turns at one rate only")]
+    #[error("the table rotates at one rate only")]
     OneRate,
     /// A model cannot be fitted to the rest.
-    #[error("the model cannot be fitted to what is not held out")]
+    #[error("the model cannot be fitted to the data that are not held out")]
     Fit(#[from] FitError),
     /// The held-out data cannot be foretold.
-    #[error("what is held out cannot be foretold")]
+    #[error("the held-out data cannot be predicted")]
     Foretold(#[from] Indefinite),
     /// The errors that were found cannot be undone.
-    #[error("what was found cannot be undone")]
+    #[error("the causes cannot be compensated")]
     NotUndone(#[from] NotUndone),
 }
 

@@ -22,7 +22,8 @@ use crate::sway::Sway;
 /// A filter whose covariance could not be factored.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "the innovations' covariance is not positive definite at epoch {epoch}: a noise is zero or out of all proportion"
+    "the innovations' covariance is not positive definite at epoch {epoch}: a noise parameter is zero or \
+     not plausible"
 )]
 pub struct Indefinite {
     /// Which epoch.

@@ -7,14 +7,14 @@ use crate::evidence::Indefinite;
 #[non_exhaustive]
 pub enum FitError {
     /// There is no run.
-    #[error("there is no run to estimate anything from")]
+    #[error("no run is given for the estimation")]
     NoRun,
     /// The model estimates nothing.
-    #[error("the model leaves no parameter to be estimated")]
+    #[error("the model has no parameter to estimate")]
     NothingFree,
     /// The model estimates more than is done in reasonable time.
     #[error(
-        "the model estimates {parameters} parameters, at most {most} are estimated at once: leave some out"
+        "the model estimates {parameters} parameters, at most {most} are possible: remove some"
     )]
     ManyParameters {
         /// How many it estimates.
@@ -26,14 +26,15 @@ pub enum FitError {
     #[error(transparent)]
     Indefinite(#[from] Indefinite),
     /// The information is not finite.
-    #[error("the data do not make a finite information matrix at iteration {iteration}")]
+    #[error("the information matrix is not finite at iteration {iteration}")]
     NoInformation {
         /// Which iteration.
         iteration: usize,
     },
     /// The steps did not become small.
     #[error(
-        "after {iterations} iterations the last step is still {step} sigma: the model is too far from these data"
+        "not converged after {iterations} iterations: the last step is {step} sigma; the model does not \
+         describe these data"
     )]
     Diverged {
         /// How many iterations were made.

@@ -69,7 +69,7 @@ const FEWEST_EPOCHS: f64 = 10.0;
 pub enum RunError {
     /// Too few epochs.
     #[error(
-        "{duration:.3} s of data are too short to estimate from: {needed:.3} s are needed at this sampling rate"
+        "{duration:.3} s of data are too short for an estimation: {needed:.3} s are needed at this sampling rate"
     )]
     TooShort {
         /// How long it lasts \[s\].
@@ -78,13 +78,15 @@ pub enum RunError {
         needed: f64,
     },
     /// The log has no encoder, which is to be the reference.
-    #[error("the table angle is to be the reference, and the recording has none")]
+    #[error("the reference is the table angle, but the recording has none")]
     NoAngle,
     /// The log has no commanded rate, which is to be the reference.
-    #[error("the commanded rate is to be the reference, and the recording has none")]
+    #[error("the reference is the commanded rate, but the recording has none")]
     NoRate,
     /// Gravity has no component across the axis.
-    #[error("the axis is tilted by {tilt} rad, too little for gravity to show the table's angle")]
+    #[error(
+        "the spin axis is tilted by {tilt} rad, too little to determine the table angle from gravity"
+    )]
     NoTilt {
         /// The axis' angle from the vertical \[rad\].
         tilt: f64,
@@ -116,7 +118,7 @@ impl Run {
             let fine = value.is_finite() && value > 0.0;
             if fine { Ok(()) } else { Err(RunError::Figure { quantity, value }) }
         };
-        positive("the wobble of the axis", rig.wobble)?;
+        positive("the wobble of the spin axis", rig.wobble)?;
         positive("the velocity noise of the base", rig.velocity)?;
         let mut angle_steps = None;
         match rig.reference {

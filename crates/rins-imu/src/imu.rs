@@ -51,7 +51,7 @@ impl ImuError {
 
 /// Which triad cannot be compensated, and why.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the {triad} errors cannot be undone")]
+#[error("the {triad} errors cannot be compensated")]
 pub struct ImuCompensationError {
     /// The triad.
     pub triad: Triad,
@@ -123,10 +123,10 @@ mod tests {
         };
         let refusal = error.compensation().unwrap_err();
         assert_eq!(refusal.triad, Triad::Accel);
-        assert_eq!(refusal.to_string(), "the accelerometer errors cannot be undone");
+        assert_eq!(refusal.to_string(), "the accelerometer errors cannot be compensated");
         assert_eq!(
             refusal.reason.to_string(),
-            "axis z has a scale error of -1, so its reading carries nothing"
+            "axis z has a scale error of -1, so its reading contains no signal"
         );
     }
 }

@@ -130,7 +130,7 @@ pub enum CompensationError {
     #[error("a bias, scale or misalignment error is not a finite number")]
     NotFinite,
     /// A sensor does not react to any motion.
-    #[error("axis {axis} has a scale error of {scale_error}, so its reading carries nothing")]
+    #[error("axis {axis} has a scale error of {scale_error}, so its reading contains no signal")]
     DeadAxis {
         /// The sensor.
         axis: Axis,

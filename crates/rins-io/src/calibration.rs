@@ -34,30 +34,30 @@ const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
 
 /// What every calibration file begins with.
 const MEANING: &str = "\
-# Errors of an inertial measurement unit, along its own body axes x, y and z, whatever axis the table turns it about.
+# Errors of an inertial measurement unit in its own body axes x, y and z, for any spin axis.
 #
 #   measured    = true + bias + [S, M] true
 #   compensated = (I + [S, M])^-1 (measured - bias)
 #
 # S: scale errors, on the diagonal. M: misalignments, off it, named by row and column:
-# gyro.misalignment.xz is what gyro x sees of a rate about z.
+# gyro.misalignment.xz is the fraction of a rate about z in gyro x.
 ";
 
 /// What stands above the terms.
 const TERMS: &str = "
-# What else is off. Each term adds to a reading what its equation makes of the true rate and force, and all are
-# undone together: true = measured - (bias + [S, M] true + terms(true)), repeated until nothing changes.
+# Further effects. Each term adds its equation, for the true rate and force, to a reading. All of them are
+# compensated together: true = measured - (bias + [S, M] true + terms(true)), iterated to convergence.
 ";
 
 /// What stands above the range.
 const RANGE: &str = "
-# What the runs covered from which the calibration was made; rate is about the axis of rotation.
+# Range of the runs of the calibration; rate is about the spin axis.
 [range]
 ";
 
 /// What stands above the standard deviations.
 const SIGMAS: &str = "
-# 1 sigma of each number that was estimated. The others are what was assumed of them.
+# 1 sigma of each estimated number. The other numbers are assumed values.
 [sigma]
 ";
 
@@ -230,7 +230,7 @@ impl Calibration {
                 let place = chosen.term.parameters.iter().position(|p| p.name == *name);
                 let own = chosen.term.own_name(place.unwrap_or_default(), &self.spin.into());
                 let reason = format!(
-                    "{}.{own} was found in a run about {}: it has no meaning in one about {}",
+                    "{}.{own} was estimated in a run about {}; it is not defined in a run about {}",
                     chosen.term.id,
                     self.spin.spin_name(),
                     axes.spin_name()
@@ -347,7 +347,7 @@ fn terms(root: &Section<'_>, axes: &SignedAxes, reference: Option<f64>) -> Resul
         let chosen = term::read_about(&table, Use::Calibration, axes, reference)?;
         term::refuse_triads(&table, &chosen, |sensor| format!("[{sensor}]"))?;
         if !chosen.term.is_signal() {
-            return Err(table.conflict("id", format!("{} cannot be undone", chosen.term.id)));
+            return Err(table.conflict("id", format!("{} cannot be compensated", chosen.term.id)));
         }
         model.terms.push(chosen);
     }

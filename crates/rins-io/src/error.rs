@@ -237,7 +237,7 @@ pub enum OutputProblem {
     #[error("does not end in the name of a file or folder")]
     NoName,
     /// A rig file has to name it, and cannot.
-    #[error("its name is not UTF-8, so that no rig file can tell it; choose another")]
+    #[error("its name is not UTF-8, so that a rig file cannot state it; choose another")]
     NotText,
 }
 
@@ -247,7 +247,7 @@ pub enum OutputProblem {
 pub enum WriteProblem {
     /// The format has no time column.
     #[error(
-        "a psins log has no time column, and sample {sample} is {off:e} s away from even steps of \
+        "a psins log has no time column, and sample {sample} is {off:e} s away from equal steps of \
          {interval} s; choose another format"
     )]
     Uneven {

@@ -69,7 +69,7 @@ pub(crate) fn special(kind: FileType) -> Option<&'static str> {
             return Some("a device");
         }
     }
-    Some("no regular file")
+    Some("not a regular file")
 }
 
 /// Whether this is a file that has been read, under whatever name.

@@ -22,9 +22,9 @@ pub(crate) const REFERENCE: &str = REFERENCE_TEMPERATURE.name;
 
 /// What every model file begins with.
 const MEANING: &str = "\
-# What is estimated: the terms of the base, and those below. A term of the base that is listed again is as
-# it is listed. estimate = true, false or a list of parameters; values are where estimation starts, or what is
-# held; sigma is what is known beforehand, where the data sheet is not all.
+# Estimated terms: those of the base, and those below. A term below replaces the same term of the base.
+# estimate = true, false or a list of parameters; values are the start of the estimation, or the fixed
+# values; sigma is the prior uncertainty, if it is not that of the data sheet.
 ";
 
 /// A model to be estimated, as a file holds it.

@@ -24,7 +24,7 @@ impl ScenarioFile {
     /// but `[truth]` and `[grid]`, its quantities as they are written there, and a `[log]` that describes what
     /// [`write_recording`] writes.
     pub fn rig_toml(&self, recording: &Recording) -> String {
-        let mut text = String::from("# A simulated run: where it was measured, and with what.\n");
+        let mut text = String::from("# A simulated run: site, log and IMU.\n");
         for Entry { key, value, .. } in &self.document.root {
             match (key.as_str(), &value.node) {
                 ("truth" | "grid", _) => {}

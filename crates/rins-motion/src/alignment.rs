@@ -47,15 +47,15 @@ pub struct PlaceSeen {
 #[non_exhaustive]
 pub enum AlignmentError {
     /// There is no specific force to level by.
-    #[error("the mean specific force is {specific_force} m/s², too little to level by")]
+    #[error("the mean specific force is {specific_force} m/s², too small for leveling")]
     NoGravity {
         /// Its magnitude \[m/s²\].
         specific_force: f64,
     },
     /// The Earth's rotation is lost in the gyros' errors.
     #[error(
-        "the gyros cannot find north: the azimuth would have a sigma of {azimuth_sigma:.2} rad; \
-         give the attitude, or better gyros"
+        "the gyros cannot determine north: the azimuth would have a sigma of {azimuth_sigma:.2} rad; \
+         state the attitude, or use better gyros"
     )]
     NorthNotFound {
         /// The 1σ that the azimuth would have \[rad\].

@@ -77,11 +77,11 @@ impl Colour {
     /// White noise of known strength.
     pub const WHITE: Self = Self { flicker: (0.0, 0.0), knowledge: NoiseKnowledge::Given };
 
-    /// Flicker whose strength, like that of the white noise, must be found: 0.005 deg/h and 2 µg.
+    /// Bias instability of 0.005 deg/h and 2 µg, estimated from the run like the noise density.
     pub const FAINT: Self =
         Self { flicker: (0.005 * DEG_PER_HOUR, 2.0 * MICRO_G), knowledge: NoiseKnowledge::Likely };
 
-    /// The same ten times as strong, with 10 µg.
+    /// The same with 0.05 deg/h and 10 µg.
     pub const STRONG: Self =
         Self { flicker: (0.05 * DEG_PER_HOUR, 10.0 * MICRO_G), knowledge: NoiseKnowledge::Likely };
 
@@ -89,7 +89,7 @@ impl Colour {
     pub fn name(&self) -> String {
         if self.flicker.0 > 0.0 {
             format!(
-                "flicker {:.3} deg/h, {:.0} ug",
+                "bias instability {:.3} deg/h, {:.0} ug",
                 self.flicker.0 / DEG_PER_HOUR,
                 self.flicker.1 / MICRO_G
             )

@@ -73,7 +73,7 @@ pub enum ScenarioError {
     },
     /// The table makes more than one turn within an interval.
     #[error(
-        "at {time} s the table turns at {rate} rad/s, more than one turn a sample of {interval} s"
+        "at {time} s the table rotates at {rate} rad/s, more than one revolution per sample of {interval} s"
     )]
     TooFast {
         /// When \[s\].
@@ -84,7 +84,7 @@ pub enum ScenarioError {
         interval: f64,
     },
     /// There is no memory for the run.
-    #[error("there is no memory for the {n_samples} samples of the run")]
+    #[error("not enough memory for the {n_samples} samples of the run")]
     OutOfMemory {
         /// How many samples it would have.
         n_samples: usize,
@@ -148,7 +148,7 @@ impl Scenario {
             return Err(ScenarioError::EffectNeeds { effect, what: "a temperature" });
         }
         if needs(Need::TableAngle) && !matches!(self.table, TableRecord::Angle(_)) {
-            return Err(ScenarioError::EffectNeeds { effect, what: "a table angle that is read" });
+            return Err(ScenarioError::EffectNeeds { effect, what: "a measured table angle" });
         }
         Ok(())
     }

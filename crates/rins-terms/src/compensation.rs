@@ -25,7 +25,8 @@ pub enum NotUndone {
     Triads(#[from] ImuCompensationError),
     /// The terms are so large that undoing them does not come to an end.
     #[error(
-        "the terms cannot be undone: after {MOST_ROUNDS} rounds readings still change by {change:.1e} of the largest"
+        "the terms cannot be compensated: after {MOST_ROUNDS} iterations the readings still change by \
+         {change:.1e} of the largest"
     )]
     Endless {
         /// By how much readings changed in the last round, relative to the largest.

@@ -82,7 +82,7 @@ pub const FROZEN: &[Frozen] = &[
     // Heat that lags far behind, with a warm-up, can be every effect of a table that turns but twice in the run.
     frozen("slow heat does not stand for an imperfect table", OfCampaign(17, 179), OnlyAndNothingLeft(const { &[catalogue::CABLE_TORQUE_TILT.id, catalogue::TABLE_WOBBLE.id, catalogue::ENCODER_ECCENTRICITY.id] })),
     // It is neither an effect of gravity nor a line on top, though both follow it.
-    frozen("a bump on a table that turns back", OfCampaign(24, 278), Unexplained("bump in the turn", "gyro.z")),
+    frozen("a bump on a table that turns back", OfCampaign(24, 278), Unexplained("pulse once per revolution", "gyro.z")),
     // What is left of a sawtooth beside a line passes for flicker, multiple by multiple, or for a walk with steps in it.
     frozen("a sawtooth on a gyro", OfCampaign(24, 638), Unexplained("sawtooth", "gyro.y")),
     frozen("a sawtooth on an accelerometer", OfCampaign(24, 262), Unexplained("sawtooth", "accel.z")),

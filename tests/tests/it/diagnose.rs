@@ -77,7 +77,7 @@ fn what_one_rate_cannot_show_is_said_not_to_be_testable() {
     let effects = list(&result, "/not_testable");
     let asymmetry = effects.iter().find(|one| one["effect"] == "gyro_scale_asymmetry");
     let why = asymmetry.expect("the scale shows at one rate only")["why"].as_str().unwrap();
-    assert!(why.contains("turning both ways"), "{why}");
+    assert!(why.contains("rotation in both directions"), "{why}");
 }
 
 #[test]

@@ -68,7 +68,7 @@ fn ten_gigabytes_in_one_line() {
             "format = \"novatel\"\nimu = \"HG1700-AG58\"\n",
             "run.asc:1: a line of more than 1048576 bytes",
         ),
-        ("run.bin", "format = \"psins-bin\"\n", "run.bin:2: the same as the row before"),
+        ("run.bin", "format = \"psins-bin\"\n", "run.bin:2: equal to the previous row"),
         ("run.mat", COLUMNS, "run.mat: not a MATLAB level 5 file"),
         ("run.parquet", COLUMNS, "run.parquet: not a Parquet file"),
         ("rig.toml", "", "rig.toml: more than 1048576 bytes, too large for a file of keys"),

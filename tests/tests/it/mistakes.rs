@@ -279,7 +279,13 @@ fn exchanged_columns_and_a_table_of_the_other_sense_are_told() {
         .unwrap();
         let check = checked(folder.path(), &rig);
         let told = texts(&check, "/suspicions");
-        assert!(told[0].contains("the table's sense is opposite to the gyro's"), "{told:?}");
+        assert!(
+            told[0].contains(
+                "the direction of rotation of the table is opposite to that of the \
+                                  gyro"
+            ),
+            "{told:?}"
+        );
         let sense =
             |name| json!([{"gyro_axes": null, "accel_axes": null, "table_direction": name}]);
         assert_eq!(check["corrections"], sense("reversed"), "{told:?}");

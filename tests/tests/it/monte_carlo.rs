@@ -145,7 +145,7 @@ fn campaigns_that_no_computer_finishes_are_refused() {
     for (arguments, words) in [
         ("scenario.toml --runs 100000000", "make shards of them, such as --shard 1/2"),
         ("long.toml --runs 100000000 --shard 1/10000", "more than 10000000000 runs"),
-        ("long.toml --runs 64", "make several campaigns of them"),
+        ("long.toml --runs 64", "split the grid into several campaigns"),
     ] {
         let refused = rins_in(folder, &format!("monte-carlo {arguments} -o x.parquet"));
         assert_eq!(refused.code, Some(1), "{arguments}: {}", refused.err);

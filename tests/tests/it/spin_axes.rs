@@ -284,7 +284,7 @@ fn three_mountings_give_all_scale_errors_and_misalignments_of_the_gyros() {
     assert!(files.iter().all(|line| *line == files[0]), "{files:#?}");
     let refused = rins_in(folder.path(), &format!("diagnose {rigs}"));
     assert_eq!(refused.code, Some(1));
-    assert!(refused.err.contains("about different axes of the IMU"), "{}", refused.err);
+    assert!(refused.err.contains("the runs have different spin axes"), "{}", refused.err);
 }
 
 /// A parameter that only a run about one axis shows is no parameter of a run about another, and that is said.

@@ -83,6 +83,6 @@ fn a_run_that_fails_says_why() {
     assert_eq!(runs.len(), 3);
     for run in runs {
         let reason = run.unwrap_err().reason;
-        assert!(reason.contains("broke off") || reason.contains("finite"), "{reason}");
+        assert!(reason.contains("failed") || reason.contains("finite"), "{reason}");
     }
 }

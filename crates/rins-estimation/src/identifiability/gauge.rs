@@ -5,7 +5,7 @@ use rins_terms::{Term, catalogue};
 /// Parameters of which a combination is a choice of axes, of units or of an origin.
 #[derive(Clone, Copy, Debug)]
 pub struct Gauge {
-    /// What is chosen, such as "the zero of the table's angle".
+    /// What is chosen, such as "the zero of the table angle".
     pub name: &'static str,
     /// Why no schedule tells it, and what to do.
     pub why: &'static str,
@@ -14,19 +14,20 @@ pub struct Gauge {
     pub members: &'static [&'static [(&'static Term, &'static str)]],
 }
 
-const MOUNTING: &str = "gyros and accelerometers tilted alike are an IMU that is tilted; hold the mounting, or the \
-                        misalignments xz and yz of one triad";
+const MOUNTING: &str = "a common tilt of gyros and accelerometers equals a tilt of the IMU; fix the \
+                        mounting, or the misalignments xz and yz of one triad";
 
 /// All that are known, the smallest first.
 pub static GAUGES: &[Gauge] = &[
     Gauge {
-        name: "the zero of the table's angle",
-        why: "the encoder's zero and the axis frame's turn about its own axis are one number; hold one",
+        name: "the zero of the table angle",
+        why: "the zero of the encoder and the angle of the axis frame about the spin axis are not \
+              distinguishable; fix one",
         members: &[&[(&catalogue::ENCODER_ZERO, "angle")], &[(&catalogue::AXIS_ATTITUDE, "z")]],
     },
     Gauge {
         name: "the origin of time",
-        why: "only two of the three delays, of gyros, accelerometers and encoder, exist; hold one",
+        why: "only two of the three latencies of gyros, accelerometers and encoder are observable; fix one",
         members: &[
             &[(&catalogue::GYRO_LAG, "delay")],
             &[(&catalogue::ACCEL_LATENCY, "delay")],
@@ -35,7 +36,7 @@ pub static GAUGES: &[Gauge] = &[
     },
     Gauge {
         name: "the unit of force",
-        why: "gravity that is wrong is a scale error common to the accelerometers; survey gravity",
+        why: "an error of gravity equals a common scale error of the accelerometers; survey gravity",
         members: &[
             &[(&catalogue::WRONG_GRAVITY, "gravity")],
             &[(&catalogue::ACCEL_SCALE, "x")],
@@ -45,7 +46,8 @@ pub static GAUGES: &[Gauge] = &[
     },
     Gauge {
         name: "the body axes about the spin axis",
-        why: "gyros and accelerometers turned about it alike are other body axes; hold accel.misalignment.xy or yx",
+        why: "a common rotation of gyros and accelerometers about it equals other body axes; fix \
+              accel.misalignment.xy or yx",
         members: &[
             &[(&catalogue::GYRO_MISALIGNMENT, "xy")],
             &[(&catalogue::GYRO_MISALIGNMENT, "yx")],

@@ -132,7 +132,7 @@ fn gauges_stay_lost_under_a_rich_schedule() {
     // included.
     assert!(told.rank.most_null < 5e-12 && told.rank.least_told > 1e-9, "{:?}", told.rank);
     // One for each run, and the others once: about x and about y.
-    assert_eq!(named("the zero of the table's angle"), 3);
+    assert_eq!(named("the zero of the table angle"), 3);
     assert_eq!(named("the body axes about the spin axis"), 1);
     assert_eq!(named("the mounting of the IMU on the table about x"), 1);
     assert_eq!(named("the mounting of the IMU on the table about y"), 1);

@@ -30,12 +30,12 @@ fn run_lacks_its_reference_is_too_short_or_level() {
         ..rig
     };
     let refusal = of(level, recording.clone());
-    assert!(refusal.to_string().starts_with("the axis is tilted by 0 rad"), "{refusal}");
+    assert!(refusal.to_string().starts_with("the spin axis is tilted by 0 rad"), "{refusal}");
     let steady = rins_estimation::Rig { wobble: 0.0, ..rig };
     let refusal = of(steady, recording);
     assert_eq!(
         refusal.to_string(),
-        "the wobble of the axis is 0; it must be finite and more than zero"
+        "the wobble of the spin axis is 0; it must be finite and more than zero"
     );
 }
 

@@ -42,7 +42,7 @@ pub struct AllanPlan {
 #[non_exhaustive]
 pub enum AllanError {
     /// There are too few samples for the laws to be told apart.
-    #[error("{n_samples} samples are too few for an Allan deviation: it takes {needed}")]
+    #[error("{n_samples} samples are too few for an Allan deviation: {needed} are needed")]
     TooShort {
         /// The samples that there are.
         n_samples: usize,
@@ -70,7 +70,7 @@ pub enum AllanError {
         sample: usize,
     },
     /// All samples are alike, so that there is no noise at all.
-    #[error("the reading never changes, so that there is no noise to see")]
+    #[error("the reading never changes: its noise cannot be determined")]
     Constant,
 }
 

@@ -18,7 +18,7 @@ pub struct ImuNoise {
 
 /// Which triad's noise model describes no noise, and why.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the {triad} noise is impossible")]
+#[error("the {triad} noise parameters are invalid")]
 pub struct ImuNoiseError {
     /// The triad.
     pub triad: Triad,

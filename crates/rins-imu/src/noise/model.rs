@@ -142,9 +142,7 @@ pub enum NoiseError {
         correlation_time: f64,
     },
     /// A least significant bit is not positive.
-    #[error(
-        "a least significant bit of {bit} is not a finite number above zero; leave it out for none"
-    )]
+    #[error("an LSB of {bit} is not a finite number above zero; leave it out for none")]
     Resolution {
         /// The bit, in the unit of its variant.
         bit: f64,

@@ -60,7 +60,7 @@ struct Trial {
 }
 
 impl TableLag {
-    /// `None` without an angle that was read, or if the table turns at one rate only.
+    /// `None` without an angle that was read, or if the table rotates at one rate only.
     ///
     /// The gyro's angle is `ratio · (θ + latency · ω) + bias · t + start`, in means over blocks, which hold as the equation does.
     /// Its noise is white, that of the angle, and a random walk, that of the gyro: how much there is of each is the most likely by

@@ -177,7 +177,7 @@ impl Spin {
         if suspect != Suspect::Gyro {
             mistakes.extend(table_mistakes(recording, expected, timing));
         }
-        let cause = "the table's sense is opposite to the gyro's".into();
+        let cause = "the direction of rotation of the table is opposite to that of the gyro".into();
         mistakes.push(Mistake { factor: -1.0, cause });
         let cause = explained(self.ratio, &mistakes);
         match cause {

@@ -52,10 +52,10 @@ impl fmt::Display for NotStatic {
         match *self {
             Self::TooShort { shortest } => write!(f, "shorter than {shortest:.1} s"),
             Self::GravityTurns { angle } => {
-                write!(f, "moves: gravity turns in the body by {:.2} deg", angle / DEG)
+                write!(f, "moves: gravity rotates in the body frame by {:.2} deg", angle / DEG)
             }
             Self::Rotates { angle } => {
-                write!(f, "moves: the gyros, their mean removed, turn by {:.2} deg", angle / DEG)
+                write!(f, "moves: the gyros, their mean removed, rotate by {:.2} deg", angle / DEG)
             }
             Self::RateBeyondBias { rate: seen, limit, stated } => write!(
                 f,
@@ -66,12 +66,12 @@ impl fmt::Display for NotStatic {
             ),
             Self::RateDiffers { apart, allowed } => write!(
                 f,
-                "moves: the rate about the vertical differs from the other static intervals' by {:.4} deg/s, and {:.4} \
-                 deg/s are allowed",
+                "moves: the rate about the vertical differs from that of the other static intervals by \
+                 {:.4} deg/s; {:.4} deg/s are allowed",
                 rate(apart),
                 rate(allowed)
             ),
-            Self::TableTurns => write!(f, "moves: the table turns"),
+            Self::TableTurns => write!(f, "moves: the table rotates"),
             Self::NoSamples => write!(f, "holds no samples"),
         }
     }

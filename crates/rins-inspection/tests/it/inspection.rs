@@ -80,7 +80,7 @@ fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
         (0.93, None),
         (1.0 / 0.9, Some("gon were declared as deg")),
         (0.9, Some("deg were declared as gon")),
-        (-1.0, Some("sense is opposite")),
+        (-1.0, Some("the table is opposite to that of the gyro")),
         (DEG, Some("angle in rad were declared as deg")),
     ] {
         let turned = with_table_angle(&recording, |angle| angle * factor);

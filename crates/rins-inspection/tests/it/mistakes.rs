@@ -126,7 +126,10 @@ fn every_unit_taken_for_another_is_named() {
             }
         }
         let told = causes(&scaled(&recording, 1.0, 1.0, -1.0), &known);
-        assert_eq!(told, ["the table's sense is opposite to the gyro's"]);
+        assert_eq!(
+            told,
+            ["the direction of rotation of the table is opposite to that of the gyro"]
+        );
     }
 }
 

@@ -43,7 +43,7 @@ pub(super) fn read(
     if ids.iter().collect::<BTreeSet<_>>().len() < ids.len() {
         return Err(section.conflict("ids", "an id is listed twice"));
     }
-    let expected = "a list of rows of numbers, each one longer than that before";
+    let expected = "a list of rows of numbers, each one longer than the previous one";
     let Some(Entry { value, .. }) = section.get("rows") else {
         return Err(section.missing("rows", expected));
     };
@@ -102,7 +102,7 @@ fn first_impossible(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
 pub(super) fn written(covariance: &Covariance) -> String {
     let ids = quoted(covariance.ids.iter().map(String::as_str));
     let mut text = format!(
-        "\n# Of these parameters, in the products of their units; the lower triangle, row by row.\n\
+        "\n# Of these parameters, in the products of their units; lower triangle, row by row.\n\
          [covariance]\nids = [{ids}]\nrows = [\n"
     );
     for (row, _) in covariance.ids.iter().enumerate() {

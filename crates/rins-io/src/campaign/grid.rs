@@ -101,7 +101,7 @@ impl ScenarioGrid {
         if cells > 1 && cells.saturating_mul(text.len()) > MOST_TEXT {
             let most = MOST_TEXT >> 20;
             let reason = format!(
-                "{cells} scenarios of {} bytes are more than {most} MiB; make several campaigns of them",
+                "{cells} scenarios of {} bytes are more than {most} MiB; split the grid into several campaigns",
                 text.len()
             );
             return Err(refusal(path, "", None, KeyProblem::Conflict { reason }));

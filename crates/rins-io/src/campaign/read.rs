@@ -255,7 +255,7 @@ impl Place<'_> {
     fn whole(&self, column: usize) -> Result<u64, ParquetError> {
         match &self.batch[column] {
             Values::Integers(values) => {
-                u64::try_from(values[self.row]).map_err(|_| wrong("a count below zero"))
+                u64::try_from(values[self.row]).map_err(|_| wrong("a negative count"))
             }
             _ => Err(wrong("a column changes its type")),
         }
@@ -308,7 +308,7 @@ fn read_row(heading: &mut Heading, at: &Place<'_>, room: &mut usize) -> Result<R
     }
     let unit = at.text(texts + 1)?;
     if unit.len() > LONGEST_UNIT {
-        return Err(wrong("a unit that is none"));
+        return Err(wrong("an unknown unit"));
     }
     Ok(Row {
         cell,

@@ -100,10 +100,10 @@ impl Channels {
         if let Some(unknown) = layout.unknown {
             let names = list(unknown.map(|column| sample.name(column)).iter().map(String::as_str));
             page.remark(&format!(
-                "Columns {names} are gyros or accelerometers, nothing tells which;"
+                "Columns {names} are gyros or accelerometers; the data do not show which."
             ));
             page.remark(
-                "the others are perhaps in another file: gyro.path or accel.path is then its name.",
+                "The others may be in another file; gyro.path or accel.path is then its name.",
             );
         }
         let gyro = Triad { key: "gyro", role: Role::Gyro, picked: layout.gyro.as_ref() };
@@ -115,13 +115,16 @@ impl Channels {
             if seen.mean[axis] < -0.9 * seen.norm {
                 let name = ["x", "y", "z"][axis];
                 page.remark(&format!(
-                    "At rest accel {name} reads minus gravity: it points down, or the log gives gravity, not"
+                    "Static, accel {name} reads minus gravity: it points down, or the log gives gravity, not"
                 ));
                 page.remark("specific force; then accel.axes = [\"-x\", \"-y\", \"-z\"].");
             }
         }
         if self.contrary {
-            page.remark("Gravity turns against the gyros: axes of one of the two are exchanged or reversed.");
+            page.remark(
+                "Gravity and gyros rotate in opposite directions: axes of one triad are \
+                         exchanged or reversed.",
+            );
         }
         page.optional(
             "gyro.axes",
@@ -152,7 +155,7 @@ fn stated(labels: &[Label], triad: [usize; 3], kinds: [Dimension; 2]) -> Option<
 fn as_stated(stated: &Stated, doubt: Option<String>) -> Measured {
     let text = stated.text.clone();
     match doubt {
-        Some(doubt) => Measured::Guess(text, format!("so the header says, but {doubt}")),
+        Some(doubt) => Measured::Guess(text, format!("stated in the header, but {doubt}")),
         None if stated.by_ending => {
             Measured::Guess(text, "by the ending of the columns' names".into())
         }
@@ -191,7 +194,9 @@ fn gyro_measured(
     let doubt = ratio.filter(|ratio| ratio.ln().abs() > 1.1_f64.ln());
     as_stated(
         stated,
-        doubt.map(|ratio| format!("they then turn {} times as far as the table", short(ratio))),
+        doubt.map(|ratio| {
+            format!("their rotation is then {} times that of the table", short(ratio))
+        }),
     )
 }
 
@@ -223,14 +228,18 @@ impl Triad<'_> {
             Measured::Stated(unit) => page.known(&key("unit"), &text(unit)),
             Measured::Guess(unit, why) => page.guess(&key("unit"), &text(unit), why),
             Measured::Unknown(seen) => {
-                page.remark(&format!("Nothing states the unit of the {}; {seen}.", self.sensors()));
+                page.remark(&format!("The unit of the {} is not stated; {seen}.", self.sensors()));
                 page.leave(&key("unit"), r#""?""#, units);
                 if is_raw(sample, picked.column) {
                     page.remark(
                         "Whole numbers: raw counts? A reading is (number - offset) * scale units.",
                     );
-                    page.leave(&key("scale"), r#""?""#, "a number, or one a column, if raw counts");
-                    page.optional(&key("offset"), "[0, 0, 0]", "the counts that stand for zero");
+                    page.leave(
+                        &key("scale"),
+                        r#""?""#,
+                        "a number, or one for each column, if raw counts",
+                    );
+                    page.optional(&key("offset"), "[0, 0, 0]", "the counts at zero");
                 }
             }
         }

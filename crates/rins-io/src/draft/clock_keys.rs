@@ -14,9 +14,9 @@ const RATE: &str = r#""? Hz""#;
 
 pub(super) fn write(page: &mut Page, sample: &Sample, pace: Option<&Pace>, has_table: bool) {
     let Some(pace) = pace else {
-        page.remark("No column rises like a time or a counter of samples.");
-        page.leave("rate", RATE, "the sampling rate, as nothing else tells the time");
-        page.optional("time.column", r#""?""#, "if there is one after all, with time.unit");
+        page.remark("No column increases like a time or a sample counter.");
+        page.leave("rate", RATE, "the sampling rate, as no column is a time");
+        page.optional("time.column", r#""?""#, "if there is a time column, with time.unit");
         return;
     };
     write_rate(page, pace);
@@ -34,7 +34,7 @@ pub(super) fn write(page: &mut Page, sample: &Sample, pace: Option<&Pace>, has_t
         }
     }
     if has_table {
-        let why = r#"the usual one of "start", "middle", "end"; it matters against the table"#;
+        let why = r#"the most common of "start", "middle", "end"; it affects the comparison with the table"#;
         page.guess("time.stamp", r#""end""#, why);
     }
 }
@@ -71,15 +71,12 @@ fn measured(page: &mut Page, pace: &Pace) {
         )),
     }
     if pace.gaps > 0 {
-        page.remark(&format!(
-            "Gaps, steps of more than 1.5 medians: {} of those looked at.",
-            pace.gaps
-        ));
+        page.remark(&format!("Gaps, steps of more than 1.5 medians: {} of those read.", pace.gaps));
     }
     if pace.halts > 0 {
         let halts = pace.halts;
         page.remark(&format!(
-            "Steps that do not go on: {halts}. A row written twice is read once, any other refused."
+            "Steps that are not positive: {halts}. A row written twice is read once; any other is an error."
         ));
     }
 }

@@ -86,8 +86,8 @@ impl Layout {
                     }
                     _ => return,
                 };
-                self.accel = picked(*accel, "their magnitude is as steady as gravity's");
-                self.gyro = picked(*gyro, "they are the other three beside the accelerometers");
+                self.accel = picked(*accel, "their magnitude is constant like that of gravity");
+                self.gyro = picked(*gyro, "the other three columns besides the accelerometers");
             }
             [] => {}
         }

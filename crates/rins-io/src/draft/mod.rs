@@ -32,7 +32,7 @@ use sample::Sample;
 use crate::error::IoError;
 
 const HOW_TO_GO_ON: [&str; 3] = [
-    "Confirm each line marked GUESS. Fill in those marked TO FILL IN and take off their leading #;",
+    "Confirm each line marked GUESS. Fill in those marked TO FILL IN and remove their leading #;",
     "optional ones may stay as they are. Then run `rins check` on this file.",
     "Quantities are texts with units, such as \"0.05 deg/h\"; paths are relative to this file.",
 ];

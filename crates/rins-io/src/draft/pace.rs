@@ -72,7 +72,7 @@ impl Pace {
         let mut rising = nameless.filter_map(|column| Self::of(sample, column));
         let steadily = |pace: &Self| pace.steps >= ENOUGH && pace.halts == 0 && pace.jitter < 0.3;
         let pace = rising.find(steadily)?;
-        let why = "it rises steadily from row to row".to_string();
+        let why = "it increases steadily from row to row".to_string();
         let label = &labels[pace.column];
         Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
     }
@@ -137,7 +137,7 @@ impl Pace {
             return if label.role == Some(Role::Counter) {
                 PaceUnit::Guess(
                     "sample",
-                    "it steps by one, and its name speaks of a counter".into(),
+                    "it increases by one, and its name is that of a counter".into(),
                 )
             } else {
                 PaceUnit::Unknown

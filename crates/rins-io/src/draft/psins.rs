@@ -45,7 +45,7 @@ pub(super) fn write(page: &mut Page, log: &Path, folder: &Path, header: &PsinsHe
     page.section("log");
     place::path(page, log, folder);
     page.known("format", "\"psins\"");
-    page.remark("This is a PSINS text log. Its header says, and rins takes from there:");
+    page.remark("This is a PSINS text log. rins reads from its header:");
     page.remark(&format!(
         "  place: latitude {} deg, longitude {} deg, height {} m",
         decimals(site.latitude / DEG),
@@ -53,7 +53,7 @@ pub(super) fn write(page: &mut Page, log: &Path, folder: &Path, header: &PsinsHe
         decimals(site.height)
     ));
     page.remark(&format!(
-        "  rate: {} Hz, that is a row each {} ms; there is no time column, so nothing shows a gap",
+        "  rate: {} Hz, that is one row per {} ms; there is no time column, so gaps are not visible",
         short(1.0 / header.interval),
         short(header.interval * 1e3)
     ));
@@ -64,14 +64,14 @@ pub(super) fn write(page: &mut Page, log: &Path, folder: &Path, header: &PsinsHe
         decimals(header.gravity)
     ));
     page.remark("  axes: x right, y forward, z up");
-    page.optional("gyro.axes", r#"["x", "y", "z"]"#, "if the axes are others, with signs");
+    page.optional("gyro.axes", r#"["x", "y", "z"]"#, "if the axes differ, with signs");
     page.optional("accel.axes", r#"["x", "y", "z"]"#, "likewise");
     page.blank();
     page.remark(
-        "The header's place is used unless [site] says another: latitude, longitude, height.",
+        "The place of the header is used unless [site] states another: latitude, longitude, height.",
     );
     page.remark(&format!(
-        "Its attitude (pitch {}, roll {}, yaw {} deg) comes without an uncertainty and is not used.",
+        "Its attitude (pitch {}, roll {}, yaw {} deg) has no uncertainty and is not used.",
         decimals(attitude.pitch / DEG),
         decimals(attitude.roll / DEG),
         decimals(attitude.yaw / DEG)
@@ -79,7 +79,7 @@ pub(super) fn write(page: &mut Page, log: &Path, folder: &Path, header: &PsinsHe
     sections::attitude(page);
     page.blank();
     page.remark(
-        "A PSINS log has no table angle. If the IMU was turned, the commanded motion is needed.",
+        "A PSINS log has no table angle. If the IMU was rotated, the commanded motion is needed.",
     );
     sections::profile(page);
     sections::imu(page);

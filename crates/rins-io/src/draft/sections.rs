@@ -6,7 +6,7 @@ use crate::log::Delimiter;
 
 pub(super) fn site(page: &mut Page) {
     page.blank();
-    page.remark("Where the table stands:");
+    page.remark("Site of the table:");
     page.closed_section("site");
     page.leave("latitude", r#""? deg""#, "north positive");
     page.leave("longitude", r#""? deg""#, "east positive");
@@ -27,7 +27,7 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
         Delimiter::Semicolon => "semicolons",
         Delimiter::Comma => "commas",
         Delimiter::Blanks => "blanks",
-        Delimiter::Other(_) => "what its first line says",
+        Delimiter::Other(_) => "the delimiter of its first line",
     };
     let header = if sample.names.is_some() {
         "named by a header"
@@ -36,9 +36,9 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
     };
     let (count, rows) = (sample.count, sample.rows());
     let rows = if sample.whole {
-        format!("All {rows} rows were looked at.")
+        format!("All {rows} rows were read.")
     } else {
-        format!("{rows} rows from all through the log were looked at.")
+        format!("{rows} rows, distributed over the log, were read.")
     };
     page.remark(&format!("{count} columns between {between}, {header}."));
     page.remark(&rows);
@@ -55,9 +55,9 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
 pub(super) fn attitude(page: &mut Page) {
     page.blank();
     page.remark(
-        "The attitude of the table's axis frame at table angle zero, east-north-up. It may be left",
+        "The attitude of the axis frame at table angle zero, east-north-up. It may be left",
     );
-    page.remark("out where the log begins with a rest from which it can be found (`rins align`).");
+    page.remark("out if the log begins with a static interval for the alignment (`rins align`).");
     page.closed_section("attitude");
     page.optional("roll", r#""? deg""#, "about y, north at yaw zero");
     page.optional("pitch", r#""? deg""#, "about x, east at yaw zero");
@@ -70,14 +70,14 @@ pub(super) fn profile(page: &mut Page) {
     page.optional(
         "profile",
         r#"[{ rate = "? deg/s", duration = "? s" }]"#,
-        "what was commanded from the first row on",
+        "the commanded motion from the first row on",
     );
 }
 
 pub(super) fn imu(page: &mut Page) {
     page.blank();
     page.remark(
-        "What the data sheets say. `rins check` does without; calibration needs all of it.",
+        "Data sheets of the sensors. `rins check` does not need them; calibration needs all values.",
     );
     page.closed_section("imu.gyro");
     page.leave(
@@ -85,9 +85,9 @@ pub(super) fn imu(page: &mut Page) {
         r#""? deg/h/sqrt(Hz)""#,
         "white noise; or as an angle random walk, \"? deg/sqrt(h)\"",
     );
-    page.leave("bias_sigma", r#""? deg/h""#, "how large biases are, 1 sigma");
-    page.leave("scale_sigma", r#""? ppm""#, "how large scale factor errors are, 1 sigma");
-    page.leave("misalignment_sigma", r#""? arcsec""#, "how large misalignments are, 1 sigma");
+    page.leave("bias_sigma", r#""? deg/h""#, "biases, 1 sigma");
+    page.leave("scale_sigma", r#""? ppm""#, "scale errors, 1 sigma");
+    page.leave("misalignment_sigma", r#""? arcsec""#, "misalignments, 1 sigma");
     page.closed_section("imu.accel");
     page.leave(
         "noise",
@@ -101,7 +101,7 @@ pub(super) fn imu(page: &mut Page) {
 
 pub(super) fn default_spin(page: &mut Page) {
     page.blank();
-    page.remark("The body axis that the table turns about.");
+    page.remark("The body axis along the spin axis of the table.");
     page.closed_section("axis");
     page.optional("spin", r#""z""#, "z unless another is given, such as \"-x\"");
 }

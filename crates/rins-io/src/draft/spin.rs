@@ -13,6 +13,6 @@ pub(super) fn spin(page: &mut Page, sample: &Sample, channels: &Channels) {
     let Some((axis, share)) = found else { return default_spin(page) };
     page.section("axis");
     let share = (share * 1e3).floor() / 10.0;
-    let by = if table.is_some() { " as the table moves" } else { "" };
-    page.guess("spin", &text(&axis), &format!("{share} % of the turning is about it{by}"));
+    let by = if table.is_some() { " during the table motion" } else { "" };
+    page.guess("spin", &text(&axis), &format!("{share} % of the rotation is about it{by}"));
 }

@@ -82,10 +82,8 @@ pub(super) fn write(page: &mut Page, findings: Findings<'_>, table: Option<&Tabl
     }
     if table.is_none() {
         page.blank();
-        page.remark(
-            "No column is called after a table or encoder. Calibration needs to know the motion:",
-        );
-        page.remark("a table_angle or table_rate above, or what was commanded:");
+        page.remark("No column has the name of a table or encoder. Calibration needs the motion:");
+        page.remark("a table_angle or table_rate above, or the commanded motion:");
         sections::profile(page);
     }
 }
@@ -111,7 +109,11 @@ impl Table {
         if self.is_angle {
             page.optional(&key("noise"), r#""? arcsec""#, "the encoder's white noise, 1 sigma");
             page.optional(&key("resolution"), r#""? arcsec""#, "its least significant bit");
-            page.optional(&key("latency"), r#""? ms""#, "by how much it is late");
+            page.optional(
+                &key("latency"),
+                r#""? ms""#,
+                "positive if the angle is older than the IMU sample",
+            );
         }
     }
 }

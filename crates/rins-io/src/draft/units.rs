@@ -95,15 +95,18 @@ impl Surroundings<'_> {
         let mut seen = Vec::new();
         if let Some(turn) = self.by_table(gyro) {
             if let Some(text) = unique(&candidates, turn, &[1.03]) {
-                return found(text, "the gyros then turn as the table does");
+                return found(text, "the rotation of the gyros then equals that of the table");
             }
             seen.push(self.one_count("the table's motion", turn));
         }
         if let Some(turn) = self.by_gravity(gyro).map(f64::abs) {
             if let Some(text) = unique(&candidates, turn, &[1.05, 1.6]) {
-                return found(text, "gravity then turns in the accelerometers as the gyros say");
+                return found(
+                    text,
+                    "the rotation of gravity in the accelerometers then equals that of the gyros",
+                );
             }
-            seen.push(self.one_count("the turning of gravity", turn));
+            seen.push(self.one_count("the rotation of gravity", turn));
         }
         if let (Some(rate), Some(interval)) = (least_rate(self.sample, gyro), self.interval) {
             if let Some(text) = unique(&candidates, EARTH_RATE * interval / rate, &[1.05, 1.3]) {
@@ -113,7 +116,7 @@ impl Surroundings<'_> {
             }
             seen.push(format!("the quietest rows read {}", short(rate)));
         }
-        Err(if seen.is_empty() { "the numbers do not tell".into() } else { seen.join("; ") })
+        Err(if seen.is_empty() { "the data do not show it".into() } else { seen.join("; ") })
     }
 
     fn one_count(&self, by: &str, turn: f64) -> String {
@@ -137,13 +140,13 @@ pub(super) fn angle_unit(
     if let Some(jump) = wrap(sample, column)
         && let Some(text) = unique(&TABLE_ANGLES, TAU / jump, &[1.1])
     {
-        let why = format!("it jumps by {}, which is then a turn", short(jump));
+        let why = format!("it jumps by {}, which is then one revolution", short(jump));
         return Some(UnitFound { text, why });
     }
     let (gyro, turn) = gyro?;
     let ratio = turning_of_table(sample, gyro, column, true)?;
     let text = unique(&TABLE_ANGLES, turn / ratio, &[1.1])?;
-    Some(UnitFound { text, why: "the table then turns as the gyros do".into() })
+    Some(UnitFound { text, why: "the rotation of the table then equals that of the gyros".into() })
 }
 
 /// The unit of the table's rate, by gyros as in [`angle_unit`].
@@ -156,7 +159,7 @@ pub(super) fn rate_unit(
     let (gyro, turn) = gyro?;
     let ratio = turning_of_table(sample, gyro, column, false)?;
     let text = unique(&RATES, turn / interval? / ratio, &[1.1])?;
-    Some(UnitFound { text, why: "the table then turns as the gyros do".into() })
+    Some(UnitFound { text, why: "the rotation of the table then equals that of the gyros".into() })
 }
 
 /// The units of rates and increments, each with what one number adds from row to row in SI units.

@@ -36,7 +36,7 @@ use crate::rig::{LogFormat, Rig};
 pub struct Loaded {
     /// What the rig file says.
     pub rig: Rig,
-    /// Where the table stands: by the rig file or, if that does not say, by the log's header.
+    /// Site of the table: of the rig file or else of the header of the log.
     pub station: Station,
     /// What was recorded, along the body axes whose z is the spin axis.
     pub recording: Recording,

@@ -86,7 +86,7 @@ pub enum LogProblem {
         text: String,
     },
     /// A number is larger than any that is measured.
-    #[error("column {column:?}: {value:e} {unit} is beyond reason; check that line and the unit")]
+    #[error("column {column:?}: {value:e} {unit} is not plausible; check this line and the unit")]
     BeyondReason {
         /// The column.
         column: String,
@@ -137,7 +137,7 @@ pub enum LogProblem {
     /// The gaps are too much of a log's time.
     #[error(
         "{count} gaps are {lost:.6} s of the log's {lasting:.6} s, more than {:.0} %; are its time \
-         stamps those of samples, or of the packets that brought them?", most * 100.0
+         stamps those of samples, or of packets?", most * 100.0
     )]
     ManyGaps {
         /// How many there are.
@@ -151,8 +151,8 @@ pub enum LogProblem {
     },
     /// Increments are missing, and nothing says what became of them.
     #[error(
-        "a gap of {length:.6} s after {after} s in a log of increments; say in [log] whether the \
-         next increment covers it: gaps = \"accumulated\" or gaps = \"held\""
+        "a gap of {length:.6} s after {after} s in a log of increments; state in [log] whether the next \
+         increment covers it: gaps = \"accumulated\" or gaps = \"held\""
     )]
     LostIncrements {
         /// How long it is \[s\].
@@ -161,7 +161,7 @@ pub enum LogProblem {
         after: f64,
     },
     /// The samples do not follow each other at the rate that the rig says.
-    #[error("the time column says {measured:.3} Hz, [log] rate says {stated:.3} Hz")]
+    #[error("the rate is {measured:.3} Hz in the time column and {stated:.3} Hz in [log] rate")]
     WrongRate {
         /// The rate of the samples \[Hz\].
         measured: f64,
@@ -178,8 +178,8 @@ pub enum LogProblem {
     },
     /// The table angle steps so far that its direction cannot be told.
     #[error(
-        "the table angle moves by {turns:.3} of a turn in one sample, so its direction cannot be \
-         told; log it more often, or not wrapped"
+        "the table angle moves by {turns:.3} of a turn in one sample, so its direction is ambiguous; log \
+         it at a higher rate, or unwrapped"
     )]
     AmbiguousAngle {
         /// The step, in turns.
@@ -275,13 +275,13 @@ pub enum LogProblem {
         codec: String,
     },
     /// The same row over and over, as where a file has a hole or a logger hangs.
-    #[error("the same as the row before, as are {times} rows after it; has the file a hole?")]
+    #[error("equal to the previous row, as are {times} rows after it; does the file have a gap?")]
     SameRow {
         /// How many more there are, at least.
         times: u64,
     },
     /// A column holds no numbers, or not one a row.
-    #[error("column {column:?} is {found}, expected one number a row")]
+    #[error("column {column:?} is {found}, expected one number per row")]
     WrongColumn {
         /// The column.
         column: String,
@@ -295,7 +295,7 @@ pub enum LogProblem {
     #[error("a message without a checksum; is the line cut short?")]
     NoChecksum,
     /// A message is not what was sent.
-    #[error("the checksum is {found:08x}, the line says {stated:?}; the line is damaged")]
+    #[error("the checksum is {found:08x}, but {stated:?} in the line; the line is damaged")]
     Checksum {
         /// What the message says it is.
         stated: String,

@@ -84,7 +84,7 @@ impl Kind {
 pub(crate) const MOST_LATITUDE: f64 = 89.9;
 /// What a latitude should be.
 pub(crate) const LATITUDE_RANGE: &str = "a latitude from -89.9 to 89.9 deg; the poles at -90 and \
-                                         90 deg are left out: east is not defined there";
+                                         90 deg are excluded: east is not defined there";
 
 /// A latitude, north positive.
 pub const LATITUDE: Kind = Kind::new(
@@ -135,8 +135,8 @@ pub const ATTITUDE_SIGMA: Kind = Kind::new(
     "0.1 deg",
     Range::PositiveUpTo {
         high: 20.0 * DEG,
-        words: "more than zero and at most 20 deg; leave [attitude] out if it is known no better, \
-                and it is aligned",
+        words: "more than zero and at most 20 deg; leave [attitude] out if it is less accurate; it is \
+                then found by alignment",
     },
 );
 /// The standard deviation of a small angle.

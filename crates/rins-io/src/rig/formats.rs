@@ -57,7 +57,7 @@ impl Fixed {
         path: &Path,
     ) -> Result<ColumnSpec, IoError> {
         let name = self.name();
-        refuse_own(log, &["time"], &format!("where the time stands in a {name} log is fixed"))?;
+        refuse_own(log, &["time"], &format!("the time column of a {name} log is fixed"))?;
         let own: &[&str] = match self {
             Self::NovAtel if !log.has("imu") => &["path", "columns", "offset", "time"],
             _ => &["path", "columns", "unit", "scale", "offset", "time"],

@@ -112,7 +112,7 @@ fn of_format(
             refuse_own(log, &own, "a psins log has no such column")?;
             let own = ["path", "time", "columns", "unit", "scale", "offset"];
             for triad in [gyro, accel].into_iter().flatten() {
-                refuse_own(triad, &own, "a psins log's header says so itself")?;
+                refuse_own(triad, &own, "the header of a psins log states it")?;
             }
             Ok(spec)
         }
@@ -296,7 +296,9 @@ fn temperature(
     let Some(section) = log.inline("temperature", &known)? else { return Ok(None) };
     let file = match section.text("path", PATH)? {
         None if section.has("time") => {
-            return Err(section.conflict("time", "a temperature in the log itself has its time"));
+            return Err(
+                section.conflict("time", "a temperature in the log itself has the time of the log")
+            );
         }
         None => None,
         Some(path) => {

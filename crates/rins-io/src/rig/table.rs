@@ -52,7 +52,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
                 .map_err(|error| table.conflict("profile", error.to_string()))?,
         ),
         None if sense < 0.0 => {
-            return Err(table.conflict("sense", "a sense without a profile"));
+            return Err(table.conflict("sense", "it needs a profile"));
         }
         None => None,
     };

@@ -80,8 +80,8 @@ impl SoundPages {
     fn refuse_unsound(&mut self, page: &Page) -> Result<()> {
         let damaged = |message: &str| Err(ParquetError::General(message.into()));
         let (few_texts, few_numbers) = (
-            "a page of fewer texts than it says, or of an unknown encoding",
-            "a page of fewer numbers than it says",
+            "a page with fewer strings than declared, or with an unknown encoding",
+            "a page with fewer numbers than declared",
         );
         match page {
             Page::DictionaryPage { buf, .. } => {
@@ -99,7 +99,7 @@ impl SoundPages {
                 let known =
                     |encoding: &Encoding| matches!(encoding, Encoding::RLE | Encoding::BIT_PACKED);
                 if !(known(def_level_encoding) && known(rep_level_encoding)) {
-                    return damaged("levels of an encoding that levels do not have");
+                    return damaged("levels with an invalid encoding");
                 }
             }
             Page::DataPageV2 { .. } => {}
@@ -108,7 +108,7 @@ impl SoundPages {
             return damaged("levels that are longer than their page");
         };
         if self.walk(page, &parts).is_err() {
-            return damaged("a number without an end");
+            return damaged("an unterminated number");
         }
         let by_dictionary = is_of_dictionary(page.encoding());
         if self.texts && !by_dictionary && !holds_its_texts(page, parts.values) {
@@ -119,7 +119,7 @@ impl SoundPages {
             return damaged(few_numbers);
         }
         if by_dictionary && !self.has_dictionary {
-            return damaged("a page of a dictionary that is not there");
+            return damaged("a page without its dictionary");
         }
         match self.left.checked_sub(page.num_values().into()) {
             Some(left) => self.left = left,

@@ -54,7 +54,7 @@ impl<R: ChunkReader> ChunkReader for Whole<R> {
         let mut head = vec![0; if is_footer { 0 } else { HEAD }];
         rest.read_exact(&mut head)?;
         if !is_footer && grown(&head)? > self.most {
-            return Err(ParquetError::General("a page that says it is larger than any".into()));
+            return Err(ParquetError::General("a page with an implausible declared size".into()));
         }
         Ok(Ended(Cursor::new(head).chain(rest)))
     }
@@ -88,7 +88,7 @@ mod tests {
             whole.get_read(0).map(|_| ()).map_err(|error| error.to_string())
         };
         assert_eq!(read(page(&[0xf0, 0x2e])), Ok(()));
-        let large = "Parquet error: a page that says it is larger than any";
+        let large = "Parquet error: a page with an implausible declared size";
         assert_eq!(read(page(&[0xf2, 0x2e])), Err(large.into()));
         assert_eq!(read(page(&[0xfe, 0xff, 0xff, 0xff, 0x0f])), Err(large.into()));
         assert_eq!(read([0x19; 20].into()), Err("Parquet error: a page without its sizes".into()));

@@ -212,7 +212,8 @@ fn a_file_is_of_the_oldest_version_that_can_hold_it() {
 const BEYOND_CASES: &[(&str, &str, &str)] = &[
     ("\"accel_lever_arm\"\n", "\"gyro.scale\"\n", "term[1].r_x: unknown key, expected one of x, y, z, id, estimate, sigma"),
     ("\"accel_lever_arm\"\nr_x = \"4 mm\"\nr_y = \"-2.5 mm\"\nsigma = { r_x = \"0.5 mm\", r_y = \"0.5 mm\" }", "\"gyro.scale\"", "term[1].id: gyro.scale stands in [gyro]"),
-    ("\"accel_lever_arm\"\nr_x = \"4 mm\"\nr_y = \"-2.5 mm\"\nsigma = { r_x = \"0.5 mm\", r_y = \"0.5 mm\" }", "\"stuck_samples\"", "term[1].id: stuck_samples cannot be undone"),
+    ("\"accel_lever_arm\"\nr_x = \"4 mm\"\nr_y = \"-2.5 mm\"\nsigma = { r_x = \"0.5 mm\", r_y = \"0.5 \
+      mm\" }", "\"stuck_samples\"", "term[1].id: stuck_samples cannot be compensated"),
     ("\"4 mm\"", "\"4 deg\"", "term[1].r_x: \"4 deg\" is an angle, expected a length such as \"1 mm\""),
     ("order = 3", "order = 1", "term[3].order: 1 is not allowed, expected from 2 to 1000000"),
     ("\"gyro.scale.z\", ", "\"gyro.scale.w\", ", "[covariance] ids: \"gyro.scale.w\" is no parameter of this calibration"),

@@ -24,11 +24,11 @@ fn damaged_parquet_files_are_refused() {
     );
     assert_eq!(
         said("a.parquet", include_bytes!("../data/damaged/no_dictionary.parquet")),
-        "a.parquet: not a Parquet file, or a damaged one: Parquet error: a page of a dictionary that is not there"
+        "a.parquet: not a Parquet file, or a damaged one: Parquet error: a page without its dictionary"
     );
     assert_eq!(
         said("a.parquet", include_bytes!("../data/damaged/short_page.parquet")),
-        "a.parquet: not a Parquet file, or a damaged one: Parquet error: a page of fewer numbers than it says"
+        "a.parquet: not a Parquet file, or a damaged one: Parquet error: a page with fewer numbers than declared"
     );
 }
 

@@ -91,7 +91,7 @@ fn file_with_a_hole_is_refused_where_the_hole_begins() {
         file.set_len((rows * 56) as u64 + (1 << 40)).unwrap();
         let refused = read(&folder.path().join("rig.toml")).unwrap_err();
         let refused = without(&refused, folder.path());
-        let expected = format!("run.bin:{}: the same as the row before, as are 10", rows + 2);
+        let expected = format!("run.bin:{}: equal to the previous row, as are 10", rows + 2);
         assert!(refused.starts_with(&expected), "{refused}");
     }
 }
@@ -221,9 +221,9 @@ fn parquet_columns_that_are_no_numbers_are_refused() {
     let refused =
         |from: &str, to: &str| load(&PARQUET.replace(from, to), "snappy.parquet").unwrap_err();
     let text = refused("\"gy\"", "\"word\"");
-    assert_eq!(text, "snappy.parquet: column \"word\" is BYTE_ARRAY, expected one number a row");
+    assert_eq!(text, "snappy.parquet: column \"word\" is BYTE_ARRAY, expected one number per row");
     let list = refused("\"gy\"", "\"list.list.element\"");
-    assert!(list.contains("expected one number a row"), "{list}");
+    assert!(list.contains("expected one number per row"), "{list}");
     let hole = refused("\"gy\"", "\"hole\"");
     assert_eq!(hole, "snappy.parquet:10: column \"hole\": empty, expected a number");
     let missing = refused("\"gy\"", "\"gyy\"");

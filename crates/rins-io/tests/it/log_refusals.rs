@@ -48,11 +48,15 @@ const LINES: &[(usize, &str, &str)] = &[
     (17, "-0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to -0.32 s, it must increase"),
     (41, "3.25,1e-6,1e-6,1e-6,0.1,0.2,9.8,40", "run.csv:41: a gap of 2.470000 s after 0.78 s, more than 1 s; cut the log there"),
     // Beyond reason.
-    (17, "0.32,1e300,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": 1e300 rad/s is beyond reason; check that line and the unit"),
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,-2e9,16", "run.csv:17: column \"az\": -2e9 m/s^2 is beyond reason; check that line and the unit"),
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,360e9", "run.csv:17: column \"table\": 6.283185307179586e9 rad is beyond reason; check that line and the unit"),
+    (17, "0.32,1e300,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": 1e300 rad/s is not \
+          plausible; check this line and the unit"),
+    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,-2e9,16", "run.csv:17: column \"az\": -2e9 m/s^2 is not plausible; \
+          check this line and the unit"),
+    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,360e9", "run.csv:17: column \"table\": 6.283185307179586e9 rad \
+          is not plausible; check this line and the unit"),
     // The table angle, in degrees.
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,185", "run.csv:17: the table angle moves by 0.472 of a turn in one sample, so its direction cannot be told; log it more often, or not wrapped"),
+    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,185", "run.csv:17: the table angle moves by 0.472 of a turn in \
+          one sample, so its direction is ambiguous; log it at a higher rate, or unwrapped"),
 ];
 
 #[test]
@@ -115,13 +119,13 @@ fn a_rate_that_does_not_fit_is_refused() {
     check(
         &replaced(RIG, "rate = \"50 Hz\"", "rate = \"51 Hz\""),
         log(40),
-        "run.csv: the time column says 50.000 Hz, [log] rate says 51.000 Hz",
+        "run.csv: the rate is 50.000 Hz in the time column and 51.000 Hz in [log] rate",
     );
     // Taking milliseconds for seconds is the same mistake.
     check(
         &replaced(RIG, "unit = \"s\"", "unit = \"ms\""),
         log(40),
-        "run.csv: the time column says 50000.000 Hz, [log] rate says 50.000 Hz",
+        "run.csv: the rate is 50000.000 Hz in the time column and 50.000 Hz in [log] rate",
     );
 }
 
@@ -150,8 +154,8 @@ fn lost_increments_are_not_guessed() {
     check(
         &rig,
         lines.join("\n"),
-        "run.csv:21: a gap of 0.040000 s after 0.38 s in a log of increments; say in [log] whether \
-         the next increment covers it: gaps = \"accumulated\" or gaps = \"held\"",
+        "run.csv:21: a gap of 0.040000 s after 0.38 s in a log of increments; state in [log] whether the \
+         next increment covers it: gaps = \"accumulated\" or gaps = \"held\"",
     );
 }
 
@@ -188,8 +192,8 @@ fn stamps_that_are_no_samples_are_refused() {
     check(
         &plain,
         stamped(&|index| (index / 4) as f64 * 0.08 + (index % 4) as f64 * 1e-6),
-        "run.csv: 10 gaps are 0.799970 s of the log's 0.799999 s, more than 50 %; are its time \
-         stamps those of samples, or of the packets that brought them?",
+        "run.csv: 10 gaps are 0.799970 s of the log's 0.799999 s, more than 50 %; are its time stamps \
+         those of samples, or of packets?",
     );
     check(
         &plain,
@@ -240,7 +244,7 @@ fn temperatures_must_cover_the_log() {
     );
     assert_eq!(
         files("t,T\n0.01,20\n0.6,-999\n"),
-        "t.csv:3: column \"T\": -9.99e2 degC is beyond reason; check that line and the unit"
+        "t.csv:3: column \"T\": -9.99e2 degC is not plausible; check this line and the unit"
     );
     assert_eq!(files("t,T\n0.5,20\n0.6,warm\n"), "t.csv:3: column \"T\": \"warm\" is not a number");
 }
@@ -260,7 +264,8 @@ const PSINS_CASES: &[(&str, &str, &str)] = &[
     (
         "34.2 108.9",
         "94.2 108.9",
-        "laser.imu:4: the header's latitude is 94.2, expected a latitude from -89.9 to 89.9 deg; the poles at -90 and 90 deg are left out: east is not defined there",
+        "laser.imu:4: the header's latitude is 94.2, expected a latitude from -89.9 to 89.9 deg; the \
+         poles at -90 and 90 deg are excluded: east is not defined there",
     ),
     (
         "0 10 9.78",
@@ -319,7 +324,7 @@ fn wrong_psins_logs_are_refused() {
             "another rate",
             PSINS,
             &faster,
-            "laser.imu: the time column says 100.000 Hz, [log] rate says 200.000 Hz",
+            "laser.imu: the rate is 100.000 Hz in the time column and 200.000 Hz in [log] rate",
         ),
         (
             "a gyro that says one thing",

@@ -74,7 +74,7 @@ fn a_table_profile_is_counted_in_the_sense_that_is_stated() {
         assert!(table.segments[0].rate.is_sign_positive());
     }
     let error = table("sense = \"reversed\"\n").unwrap_err().to_string();
-    assert!(error.contains("[table] sense") && error.contains("without a profile"), "{error}");
+    assert!(error.contains("[table] sense") && error.contains("it needs a profile"), "{error}");
     let error = table(&format!("sense = \"backwards\"\n{profile}")).unwrap_err().to_string();
     assert!(error.contains("[table] sense") && error.contains("reversed"), "{error}");
 }
@@ -122,14 +122,20 @@ const CASES: &[(&str, &str, &str)] = &[
     ("bias_sigma = \"200 ug\"", "bias_sigma = \"5 rad/s\"", "rig.toml:29: [imu.accel] bias_sigma: \"5 rad/s\" is an angular rate, expected an acceleration such as \"100 ug\""),
     ("scale_sigma = \"300 ppm\"", "scale_sigma = \"3 mm\"", "rig.toml:30: [imu.accel] scale_sigma: \"3 mm\" is a length, expected a ratio such as \"300 ppm\""),
     ("misalignment_sigma = \"60 arcsec\"", "misalignment_sigma = \"60 ppm\"", "rig.toml:31: [imu.accel] misalignment_sigma: \"60 ppm\" is a ratio, expected an angle such as \"60 arcsec\""),
-    ("latitude = \"34.25 deg\"", "latitude = \"95 deg\"", "rig.toml:3: [site] latitude: \"95 deg\" is out of range, expected a latitude from -89.9 to 89.9 deg; the poles at -90 and 90 deg are left out: east is not defined there"),
+    ("latitude = \"34.25 deg\"", "latitude = \"95 deg\"", "rig.toml:3: [site] latitude: \"95 deg\" is \
+      out of range, expected a latitude from -89.9 to 89.9 deg; the poles at -90 and 90 deg are \
+      excluded: east is not defined there"),
     ("longitude = \"108.9 deg\"", "longitude = \"1089 deg\"", "rig.toml:4: [site] longitude: \"1089 deg\" is out of range, expected a longitude from -360 to 360 deg"),
     ("height = \"400 m\"", "height = \"400 km\"", "rig.toml:5: [site] height: \"400 km\" is out of range, expected a height from -1 to 20 km"),
     ("height = \"400 m\"", "height = \"400 m\"\ngravity = \"1 g\"\ngravit = 3", "rig.toml:7: [site] gravit: unknown key; did you mean \"gravity\"?"),
     ("height = \"400 m\"", "height = \"400 m\"\ngravity = \"9.5 m/s^2\"", "rig.toml:6: [site] gravity: \"9.5 m/s^2\" is out of range, expected a gravity from 9.7 to 9.9 m/s^2"),
     ("pitch = \"20 deg\"", "pitch = \"91 deg\"", "rig.toml:17: [attitude] pitch: \"91 deg\" is out of range, expected a pitch from -90 to 90 deg"),
-    ("sigma = \"0.1 deg\"", "sigma = \"-0.1 deg\"", "rig.toml:19: [attitude] sigma: \"-0.1 deg\" is out of range, expected more than zero and at most 20 deg; leave [attitude] out if it is known no better, and it is aligned"),
-    ("sigma = \"0.1 deg\"", "sigma = \"21 deg\"", "rig.toml:19: [attitude] sigma: \"21 deg\" is out of range, expected more than zero and at most 20 deg; leave [attitude] out if it is known no better, and it is aligned"),
+    ("sigma = \"0.1 deg\"", "sigma = \"-0.1 deg\"", "rig.toml:19: [attitude] sigma: \"-0.1 deg\" is out \
+      of range, expected more than zero and at most 20 deg; leave [attitude] out if it is less accurate; \
+      it is then found by alignment"),
+    ("sigma = \"0.1 deg\"", "sigma = \"21 deg\"", "rig.toml:19: [attitude] sigma: \"21 deg\" is out of \
+      range, expected more than zero and at most 20 deg; leave [attitude] out if it is less accurate; it \
+      is then found by alignment"),
     ("rate = \"50 Hz\"", "rate = \"0 Hz\"", "rig.toml:9: [log] rate: \"0 Hz\" is out of range, expected a sampling rate from 0.001 Hz to 1 MHz"),
     ("rate = \"50 Hz\"", "rate = \"50 rad/s\"", "rig.toml:9: [log] rate: \"50 rad/s\" is an angular rate, expected a sampling rate such as \"50 Hz\""),
     // Units and choices of the log.
@@ -150,7 +156,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("unit = \"m/s^2\"", "unit = \"m/s^2\", time = { column = \"t\", unit = \"s\" }", "rig.toml:12: [log] accel.time: accelerometers in the gyros' file have the gyros' time; give theirs a path"),
     ("path = \"run.csv\"", "path = \"run.csv\"\nformat = \"psin\"", "rig.toml:9: [log] format: \"psin\" is not known; did you mean \"psins\"?"),
     ("path = \"run.csv\"", "path = \"run.imu\"\nformat = \"psins\"", "rig.toml:11: [log] time: a psins log has no such column"),
-    ("path = \"run.csv\"", "path = \"run.imu\"\nformat = \"kf-gins\"", "rig.toml:11: [log] time: where the time stands in a kf-gins log is fixed"),
+    ("path = \"run.csv\"", "path = \"run.imu\"\nformat = \"kf-gins\"", "rig.toml:11: [log] time: the time column of a kf-gins log is fixed"),
     // Tables and axes.
     ("[attitude]", "[table]\nprofile = []\n[attitude]", "rig.toml:16: [table] profile: a table profile needs at least one segment"),
     ("[attitude]", "[table]\nprofile = \"fast\"\n[attitude]", "rig.toml:16: [table] profile: \"fast\" is a text, expected a list of tables with the keys rate, duration"),
@@ -165,7 +171,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("unit = \"deg\", noise", "unit = \"deg\", latency = \"1 m\", noise", "rig.toml:13: [log] table_angle.latency: \"1 m\" is a length, expected a time such as \"1 ms\""),
     ("unit = \"deg\", noise", "unit = \"deg\", sense = \"reverse\", noise", "rig.toml:13: [log] table_angle.sense: \"reverse\" is not known; did you mean \"reversed\"?"),
     ("[attitude]", "temperature = { column = \"T\", unit = \"degF\" }\n[attitude]", "rig.toml:15: [log] temperature.unit: \"degF\" is not known; did you mean \"degC\"?"),
-    ("[attitude]", "temperature = { column = \"T\", time = \"t\", unit = \"degC\" }\n[attitude]", "rig.toml:15: [log] temperature.time: a temperature in the log itself has its time"),
+    ("[attitude]", "temperature = { column = \"T\", time = \"t\", unit = \"degC\" }\n[attitude]", "rig.toml:15: [log] temperature.time: a temperature in the log itself has the time of the log"),
 ];
 
 #[test]

@@ -230,7 +230,7 @@ fn the_rig_of_a_run_keeps_what_was_written() {
     let file = parse(SCENARIO).unwrap();
     let recording = simulate(&file.scenario).unwrap().recording;
     let expected = concat!(
-        r#"# A simulated run: where it was measured, and with what.
+        r#"# A simulated run: site, log and IMU.
 
 "#,
         site!(),

@@ -88,14 +88,14 @@ pub enum FineAlignmentError {
     Coarse(#[from] AlignmentError),
     /// The span holds too little to align on.
     #[error(
-        "{duration:.2} s are too short to align on: two seconds are needed, and at least four samples"
+        "{duration:.2} s are too short for an alignment: two seconds are needed, and at least four samples"
     )]
     TooShort {
         /// How long it is \[s\].
         duration: f64,
     },
     /// The filter broke off.
-    #[error("the alignment filter broke off")]
+    #[error("the alignment filter failed")]
     Update(#[from] UpdateError),
 }
 

@@ -193,5 +193,5 @@ fn gyros_that_do_not_show_the_earth_are_refused() {
         sample.angle += InFrame::new(1e-3 * INTERVAL, 0.0, 0.0);
     }
     let refused = align_finely(&run.recording, 0..SAMPLES, &station(), None).unwrap_err();
-    assert!(refused.to_string().contains("cannot find north"), "{refused}");
+    assert!(refused.to_string().contains("cannot determine north"), "{refused}");
 }

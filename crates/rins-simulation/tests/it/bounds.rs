@@ -71,7 +71,7 @@ fn impossible_effects_are_named() {
         let scenario = Scenario { effects: zero(1e-3), table, ..perfect() };
         assert_eq!(
             refusal(&scenario).to_string(),
-            "the effect encoder.zero needs a table angle that is read, which this run does not have"
+            "the effect encoder.zero needs a measured table angle, which this run does not have"
         );
     }
 }
@@ -103,7 +103,7 @@ fn table_that_turns_more_than_once_a_sample_is_refused() {
 fn impossible_noise_is_refused() {
     let noise = ImuNoise { accel: NoiseModel::white(-1.0), ..ImuNoise::default() };
     let error = refusal(&Scenario { noise: Some(noise), ..perfect() });
-    assert_eq!(error.to_string(), "the accelerometer noise is impossible");
+    assert_eq!(error.to_string(), "the accelerometer noise parameters are invalid");
 }
 
 #[test]

@@ -11,7 +11,7 @@ pub static ENCODER_ECCENTRICITY: Term = Term {
     id: "encoder_eccentricity",
     also: &[],
     name: "eccentricity of the encoder",
-    cause: "the disc of the encoder is eccentric: 412 arcsec per micrometer of eccentricity at a radius of 1 mm",
+    cause: "the disc of the encoder is eccentric: 412 arcsec for 1 µm of eccentricity at a diameter of 1 mm",
     equation: "angle += c cos ζ + s sin ζ",
     source: "geometry of one reading head",
     parameters: &cos_sin(Unit::ARCSEC, Prior::Anywhere(0.5, 100.0)),

@@ -149,7 +149,7 @@ pub static DROPPED_SAMPLES: Term = Term {
     id: "dropped_samples",
     also: &[],
     name: "dropped samples of the encoder",
-    cause: "angles are lost between encoder and log without a record: all later angles are assigned to earlier samples",
+    cause: "angles are lost between encoder and log without a record: all later ones are assigned to samples that are too early",
     equation: "angle = ζ(t + τ H(t - t0))",
     source: "pairing of records by their number",
     parameters: &[parameter("lost", Unit::MILLISECOND, Prior::Anywhere(1.0, 100.0))],

@@ -34,7 +34,8 @@ pub(super) fn refuse_too_large(grid: &ScenarioGrid, runs: u64, of: u64) -> anyho
         .sum();
     anyhow::ensure!(
         cells == 1 || samples <= MOST_SAMPLES,
-        "runs of {cells} scenarios have {samples:.3e} samples, which are more than {MOST_SAMPLES:.0e}; make several campaigns of them"
+        "runs of {cells} scenarios have {samples:.3e} samples, which are more than {MOST_SAMPLES:.0e}; \
+         split the grid into several campaigns"
     );
     Ok(())
 }

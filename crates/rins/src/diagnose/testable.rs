@@ -66,11 +66,11 @@ fn missing(runs: &[Run], term: &Term) -> String {
 const fn in_words(need: Need) -> &'static str {
     match need {
         Need::Temperature => "a temperature channel",
-        Need::TableAngle => "a table angle that is read",
-        Need::SeveralRates => "more than one rate of the table",
-        Need::Reversal => "turning both ways",
-        Need::Tilt => "an axis that is not vertical",
-        Need::SeveralTilts => "more than one direction of the axis",
-        Need::MagneticField => "a magnetic field that is known",
+        Need::TableAngle => "a measured table angle",
+        Need::SeveralRates => "more than one table rate",
+        Need::Reversal => "rotation in both directions",
+        Need::Tilt => "a spin axis that is not vertical",
+        Need::SeveralTilts => "more than one direction of the spin axis",
+        Need::MagneticField => "a known magnetic field",
     }
 }

@@ -145,7 +145,7 @@ const TIMES: &[Row] = &[
         "a table at a whole number of turns that no double can tell",
         CHECK,
         Field(60, "table_angle", "1e308"),
-        &["run.csv:60: column \"table_angle\": 1e308 rad is beyond reason"],
+        &["run.csv:60: column \"table_angle\": 1e308 rad is not plausible"],
     ),
     (
         "milliseconds of a slow clock for seconds",
@@ -159,7 +159,7 @@ const TIMES: &[Row] = &[
         "a leap to the end of time",
         CHECK,
         Field(1601, "time", "1e18"),
-        &["run.csv:1601: column \"time\": 1e18 s is beyond reason"],
+        &["run.csv:1601: column \"time\": 1e18 s is not plausible"],
     ),
 ];
 
@@ -195,7 +195,7 @@ const READINGS: &[Row] = &[
         Field(60, "table_angle", "2.9"),
         &[
             "run.csv:60: the table angle moves by 0.46",
-            "of a turn in one sample, so its direction cannot be told",
+            "of a turn in one sample, so its direction is ambiguous",
         ],
     ),
     (
@@ -216,7 +216,9 @@ const READINGS: &[Row] = &[
         "a run that hardly turns",
         CALIBRATE,
         Lines(LOG, 684),
-        &["run.csv: only 43 samples are left after the rest at the start; at least 100 are needed"],
+        &[
+            "run.csv: only 43 samples remain after the static interval at the start; at least 100 are needed",
+        ],
     ),
     (
         "no rest to align on",
@@ -235,35 +237,34 @@ const READINGS: &[Row] = &[
                 "",
             ),
         ]),
-        &[
-            "run.csv: the attitude of the axis is not given and the log does not start with 5 s of rest",
-        ],
+        &["run.csv: the attitude of the spin axis is not given and the log does not start with a \
+             static interval of 5 s"],
     ),
     (
         "a gyro reading that is finite, but only just",
         CHECK,
         Field(200, "gyro_x", "1e300"),
         &[
-            "run.csv:200: column \"gyro_x\": 1e300 rad is beyond reason; check that line and the unit",
+            "run.csv:200: column \"gyro_x\": 1e300 rad is not plausible; check this line and the unit",
         ],
     ),
     (
         "the same, calibrated",
         CALIBRATE,
         Field(200, "gyro_x", "-1e300"),
-        &["run.csv:200: column \"gyro_x\": -1e300 rad is beyond reason"],
+        &["run.csv:200: column \"gyro_x\": -1e300 rad is not plausible"],
     ),
     (
         "the same of an accelerometer",
         NAVIGATE,
         Field(200, "accel_y", "1e300"),
-        &["run.csv:200: column \"accel_y\": 1e300 m/s is beyond reason"],
+        &["run.csv:200: column \"accel_y\": 1e300 m/s is not plausible"],
     ),
     (
         "the same, aligned on",
         ALIGN,
         Field(200, "accel_z", "1e300"),
-        &["run.csv:200: column \"accel_z\": 1e300 m/s is beyond reason"],
+        &["run.csv:200: column \"accel_z\": 1e300 m/s is not plausible"],
     ),
     (
         "a table in degrees that is calibrated",
@@ -281,7 +282,7 @@ const READINGS: &[Row] = &[
         Replace("rig.toml", "unit = \"rad\"", "unit = \"rad\", axes = [\"x\", \"-y\", \"-z\"]"),
         &[
             "rig.toml: the gyro about the axis of rotation counts -1.0",
-            "the table's sense is opposite to the gyro's",
+            "the direction of rotation of the table is opposite to that of the gyro",
         ],
     ),
 ];

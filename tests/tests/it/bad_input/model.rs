@@ -40,7 +40,7 @@ const MODELS: &[Row] = &[
         "a model of nothing",
         MODEL,
         Content("model.toml", b"schema = 1\nbase = \"none\"\n"),
-        &["rig.toml: the model leaves no parameter to be estimated"],
+        &["rig.toml: the model has no parameter to estimate"],
     ),
     (
         "a diagnosis with no model file",
@@ -52,7 +52,7 @@ const MODELS: &[Row] = &[
         "a diagnosis of a model of nothing",
         "diagnose rig.toml --model model.toml",
         Content("model.toml", b"schema = 1\nbase = \"none\"\n"),
-        &["rig.toml: ", "the model leaves no parameter to be estimated"],
+        &["rig.toml: ", "the model has no parameter to estimate"],
     ),
     (
         "a diagnosis of two IMUs",

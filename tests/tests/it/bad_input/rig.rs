@@ -185,7 +185,7 @@ const LOG_KEYS: &[Row] = &[
         "wrong rate",
         CHECK,
         Replace(RIG, "32 Hz", "50 Hz"),
-        &["run.csv: the time column says 32.000 Hz, [log] rate says 50.000 Hz"],
+        &["run.csv: the rate is 32.000 Hz in the time column and 50.000 Hz in [log] rate"],
     ),
     (
         "missing column",

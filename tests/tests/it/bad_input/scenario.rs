@@ -133,7 +133,10 @@ const SCENARIOS: &[Row] = &[
         "a table faster than its log",
         SIMULATE,
         Replace(FILE, "10 deg/s", "12000 deg/s"),
-        &["scenario.toml: at 20 s the table turns at 209.4", "one turn a sample of 0.03125 s"],
+        &[
+            "scenario.toml: at 20 s the table rotates at 209.4",
+            "one revolution per sample of 0.03125 s",
+        ],
     ),
     (
         "latency",

@@ -50,7 +50,7 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
     (
         "a gyro triad upside down",
         Replace(RIG, "unit = \"rad\"", "unit = \"rad\", axes = [\"x\", \"-y\", \"-z\"]"),
-        "the table's sense is opposite to the gyro's",
+        "the direction of rotation of the table is opposite to that of the gyro",
     ),
     (
         "exchanged gyros",
@@ -63,7 +63,7 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
             Replace(RIG, "unit = \"m/s\"", "unit = \"m/s^2\""),
             Replace(RIG, "unit = \"rad\"", "unit = \"rad\", axes = [\"x\", \"-y\", \"-z\"]"),
         ]),
-        "the table's sense is opposite to the gyro's",
+        "the direction of rotation of the table is opposite to that of the gyro",
     ),
 ];
 

@@ -215,10 +215,12 @@ impl Found {
             return Err(Problem::Log(LogProblem::ManyColumns { most: MOST_COLUMNS }));
         }
         if matrix.is_complex {
-            return Err(Problem::Log(damaged("a column of complex numbers is asked for")));
+            return Err(Problem::Log(damaged("a column has complex numbers")));
         }
         let data = elements.data(rows, columns)?.ok_or_else(|| {
-            Problem::Log(damaged(&format!("{name} has not as many numbers as its size says")))
+            Problem::Log(damaged(&format!(
+                "{name} has a number of values that differs from its size"
+            )))
         })?;
         for column in 0..columns {
             let asked: Vec<usize> =
@@ -240,7 +242,7 @@ impl Found {
         for (name, list) in asked.iter().zip(&mut self.lists) {
             let Some(list) = list.take() else {
                 let missing = place(name, &self.present).err();
-                return Err(missing.unwrap_or_else(|| damaged("a variable is there twice")));
+                return Err(missing.unwrap_or_else(|| damaged("a variable occurs twice")));
             };
             if let Some(first) = lists.first()
                 && first.len() != list.len()

@@ -97,7 +97,8 @@ fn gyros_are_measured_by_the_table_or_by_the_earth() {
         let with_table = log(&level, names, gyro, accel, (1.0, DEG));
         let at_rest: Vec<&str> = with_table.lines().take(1000).collect();
         let without = at_rest.join("\n").replacen("table (deg)", "other", 1);
-        for (text, why) in [(with_table.as_str(), "as the table does"), (&without, "Earth's rate")]
+        for (text, why) in
+            [(with_table.as_str(), "equals that of the table"), (&without, "Earth's rate")]
         {
             let folder = folder(&[("run.csv", text.as_bytes())]);
             let draft = draft(folder.path(), "run.csv");
@@ -161,10 +162,10 @@ fn a_header_that_gravity_contradicts_is_doubted() {
     let folder = folder(&[("run.csv", log.as_bytes())]);
     let draft = draft(folder.path(), "run.csv");
     let why = |key: &str| draft.guesses.iter().find(|guess| guess.key == key).unwrap().why.clone();
-    assert_eq!(why("log.accel.unit"), "so the header says, but gravity is then 96.08 m/s^2");
+    assert_eq!(why("log.accel.unit"), "stated in the header, but gravity is then 96.08 m/s^2");
     assert_eq!(
         why("log.gyro.unit"),
-        "so the header says, but they then turn 0.01746 times as far as the table"
+        "stated in the header, but their rotation is then 0.01746 times that of the table"
     );
 }
 

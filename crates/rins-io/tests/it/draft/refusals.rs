@@ -142,7 +142,7 @@ fn three_columns_of_nobody_knows_what_are_left_to_the_user() {
     let draft = draft(folder.path(), "what.mat");
     assert!(
         draft.text.contains(
-            "# Columns [\"2\", \"3\", \"4\"] are gyros or accelerometers, nothing tells which;"
+            "# Columns [\"2\", \"3\", \"4\"] are gyros or accelerometers; the data do not show which."
         ),
         "{}",
         draft.text
@@ -174,7 +174,8 @@ fn what_is_no_log_is_refused() {
         (b"t,\xff\n1,2\n", "run.csv:1: not UTF-8 text; is it binary or UTF-16?"),
         (
             b"% PSINS-format SIMU log file\n0 0 0 0 0 0\n134 0 0 0 10 9.78\n1 1 1 1 1 1\n",
-            "run.csv:3: the header's latitude is 134, expected a latitude from -89.9 to 89.9 deg; the poles at -90 and 90 deg are left out: east is not defined there",
+            "run.csv:3: the header's latitude is 134, expected a latitude from -89.9 to 89.9 deg; the \
+             poles at -90 and 90 deg are excluded: east is not defined there",
         ),
         (b"% PSINS-format SIMU log file\n0 0 0 0 0 0\n", "run.csv: the header has 1 of its 3 rows"),
     ];
