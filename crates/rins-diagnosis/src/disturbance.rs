@@ -63,7 +63,7 @@ pub(crate) static IN_TIME: Term = disturbance(
     &[Setting {
         kind: SettingKind::Frequency,
         name: "frequency",
-        meaning: "frequency",
+        meaning: "frequency of the spectral line",
         unit: Unit::HERTZ,
         default: 1.0,
         within: (0.0, 1e4),
