@@ -85,7 +85,7 @@ fn gyro_that_gravity_does_not_show_is_told_by_the_heading() {
         let text = rins_in(folder.path(), "align run/rig.toml").out;
         let is_beyond = expected.abs() > 0.1;
         assert_eq!(text.contains("Along up the gyros are off by"), is_beyond, "{text}");
-        assert!(text.contains("not shown") && text.contains("assumed"), "{text}");
+        assert!(text.contains("not estimated") && text.contains("assumed"), "{text}");
         let check = rins_in(folder.path(), "check run/rig.toml").out;
         assert_eq!(check.contains("odd: static intervals"), is_beyond, "{check}");
     }

@@ -143,7 +143,7 @@ fn a_read_out_that_lags_by_half_a_sample_is_told_in_samples() {
     assert!((samples - 0.5).abs() < 1e-3, "{samples}");
     assert!(number(&result, "/false_alarms/rate") < 0.03, "{}", result["false_alarms"]);
     let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
-    assert!(page.contains("(0.500 samples)") && page.contains("Order of the table angle"));
+    assert!(page.contains("(0.500 samples)") && page.contains("Harmonic order of the table angle"));
 }
 
 /// What is written is what the other commands take, on another run of the same IMU too.
@@ -217,7 +217,10 @@ fn the_next_test_tells_what_this_one_could_not() {
     assert!(test["schedule"].as_str().unwrap().starts_with("forward and back"), "{test}");
     assert!(number(test, "/sigmas") > 6.0, "{test}");
     let page = fs::read_to_string(here.join("found/report.html")).unwrap();
-    assert!(page.contains("A run of its own would tell it") && page.contains("Power of this run"));
+    assert!(
+        page.contains("A run that separates it from")
+            && page.contains("Detection power of this run")
+    );
 
     let result = result_in(here, "diagnose next/rig.toml --noise given");
     let [cause] = list(&result, "/causes") else { panic!("{}", result["causes"]) };

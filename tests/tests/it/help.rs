@@ -113,7 +113,7 @@ fn help_says_how_a_command_is_used_and_what_each_option_does() {
 fn help_that_says_too_little_is_found_out() {
     let right = help("calibrate");
     assert_eq!(help_fault("calibrate", &right), Ok(()));
-    let undescribed = right.replace("          Replace results that exist\n", "");
+    let undescribed = right.replace("          Overwrite existing results\n", "");
     let wide = right.replacen('\n', &format!("\n{}\n", "x".repeat(TERMINAL + 1)), 1);
     let without_options = &right[..right.find("Options:").unwrap()];
     for (text, fault) in [

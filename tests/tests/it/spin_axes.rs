@@ -313,7 +313,7 @@ fn models_and_calibrations_name_the_axes_that_the_run_has() {
     let command = "apply run/rig.toml --calibration with/calibration.toml -o clean.csv";
     let refused = rins_in(folder.path(), command);
     assert_eq!(refused.code, Some(1));
-    let reason = "gyro_scale_asymmetry.x was found in a run about x";
+    let reason = "gyro_scale_asymmetry.x was estimated in a run about x";
     assert!(refused.err.contains(reason), "{}", refused.err);
     assert!(!folder.path().join("clean.csv").exists());
     // Read again, the model is what was estimated.

@@ -57,7 +57,9 @@ fn its_axis_points_where_it_was_surveyed() {
     fs::write(&rig, unread.join("\n")).unwrap();
 
     let result = result_in(folder.path(), "calibrate run/rig.toml");
-    assert!(texts(&result, "/notes").iter().any(|note| note.contains("Nothing reads the table")));
+    assert!(
+        texts(&result, "/notes").iter().any(|note| note.contains("The log has no table angle"))
+    );
     for (id, truth) in [
         ("axis.attitude.x", 0.0),
         ("axis.attitude.y", 0.0),

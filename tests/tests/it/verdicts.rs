@@ -68,8 +68,8 @@ fn a_good_run_has_nothing_odd() {
     }
     let (_, shows) = verdict(&check, "what it can show");
     assert!(
-        shows.contains("rins align: level and north")
-            && shows.contains("at the rates 20.01, -20.00 deg/s")
+        shows.contains("rins align: tilt and azimuth")
+            && shows.contains("the rates 20.01, -20.00 deg/s")
     );
     let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
     assert!(

@@ -112,7 +112,7 @@ impl Certificate {
             let undone = undone(&prepared.run, &fit.models[place]);
             if let Err(error) = &undone {
                 case.remarks.push(format!(
-                    "{}: what was estimated cannot be undone from the readings ({error}): navigation is as recorded.",
+                    "{}: the estimates cannot be compensated ({error}): navigation is as recorded.",
                     prepared.name
                 ));
             }

@@ -15,6 +15,7 @@ mod worth;
 pub use self::budget::{BudgetResult, DriftResult, WorthResult};
 pub(crate) use self::certificate::Certificate;
 use self::paper::PaperCalibration;
+pub(crate) use self::result::departures;
 pub use self::result::{
     AccelNoiseResult, CalibrateResult, DepartureResult, GyroNoiseResult, IterationResult,
     NoiseResult, ParameterResult, RunResult,

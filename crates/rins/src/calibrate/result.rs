@@ -202,7 +202,6 @@ impl CalibrateResult {
             log_likelihood: iteration.log_likelihood,
         });
         let correlation = correlation(&fit.covariance);
-        let departed = certificate.departed();
         Self {
             schema: crate::SCHEMA,
             command: "calibrate".into(),
@@ -216,10 +215,7 @@ impl CalibrateResult {
             axis_attitude_deg: first.nav_from_table.euler_angles().into(),
             navigation: BeforeAfterResult::of(&first.before, &first.after),
             consistency: (&certificate.consistency).into(),
-            prior_consistency: departed
-                .into_iter()
-                .map(|of| DepartureResult::of(certificate, of))
-                .collect(),
+            prior_consistency: departures(certificate),
             iterations: iterations.collect(),
             log_likelihood: Some(fit.log_likelihood),
             noise: Some(certificate.into()),
@@ -247,6 +243,12 @@ fn statics(runs: &[RunResult]) -> Vec<StaticIntervalResult> {
 fn ids<'c>(certificate: &'c Certificate, run: &CertifiedRun) -> Vec<&'c str> {
     let id = |&place: &usize| certificate.fit.parameters[place].parameter.id.as_str();
     run.places.iter().map(id).collect()
+}
+
+/// What lies more than four sigmas off what was stated beforehand, the furthest first.
+pub(crate) fn departures(certificate: &Certificate) -> Vec<DepartureResult> {
+    let departed = certificate.departed().into_iter();
+    departed.map(|of| DepartureResult::of(certificate, of)).collect()
 }
 
 impl DepartureResult {

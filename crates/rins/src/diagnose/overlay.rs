@@ -69,7 +69,9 @@ fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
                     of: &dyn Fn(&Overlay) -> Vec<Option<usize>>| {
             let x: Vec<f64> =
                 (0..parts).map(|place| start + scale * middle(place, parts)).collect();
-            let series = [("before", Style::Points), ("after", Style::Line)].iter().zip(overlays);
+            let series = [("given model", Style::Points), ("extended model", Style::Line)]
+                .iter()
+                .zip(overlays);
             let series = series.map(|((name, style), overlay)| Series {
                 name: (*name).into(),
                 x: x.clone(),
@@ -102,7 +104,8 @@ fn order_spectra(overlays: &[Overlay; 2]) -> Vec<Item> {
     let triads =
         [("Gyros x + iy", "deg/h", DEG_PER_HOUR), ("Accelerometers x + iy", "µg", MICRO_G)];
     let plot = |(triad, (name, unit, factor)): (usize, (&str, &str, f64))| {
-        let series = [("before", Style::Points), ("after", Style::Line)].iter().zip(&spectra);
+        let series =
+            [("given model", Style::Points), ("extended model", Style::Line)].iter().zip(&spectra);
         let series = series.map(|((name, style), spectrum)| Series {
             name: (*name).into(),
             x: orders.clone(),

@@ -47,7 +47,7 @@ fn causes(found: &Found) -> Section {
                 Column::number("estimate"),
                 Column::text("unit"),
                 Column::number("significance [σ]"),
-                Column::text("p"),
+                Column::number("p"),
                 Column::text("not distinguished from"),
                 Column::text("plausible magnitude"),
             ],
@@ -130,7 +130,7 @@ fn unexplained(found: &Found) -> Section {
                 Column::id("channel"),
                 Column::text("structure"),
                 Column::text("size"),
-                Column::text("p"),
+                Column::number("p"),
             ],
             rows,
         })]

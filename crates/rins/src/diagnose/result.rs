@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::found::{Found, Named, Shift, Verdict};
 use super::measured::GainResult;
 use super::structure::{size_in_words, structure_in_words};
-use crate::calibrate::NoiseResult;
+use crate::calibrate::{DepartureResult, NoiseResult, departures};
 use crate::consistency::ConsistencyResult;
 use crate::settings::settings_in_words;
 
@@ -46,6 +46,8 @@ pub struct DiagnoseResult {
     pub noise: NoiseResult,
     /// What the innovations say of the extended model.
     pub consistency: ConsistencyResult,
+    /// What lies more than four sigmas off what was stated beforehand, with the extended model, the furthest first.
+    pub prior_consistency: Vec<DepartureResult>,
     /// The file of the extended model among the files.
     pub model: String,
     /// How long it took \[s\].
@@ -261,6 +263,7 @@ impl DiagnoseResult {
             }),
             noise: certificate.into(),
             consistency: (&certificate.consistency).into(),
+            prior_consistency: departures(certificate),
             model: "model.toml".into(),
             seconds: found.seconds,
             notes: certificate.remarks.clone(),

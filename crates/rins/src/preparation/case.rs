@@ -46,8 +46,8 @@ impl Case {
         if spins.len() > 1 {
             let spins: Vec<String> = spins.into_iter().collect();
             remarks.push(format!(
-                "The runs turn about different axes of the IMU ({}): errors of its sensors are estimated along the sensors' own \
-                 axes from all runs together.",
+                "The runs have different spin axes ({}): sensor errors are estimated along the sensors' own axes from all runs \
+                 together.",
                 spins.join(", ")
             ));
         }
@@ -140,8 +140,8 @@ fn with_azimuth(
     if preset && !model.terms.iter().any(|chosen| chosen.term.is(azimuth)) {
         model = model.with(TermInstance::new(azimuth).estimated());
         remarks.push(format!(
-            "The azimuth of the axis is not known: what the Earth's horizontal rate differs by from that of the assumed one is \
-             estimated too ({}; a priori 0 ± {} deg/h north, 0 ± {} deg/h east).",
+            "The azimuth of the axis is not known: the error of the horizontal Earth rate at the assumed azimuth is estimated \
+             too ({}; a priori 0 ± {} deg/h north, 0 ± {} deg/h east).",
             azimuth.id,
             figure(north / DEG_PER_HOUR, 2),
             figure(east / DEG_PER_HOUR, 2)

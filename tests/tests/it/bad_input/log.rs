@@ -224,7 +224,7 @@ const READINGS: &[Row] = &[
         "no rest to align on",
         ALIGN,
         Without(LOG, 2..=641),
-        &["run.csv: the IMU never stands still for 5 s"],
+        &["run.csv: the IMU is never static for 5 s"],
     ),
     (
         "neither attitude nor rest",
@@ -271,8 +271,8 @@ const READINGS: &[Row] = &[
         CALIBRATE,
         Replace("rig.toml", "\"table_angle\", unit = \"rad\"", "\"table_angle\", unit = \"deg\""),
         &[
-            "rig.toml: the gyro about the axis of rotation counts 57.",
-            "of the table's turn",
+            "rig.toml: the gyro about the axis of rotation measures 57.",
+            "of the table's rotation",
             "the table's angle in rad were declared as deg",
         ],
     ),
@@ -281,7 +281,7 @@ const READINGS: &[Row] = &[
         CALIBRATE,
         Replace("rig.toml", "unit = \"rad\"", "unit = \"rad\", axes = [\"x\", \"-y\", \"-z\"]"),
         &[
-            "rig.toml: the gyro about the axis of rotation counts -1.0",
+            "rig.toml: the gyro about the axis of rotation measures -1.0",
             "the direction of rotation of the table is opposite to that of the gyro",
         ],
     ),

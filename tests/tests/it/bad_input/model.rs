@@ -125,7 +125,7 @@ const MODELS: &[Row] = &[
         "a name that tells no format",
         "apply rig.toml --calibration calibration.toml -o new.txt",
         Nothing,
-        &["new.txt: the name does not tell a format"],
+        &["new.txt: the file name has no known extension"],
     ),
     (
         "over its own log",
