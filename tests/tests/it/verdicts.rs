@@ -98,7 +98,7 @@ const FAULTS: [Row; 7] = [
             lines
         },
         "odd",
-        "1 line(s) repeat",
+        "1 repeated line(s)",
     ),
     (
         "rate and jitter",

@@ -54,5 +54,5 @@ fn program_that_fails_is_a_failure_and_no_answer() {
     run(&Plan { seed: 5, trials: 1, threads: 1 }, &analyser, &journal, |_| ()).unwrap();
     let all = records(&journal).unwrap();
     assert!(all[0].answer.failure.as_ref().is_some_and(|why| why.contains("no such thing")));
-    assert!(card(&all).contains("1 trials; 1 ended without an answer"));
+    assert!(card(&all).contains("1 trials were run; 1 ended without an answer"));
 }
