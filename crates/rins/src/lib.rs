@@ -2,7 +2,7 @@
 //!
 //! | question | function | result |
 //! | --- | --- | --- |
-//! | what does this log look like? | [`init`] | [`InitResult`](init::InitResult) |
+//! | what does this log look like? | [`init`](init()) | [`InitResult`](init::InitResult) |
 //! | what is wrong with this log? | [`check`](check()) | [`CheckResult`](check::CheckResult) |
 //! | how noisy is the IMU? | [`allan`](allan()) | [`AllanResult`](allan::AllanResult) |
 //! | how does it stand? | [`align`](align()) | [`AlignResult`](align::AlignResult) |
