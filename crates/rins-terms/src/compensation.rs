@@ -49,7 +49,7 @@ pub enum NotUndone {
 /// ```
 /// use rins_frames::{Dcm, InFrame, Increments, Site};
 /// use rins_motion::{Recording, Station};
-/// use rins_terms::{Chosen, Model, Surroundings, catalogue, compensated};
+/// use rins_terms::{TermInstance, Model, Surroundings, catalogue, compensated};
 ///
 /// let site = Site { latitude: 0.6, longitude: 1.9, height: 400.0 };
 /// let around = Surroundings::new(Station::with_normal_gravity(site), Dcm::identity());
@@ -59,7 +59,7 @@ pub enum NotUndone {
 ///     interval: 0.05,
 /// };
 /// let read = Recording { times: vec![0.05], increments: vec![sample], ..Recording::default() };
-/// let scale = Chosen::new(&catalogue::GYRO_SCALE).with_values(&[0.0, 0.0, 1e-3]);
+/// let scale = TermInstance::new(&catalogue::GYRO_SCALE).with_values(&[0.0, 0.0, 1e-3]);
 /// let undone = compensated(&Model { terms: vec![scale] }, around, &read)?;
 /// assert!((undone.increments[0].angle.components().z - 1e-2).abs() < 1e-16);
 /// # Ok::<(), rins_terms::NotUndone>(())

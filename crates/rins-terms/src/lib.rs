@@ -13,8 +13,8 @@
 //! Numbers are in SI units and radians; [`Unit`] says in which unit a parameter is shown.
 //!
 //! ```
-//! use rins_terms::{Chosen, Model, catalogue};
-//! let model = Model::full().with(Chosen::new(catalogue::term("mounting").unwrap()));
+//! use rins_terms::{TermInstance, Model, catalogue};
+//! let model = Model::full().with(TermInstance::new(catalogue::term("mounting").unwrap()));
 //! assert_eq!(model.terms.last().unwrap().term.name, "mounting of the IMU on the table");
 //! ```
 mod acting;

@@ -84,7 +84,7 @@ pub struct Seen {
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use rins_estimation::{Identifiability, Shown, Unknown};
+/// use rins_estimation::{Identifiability, Observable, Unknown};
 /// use rins_terms::Unit;
 /// let unknown = |id: &str| Unknown { id: id.into(), model_id: id.into(), run: None, unit: Unit::ONE, sigma: 1.0 };
 /// // A hundred readings of a + 2 b, each to 1σ of 1.
@@ -92,7 +92,7 @@ pub struct Seen {
 /// let told = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
 /// assert_eq!(told.rank.rank(), 1);
 /// // They tell b + a/2 to 0.05, and neither alone.
-/// assert_eq!(told.seen[1].shown, Shown::Combination);
+/// assert_eq!(told.seen[1].shown, Observable::Combination);
 /// assert!((told.seen[1].aliases[0].coefficient - 0.5).abs() < 1e-12);
 /// assert!((told.seen[1].data_sigma - 0.05).abs() < 1e-12);
 /// assert!((told.seen[0].aliases[0].coefficient - 2.0).abs() < 1e-12);

@@ -17,7 +17,7 @@ const LONGEST_CLUSTER: usize = 5;
 /// The averaging times are the interval times powers of two, up to a fifth of the series.
 ///
 /// ```
-/// use rins_imu::{AllanPlan, NoiseModel, Seed, Span, Strength, Triad, TriadNoise};
+/// use rins_imu::{AllanPlan, NoiseModel, Seed, Span, NoiseTerm, Triad, TriadNoise};
 /// const INTERVAL: f64 = 0.01;
 ///
 /// let span = Span { interval: INTERVAL, duration: 100.0 };
@@ -25,7 +25,7 @@ const LONGEST_CLUSTER: usize = 5;
 /// let rest: Vec<f64> = (0..10_000).map(|_| noise.next(INTERVAL).components().x).collect();
 ///
 /// let seen = AllanPlan::new(rest.len(), INTERVAL)?.noise(&rest)?;
-/// let Strength::Seen { value, sigma, .. } = seen.strengths[1] else { panic!("white noise shows") };
+/// let NoiseTerm::Seen { value, sigma, .. } = seen.strengths[1] else { panic!("white noise shows") };
 /// assert!((value - 0.5).abs() < 4.0 * sigma && sigma < 0.01);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
