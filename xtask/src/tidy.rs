@@ -11,6 +11,7 @@ mod crates;
 mod cycles;
 mod language;
 mod references;
+mod sources;
 mod text;
 
 #[cfg(test)]

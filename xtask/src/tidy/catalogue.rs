@@ -3,9 +3,8 @@
 //! Both are for files and their readers. A program asks a setting for its kind and compares a term with the catalogue's constant,
 //! which the compiler checks.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeSet;
+use std::path::Path;
 
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::Visit;
@@ -13,6 +12,7 @@ use syn::{ExprStruct, Item, Lit, LitStr, Member};
 
 use super::Finding;
 use super::cycles::{is_for_tests, module_of};
+use super::sources::sources;
 use crate::Result;
 use crate::manifest::{Manifest, crate_folders};
 
@@ -100,25 +100,6 @@ fn of_crate(root: &Path, folder: &Path, name: &str, names: &Names) -> Result<Vec
         }));
     }
     Ok(findings)
-}
-
-/// The files of Rust in a folder and below it.
-fn sources(folder: &Path) -> Result<BTreeMap<PathBuf, syn::File>> {
-    let mut files = BTreeMap::new();
-    let mut folders = vec![folder.to_path_buf()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder)? {
-            let path = entry?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let parsed = syn::parse_file(&fs::read_to_string(&path)?);
-                let file = parsed.map_err(|e| format!("{}: {e}", path.display()))?;
-                files.insert(path, file);
-            }
-        }
-    }
-    Ok(files)
 }
 
 /// The fields of a term or of a setting, if this makes one.

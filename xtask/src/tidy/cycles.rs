@@ -4,13 +4,13 @@
 //! is where it is defined, and what is there for tests only does not count.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use syn::visit::Visit;
 use syn::{Attribute, Item, ItemMod, ItemUse, UseTree, Visibility};
 
 use super::Finding;
+use super::sources::sources;
 use crate::Result;
 use crate::manifest::crate_folders;
 
@@ -77,31 +77,22 @@ fn named(module: &[String]) -> String {
 /// The files of a crate, by module; none where it has no sources.
 fn files(source: &Path) -> Result<BTreeMap<Module, File>> {
     let mut files = BTreeMap::new();
-    let mut folders: Vec<PathBuf> =
-        source.is_dir().then(|| source.to_path_buf()).into_iter().collect();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder)? {
-            let path = entry?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let module = module_of(path.strip_prefix(source)?);
-                let text = fs::read_to_string(&path)?;
-                let parsed =
-                    syn::parse_file(&text).map_err(|e| format!("{}: {e}", path.display()))?;
-                let children = parsed.items.iter().filter_map(|item| match item {
-                    Item::Mod(child) if !is_for_tests(item) => Some(child.ident.to_string()),
-                    _ => None,
-                });
-                let mut reader = Reader {
-                    children: children.collect(),
-                    module: module.clone(),
-                    file: File { path, ..File::default() },
-                };
-                reader.visit_file(&parsed);
-                files.insert(module, reader.file);
-            }
-        }
+    if !source.is_dir() {
+        return Ok(files);
+    }
+    for (path, parsed) in sources(source)? {
+        let module = module_of(path.strip_prefix(source)?);
+        let children = parsed.items.iter().filter_map(|item| match item {
+            Item::Mod(child) if !is_for_tests(item) => Some(child.ident.to_string()),
+            _ => None,
+        });
+        let mut reader = Reader {
+            children: children.collect(),
+            module: module.clone(),
+            file: File { path, ..File::default() },
+        };
+        reader.visit_file(&parsed);
+        files.insert(module, reader.file);
     }
     Ok(files)
 }
@@ -289,8 +280,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for (path, text) in sources {
             let path = folder.path().join(path);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, text).unwrap();
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, text).unwrap();
         }
         let files = files(folder.path()).unwrap();
         let circles = circles(&files).into_iter();
