@@ -1,7 +1,6 @@
 //! How an outcome is delivered: written where the command line says, and printed.
 
 use std::io::{self, Write as _};
-use std::path::Path;
 
 use anyhow::Context;
 use rins::Outcome;
@@ -19,10 +18,10 @@ pub(crate) fn deliver(
 ) -> anyhow::Result<()> {
     let written = match arguments.command.folder() {
         None => None,
-        Some(folder) => {
-            outcome.write(folder, arguments.overwrite())?;
-            Some(place(outcome, folder))
-        }
+        Some(folder) => Some(match outcome.write(folder, arguments.overwrite())? {
+            Some(page) => format!("\nReport: {}\n", shown(&page)),
+            None => format!("\nWritten: {}\n", shown(folder)),
+        }),
     };
     print_outcome(arguments, outcome, &(further.to_owned() + &written.unwrap_or_default()))
 }
@@ -41,14 +40,6 @@ pub(crate) fn print_outcome(
     match outcome.failure() {
         Some(failure) => Err(anyhow::Error::msg(failure)),
         None => Ok(()),
-    }
-}
-
-/// Where a result is, in a sentence.
-fn place(outcome: &impl Outcome, folder: &Path) -> String {
-    match outcome.report() {
-        Some(_) => format!("\nReport: {}\n", shown(&folder.join("report.html"))),
-        None => format!("\nWritten: {}\n", shown(folder)),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What every job delivers.
 
 use std::fmt::Display;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rins_io::{IoError, Overwrite, write_folder};
 use rins_report::{Report, render};
@@ -10,6 +10,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::error::Result;
+
+/// The name of the page in a folder of results.
+const PAGE: &str = "report.html";
 
 /// What a job delivers: its text is what the command prints, its result is what `--json` prints, and its page and files are
 /// what `-o` writes.
@@ -45,19 +48,21 @@ pub trait Outcome: Display {
 
     /// Writes `result.json`, `report.html` and the further files into a folder, all or none.
     ///
+    /// Returns the path of the page, if there is one.
+    ///
     /// # Errors
     /// If the folder exists and must not be overwritten, or cannot be written.
-    fn write(&self, folder: &Path, overwrite: Overwrite) -> Result<()> {
+    fn write(&self, folder: &Path, overwrite: Overwrite) -> Result<Option<PathBuf>> {
         let json = serde_json::to_string_pretty(&self.result()).map_err(anyhow::Error::from)?;
         let page = self.report().map(|report| render(&report));
         write_folder(folder, overwrite, |folder| {
             put(folder, "result.json", json.as_bytes())?;
             if let Some(page) = &page {
-                put(folder, "report.html", page.as_bytes())?;
+                put(folder, PAGE, page.as_bytes())?;
             }
             self.fill(folder)
         })?;
-        Ok(())
+        Ok(page.map(|_| folder.join(PAGE)))
     }
 }
 

@@ -39,12 +39,18 @@ impl Outcome for Certificate {
     }
 }
 
+impl Calibration {
+    fn outcome(&self) -> &dyn Outcome<Result = CalibrateResult> {
+        match &self.0 {
+            Kind::Paper(paper) => &**paper,
+            Kind::Certificate(certificate) => &**certificate,
+        }
+    }
+}
+
 impl fmt::Display for Calibration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
-            Kind::Paper(paper) => paper.fmt(f),
-            Kind::Certificate(certificate) => certificate.fmt(f),
-        }
+        self.outcome().fmt(f)
     }
 }
 
@@ -52,30 +58,18 @@ impl Outcome for Calibration {
     type Result = CalibrateResult;
 
     fn result(&self) -> CalibrateResult {
-        match &self.0 {
-            Kind::Paper(paper) => paper.result(),
-            Kind::Certificate(certificate) => certificate.result(),
-        }
+        self.outcome().result()
     }
 
     fn report(&self) -> Option<Report> {
-        match &self.0 {
-            Kind::Paper(paper) => paper.report(),
-            Kind::Certificate(certificate) => certificate.report(),
-        }
+        self.outcome().report()
     }
 
     fn files(&self) -> Vec<(String, Vec<u8>)> {
-        match &self.0 {
-            Kind::Paper(paper) => paper.files(),
-            Kind::Certificate(certificate) => certificate.files(),
-        }
+        self.outcome().files()
     }
 
     fn failure(&self) -> Option<String> {
-        match &self.0 {
-            Kind::Paper(paper) => paper.failure(),
-            Kind::Certificate(certificate) => certificate.failure(),
-        }
+        self.outcome().failure()
     }
 }
