@@ -62,7 +62,7 @@ impl Schedule {
 static FLICKER: [&Term; 2] =
     [&catalogue::GYRO_BIAS_INSTABILITY, &catalogue::ACCEL_BIAS_INSTABILITY];
 
-/// The flicker of both triads, their least bits, and jitter.
+/// The bias instability and the LSB of both triads, and jitter.
 static COARSE: [&Term; 5] = [
     &catalogue::GYRO_BIAS_INSTABILITY,
     &catalogue::ACCEL_BIAS_INSTABILITY,

@@ -103,7 +103,7 @@ fn rate_ripple_is_felt_and_read_alike() {
     assert!(largest > 5e-5, "it is a tenth of a thousandth of a radian");
 }
 
-/// A base that gives way over a second does so evenly: half of it at the time that is given, and none before or after.
+/// A tilt step with a duration of one second is linear in time: half of it at its time, and none before or after.
 #[test]
 fn a_base_gives_way_evenly_over_its_time() {
     const TIME: f64 = 30.0;

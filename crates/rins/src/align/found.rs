@@ -15,7 +15,7 @@ use crate::log::{longest, none_found};
 /// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
 pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
 
-/// A bias of which a rest leaves more than this part of the sigma that was assumed is not shown by it.
+/// A bias is not observable over a static interval if its sigma is more than this part of the assumed one.
 const SHOWN: f64 = 0.9;
 
 /// The shortest rest that is aligned on \[s\].
