@@ -38,8 +38,9 @@ pub(crate) struct Options {
 /// Runs trials and writes `docs/src/blind.md`.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     if options.frozen {
-        release(root, &["build", "--package", "rins-cli"], &[])?;
-        return trials(root, &["frozen", &program(root)]);
+        cargo(root, &["build", "--package", "rins-cli"], &[])?;
+        let program = program(root, "debug");
+        return cargo(root, TRIALS, &["frozen", &program]);
     }
     let folder = root.join(&options.output);
     let journal = folder.join("journal.jsonl");
@@ -49,8 +50,8 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
             return Err(format!("{path} exists: go on with it by --resume, or remove it").into());
         }
         fs::create_dir_all(&folder)?;
-        release(root, &["build", "--package", "rins-cli"], &[])?;
-        let program = program(root);
+        cargo(root, &["build", "--release", "--package", "rins-cli"], &[])?;
+        let program = program(root, "release");
         let (seed, threads) = (options.seed.to_string(), options.threads.to_string());
         trials(root, &["run", &program, &path, &seed, &options.trials.to_string(), &threads])?;
         trials(root, &["time", &program, &path, &seed])?;
@@ -58,14 +59,16 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     trials(root, &["card", &path, &root.join("docs/src/blind.md").display().to_string()])
 }
 
+/// The few frozen trials end before an optimised build would.
+const TRIALS: &[&str] = &["run", "--package", "rins-trials", "--bin", "trials"];
+
 fn trials(root: &Path, arguments: &[&str]) -> Result<()> {
-    release(root, &["run", "--package", "rins-trials", "--bin", "trials"], arguments)
+    cargo(root, &[TRIALS, &["--release"]].concat(), arguments)
 }
 
-fn release(root: &Path, words: &[&str], arguments: &[&str]) -> Result<()> {
-    let (verb, rest) = words.split_first().ok_or("a command of cargo's")?;
+fn cargo(root: &Path, words: &[&str], arguments: &[&str]) -> Result<()> {
     let mut command = Command::new("cargo");
-    command.arg(verb).args(["--quiet", "--release"]).args(rest);
+    command.args(words).arg("--quiet");
     if !arguments.is_empty() {
         command.arg("--").args(arguments);
     }
@@ -77,10 +80,10 @@ fn release(root: &Path, words: &[&str], arguments: &[&str]) -> Result<()> {
     }
 }
 
-/// The `rins` command as it was built for release.
-fn program(root: &Path) -> String {
+/// The `rins` command as it was built in this folder of the target's.
+fn program(root: &Path, profile: &str) -> String {
     let name = format!("rins{}", env::consts::EXE_SUFFIX);
-    target(root).join("release").join(name).display().to_string()
+    target(root).join(profile).join(name).display().to_string()
 }
 
 /// Where cargo builds.

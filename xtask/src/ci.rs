@@ -40,8 +40,6 @@ const STEPS: &[Row] = &[
     // Ignored without a browser; CI has one.
     ("browser", None, "cargo test --quiet --workspace --test browser -- --ignored"),
     ("doc", Some(("RUSTDOCFLAGS", "-D warnings")), "cargo doc --quiet --workspace --no-deps"),
-    ("verify", None, "cargo xtask verify"),
-    ("reproduce", None, "cargo xtask reproduce --check"),
     ("book", None, "cargo xtask doc"),
     ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
     ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),
@@ -49,11 +47,30 @@ const STEPS: &[Row] = &[
     ("fuzz", Some(("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")), "cargo xtask fuzz --seconds 3"),
     // Benchmarks are compiled by `lint`; those whose instructions are counted are built and run.
     ("instructions", None, "cargo xtask bench --instructions"),
-    ("demo", None, "cargo run --quiet --release -- demo -o target/ci/demo"),
-    // Diagnoses of whole runs, which the tests would take minutes for.
-    ("frozen-trials", None, "cargo xtask blind --frozen"),
     // As the tests have built them: with one package's features alone all that they need would be built anew.
-    ("examples", None, "cargo build --quiet --workspace --examples"),
+    ("programs", None, "cargo build --quiet --workspace --bins --examples"),
+];
+
+/// Programs that the step `programs` has built: what runs them otherwise builds more.
+const PROGRAMS: &[(&str, &[&str])] = &[
+    ("verify", &["verify"]),
+    ("reproduce", &["reproduce", "--check"]),
+    ("demo", &["rins", "demo", "-o", "target/ci/demo"]),
+    // Diagnoses of whole runs, which the tests would take minutes for.
+    ("frozen-trials", &["trials", "frozen", RINS]),
+];
+
+/// The command `rins`, where a program wants its path.
+const RINS: &str = "RINS";
+
+/// What the examples are given that want a file or a folder: mostly what the step `demo` wrote.
+const ARGUMENTS: &[(&str, &str)] = &[
+    ("apply", "target/ci/demo/calibration.toml"),
+    ("calibrate", "target/ci/demo/rig.toml"),
+    ("campaign", "scenarios/paper/section-4-1.toml"),
+    ("diagnose", "target/ci/demo/rig.toml"),
+    ("schedule", "scenarios/schedules/i-constant-rate.toml"),
+    ("schemas", "target/ci/schema"),
 ];
 
 /// A step with a command of cargo's that has to be installed.
@@ -150,15 +167,24 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
     });
     let mut steps: Vec<Step> = fixed.collect();
     let target = crate::target(root)?;
-    let built = target.strip_prefix(root).unwrap_or(&target).join("debug/examples");
+    let built = target.strip_prefix(root).unwrap_or(&target).join("debug");
+    let rins = target.join("debug/rins").display().to_string();
     let built = built.display();
+    steps.extend(PROGRAMS.iter().map(|(name, words)| {
+        let words = words.iter().map(|&word| if word == RINS { &rins } else { word });
+        let command = words.collect::<Vec<_>>().join(" ");
+        Step { name: (*name).into(), environment: None, command: format!("{built}/{command}") }
+    }));
     let mut unpublished = UNPUBLISHED.map(str::to_owned).to_vec();
     for folder in crate_folders(root)? {
         let Manifest { name, published, .. } = Manifest::read(&folder.join("Cargo.toml"))?;
         steps.extend(examples(&folder).into_iter().map(|example| Step {
             name: format!("example-{example}"),
             environment: None,
-            command: format!("{built}/{example}"),
+            command: match ARGUMENTS.iter().find(|(name, _)| *name == example) {
+                Some((_, argument)) => format!("{built}/examples/{example} {argument}"),
+                None => format!("{built}/examples/{example}"),
+            },
         }));
         if !published {
             unpublished.push(name);
@@ -219,6 +245,33 @@ mod tests {
         let names: Vec<_> = picked.iter().map(|step| step.name.as_str()).collect();
         assert_eq!(names, ["tidy", "package"], "steps keep their order");
         assert!(chosen(all(), &["pakage".into()]).unwrap_err().to_string().contains("pakage"));
+    }
+
+    /// Cargo builds the examples of all crates into one folder.
+    #[test]
+    fn names_of_steps_are_not_repeated() {
+        let mut names: Vec<_> =
+            steps(&crate::root()).unwrap().into_iter().map(|step| step.name).collect();
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), count);
+    }
+
+    /// The other examples are given nothing, and have to run all the same.
+    #[test]
+    fn examples_that_want_an_argument_are_given_one() {
+        let root = crate::root();
+        for folder in crate_folders(&root).unwrap() {
+            for example in examples(&folder) {
+                let source = folder.join("examples").join(&example).with_extension("rs");
+                let Ok(text) = fs::read_to_string(&source) else {
+                    continue;
+                };
+                let is_given = ARGUMENTS.iter().any(|(name, _)| *name == example);
+                assert_eq!(text.contains("usage: "), is_given, "{}", source.display());
+            }
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The paper's experiments, run by a program of its own: they need an optimised build, and this does not.
+//! The paper's experiments, run by a program of its own: the tests of the workspace's commands need not wait for it.
 
 use std::path::Path;
 use std::process::Command;
@@ -24,7 +24,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
 /// Runs a program of `rins-reproduction`.
 pub(crate) fn program(root: &Path, name: &str, arguments: &[&str]) -> Result<()> {
     let status = Command::new("cargo")
-        .args(["run", "--quiet", "--release", "--package", "rins-reproduction", "--bin", name])
+        .args(["run", "--quiet", "--package", "rins-reproduction", "--bin", name])
         .args(arguments)
         .current_dir(root)
         .status()?;
