@@ -53,8 +53,8 @@ const STEPS: &[Row] = &[
 
 /// Programs that the step `programs` has built: what runs them otherwise builds more.
 const PROGRAMS: &[(&str, &[&str])] = &[
-    ("verify", &["verify"]),
-    ("reproduce", &["reproduce", "--check"]),
+    ("verify", &["reproduction", "verify"]),
+    ("reproduce", &["reproduction", "reproduce", "--check"]),
     ("demo", &["rins", "demo", "-o", "target/ci/demo"]),
     // Diagnoses of whole runs, which the tests would take minutes for.
     ("frozen-trials", &["trials", "frozen", RINS]),

@@ -17,5 +17,5 @@ pub(crate) struct Options {
 
 /// Prints coverage, NEES and variance against the bound; fails if they are not those of an honest estimator.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
-    program(root, "coverage", &["--", &options.runs.to_string()])
+    program(root, &["coverage", &options.runs.to_string()])
 }

@@ -17,16 +17,20 @@ pub(crate) struct Options {
 
 /// Runs the experiments and writes `docs/src/reproduction.md` with its figures, or checks them.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
-    let arguments: &[&str] = if options.check { &["--", "--check"] } else { &[] };
-    program(root, "reproduce", arguments)
+    let arguments: &[&str] = if options.check { &["reproduce", "--check"] } else { &["reproduce"] };
+    program(root, arguments)
 }
 
-/// Runs a program of `rins-reproduction`.
-pub(crate) fn program(root: &Path, name: &str, arguments: &[&str]) -> Result<()> {
+/// Runs the program `reproduction`.
+pub(crate) fn program(root: &Path, arguments: &[&str]) -> Result<()> {
     let status = Command::new("cargo")
-        .args(["run", "--quiet", "--package", "rins-reproduction", "--bin", name])
+        .args(["run", "--quiet", "--package", "rins-reproduction", "--"])
         .args(arguments)
         .current_dir(root)
         .status()?;
-    if status.success() { Ok(()) } else { Err(format!("{name} failed ({status})").into()) }
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("{} failed ({status})", arguments.join(" ")).into())
+    }
 }

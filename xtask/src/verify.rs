@@ -7,5 +7,5 @@ use crate::reproduce::program;
 
 /// Prints the grid and fails if a bound is broken.
 pub(crate) fn run(root: &Path) -> Result<()> {
-    program(root, "verify", &[])
+    program(root, &["verify"])
 }

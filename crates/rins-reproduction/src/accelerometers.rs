@@ -11,10 +11,10 @@ use crate::error::ReproductionError;
 use crate::grid::{ATTITUDES, RATES, turn};
 
 /// The number of turns of section 4.
-pub const TURNS: f64 = 10.0;
+pub(crate) const TURNS: f64 = 10.0;
 
 /// The name of all errors together.
-pub const ALL: &str = "all together";
+pub(crate) const ALL: &str = "all together";
 
 /// The steps of the quadrature in one turn: of trigonometric polynomials of second degree it is exact.
 const STEPS: u32 = 72;
@@ -27,7 +27,7 @@ const INTERVAL: f64 = 0.02;
 const QUADRATURE: f64 = 1e-12;
 
 /// The single errors of a triad, each with its name and alone in a triad.
-pub fn single_errors(all: &TriadError) -> Vec<(String, TriadError)> {
+pub(crate) fn single_errors(all: &TriadError) -> Vec<(String, TriadError)> {
     let axis = ["x", "y", "z"];
     let mut single = Vec::new();
     for (row, name) in axis.into_iter().enumerate() {
@@ -59,7 +59,7 @@ fn acceleration(turn: &ConstantTurn, error: &TriadError, time: f64) -> Vector3<f
 }
 
 /// The velocity error that (A.5) drops, `∫ C_b^n δf^b dt`, by Simpson's rule \[m/s\].
-pub fn integrated(turn: &ConstantTurn, error: &TriadError, time: f64) -> Vector3<f64> {
+pub(crate) fn integrated(turn: &ConstantTurn, error: &TriadError, time: f64) -> Vector3<f64> {
     let turns = (turn.rate * time / std::f64::consts::TAU).abs();
     let steps = (turns * f64::from(STEPS)).ceil();
     let interval = time / steps;
@@ -79,7 +79,7 @@ pub fn integrated(turn: &ConstantTurn, error: &TriadError, time: f64) -> Vector3
 /// In the axis frame a bias keeps its z component, and a matrix `A` becomes
 /// `Rz A Rzᵀ` in the mean: `(A_xx + A_yy) / 2` across the axis, `A_zz` along it, and
 /// `(A_yx - A_xy) / 2` as a rotation about it.
-pub fn mean_over_a_turn(turn: &ConstantTurn, error: &TriadError) -> Vector3<f64> {
+pub(crate) fn mean_over_a_turn(turn: &ConstantTurn, error: &TriadError) -> Vector3<f64> {
     let a = &error.matrix;
     let (across, about) = (0.5 * (a[(0, 0)] + a[(1, 1)]), 0.5 * (a[(1, 0)] - a[(0, 1)]));
     let mean = Matrix3::new(across, -about, 0.0, about, across, 0.0, 0.0, 0.0, a[(2, 2)]);
@@ -92,7 +92,7 @@ pub fn mean_over_a_turn(turn: &ConstantTurn, error: &TriadError) -> Vector3<f64>
 ///
 /// # Errors
 /// [`ReproductionError::Profile`] if rate and time make no profile.
-pub fn navigated(
+pub(crate) fn navigated(
     turn: &ConstantTurn,
     error: &TriadError,
     time: f64,
@@ -117,25 +117,25 @@ pub fn navigated(
 
 /// What is left of an accelerometer error after whole turns, by every method \[m/s\].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Left {
+pub(crate) struct Left {
     /// The error.
-    pub name: String,
+    pub(crate) name: String,
     /// Roll, pitch, yaw \[deg\].
-    pub attitude: [f64; 3],
+    pub(crate) attitude: [f64; 3],
     /// The table rate \[deg/s\].
-    pub rate: f64,
+    pub(crate) rate: f64,
     /// How long the turns take \[s\].
-    pub time: f64,
+    pub(crate) time: f64,
     /// By quadrature, east, north and up.
-    pub integrated: Vector3<f64>,
+    pub(crate) integrated: Vector3<f64>,
     /// The mean over a turn times the time.
-    pub closed: Vector3<f64>,
+    pub(crate) closed: Vector3<f64>,
     /// By the navigator, east and north.
-    pub navigated: Vector3<f64>,
+    pub(crate) navigated: Vector3<f64>,
     /// The size of the error times the time, whatever its direction.
-    pub scale: f64,
+    pub(crate) scale: f64,
     /// How far the navigator may be off for the Schuler loop and the Earth's rate, relative to the scale.
-    pub neglected: f64,
+    pub(crate) neglected: f64,
 }
 
 impl Left {
@@ -143,7 +143,7 @@ impl Left {
     ///
     /// # Errors
     /// [`ReproductionError::Profile`] if the rate makes no profile.
-    pub fn of(
+    pub(crate) fn of(
         name: &str,
         error: &TriadError,
         attitude: [f64; 3],
@@ -171,12 +171,12 @@ impl Left {
     }
 
     /// The horizontal part of the quadrature \[m/s\].
-    pub fn horizontal(&self) -> f64 {
+    pub(crate) fn horizontal(&self) -> f64 {
         self.integrated.xy().norm()
     }
 
     /// The bounds that it breaks, in words.
-    pub fn broken(&self) -> Vec<String> {
+    pub(crate) fn broken(&self) -> Vec<String> {
         let mut broken = Vec::new();
         let mut demand = |what: &str, off: f64, within: f64| {
             if off.is_nan() || off > within {
@@ -199,7 +199,7 @@ impl Left {
     }
 
     /// Whether the axis is vertical.
-    pub fn is_level(&self) -> bool {
+    pub(crate) fn is_level(&self) -> bool {
         self.attitude[..2].iter().all(|angle| angle.abs() < f64::MIN_POSITIVE)
     }
 }
@@ -209,7 +209,7 @@ impl Left {
 ///
 /// # Errors
 /// [`ReproductionError::Profile`] if a rate makes no profile.
-pub fn left_over(all: &TriadError) -> Result<Vec<Left>, ReproductionError> {
+pub(crate) fn left_over(all: &TriadError) -> Result<Vec<Left>, ReproductionError> {
     let mut errors = vec![(ALL.to_owned(), *all)];
     errors.extend(single_errors(all));
     let places: Vec<(&str, &TriadError, [f64; 3], f64)> = ATTITUDES
@@ -227,7 +227,7 @@ pub fn left_over(all: &TriadError) -> Result<Vec<Left>, ReproductionError> {
 
 /// The velocity that an error `bias` \[m/s²\] along the axis leaves in n after `time` \[s\]: in the axis' own
 /// direction, which on a level table is up.
-pub fn along_the_axis(turn: &ConstantTurn, bias: f64, time: f64) -> InFrame<Nav> {
+pub(crate) fn along_the_axis(turn: &ConstantTurn, bias: f64, time: f64) -> InFrame<Nav> {
     turn.nav_from_table * InFrame::<Table>::new(0.0, 0.0, bias * time)
 }
 

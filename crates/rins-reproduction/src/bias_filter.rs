@@ -27,7 +27,7 @@ const MEASUREMENTS: usize = OF_RATE.end();
 /// does. Unlike that it is written in `φ` rather than `ψ`, and takes the position as known, so that
 /// the two share no equation but the physics; with biases known to be zero they must agree.
 #[derive(Clone, Debug)]
-pub struct BiasFilter {
+pub(crate) struct BiasFilter {
     setup: Setup,
     navigator: Navigator,
     spin_axis: Vector3<f64>,
@@ -39,7 +39,7 @@ impl BiasFilter {
     /// A filter that starts at rest at table angle zero, in an attitude that is known exactly.
     ///
     /// Its priors are those of the data sheet in `setup`.
-    pub fn new(setup: &Setup, nav_from_table: Dcm<Nav, Table>) -> Self {
+    pub(crate) fn new(setup: &Setup, nav_from_table: Dcm<Nav, Table>) -> Self {
         let start = nav_from_table * Dcm::about_z(0.0);
         let spec = setup.imu.gyro;
         let square = |sigmas: Vector3<f64>| sigmas.component_mul(&sigmas);
@@ -58,12 +58,12 @@ impl BiasFilter {
     }
 
     /// `M_xz`, `M_yz` \[rad\], `S_z`, then the biases of the gyros x, y and z \[rad/s\].
-    pub fn estimate(&self) -> SVector<f64, 6> {
+    pub(crate) fn estimate(&self) -> SVector<f64, 6> {
         SVector::from_fn(|row, _| if row < 3 { self.spin_axis[row] } else { self.bias[row - 3] })
     }
 
     /// The covariance of [`Self::estimate`].
-    pub fn covariance(&self) -> SMatrix<f64, 6, 6> {
+    pub(crate) fn covariance(&self) -> SMatrix<f64, 6, 6> {
         let start = SPIN_AXIS.start();
         self.filter.covariance.fixed_view::<6, 6>(start, start).into_owned()
     }
@@ -72,7 +72,7 @@ impl BiasFilter {
     ///
     /// # Errors
     /// [`UpdateError`] if a figure is not finite or the innovation covariance not positive definite.
-    pub fn step(&mut self, sample: &Increments, table_rate: f64) -> Result<(), UpdateError> {
+    pub(crate) fn step(&mut self, sample: &Increments, table_rate: f64) -> Result<(), UpdateError> {
         let truer = self.compensate(sample);
         let before = *self.navigator.state().nav_from_body.matrix();
         self.navigator.step(&truer);

@@ -11,7 +11,7 @@ use crate::pure_navigation::PureNavigation;
 
 /// What may be wrong with a navigation on a table that turns at one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cause {
+pub(crate) enum Cause {
     /// A gyro's bias that was there during the alignment too: what lies east in it then has turned
     /// the azimuth. By axis of the body.
     GyroBias(usize),
@@ -48,7 +48,7 @@ pub enum Cause {
 
 impl Cause {
     /// Those that can be behind a velocity after a known start.
-    pub const OF_VELOCITY: [Self; 16] = [
+    pub(crate) const OF_VELOCITY: [Self; 16] = [
         Self::GyroBiasChange(0),
         Self::GyroBiasChange(1),
         Self::GyroBiasChange(2),
@@ -68,7 +68,7 @@ impl Cause {
     ];
 
     /// Its name, in the words of a list.
-    pub fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         let body = |axis: usize| ["x", "y", "z"][axis];
         let nav = |axis: usize| ["east", "north", "up"][axis];
         match self {
@@ -93,7 +93,7 @@ impl Cause {
     }
 
     /// Its unit, and that in SI.
-    pub fn unit(self) -> (&'static str, f64) {
+    pub(crate) fn unit(self) -> (&'static str, f64) {
         match self {
             Self::GyroBias(_) | Self::GyroBiasChange(_) => ("°/h", DEG_PER_HOUR),
             Self::AccelBias(_) | Self::AccelBiasChange(_) => ("µg", MICRO_G),
@@ -108,11 +108,14 @@ impl Cause {
     }
 
     /// What one unit of it does to velocity \[m/s\] and attitude \[deg\], in the order of
-    /// [`Outcome::figures`](crate::Outcome::figures), about `base`.
+    /// [`Outcome::figures`](crate::pure_navigation::Outcome::figures), about `base`.
     ///
     /// # Errors
     /// [`ReproductionError`] if the navigation cannot be done.
-    pub fn effect(self, base: &PureNavigation) -> Result<SVector<f64, 5>, ReproductionError> {
+    pub(crate) fn effect(
+        self,
+        base: &PureNavigation,
+    ) -> Result<SVector<f64, 5>, ReproductionError> {
         if self == Self::GyroNoise {
             return Ok(noise_effect(base, self.unit().1));
         }
@@ -234,13 +237,13 @@ fn tilt_error(station: &Station, force: &Vector3<f64>) -> Vector3<f64> {
 
 /// A cause at the size that explains most.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Explanation {
+pub(crate) struct Explanation {
     /// The cause.
-    pub cause: Cause,
+    pub(crate) cause: Cause,
     /// Its size, in its unit.
-    pub size: f64,
+    pub(crate) size: f64,
     /// What it leaves, root mean square, over what there was: 0 explains all, 1 nothing.
-    pub left: f64,
+    pub(crate) left: f64,
 }
 
 /// The causes, each taken alone at its best size against the velocities of `misfit` (printed less
@@ -248,7 +251,7 @@ pub struct Explanation {
 ///
 /// # Errors
 /// [`ReproductionError`] if a navigation cannot be done.
-pub fn velocity_explanations(
+pub(crate) fn velocity_explanations(
     causes: &[Cause],
     base: &PureNavigation,
     misfit: [f64; 2],
@@ -267,7 +270,7 @@ pub fn velocity_explanations(
 
 /// Where the size that a cause is allowed comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Basis {
+pub(crate) enum Basis {
     /// The paper states it of its instruments, or it follows from what it states.
     Stated,
     /// The paper says nothing of it: a size that such instruments commonly have.
@@ -276,36 +279,36 @@ pub enum Basis {
 
 /// A cause with the size that it is allowed, in its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Graded {
+pub(crate) struct Graded {
     /// The cause.
-    pub cause: Cause,
+    pub(crate) cause: Cause,
     /// The size allowed, in its unit.
-    pub grade: f64,
+    pub(crate) grade: f64,
     /// Where that size comes from.
-    pub basis: Basis,
+    pub(crate) basis: Basis,
     /// What a size of one unit does: m/s and degrees.
-    pub effect: SVector<f64, 5>,
+    pub(crate) effect: SVector<f64, 5>,
 }
 
 impl Graded {
     /// How large it would have to be, in its unit, to make the error `wanted` in one figure alone.
-    pub fn needed(&self, figure: usize, wanted: f64) -> f64 {
+    pub(crate) fn needed(&self, figure: usize, wanted: f64) -> f64 {
         wanted / self.effect[figure]
     }
 
     /// How much of the error `wanted` in one figure it makes at the size allowed: 1 is all of it.
-    pub fn share(&self, figure: usize, wanted: f64) -> f64 {
+    pub(crate) fn share(&self, figure: usize, wanted: f64) -> f64 {
         (self.effect[figure] * self.grade / wanted).abs()
     }
 
     /// The same over the size allowed.
-    pub fn multiple(&self, figure: usize, wanted: f64) -> f64 {
+    pub(crate) fn multiple(&self, figure: usize, wanted: f64) -> f64 {
         (self.needed(figure, wanted) / self.grade).abs()
     }
 }
 
 /// The causes of one figure's error `wanted`, those that make most of it first, each with its share.
-pub fn ranked(causes: &[Graded], figure: usize, wanted: f64) -> Vec<(&Graded, f64)> {
+pub(crate) fn ranked(causes: &[Graded], figure: usize, wanted: f64) -> Vec<(&Graded, f64)> {
     let mut ranked: Vec<(&Graded, f64)> =
         causes.iter().map(|graded| (graded, graded.share(figure, wanted))).collect();
     ranked.sort_by(|one, other| other.1.total_cmp(&one.1));
@@ -314,6 +317,6 @@ pub fn ranked(causes: &[Graded], figure: usize, wanted: f64) -> Vec<(&Graded, f6
 
 /// How much of an error all causes make together at the sizes allowed them: the root sum of squares of
 /// their shares, for causes that know nothing of each other.
-pub fn share_of_all(causes: &[Graded], figure: usize, wanted: f64) -> f64 {
+pub(crate) fn share_of_all(causes: &[Graded], figure: usize, wanted: f64) -> f64 {
     causes.iter().map(|graded| graded.share(figure, wanted).powi(2)).sum::<f64>().sqrt()
 }

@@ -7,10 +7,10 @@ use rins_calibration::EstimatePoint;
 use rins_simulation::Scenario;
 
 /// How many final sigmas an estimate may be from its final value where it counts as converged.
-pub const WITHIN: f64 = 3.0;
+pub(crate) const WITHIN: f64 = 3.0;
 
 /// The rate about the spin axis at the end of a scenario, the Earth's included \[rad/s\].
-pub fn spin_rate(scenario: &Scenario) -> f64 {
+pub(crate) fn spin_rate(scenario: &Scenario) -> f64 {
     let earth = scenario.nav_from_table.inverse() * scenario.station.site.earth_rate();
     scenario.profile.rate(scenario.profile.duration()) + earth.components().z
 }
@@ -20,13 +20,17 @@ pub fn spin_rate(scenario: &Scenario) -> f64 {
 ///
 /// The gyro shows the error times the rate in white noise, so that the information of a second is the
 /// square of rate over noise density.
-pub fn information_bound(density: f64, rate: f64, prior: f64, time: f64) -> f64 {
+pub(crate) fn information_bound(density: f64, rate: f64, prior: f64, time: f64) -> f64 {
     (prior.powi(-2) + (rate / density).powi(2) * time).sqrt().recip()
 }
 
 /// The time from which on an estimate stays within `multiple` of its final 1σ of its final value, for
 /// each of `M_xz`, `M_yz` and `S_z`, counted from `start` \[s\].
-pub fn convergence_times(points: &[EstimatePoint], start: f64, multiple: f64) -> Vector3<f64> {
+pub(crate) fn convergence_times(
+    points: &[EstimatePoint],
+    start: f64,
+    multiple: f64,
+) -> Vector3<f64> {
     let Some(end) = points.last() else { return Vector3::repeat(f64::NAN) };
     Vector3::from_fn(|row, _| {
         let far = |point: &&EstimatePoint| {
@@ -40,12 +44,12 @@ pub fn convergence_times(points: &[EstimatePoint], start: f64, multiple: f64) ->
 ///
 /// Its error is a Brownian motion in 1/t (time inversion of the mean of white noise), so that seen back
 /// from the end it leaves a band of `multiple` final sigmas, on average, after `multiple²` times 1/T.
-pub fn ideal_mean_ratio(multiple: f64) -> f64 {
+pub(crate) fn ideal_mean_ratio(multiple: f64) -> f64 {
     1.0 + multiple * multiple
 }
 
 /// The median of convergence time over run length for the same estimate.
-pub fn ideal_median_share(multiple: f64) -> f64 {
+pub(crate) fn ideal_median_share(multiple: f64) -> f64 {
     // P(no exit from ±1 up to u) = 4/π Σ (-1)^k / (2k + 1) exp(-(2k + 1)² π² u / 8).
     let stays = |time: f64| {
         let terms = (0..8).map(|index| {

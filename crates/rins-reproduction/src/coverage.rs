@@ -21,7 +21,7 @@ const TRUTH_SEED: u64 = 0x0007_2074;
 
 /// What the filter has for states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
+pub(crate) enum Model {
     /// The paper's twelve.
     Paper,
     /// Three gyro biases more.
@@ -30,7 +30,7 @@ pub enum Model {
 
 /// How the table turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Schedule {
+pub(crate) enum Schedule {
     /// At 10 °/s all the time.
     ConstantRate,
     /// At 10 °/s half the time, at 5 °/s the other half.
@@ -54,25 +54,26 @@ impl Schedule {
 
 /// How honest a covariance proved to be.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Honesty {
+pub(crate) struct Honesty {
     /// How many runs there were.
-    pub n_runs: u64,
+    pub(crate) n_runs: u64,
     /// For each parameter how many of the 95 % intervals held the truth, from 0 to 1: the three
     /// spin-axis errors, and the biases if they are states.
-    pub coverage: Vec<f64>,
+    pub(crate) coverage: Vec<f64>,
     /// The mean squared error normalised by the covariance claimed.
-    pub nees: f64,
+    pub(crate) nees: f64,
     /// The number of parameters, which `nees` should be.
-    pub dof: usize,
+    pub(crate) dof: usize,
     /// The mean 1σ claimed for `M_xz`, `M_yz` \[rad\] and `S_z`.
-    pub claimed: Vector3<f64>,
+    pub(crate) claimed: Vector3<f64>,
     /// Their errors, root mean square.
-    pub errors: Vector3<f64>,
+    pub(crate) errors: Vector3<f64>,
 }
 
 impl Honesty {
+    #[cfg(test)]
     /// How far the errors of the three spin-axis parameters exceed what is claimed, at most.
-    pub fn overconfidence(&self) -> f64 {
+    pub(crate) fn overconfidence(&self) -> f64 {
         self.errors.component_div(&self.claimed).max()
     }
 }
@@ -90,7 +91,7 @@ struct Scored {
 ///
 /// # Errors
 /// [`ReproductionError`] of the first run that fails.
-pub fn coverage(
+pub(crate) fn coverage(
     experiment: &Experiment,
     model: Model,
     schedule: Schedule,

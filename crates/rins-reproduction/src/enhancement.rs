@@ -4,29 +4,29 @@ use crate::printed;
 use crate::real_test::Emulated;
 
 /// The enhancement that the paper claims at least.
-pub const CLAIMED: f64 = 0.2;
+pub(crate) const CLAIMED: f64 = 0.2;
 
 /// How much smaller an error is after compensation, relative to that before: 1 is all of it, and less than
 /// zero where it has grown.
-pub fn enhancement(before: f64, after: f64) -> f64 {
+pub(crate) fn enhancement(before: f64, after: f64) -> f64 {
     1.0 - (after / before).abs()
 }
 
 /// The enhancement of one figure of Table 6, printed and over emulated runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Enhancement {
+pub(crate) struct Enhancement {
     /// From the printed errors.
-    pub printed: f64,
+    pub(crate) printed: f64,
     /// The median over the runs.
-    pub median: f64,
+    pub(crate) median: f64,
     /// The quantiles at 5 % and 95 % over the runs.
-    pub range: [f64; 2],
+    pub(crate) range: [f64; 2],
     /// The share of the runs in which it is at least [`CLAIMED`].
-    pub share: f64,
+    pub(crate) share: f64,
 }
 
-/// The five figures, in the order of [`Outcome::figures`](crate::Outcome::figures).
-pub fn enhancements(runs: &[Emulated]) -> [Enhancement; 5] {
+/// The five figures, in the order of [`Outcome::figures`](crate::pure_navigation::Outcome::figures).
+pub(crate) fn enhancements(runs: &[Emulated]) -> [Enhancement; 5] {
     std::array::from_fn(|figure| {
         let of =
             |run: &Emulated| enhancement(run.before.figures()[figure], run.after.figures()[figure]);
@@ -60,7 +60,7 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 }
 
 /// The share of the runs in which every one of the five figures is enhanced by at least [`CLAIMED`].
-pub fn share_of_all(runs: &[Emulated]) -> f64 {
+pub(crate) fn share_of_all(runs: &[Emulated]) -> f64 {
     let met = |run: &&Emulated| {
         let pairs = run.before.figures().into_iter().zip(run.after.figures());
         pairs.into_iter().all(|(before, after)| enhancement(before, after) >= CLAIMED)

@@ -10,23 +10,23 @@ use crate::grid::{ERRORS, turn};
 
 /// An equation as printed and as corrected, against an evaluation that uses neither.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Check {
+pub(crate) struct Check {
     /// What the evaluation says.
-    pub evaluated: f64,
+    pub(crate) evaluated: f64,
     /// What the printed equation says.
-    pub printed: f64,
+    pub(crate) printed: f64,
     /// What the corrected one says.
-    pub corrected: f64,
+    pub(crate) corrected: f64,
 }
 
 impl Check {
     /// How far the printed equation is off, relative to what is right.
-    pub fn printed_off(&self) -> f64 {
+    pub(crate) fn printed_off(&self) -> f64 {
         ((self.printed - self.evaluated) / self.evaluated).abs()
     }
 
     /// How far the corrected equation is off.
-    pub fn corrected_off(&self) -> f64 {
+    pub(crate) fn corrected_off(&self) -> f64 {
         ((self.corrected - self.evaluated) / self.evaluated).abs()
     }
 }
@@ -36,7 +36,7 @@ impl Check {
 ///
 /// "Corrected" is eq. (9) with its plus, "printed" the same with a minus, a reading of (A.7); all
 /// three are the printed form's whole `δv_y`, so that only that term differs.
-pub fn bounded_term() -> Check {
+pub(crate) fn bounded_term() -> Check {
     let turn = turn([30.0, 20.0, 40.0], 10.0);
     let form = ClosedForm::new(turn, ERRORS, Sign::Printed);
     let time = 18.0;
@@ -60,7 +60,7 @@ pub fn bounded_term() -> Check {
 }
 
 /// The coefficient of `δv_z` in the second row of eq. (13), from a navigator at 100 m/s north \[1/s\].
-pub fn vertical_coupling() -> Check {
+pub(crate) fn vertical_coupling() -> Check {
     let site = Site { latitude: 34.25 * DEG, longitude: 0.0, height: 0.0 };
     let station = Station::with_normal_gravity(site);
     let interval = 0.01;
@@ -85,7 +85,7 @@ pub fn vertical_coupling() -> Check {
 /// `(I - φ×) C_b^n`, over the size of φ.
 ///
 /// The evaluation is 1, the size of the error that is to be described.
-pub fn transposed_error() -> Check {
+pub(crate) fn transposed_error() -> Check {
     let angles = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
     let c_bn = angles.dcm::<Nav, Body>().matrix().transpose();
     let phi = cross_matrix(&(Vector3::new(1.0, -2.0, 2.0) * 1e-4));
@@ -102,7 +102,7 @@ pub fn transposed_error() -> Check {
 ///
 /// The computed attitude follows the computed level (ψ stays zero), and the Earth's rate is
 /// that of the computed place: what Z2 of eq. (20) then shows, along z, at a yaw of 40°.
-pub fn position_columns() -> Check {
+pub(crate) fn position_columns() -> Check {
     let angles = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
     let c_nb: Matrix3<f64> = *angles.dcm::<Nav, Body>().matrix();
     let site = Site { latitude: 34.25 * DEG, longitude: 0.0, height: 0.0 };

@@ -11,7 +11,7 @@ use rins_simulation::ScenarioError;
 /// Why an experiment could not be run again.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum ReproductionError {
+pub(crate) enum ReproductionError {
     /// A scenario file is wrong.
     #[error("a scenario file is wrong")]
     File(#[from] IoError),

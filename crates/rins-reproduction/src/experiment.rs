@@ -12,16 +12,16 @@ use crate::error::ReproductionError;
 
 /// An experiment of the paper: what is simulated, and what the filter is told.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Experiment {
+pub(crate) struct Experiment {
     /// What is simulated.
-    pub scenario: Scenario,
+    pub(crate) scenario: Scenario,
     /// What the calibration is told of station, table and IMU.
-    pub setup: Setup,
+    pub(crate) setup: Setup,
 }
 
 /// Which of the scenario's sensor errors are in the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sensors {
+pub(crate) enum Sensors {
     /// Everything in Tables 1 and 2.
     All,
     /// Everything but the gyro biases.
@@ -39,7 +39,7 @@ pub enum Sensors {
 impl Sensors {
     /// These of the errors in `all`.
     #[must_use]
-    pub fn of(self, all: &ImuError) -> ImuError {
+    pub(crate) fn of(self, all: &ImuError) -> ImuError {
         let spin_axis = spin_axis_part(&all.gyro);
         let unbiased = TriadError { bias: Vector3::zeros(), ..all.gyro };
         let only = |gyro| ImuError { gyro, accel: TriadError::default() };
@@ -73,7 +73,7 @@ impl Experiment {
     ///
     /// # Errors
     /// [`ReproductionError`] if the scenario file is wrong.
-    pub fn simulation() -> Result<Self, ReproductionError> {
+    pub(crate) fn simulation() -> Result<Self, ReproductionError> {
         let text = include_str!("../../../scenarios/paper/simulation.toml");
         Self::parse("scenarios/paper/simulation.toml", text)
     }
@@ -82,7 +82,7 @@ impl Experiment {
     ///
     /// # Errors
     /// [`ReproductionError`] if the scenario file is wrong.
-    pub fn section_4_1() -> Result<Self, ReproductionError> {
+    pub(crate) fn section_4_1() -> Result<Self, ReproductionError> {
         let text = include_str!("../../../scenarios/paper/section-4-1.toml");
         Self::parse("scenarios/paper/section-4-1.toml", text)
     }
@@ -91,7 +91,7 @@ impl Experiment {
     ///
     /// # Errors
     /// [`ReproductionError`] if the scenario file is wrong.
-    pub fn real_test() -> Result<Self, ReproductionError> {
+    pub(crate) fn real_test() -> Result<Self, ReproductionError> {
         let text = include_str!("../../../scenarios/paper/real-test.toml");
         Self::parse("scenarios/paper/real-test.toml", text)
     }
@@ -116,7 +116,7 @@ impl Experiment {
 
     /// This experiment with only some of its sensor errors.
     #[must_use]
-    pub fn with(&self, sensors: Sensors) -> Self {
+    pub(crate) fn with(&self, sensors: Sensors) -> Self {
         let imu_error = sensors.of(&self.scenario.imu_error);
         Self { scenario: Scenario { imu_error, ..self.scenario.clone() }, ..self.clone() }
     }
@@ -125,7 +125,7 @@ impl Experiment {
     ///
     /// # Errors
     /// [`ReproductionError::Scenario`] if it cannot be simulated.
-    pub fn run(&self, run: u64) -> Result<Simulated, ReproductionError> {
+    pub(crate) fn run(&self, run: u64) -> Result<Simulated, ReproductionError> {
         let seed = Seed { run, ..self.scenario.seed };
         Ok(simulate(&Scenario { seed, ..self.scenario.clone() })?)
     }

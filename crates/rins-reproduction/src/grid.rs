@@ -13,11 +13,11 @@ use rins_motion::{NavState, Navigator, Profile, Segment, Station, TrueMotion, Ve
 use crate::error::ReproductionError;
 
 /// The times of the grid \[s\]: a quarter of a turn at the paper's rate, one turn, two and a half, ten.
-pub const TIMES: [f64; 4] = [9.0, 36.0, 90.0, 360.0];
+pub(crate) const TIMES: [f64; 4] = [9.0, 36.0, 90.0, 360.0];
 /// The rates of the grid \[deg/s\].
-pub const RATES: [f64; 4] = [10.0, -10.0, 5.0, 20.0];
+pub(crate) const RATES: [f64; 4] = [10.0, -10.0, 5.0, 20.0];
 /// The attitudes of the grid: roll, pitch, yaw \[deg\]; Table 4's, section 4.1's, level, steep.
-pub const ATTITUDES: [[f64; 3]; 4] =
+pub(crate) const ATTITUDES: [[f64; 3]; 4] =
     [[30.0, 20.0, 40.0], [20.0, 30.0, 40.0], [0.0, 0.0, 0.0], [-60.0, 45.0, 160.0]];
 
 /// The interval of the navigator and of the flat integration \[s\].
@@ -32,7 +32,7 @@ const INTEGRATION: f64 = 1e-8;
 const EXTENDED: f64 = 3e-3;
 
 /// The spin-axis errors of Table 2.
-pub const ERRORS: SpinAxisErrors = SpinAxisErrors {
+pub(crate) const ERRORS: SpinAxisErrors = SpinAxisErrors {
     misalignment_xz: 60.0 * ARCSEC,
     misalignment_yz: 60.0 * ARCSEC,
     scale_z: 300.0 * PPM,
@@ -40,11 +40,11 @@ pub const ERRORS: SpinAxisErrors = SpinAxisErrors {
 
 /// Velocity and attitude error at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
+pub(crate) struct Errors {
     /// East, north \[m/s\], up zero.
-    pub velocity: Vector3<f64>,
+    pub(crate) velocity: Vector3<f64>,
     /// `φ` in n \[rad\].
-    pub attitude: Vector3<f64>,
+    pub(crate) attitude: Vector3<f64>,
 }
 
 impl Errors {
@@ -53,7 +53,7 @@ impl Errors {
     }
 
     /// How far this is off `truth`, relative to it: the larger of velocity and attitude.
-    pub fn relative_to(&self, truth: &Self) -> f64 {
+    pub(crate) fn relative_to(&self, truth: &Self) -> f64 {
         let velocity = (self.velocity - truth.velocity).norm() / truth.velocity.norm();
         let attitude = (self.attitude - truth.attitude).norm() / truth.attitude.norm();
         velocity.max(attitude)
@@ -62,37 +62,37 @@ impl Errors {
 
 /// One place of the grid, by every method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// Roll, pitch, yaw \[deg\].
-    pub attitude: [f64; 3],
+    pub(crate) attitude: [f64; 3],
     /// The table rate \[deg/s\].
-    pub rate: f64,
+    pub(crate) rate: f64,
     /// The time \[s\].
-    pub time: f64,
+    pub(crate) time: f64,
     /// Eqs. (6), (8), (9) as printed.
-    pub printed: Errors,
+    pub(crate) printed: Errors,
     /// The same with the sign of a strapdown system.
-    pub corrected: Errors,
+    pub(crate) corrected: Errors,
     /// A flat Earth that does not turn, integrated numerically.
-    pub flat: Errors,
+    pub(crate) flat: Errors,
     /// The linear model of the round, turning Earth, and the flat Earth's second order.
-    pub extended: Errors,
+    pub(crate) extended: Errors,
     /// The navigator on the round, turning Earth.
-    pub navigated: Errors,
+    pub(crate) navigated: Errors,
     /// How far the flat integration is off its closed form, relatively.
-    pub integration: f64,
+    pub(crate) integration: f64,
 }
 
 impl Row {
     /// How far the corrected form may be off the flat integration, relatively: the second order,
     /// `S_z ω t` and the misalignments themselves.
-    pub fn second_order(&self) -> f64 {
+    pub(crate) fn second_order(&self) -> f64 {
         let turned = (self.rate * DEG_PER_SECOND * self.time).abs();
         ERRORS.scale_z * turned + ERRORS.misalignment_xz.hypot(ERRORS.misalignment_yz)
     }
 
     /// The bounds that this place breaks, in words.
-    pub fn broken(&self) -> Vec<String> {
+    pub(crate) fn broken(&self) -> Vec<String> {
         let mut broken = Vec::new();
         let mut demand = |what: &str, is: f64, at_most: f64| {
             if is.is_nan() || is > at_most {
@@ -123,7 +123,7 @@ impl Row {
 ///
 /// # Errors
 /// [`ReproductionError::Profile`] if a time or a rate makes no profile.
-pub fn grid(
+pub(crate) fn grid(
     times: &[f64],
     attitudes: &[[f64; 3]],
     rates: &[f64],
@@ -140,7 +140,7 @@ pub fn grid(
 }
 
 /// The table of the grid: where the paper's authors are.
-pub fn turn(attitude: [f64; 3], rate: f64) -> ConstantTurn {
+pub(crate) fn turn(attitude: [f64; 3], rate: f64) -> ConstantTurn {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let [roll, pitch, yaw] = attitude.map(|angle| angle * DEG);
     ConstantTurn {

@@ -27,7 +27,7 @@ const WOBBLE: f64 = 1e-3 * ARCSEC;
 
 /// How the table turns, after 30 s of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Schedule {
+pub(crate) enum Schedule {
     /// At 10 °/s all the time.
     ConstantRate,
     /// At 10 °/s, and back.
@@ -38,10 +38,10 @@ pub enum Schedule {
 
 impl Schedule {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::ConstantRate, Self::Reversal, Self::SeveralRates];
+    pub(crate) const ALL: [Self; 3] = [Self::ConstantRate, Self::Reversal, Self::SeveralRates];
 
     /// Its name in tables.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::ConstantRate => "constant rate",
             Self::Reversal => "reversal",
@@ -66,27 +66,27 @@ impl Schedule {
 
 /// The noise in the data, and what the estimator is told of it.
 #[derive(Clone, Copy, Debug)]
-pub struct Colour {
+pub(crate) struct Colour {
     /// The gyros' bias instability \[rad/s\], and the accelerometers' \[m/s²\]; zero is white noise only.
-    pub flicker: (f64, f64),
+    pub(crate) flicker: (f64, f64),
     /// What the estimator knows of the strengths of its data sheet.
-    pub knowledge: fn(NoiseParameters) -> NoiseKnowledge,
+    pub(crate) knowledge: fn(NoiseParameters) -> NoiseKnowledge,
 }
 
 impl Colour {
     /// White noise of known strength.
-    pub const WHITE: Self = Self { flicker: (0.0, 0.0), knowledge: NoiseKnowledge::Given };
+    pub(crate) const WHITE: Self = Self { flicker: (0.0, 0.0), knowledge: NoiseKnowledge::Given };
 
     /// Bias instability of 0.005 deg/h and 2 µg, estimated from the run like the noise density.
-    pub const FAINT: Self =
+    pub(crate) const FAINT: Self =
         Self { flicker: (0.005 * DEG_PER_HOUR, 2.0 * MICRO_G), knowledge: NoiseKnowledge::Likely };
 
     /// The same with 0.05 deg/h and 10 µg.
-    pub const STRONG: Self =
+    pub(crate) const STRONG: Self =
         Self { flicker: (0.05 * DEG_PER_HOUR, 10.0 * MICRO_G), knowledge: NoiseKnowledge::Likely };
 
     /// Its name in tables.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         if self.flicker.0 > 0.0 {
             format!(
                 "bias instability {:.3} deg/h, {:.0} ug",
@@ -101,29 +101,29 @@ impl Colour {
 
 /// How honest an estimator proved to be over many runs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coverage {
+pub(crate) struct Coverage {
     /// How many runs there were.
-    pub n_runs: usize,
+    pub(crate) n_runs: usize,
     /// The parameters' ids.
-    pub ids: Vec<String>,
+    pub(crate) ids: Vec<String>,
     /// For each the part of its 95 % intervals that held the truth.
-    pub each: Vec<f64>,
+    pub(crate) each: Vec<f64>,
     /// The same over all.
-    pub pooled: f64,
+    pub(crate) pooled: f64,
     /// The mean of the squared error normalised by the covariance; the number of parameters if it is right.
-    pub nees: f64,
+    pub(crate) nees: f64,
     /// The standard deviation of that mean.
-    pub nees_sigma: f64,
+    pub(crate) nees_sigma: f64,
     /// For each parameter the mean squared error over the variance claimed, which at the truth is the
     /// Cramér-Rao bound.
-    pub variance_ratio: Vec<f64>,
+    pub(crate) variance_ratio: Vec<f64>,
     /// The mean bias instability found for the gyros \[rad/s\].
-    pub flicker: f64,
+    pub(crate) flicker: f64,
 }
 
 impl Coverage {
     /// Where it misses what an honest estimator shows, in words.
-    pub fn faults(&self) -> Vec<String> {
+    pub(crate) fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let n = self.n_runs as f64;
         // The bounds that are asked for, or three binomial sigmas where so few runs cannot show them.
@@ -161,7 +161,7 @@ struct Scored {
 ///
 /// # Errors
 /// [`ReproductionError`] of the first run that fails.
-pub fn coverage(
+pub(crate) fn coverage(
     schedule: Schedule,
     colour: &Colour,
     n_runs: usize,

@@ -16,33 +16,31 @@ pub(crate) const UNITS: [f64; 3] = [ARCSEC, ARCSEC, PPM];
 
 /// A finished run of the paper's filter.
 #[derive(Clone, Debug)]
-pub struct Calibrated {
+pub(crate) struct Calibrated {
     /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated.
-    pub estimate: Vector3<f64>,
+    pub(crate) estimate: Vector3<f64>,
     /// Their 1σ, as the filter claims it.
-    pub sigma: Vector3<f64>,
+    pub(crate) sigma: Vector3<f64>,
     /// The squared error of the three, normalised by the covariance claimed: χ² with three degrees
     /// of freedom if that is honest.
-    pub nees: f64,
-    /// The mean normalised innovation squared over what it should be.
-    pub nis_ratio: f64,
+    pub(crate) nees: f64,
     /// The estimates on the way.
-    pub history: Vec<EstimatePoint>,
+    pub(crate) history: Vec<EstimatePoint>,
     /// What navigation ends with, nothing compensated.
-    pub before: Outcome,
+    pub(crate) before: Outcome,
     /// The same with the estimates compensated.
-    pub after: Outcome,
+    pub(crate) after: Outcome,
     /// The way through the navigation before.
-    pub before_history: Vec<NavigationPoint>,
+    pub(crate) before_history: Vec<NavigationPoint>,
 }
 
 /// The runs of a Monte Carlo, in order of their index.
 #[derive(Clone, Debug)]
-pub struct Campaign {
+pub(crate) struct Campaign {
     /// The true `M_xz`, `M_yz` \[rad\] and `S_z`.
-    pub truth: Vector3<f64>,
+    pub(crate) truth: Vector3<f64>,
     /// The runs.
-    pub runs: Vec<Calibrated>,
+    pub(crate) runs: Vec<Calibrated>,
 }
 
 impl Campaign {
@@ -50,7 +48,7 @@ impl Campaign {
     ///
     /// # Errors
     /// [`ReproductionError`] of the first run that fails.
-    pub fn of(
+    pub(crate) fn of(
         experiment: &Experiment,
         n_runs: u64,
         progress: impl Fn() + Sync,
@@ -65,17 +63,17 @@ impl Campaign {
     }
 
     /// The estimates of one of the three, in arc seconds, arc seconds and ppm.
-    pub fn estimates(&self, parameter: usize) -> Sample {
+    pub(crate) fn estimates(&self, parameter: usize) -> Sample {
         Sample::of(self.runs.iter().map(|run| run.estimate[parameter] / UNITS[parameter]))
     }
 
     /// The 1σ that the filter claims for one of the three, in the same units.
-    pub fn claimed(&self, parameter: usize) -> f64 {
+    pub(crate) fn claimed(&self, parameter: usize) -> f64 {
         Sample::of(self.runs.iter().map(|run| run.sigma[parameter] / UNITS[parameter])).mean
     }
 
     /// The error of one of the three, root mean square over the runs, over the 1σ claimed.
-    pub fn overconfidence(&self, parameter: usize) -> f64 {
+    pub(crate) fn overconfidence(&self, parameter: usize) -> f64 {
         let squares = self.runs.iter().map(|run| {
             let off = (run.estimate[parameter] - self.truth[parameter]) / run.sigma[parameter];
             off * off
@@ -84,12 +82,16 @@ impl Campaign {
     }
 
     /// The mean normalised squared error of the three together.
-    pub fn nees(&self) -> f64 {
+    pub(crate) fn nees(&self) -> f64 {
         Sample::of(self.runs.iter().map(|run| run.nees)).mean
     }
 
     /// One of the five figures of the navigations before or after, in m/s and degrees.
-    pub fn navigated(&self, outcome: impl Fn(&Calibrated) -> Outcome, figure: usize) -> Sample {
+    pub(crate) fn navigated(
+        &self,
+        outcome: impl Fn(&Calibrated) -> Outcome,
+        figure: usize,
+    ) -> Sample {
         Sample::of(self.runs.iter().map(|run| outcome(run).figures()[figure]))
     }
 }
@@ -112,7 +114,6 @@ fn calibrated(
         estimate,
         sigma,
         nees: error.dot(&(inverse * error)),
-        nis_ratio: calibration.consistency.nis_mean / calibration.consistency.nis_dof,
         history: calibration.history,
         before: Outcome::from(&calibration.before),
         after: Outcome::from(&calibration.after),

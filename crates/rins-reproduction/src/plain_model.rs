@@ -9,7 +9,7 @@ use rins_motion::mechanism::{ConstantTurn, SpinAxisErrors};
 
 /// A choice in which one model of the paper's run may differ from another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
+pub(crate) enum Choice {
     /// As the navigator has it: the WGS84 ellipsoid at the station, gravity as it varies over it.
     Ellipsoid,
     /// The height above the ellipsoid is zero.
@@ -34,7 +34,7 @@ pub enum Choice {
 
 impl Choice {
     /// The choices that differ from the navigator's.
-    pub const OTHERS: [Self; 9] = [
+    pub(crate) const OTHERS: [Self; 9] = [
         Self::NoHeight,
         Self::RoundGravity,
         Self::Sphere,
@@ -47,7 +47,7 @@ impl Choice {
     ];
 
     /// Its name, in the words of a list.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Ellipsoid => "as the navigator has it",
             Self::NoHeight => "height 0 in place of 400 m",
@@ -92,7 +92,7 @@ struct Model {
 }
 
 /// The velocity east and north after `time` \[m/s\], from rest and the true attitude.
-pub fn velocity(
+pub(crate) fn velocity(
     turn: &ConstantTurn,
     errors: &SpinAxisErrors,
     choice: Choice,

@@ -10,16 +10,16 @@ use crate::error::ReproductionError;
 
 /// What a navigation on a table ends with, as errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// Velocity east and north \[m/s\].
-    pub velocity: [f64; 2],
+    pub(crate) velocity: [f64; 2],
     /// Of the axis frame's roll, pitch and yaw \[rad\].
-    pub attitude: EulerAngles,
+    pub(crate) attitude: EulerAngles,
 }
 
 impl Outcome {
     /// East, north \[m/s\], roll, pitch, yaw \[deg\]: the paper's units, so as to be compared with it.
-    pub fn figures(&self) -> [f64; 5] {
+    pub(crate) fn figures(&self) -> [f64; 5] {
         let ([east, north], EulerAngles { roll, pitch, yaw }) = (self.velocity, self.attitude);
         [east, north, roll / DEG, pitch / DEG, yaw / DEG]
     }
@@ -34,7 +34,7 @@ impl Outcome {
     ///
     /// `reference` is the true attitude of the axis frame.
     #[must_use]
-    pub fn read_out_late(&self, reference: &EulerAngles, rate: f64, lag: f64) -> Self {
+    pub(crate) fn read_out_late(&self, reference: &EulerAngles, rate: f64, lag: f64) -> Self {
         let EulerAngles { roll, pitch, yaw } = self.attitude;
         let computed = EulerAngles {
             roll: reference.roll + roll,
@@ -60,20 +60,20 @@ impl From<&FreeNavigation> for Outcome {
 
 /// A navigation on a table: the data, what is compensated, and how it starts.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PureNavigation {
+pub(crate) struct PureNavigation {
     /// The data.
-    pub scenario: Scenario,
+    pub(crate) scenario: Scenario,
     /// The sensor errors that are compensated.
-    pub compensated: ImuError,
+    pub(crate) compensated: ImuError,
     /// The attitude error at the start, `φ(0)` of `C~ = (I - φ×) C`, in n \[rad\].
-    pub start_error: Vector3<f64>,
+    pub(crate) start_error: Vector3<f64>,
     /// What the attitude at the end is compared with.
-    pub reference: Reference,
+    pub(crate) reference: Reference,
 }
 
 /// What an attitude is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reference {
+pub(crate) enum Reference {
     /// The true attitude of the axis frame.
     Truth,
     /// The attitude that the navigation started with, as where the truth is not known.
@@ -82,7 +82,7 @@ pub enum Reference {
 
 impl PureNavigation {
     /// A navigation of raw data that starts right.
-    pub fn of(scenario: &Scenario) -> Self {
+    pub(crate) fn of(scenario: &Scenario) -> Self {
         Self {
             scenario: scenario.clone(),
             compensated: ImuError::default(),
@@ -93,14 +93,14 @@ impl PureNavigation {
 
     /// The same, with the data free of noise.
     #[must_use]
-    pub fn noiseless(mut self) -> Self {
+    pub(crate) fn noiseless(mut self) -> Self {
         self.scenario.noise = None;
         self
     }
 
     /// The same, with these errors compensated.
     #[must_use]
-    pub fn compensating(mut self, errors: ImuError) -> Self {
+    pub(crate) fn compensating(mut self, errors: ImuError) -> Self {
         self.compensated = errors;
         self
     }
@@ -109,7 +109,7 @@ impl PureNavigation {
     ///
     /// # Errors
     /// [`ReproductionError`] if the data cannot be simulated or the errors not be compensated.
-    pub fn navigate(&self) -> Result<FreeNavigation, ReproductionError> {
+    pub(crate) fn navigate(&self) -> Result<FreeNavigation, ReproductionError> {
         let Simulated { recording, truth } = simulate(&self.scenario)?;
         let angles: Vec<f64> = std::iter::once(0.0).chain(truth.table_angle).collect();
         let compensation = self.compensated.compensation()?;
@@ -141,7 +141,7 @@ impl PureNavigation {
     ///
     /// # Errors
     /// As [`PureNavigation::navigate`].
-    pub fn outcome(&self) -> Result<Outcome, ReproductionError> {
+    pub(crate) fn outcome(&self) -> Result<Outcome, ReproductionError> {
         Ok(Outcome::from(&self.navigate()?))
     }
 }

@@ -13,17 +13,17 @@ use crate::statistics::root_mean_square;
 
 /// An outcome of the model, and the roll, pitch and yaw errors printed for it \[deg\].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
+pub(crate) struct Pair {
     /// The model's.
-    pub model: Outcome,
+    pub(crate) model: Outcome,
     /// The paper's: roll, pitch, yaw \[deg\].
-    pub printed: [f64; 3],
+    pub(crate) printed: [f64; 3],
 }
 
 impl Pair {
     /// The rotation that takes the model's attitude to the printed one, as a vector in the axis frame
     /// \[deg\]: what a lag makes of it has a z component alone.
-    pub fn rotation(&self, reference: &EulerAngles) -> Vector3<f64> {
+    pub(crate) fn rotation(&self, reference: &EulerAngles) -> Vector3<f64> {
         let attitude = |roll: f64, pitch: f64, yaw: f64| -> Dcm<Nav, Table> {
             EulerAngles {
                 roll: reference.roll + roll,
@@ -41,25 +41,25 @@ impl Pair {
 
 /// A table that turns while it is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning {
+pub(crate) struct Turning {
     /// The true attitude of the axis frame.
-    pub reference: EulerAngles,
+    pub(crate) reference: EulerAngles,
     /// The rate \[rad/s\].
-    pub rate: f64,
+    pub(crate) rate: f64,
 }
 
 /// The disagreement of model and print for a lag.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Disagreement {
+pub(crate) struct Disagreement {
     /// The lag \[s\].
-    pub lag: f64,
+    pub(crate) lag: f64,
     /// Model less print, three for each pair \[deg\].
-    pub residuals: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
 }
 
 impl Disagreement {
     /// Of these pairs, were the attitude read out `lag` \[s\] late.
-    pub fn of(pairs: &[Pair], turning: &Turning, lag: f64) -> Self {
+    pub(crate) fn of(pairs: &[Pair], turning: &Turning, lag: f64) -> Self {
         let residuals = pairs.iter().flat_map(|pair| {
             let model = pair.model.read_out_late(&turning.reference, turning.rate, lag).figures();
             [0, 1, 2].map(|angle| model[2 + angle] - pair.printed[angle])
@@ -68,7 +68,7 @@ impl Disagreement {
     }
 
     /// With the lag that fits best, by least squares.
-    pub fn least(pairs: &[Pair], turning: &Turning) -> Self {
+    pub(crate) fn least(pairs: &[Pair], turning: &Turning) -> Self {
         /// A tenth of a millisecond: the residuals are straight over a hundred of them.
         const STEP: f64 = 1e-4;
         let mut lag = 0.0;
@@ -87,12 +87,12 @@ impl Disagreement {
     }
 
     /// The root mean square of the residuals \[deg\].
-    pub fn root_mean_square(&self) -> f64 {
+    pub(crate) fn root_mean_square(&self) -> f64 {
         root_mean_square(&self.residuals)
     }
 
     /// The largest residual \[deg\].
-    pub fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.residuals.iter().fold(0.0, |largest, residual| residual.abs().max(largest))
     }
 }

@@ -23,7 +23,7 @@ const BIAS_SEED: u64 = 0x0007_2075;
 const CALIBRATED: f64 = 100.0;
 
 /// How accurate the table's rate is \[rad/s\], section 5.1: "rotation rate accuracy is 0.0001 °/s".
-pub const TABLE_RATE_ACCURACY: f64 = 1e-4 * DEG_PER_SECOND;
+pub(crate) const TABLE_RATE_ACCURACY: f64 = 1e-4 * DEG_PER_SECOND;
 
 /// The relative sample clock error that a plain quartz oscillator commonly has \[ppm\].
 const CLOCK: f64 = 20.0;
@@ -33,17 +33,17 @@ const COMMON_GYRO_NOISE: f64 = 0.6;
 
 /// One emulated run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Emulated {
+pub(crate) struct Emulated {
     /// `M_xz`, `M_yz` \[rad\] and `S_z` in the data: for these, the filter's estimates are Table 5's.
-    pub truth: Vector3<f64>,
+    pub(crate) truth: Vector3<f64>,
     /// The same three as estimated.
-    pub estimate: Vector3<f64>,
+    pub(crate) estimate: Vector3<f64>,
     /// What navigation ends with, as errors against the attitude it started with.
-    pub before: Outcome,
+    pub(crate) before: Outcome,
     /// The same with the estimates compensated.
-    pub after: Outcome,
+    pub(crate) after: Outcome,
     /// The same compensated while it turns, each sample with the estimate before it.
-    pub online: Outcome,
+    pub(crate) online: Outcome,
 }
 
 /// `n_runs` runs, each with biases drawn from the data sheet and a table rate drawn from its accuracy:
@@ -55,7 +55,7 @@ pub struct Emulated {
 ///
 /// # Errors
 /// [`ReproductionError`] of the first run that fails.
-pub fn emulate(
+pub(crate) fn emulate(
     experiment: &Experiment,
     n_runs: u64,
     progress: impl Fn() + Sync,
@@ -69,7 +69,11 @@ pub fn emulate(
 }
 
 /// One of the five figures over some runs, in m/s and degrees.
-pub fn spread(runs: &[Emulated], outcome: impl Fn(&Emulated) -> [f64; 5], figure: usize) -> Sample {
+pub(crate) fn spread(
+    runs: &[Emulated],
+    outcome: impl Fn(&Emulated) -> [f64; 5],
+    figure: usize,
+) -> Sample {
     Sample::of(runs.iter().map(|run| outcome(run)[figure]))
 }
 
@@ -181,7 +185,7 @@ fn samples_in(span: f64, interval: f64) -> usize {
 ///
 /// # Errors
 /// [`ReproductionError`] if the scenario's profile does not end with a turn.
-pub fn turning(experiment: &Experiment) -> Result<PureNavigation, ReproductionError> {
+pub(crate) fn turning(experiment: &Experiment) -> Result<PureNavigation, ReproductionError> {
     let scenario = &experiment.scenario;
     let profile = &scenario.profile;
     let rate = profile.rate(profile.duration());
@@ -196,7 +200,7 @@ pub fn turning(experiment: &Experiment) -> Result<PureNavigation, ReproductionEr
 ///
 /// # Errors
 /// [`ReproductionError`] if the navigation cannot be done.
-pub fn predicted(experiment: &Experiment) -> Result<Outcome, ReproductionError> {
+pub(crate) fn predicted(experiment: &Experiment) -> Result<Outcome, ReproductionError> {
     turning(experiment)?.outcome()
 }
 
@@ -208,7 +212,7 @@ pub fn predicted(experiment: &Experiment) -> Result<Outcome, ReproductionError> 
 ///
 /// # Errors
 /// [`ReproductionError`] if a navigation cannot be done.
-pub fn causes_after(experiment: &Experiment) -> Result<Vec<Graded>, ReproductionError> {
+pub(crate) fn causes_after(experiment: &Experiment) -> Result<Vec<Graded>, ReproductionError> {
     use Basis::{Plausible, Stated};
     let base = compensated(experiment)?;
     let rate = rate_accuracy(&experiment.scenario) / PPM;
@@ -258,7 +262,7 @@ fn compensated(experiment: &Experiment) -> Result<PureNavigation, ReproductionEr
 ///
 /// # Errors
 /// [`ReproductionError`] if a navigation cannot be done.
-pub fn causes_between(experiment: &Experiment) -> Result<Vec<Graded>, ReproductionError> {
+pub(crate) fn causes_between(experiment: &Experiment) -> Result<Vec<Graded>, ReproductionError> {
     use Basis::{Plausible, Stated};
     graded(
         &turning(experiment)?,

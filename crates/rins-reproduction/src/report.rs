@@ -20,25 +20,25 @@ mod roll;
 mod rotation;
 mod uncertainty;
 
-pub use results::{Results, Scale};
+pub(crate) use results::{Results, Scale};
 
 /// Where the page stands, from the workspace's root.
-pub const PAGE: &str = "docs/src/reproduction.md";
+pub(crate) const PAGE: &str = "docs/src/reproduction.md";
 
 /// The folder of its charts, from the workspace's root.
-pub const FIGURES: &str = "docs/src/figures";
+pub(crate) const FIGURES: &str = "docs/src/figures";
 
 /// A file of the report: its path from the workspace's root, and what it holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct File {
+pub(crate) struct File {
     /// The path.
-    pub path: String,
+    pub(crate) path: String,
     /// The text.
-    pub text: String,
+    pub(crate) text: String,
 }
 
 /// The page and its charts.
-pub fn files(results: &Results) -> Vec<File> {
+pub(crate) fn files(results: &Results) -> Vec<File> {
     let page = File { path: PAGE.into(), text: page(results) };
     let charts = figures::all(results)
         .into_iter()

@@ -12,7 +12,7 @@ use crate::experiment::{Experiment, Sensors, spin_axis_error};
 
 /// Whether the table turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
+pub(crate) enum Motion {
     /// It stands.
     Static,
     /// It turns at the experiment's rate.
@@ -21,18 +21,18 @@ pub enum Motion {
 
 /// An attitude error on the way, of one motion with one set of gyro errors.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AttitudeHistory {
+pub(crate) struct AttitudeHistory {
     /// The motion.
-    pub motion: Motion,
+    pub(crate) motion: Motion,
     /// Which gyro errors are in the data.
-    pub errors: GyroErrors,
+    pub(crate) errors: GyroErrors,
     /// Time \[s\], and the attitude error in the axis frame: x and y across the axis, z along it \[rad\].
-    pub points: Vec<(f64, Vector3<f64>)>,
+    pub(crate) points: Vec<(f64, Vector3<f64>)>,
 }
 
 /// The gyro errors of Table 2 that are in the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GyroErrors {
+pub(crate) enum GyroErrors {
     /// The biases.
     Biases,
     /// The biases and all of the matrix but its last column: what a perfect calibration of the spin-axis
@@ -58,12 +58,12 @@ impl GyroErrors {
 
 impl AttitudeHistory {
     /// The attitude error at the end, axis by axis \[rad\].
-    pub fn end(&self) -> Vector3<f64> {
+    pub(crate) fn end(&self) -> Vector3<f64> {
         self.points.last().map_or_else(Vector3::zeros, |point| point.1)
     }
 
     /// The largest error so far about each axis, at each time \[rad\].
-    pub fn largest_so_far(&self) -> Vec<(f64, Vector3<f64>)> {
+    pub(crate) fn largest_so_far(&self) -> Vec<(f64, Vector3<f64>)> {
         let mut largest = Vector3::<f64>::zeros();
         let so_far = self.points.iter().map(|&(time, error)| {
             largest = largest.zip_map(&error, |largest, error| largest.max(error.abs()));
@@ -73,7 +73,7 @@ impl AttitudeHistory {
     }
 
     /// The largest error about each axis \[rad\].
-    pub fn largest(&self) -> Vector3<f64> {
+    pub(crate) fn largest(&self) -> Vector3<f64> {
         self.largest_so_far().last().map_or_else(Vector3::zeros, |point| point.1)
     }
 }
@@ -83,7 +83,9 @@ impl AttitudeHistory {
 ///
 /// # Errors
 /// [`ReproductionError::Profile`] if the experiment's profile makes none.
-pub fn histories(experiment: &Experiment) -> Result<Vec<AttitudeHistory>, ReproductionError> {
+pub(crate) fn histories(
+    experiment: &Experiment,
+) -> Result<Vec<AttitudeHistory>, ReproductionError> {
     let all = Sensors::Gyros.of(&experiment.scenario.imu_error).gyro;
     let mut histories = Vec::new();
     for motion in [Motion::Static, Motion::Rotating] {

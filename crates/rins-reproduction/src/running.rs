@@ -13,28 +13,28 @@ use crate::experiment::{Experiment, spin_axis_error};
 use crate::pure_navigation::Outcome;
 
 /// The times at which the estimates are kept \[s\].
-pub const TIMES: [f64; 6] = [0.1, 1.0, 10.0, 36.0, 100.0, 360.0];
+pub(crate) const TIMES: [f64; 6] = [0.1, 1.0, 10.0, 36.0, 100.0, 360.0];
 
 /// One run, followed sample by sample.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Followed {
+pub(crate) struct Followed {
     /// The time from which on each estimate stays within [`WITHIN`] final sigmas of its final value \[s\].
-    pub converged: Vector3<f64>,
+    pub(crate) converged: Vector3<f64>,
     /// The estimate and its claimed 1σ at each of [`TIMES`].
-    pub kept: Vec<[Vector3<f64>; 2]>,
+    pub(crate) kept: Vec<[Vector3<f64>; 2]>,
     /// What navigation ends with, nothing compensated.
-    pub none: Outcome,
+    pub(crate) none: Outcome,
     /// The same with each sample compensated by the estimate before it.
-    pub online: Outcome,
+    pub(crate) online: Outcome,
     /// The same with all samples compensated by the final estimate.
-    pub batch: Outcome,
+    pub(crate) batch: Outcome,
 }
 
 /// `n_runs` runs of an experiment whose start attitude is known; `progress` is told of each.
 ///
 /// # Errors
 /// [`ReproductionError`] of the first run that fails.
-pub fn followed(
+pub(crate) fn followed(
     experiment: &Experiment,
     n_runs: u64,
     progress: impl Fn() + Sync,

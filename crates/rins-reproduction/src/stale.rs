@@ -4,13 +4,13 @@ use std::fmt;
 
 /// A place where the kept text and the new one differ by more than a unit in a last digit.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Difference {
+pub(crate) struct Difference {
     /// The line of the kept text, from 1.
-    pub line: usize,
+    pub(crate) line: usize,
     /// What is kept there.
-    pub kept: String,
+    pub(crate) kept: String,
     /// What it should be.
-    pub made: String,
+    pub(crate) made: String,
 }
 
 impl fmt::Display for Difference {
@@ -23,7 +23,7 @@ impl fmt::Display for Difference {
 ///
 /// Numbers may differ by one in the last digit that is written: the last bits of a sine are not the
 /// same on every machine.
-pub fn differences(kept: &str, made: &str) -> Vec<Difference> {
+pub(crate) fn differences(kept: &str, made: &str) -> Vec<Difference> {
     let (kept, made): (Vec<&str>, Vec<&str>) = (kept.lines().collect(), made.lines().collect());
     (0..kept.len().max(made.len()))
         .filter_map(|place| {

@@ -2,18 +2,18 @@
 
 /// Mean and spread of some numbers, in their unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub(crate) struct Sample {
     /// How many there are.
-    pub count: usize,
+    pub(crate) count: usize,
     /// The mean.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// The standard deviation about the mean, with `count - 1` below.
-    pub deviation: f64,
+    pub(crate) deviation: f64,
 }
 
 impl Sample {
     /// The sample of these numbers, taken in their order; without any its mean is not a number.
-    pub fn of(numbers: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn of(numbers: impl IntoIterator<Item = f64>) -> Self {
         // Welford's recurrence.
         let (mut count, mut mean, mut squares) = (0_usize, 0.0, 0.0);
         for number in numbers {
@@ -30,7 +30,7 @@ impl Sample {
     }
 
     /// How far `value` lies from the mean, in standard deviations.
-    pub fn deviations_to(&self, value: f64) -> f64 {
+    pub(crate) fn deviations_to(&self, value: f64) -> f64 {
         (value - self.mean) / self.deviation
     }
 }

@@ -12,7 +12,7 @@ use crate::real_test::rate_accuracy;
 
 /// What is assumed of a quantity's distribution, and what its size means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Distribution {
+pub(crate) enum Distribution {
     /// The size is the standard uncertainty.
     Normal,
     /// The size is the half-width: bounds are stated and nothing else (JCGM 100, 4.3.7).
@@ -21,7 +21,7 @@ pub enum Distribution {
 
 impl Distribution {
     /// The standard uncertainty of a quantity of this size.
-    pub fn standard_uncertainty(self, size: f64) -> f64 {
+    pub(crate) fn standard_uncertainty(self, size: f64) -> f64 {
         match self {
             Self::Normal => size,
             Self::Rectangular => size / 3.0_f64.sqrt(),
@@ -31,48 +31,48 @@ impl Distribution {
 
 /// A contribution to the uncertainty of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contribution {
+pub(crate) struct Contribution {
     /// What it is.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// What is assumed of its distribution.
-    pub distribution: Distribution,
+    pub(crate) distribution: Distribution,
     /// Its size, a standard uncertainty or a half-width by its distribution.
-    pub size: f64,
+    pub(crate) size: f64,
     /// The change of the estimate with it.
-    pub sensitivity: f64,
+    pub(crate) sensitivity: f64,
 }
 
 impl Contribution {
     /// The standard uncertainty that it adds to the estimate.
-    pub fn standard_uncertainty(&self) -> f64 {
+    pub(crate) fn standard_uncertainty(&self) -> f64 {
         self.distribution.standard_uncertainty(self.size) * self.sensitivity.abs()
     }
 }
 
 /// An estimate with its contributions, in one unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Budget {
+pub(crate) struct Budget {
     /// The estimate.
-    pub value: f64,
+    pub(crate) value: f64,
     /// The contributions, independent of each other.
-    pub contributions: Vec<Contribution>,
+    pub(crate) contributions: Vec<Contribution>,
 }
 
 impl Budget {
     /// The combined standard uncertainty.
-    pub fn combined(&self) -> f64 {
+    pub(crate) fn combined(&self) -> f64 {
         let squares = self.contributions.iter().map(|one| one.standard_uncertainty().powi(2));
         squares.sum::<f64>().sqrt()
     }
 
     /// The expanded uncertainty for a coverage factor.
-    pub fn expanded(&self, coverage_factor: f64) -> f64 {
+    pub(crate) fn expanded(&self, coverage_factor: f64) -> f64 {
         coverage_factor * self.combined()
     }
 
     /// The probability that the error is within `half_width`, with the largest rectangular
     /// contribution taken as it is and the sum of the others as normal.
-    pub fn coverage(&self, half_width: f64) -> f64 {
+    pub(crate) fn coverage(&self, half_width: f64) -> f64 {
         let rectangular = self
             .contributions
             .iter()
@@ -101,7 +101,7 @@ impl Budget {
     }
 
     /// The half-width of the interval that holds the value with this probability.
-    pub fn half_width(&self, probability: f64) -> f64 {
+    pub(crate) fn half_width(&self, probability: f64) -> f64 {
         let (mut low, mut high) = (0.0, self.expanded(10.0));
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
@@ -115,7 +115,7 @@ impl Budget {
     }
 
     /// The decimals that an expanded uncertainty of two significant digits supports (JCGM 100, 7.2.6).
-    pub fn decimals(&self) -> usize {
+    pub(crate) fn decimals(&self) -> usize {
         let expanded = self.expanded(2.0);
         #[expect(
             clippy::cast_possible_truncation,
@@ -135,7 +135,7 @@ const GYRO_ACCURACY: f64 = 0.1 * DEG_PER_HOUR;
 ///
 /// The calibration compares the gyros with the commanded rate `ω`. A true rate of `(1 + e) ω` puts `e` into
 /// `S_z` and `M e` into a misalignment; a bias `B` puts `B / w` into its own.
-pub fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Budget; 3] {
+pub(crate) fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Budget; 3] {
     let scenario = &experiment.scenario;
     let spin = spin_rate(scenario);
     let noise = experiment.setup.imu.gyro.noise_density;
@@ -179,7 +179,7 @@ pub fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Budget; 3]
 }
 
 /// One contribution of a budget, alone.
-pub fn alone(budget: &Budget, place: usize) -> Budget {
+pub(crate) fn alone(budget: &Budget, place: usize) -> Budget {
     Budget { value: budget.value, contributions: vec![budget.contributions[place]] }
 }
 

@@ -232,7 +232,7 @@ impl Model {
     ///
     /// # Panics
     /// If there is no such term.
-    pub fn term_id(&self, term: usize) -> String {
+    pub(crate) fn term_id(&self, term: usize) -> String {
         let id = self.terms[term].term.id;
         let before = self.terms[..term].iter().filter(|other| other.term.id == id).count();
         let again = if before == 0 { String::new() } else { format!("#{}", before + 1) };

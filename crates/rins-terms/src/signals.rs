@@ -40,17 +40,17 @@ impl Signals {
     }
 
     /// Adds `factor · vector` to the gyros \[rad/s\].
-    pub fn add_gyro(&mut self, factor: Dual64, vector: &Vector3<f64>) {
+    pub(crate) fn add_gyro(&mut self, factor: Dual64, vector: &Vector3<f64>) {
         add(&mut self.gyro, factor, vector);
     }
 
     /// Adds `factor · vector` to the accelerometers \[m/s²\].
-    pub fn add_accel(&mut self, factor: Dual64, vector: &Vector3<f64>) {
+    pub(crate) fn add_accel(&mut self, factor: Dual64, vector: &Vector3<f64>) {
         add(&mut self.accel, factor, vector);
     }
 
     /// Adds `factor · vector` to the tilt \[rad\].
-    pub fn add_tilt(&mut self, factor: Dual64, vector: &Vector3<f64>) {
+    pub(crate) fn add_tilt(&mut self, factor: Dual64, vector: &Vector3<f64>) {
         add(&mut self.tilt, factor, vector);
     }
 }

@@ -214,7 +214,7 @@ impl Term {
     }
 
     /// The settings where nothing is said of them.
-    pub fn default_settings(&self) -> Vec<f64> {
+    pub(crate) fn default_settings(&self) -> Vec<f64> {
         self.settings.iter().map(|setting| setting.default).collect()
     }
 

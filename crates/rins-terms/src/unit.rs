@@ -21,45 +21,45 @@ impl Unit {
     /// Degrees an hour \[rad/s\].
     pub const DEG_PER_HOUR: Self = Self::new("deg/h", DEG_PER_HOUR);
     /// Degrees an hour per hour \[rad/s²\].
-    pub const DEG_PER_HOUR_PER_HOUR: Self = Self::new("deg/h/h", DEG_PER_HOUR / 3600.0);
+    pub(crate) const DEG_PER_HOUR_PER_HOUR: Self = Self::new("deg/h/h", DEG_PER_HOUR / 3600.0);
     /// Degrees an hour per kelvin \[rad/s/K\].
-    pub const DEG_PER_HOUR_PER_KELVIN: Self = Self::new("deg/h/K", DEG_PER_HOUR);
+    pub(crate) const DEG_PER_HOUR_PER_KELVIN: Self = Self::new("deg/h/K", DEG_PER_HOUR);
     /// Degrees an hour per kelvin a minute \[rad/K\].
-    pub const DEG_PER_HOUR_PER_KELVIN_PER_MINUTE: Self =
+    pub(crate) const DEG_PER_HOUR_PER_KELVIN_PER_MINUTE: Self =
         Self::new("deg/h/(K/min)", DEG_PER_HOUR * 60.0);
     /// Degrees an hour per g \[rad s/m\].
-    pub const DEG_PER_HOUR_PER_G: Self = Self::new("deg/h/g", DEG_PER_HOUR / STANDARD_GRAVITY);
+    pub(crate) const DEG_PER_HOUR_PER_G: Self = Self::new("deg/h/g", DEG_PER_HOUR / STANDARD_GRAVITY);
     /// Degrees an hour per g².
-    pub const DEG_PER_HOUR_PER_G2: Self =
+    pub(crate) const DEG_PER_HOUR_PER_G2: Self =
         Self::new("deg/h/g^2", DEG_PER_HOUR / (STANDARD_GRAVITY * STANDARD_GRAVITY));
     /// Degrees an hour per gauss \[rad/s/T\].
     pub const DEG_PER_HOUR_PER_GAUSS: Self = Self::new("deg/h/G", DEG_PER_HOUR * 1e4);
     /// Millionths of standard gravity \[m/s²\].
     pub const MICRO_G: Self = Self::new("ug", MICRO_G);
     /// Millionths of standard gravity an hour \[m/s³\].
-    pub const MICRO_G_PER_HOUR: Self = Self::new("ug/h", MICRO_G / 3600.0);
+    pub(crate) const MICRO_G_PER_HOUR: Self = Self::new("ug/h", MICRO_G / 3600.0);
     /// Millionths of standard gravity per kelvin \[m/s²/K\].
-    pub const MICRO_G_PER_KELVIN: Self = Self::new("ug/K", MICRO_G);
+    pub(crate) const MICRO_G_PER_KELVIN: Self = Self::new("ug/K", MICRO_G);
     /// Millionths of standard gravity per g² \[s²/m\].
-    pub const MICRO_G_PER_G2: Self =
+    pub(crate) const MICRO_G_PER_G2: Self =
         Self::new("ug/g^2", MICRO_G / (STANDARD_GRAVITY * STANDARD_GRAVITY));
     /// Millionths of standard gravity per g³ \[s⁴/m²\].
-    pub const MICRO_G_PER_G3: Self =
+    pub(crate) const MICRO_G_PER_G3: Self =
         Self::new("ug/g^3", MICRO_G / (STANDARD_GRAVITY * STANDARD_GRAVITY * STANDARD_GRAVITY));
     /// Parts in a million per kelvin \[1/K\].
-    pub const PPM_PER_KELVIN: Self = Self::new("ppm/K", PPM);
+    pub(crate) const PPM_PER_KELVIN: Self = Self::new("ppm/K", PPM);
     /// Parts in a million an hour \[1/s\].
-    pub const PPM_PER_HOUR: Self = Self::new("ppm/h", PPM / 3600.0);
+    pub(crate) const PPM_PER_HOUR: Self = Self::new("ppm/h", PPM / 3600.0);
     /// Millimetres \[m\].
-    pub const MILLIMETRE: Self = Self::new("mm", 1e-3);
+    pub(crate) const MILLIMETRE: Self = Self::new("mm", 1e-3);
     /// Milliseconds \[s\].
     pub const MILLISECOND: Self = Self::new("ms", 1e-3);
     /// Microseconds \[s\].
-    pub const MICROSECOND: Self = Self::new("us", 1e-6);
+    pub(crate) const MICROSECOND: Self = Self::new("us", 1e-6);
     /// Seconds of arc an hour \[rad/s\].
-    pub const ARCSEC_PER_HOUR: Self = Self::new("arcsec/h", ARCSEC / 3600.0);
+    pub(crate) const ARCSEC_PER_HOUR: Self = Self::new("arcsec/h", ARCSEC / 3600.0);
     /// Seconds of arc a turn: a ratio of angles.
-    pub const ARCSEC_PER_TURN: Self =
+    pub(crate) const ARCSEC_PER_TURN: Self =
         Self::new("arcsec/turn", ARCSEC / (2.0 * std::f64::consts::PI));
     /// Minutes of arc \[rad\].
     pub const ARCMIN: Self = Self::new("arcmin", 60.0 * ARCSEC);
@@ -83,14 +83,14 @@ impl Unit {
     /// Millionths of standard gravity per root hour, as a random walk \[m/s²/√s\].
     pub const MICRO_G_PER_ROOT_HOUR: Self = Self::new("ug/sqrt(h)", MICRO_G / 60.0);
     /// Degrees an hour per degree a second: a ratio of rates.
-    pub const DEG_PER_HOUR_PER_DEG_PER_SECOND: Self = Self::new("deg/h/(deg/s)", 1.0 / 3600.0);
+    pub(crate) const DEG_PER_HOUR_PER_DEG_PER_SECOND: Self = Self::new("deg/h/(deg/s)", 1.0 / 3600.0);
     /// Degrees an hour per (degree a second)² \[s/rad\].
-    pub const DEG_PER_HOUR_PER_DEG_PER_SECOND_2: Self =
+    pub(crate) const DEG_PER_HOUR_PER_DEG_PER_SECOND_2: Self =
         Self::new("deg/h/(deg/s)^2", 1.0 / (3600.0 * DEG));
     /// Parts in a million per degree a second \[s/rad\].
-    pub const PPM_PER_DEG_PER_SECOND: Self = Self::new("ppm/(deg/s)", PPM / DEG);
+    pub(crate) const PPM_PER_DEG_PER_SECOND: Self = Self::new("ppm/(deg/s)", PPM / DEG);
     /// Parts in a million per (degree a second)² \[s²/rad²\].
-    pub const PPM_PER_DEG_PER_SECOND_2: Self = Self::new("ppm/(deg/s)^2", PPM / (DEG * DEG));
+    pub(crate) const PPM_PER_DEG_PER_SECOND_2: Self = Self::new("ppm/(deg/s)^2", PPM / (DEG * DEG));
     /// Micrometres a second \[m/s\].
     pub const MICROMETRE_PER_SECOND: Self = Self::new("um/s", 1e-6);
 

@@ -42,31 +42,31 @@ impl Dimension {
     /// Of a time.
     pub const TIME: Self = Self::halves(0, 2, 0, 0);
     /// Of a length.
-    pub const LENGTH: Self = Self::halves(0, 0, 2, 0);
+    pub(crate) const LENGTH: Self = Self::halves(0, 0, 2, 0);
     /// Of a temperature.
     pub const TEMPERATURE: Self = Self::halves(0, 0, 0, 2);
     /// Of a temperature that changes.
-    pub const TEMPERATURE_RATE: Self = Self::halves(0, -2, 0, 2);
+    pub(crate) const TEMPERATURE_RATE: Self = Self::halves(0, -2, 0, 2);
     /// Of a magnetic flux density.
-    pub const MAGNETIC_FIELD: Self = Self { halves: [0, 0, 0, 0, 2] };
+    pub(crate) const MAGNETIC_FIELD: Self = Self { halves: [0, 0, 0, 0, 2] };
     /// Of a frequency, which is not a rate: it has no angle.
     pub const FREQUENCY: Self = Self::halves(0, -2, 0, 0);
     /// Of an angular rate.
-    pub const ANGULAR_RATE: Self = Self::halves(2, -2, 0, 0);
+    pub(crate) const ANGULAR_RATE: Self = Self::halves(2, -2, 0, 0);
     /// Of an angular acceleration.
-    pub const ANGULAR_ACCELERATION: Self = Self::halves(2, -4, 0, 0);
+    pub(crate) const ANGULAR_ACCELERATION: Self = Self::halves(2, -4, 0, 0);
     /// Of a velocity, or an increment of one.
     pub const VELOCITY: Self = Self::halves(0, -2, 2, 0);
     /// Of an acceleration or a specific force.
     pub const ACCELERATION: Self = Self::halves(0, -4, 2, 0);
     /// Of a rate's root power density, which is also that of an angle random walk.
-    pub const RATE_NOISE: Self = Self::halves(2, -1, 0, 0);
+    pub(crate) const RATE_NOISE: Self = Self::halves(2, -1, 0, 0);
     /// Of an acceleration's root power density, which is also that of a velocity random walk.
-    pub const ACCELERATION_NOISE: Self = Self::halves(0, -3, 2, 0);
+    pub(crate) const ACCELERATION_NOISE: Self = Self::halves(0, -3, 2, 0);
     /// Of a rate random walk.
-    pub const RATE_RANDOM_WALK: Self = Self::halves(2, -3, 0, 0);
+    pub(crate) const RATE_RANDOM_WALK: Self = Self::halves(2, -3, 0, 0);
     /// Of an acceleration random walk.
-    pub const ACCELERATION_RANDOM_WALK: Self = Self::halves(0, -5, 2, 0);
+    pub(crate) const ACCELERATION_RANDOM_WALK: Self = Self::halves(0, -5, 2, 0);
 
     const fn halves(angle: i32, time: i32, length: i32, temperature: i32) -> Self {
         Self { halves: [angle, time, length, temperature, 0] }

@@ -122,7 +122,7 @@ pub const TURN: Kind = Kind::new(
     Range::Within { low: -TAU, high: TAU, words: "an angle from -360 to 360 deg" },
 );
 /// A pitch angle.
-pub const PITCH: Kind = Kind::new(
+pub(crate) const PITCH: Kind = Kind::new(
     "an angle",
     Dimension::ANGLE,
     "20 deg",
@@ -140,17 +140,17 @@ pub const ATTITUDE_SIGMA: Kind = Kind::new(
     },
 );
 /// The standard deviation of a small angle.
-pub const ANGLE_SIGMA: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
+pub(crate) const ANGLE_SIGMA: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
 /// The resolution of an angle; zero is none.
-pub const ANGLE_RESOLUTION: Kind =
+pub(crate) const ANGLE_RESOLUTION: Kind =
     Kind::new("an angle", Dimension::ANGLE, "0.1 arcsec", Range::NotNegative);
 /// A small angle of either sign.
 pub const SMALL_ANGLE: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Any);
 /// The least significant bit of an angle increment.
-pub const ANGLE_BIT: Kind =
+pub(crate) const ANGLE_BIT: Kind =
     Kind::new("an angle increment", Dimension::ANGLE, "0.1 arcsec", Range::Positive);
 /// The least significant bit of a velocity increment.
-pub const VELOCITY_BIT: Kind =
+pub(crate) const VELOCITY_BIT: Kind =
     Kind::new("a velocity increment", Dimension::VELOCITY, "1 ug*s", Range::Positive);
 /// A sampling rate.
 pub const SAMPLE_RATE: Kind = Kind::new(
@@ -160,16 +160,16 @@ pub const SAMPLE_RATE: Kind = Kind::new(
     Range::Within { low: 1e-3, high: 1e6, words: "a sampling rate from 0.001 Hz to 1 MHz" },
 );
 /// A time by which one signal is late.
-pub const LATENCY: Kind = Kind::new(
+pub(crate) const LATENCY: Kind = Kind::new(
     "a time",
     Dimension::TIME,
     "1 ms",
     Range::Within { low: -10.0, high: 10.0, words: "a latency from -10 to 10 s" },
 );
 /// By how much one clock is ahead of another.
-pub const CLOCK_OFFSET: Kind = Kind::new("a time", Dimension::TIME, "12 ms", Range::Any);
+pub(crate) const CLOCK_OFFSET: Kind = Kind::new("a time", Dimension::TIME, "12 ms", Range::Any);
 /// A time of a log.
-pub const LOG_TIME: Kind = Kind::new("a time", Dimension::TIME, "10 s", Range::Any);
+pub(crate) const LOG_TIME: Kind = Kind::new("a time", Dimension::TIME, "10 s", Range::Any);
 /// A time span.
 pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::Positive);
 /// A table's rate.
@@ -183,7 +183,7 @@ pub const TABLE_ACCELERATION: Kind = Kind::new(
     Range::Positive,
 );
 /// A ratio's standard deviation.
-pub const RATIO_SIGMA: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Positive);
+pub(crate) const RATIO_SIGMA: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Positive);
 /// A ratio of either sign.
 pub const RATIO: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Any);
 /// The root power density of a gyro's noise.
@@ -197,16 +197,16 @@ pub const GYRO_NOISE: Kind = Kind::new(
 pub const GYRO_BIAS: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Any);
 /// The standard deviation of a gyro's bias.
-pub const GYRO_BIAS_SIGMA: Kind =
+pub(crate) const GYRO_BIAS_SIGMA: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Positive);
 /// A gyro's bias instability.
 pub const GYRO_BIAS_INSTABILITY: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.005 deg/h", Range::NotNegative);
 /// A gyro's range or resolution.
-pub const GYRO_READING: Kind =
+pub(crate) const GYRO_READING: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "300 deg/s", Range::Positive);
 /// A gyro's rate random walk.
-pub const GYRO_RANDOM_WALK: Kind = Kind::new(
+pub(crate) const GYRO_RANDOM_WALK: Kind = Kind::new(
     "a rate random walk density",
     Dimension::RATE_RANDOM_WALK,
     "0.01 deg/h/sqrt(h)",
@@ -223,24 +223,24 @@ pub const ACCEL_NOISE: Kind = Kind::new(
 pub const ACCEL_BIAS: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Any);
 /// The standard deviation of an accelerometer's bias.
-pub const ACCEL_BIAS_SIGMA: Kind =
+pub(crate) const ACCEL_BIAS_SIGMA: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Positive);
 /// An accelerometer's bias instability.
 pub const ACCEL_BIAS_INSTABILITY: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "10 ug", Range::NotNegative);
 /// An accelerometer's range or resolution.
-pub const ACCEL_READING: Kind =
+pub(crate) const ACCEL_READING: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "10 g", Range::Positive);
 /// An accelerometer's random walk.
-pub const ACCEL_RANDOM_WALK: Kind = Kind::new(
+pub(crate) const ACCEL_RANDOM_WALK: Kind = Kind::new(
     "an acceleration random walk density",
     Dimension::ACCELERATION_RANDOM_WALK,
     "10 ug/sqrt(h)",
     Range::NotNegative,
 );
 /// How far a temperature rises or leaves its mean.
-pub const TEMPERATURE_DIFFERENCE: Kind =
+pub(crate) const TEMPERATURE_DIFFERENCE: Kind =
     Kind::new("a temperature difference", Dimension::TEMPERATURE, "5 K", Range::Any);
 /// How fast a temperature rises.
-pub const TEMPERATURE_RATE: Kind =
+pub(crate) const TEMPERATURE_RATE: Kind =
     Kind::new("a rate of temperature", Dimension::TEMPERATURE_RATE, "2 K/h", Range::Any);

@@ -24,7 +24,7 @@ impl Axes {
     pub const IDENTITY: Self = Self(SignedAxes::IDENTITY);
 
     /// From front, right, down to right, front, up; and back.
-    pub const FRONT_RIGHT_DOWN: Self =
+    pub(crate) const FRONT_RIGHT_DOWN: Self =
         Self(SignedAxes { source: [1, 0, 2], sign: [1.0, 1.0, -1.0] });
 
     /// The axes that three texts name; `None` unless each of x, y and z occurs once.

@@ -9,9 +9,10 @@ use super::results::Results;
 use crate::convergence::{
     WITHIN, ideal_mean_ratio, ideal_median_share, information_bound, spin_rate,
 };
+use crate::experiment::Experiment;
 use crate::monte_carlo::UNITS;
 use crate::running::TIMES;
-use crate::{Experiment, Sample};
+use crate::statistics::Sample;
 
 const NAMES: [&str; 3] = ["$M_{xz}$ [″]", "$M_{yz}$ [″]", "$S_z$ [ppm]"];
 

@@ -27,7 +27,7 @@ fn computed(results: &Results) -> Vec<[String; 5]> {
     let velocity = |of: &dyn Fn(&crate::grid::Row) -> nalgebra::Vector3<f64>, decimals| {
         ten_turns.map_or_else(String::new, |row| tuple(&of(row).as_slice()[..2], decimals))
     };
-    let mean = |campaign: &crate::Campaign| {
+    let mean = |campaign: &crate::monte_carlo::Campaign| {
         tuple(&[0, 1, 2].map(|place| campaign.estimates(place).mean), 2)
     };
     let outcome = |place: usize| tuple(&results.variants[place].outcome.velocity, 3);

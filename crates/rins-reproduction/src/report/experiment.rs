@@ -8,8 +8,9 @@ use super::results::Results;
 use super::{enhancement, roll, uncertainty};
 use crate::causes::{Cause, Graded};
 use crate::monte_carlo::UNITS;
+use crate::printed;
 use crate::real_test::{self, Emulated};
-use crate::{Sample, printed};
+use crate::statistics::Sample;
 
 /// The decimals of each figure that are larger than the emulation's spread.
 const DECIMALS: [usize; 5] = [2, 2, 4, 4, 4];

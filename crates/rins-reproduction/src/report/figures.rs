@@ -4,8 +4,9 @@ use super::chart::{Axis, Mark, Panel, Scale, Series, svg};
 use super::results::Results;
 use crate::grid::{ERRORS, turn};
 use crate::monte_carlo::{Calibrated, Campaign, UNITS};
+use crate::printed;
 use crate::pure_navigation::Outcome;
-use crate::{Sample, printed};
+use crate::statistics::Sample;
 use rins_motion::mechanism::{ClosedForm, Sign};
 
 const NAMES: [(&str, &str); 3] = [("Mxz", "arcsec"), ("Myz", "arcsec"), ("Sz", "ppm")];

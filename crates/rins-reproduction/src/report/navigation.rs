@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use super::number::{Table, fixed, signed, significant, spread, tuple, with_unit};
 use super::results::{Results, VelocityCase};
+use crate::printed;
 use crate::pure_navigation::Outcome;
-use crate::{Sample, printed};
+use crate::statistics::Sample;
 
 pub(super) fn section(results: &Results) -> String {
     let mut out = String::from("## Table 4: navigation before and after {#table-4}\n\n");

@@ -39,7 +39,7 @@ pub(super) fn with_unit(number: &str, unit: &str) -> String {
 }
 
 /// `mean ± deviation` with so many decimals.
-pub(super) fn spread(sample: &crate::Sample, decimals: usize) -> String {
+pub(super) fn spread(sample: &crate::statistics::Sample, decimals: usize) -> String {
     [fixed(sample.mean, decimals), fixed(sample.deviation, decimals)].join("\u{a0}±\u{a0}")
 }
 

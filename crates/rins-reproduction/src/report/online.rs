@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use super::number::{Table, significant};
 use super::results::Results;
-use crate::Sample;
 use crate::pure_navigation::Outcome;
 use crate::running::Followed;
+use crate::statistics::Sample;
 
 pub(super) fn section(results: &Results) -> String {
     let mut out = String::new();

@@ -5,8 +5,10 @@ use super::results::Results;
 use super::{online, ranking, rotation, uncertainty};
 use crate::accelerometers::Left;
 use crate::enhancement::{enhancements, share_of_all};
+use crate::monte_carlo::Campaign;
+use crate::printed;
+use crate::pure_navigation::Outcome;
 use crate::real_test::{self, Emulated};
-use crate::{Campaign, Outcome, printed};
 
 pub(super) fn section(results: &Results) -> String {
     let mut out = String::from(HEAD);

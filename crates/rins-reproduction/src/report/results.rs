@@ -26,26 +26,26 @@ use crate::running::{Followed, followed};
 
 /// How much is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scale {
+pub(crate) struct Scale {
     /// The runs of each Monte Carlo of section 4.
-    pub runs: u64,
+    pub(crate) runs: u64,
     /// The runs in which each filter's intervals are counted.
-    pub honesty_runs: u64,
+    pub(crate) honesty_runs: u64,
     /// How long those are \[s\].
-    pub honesty_duration: f64,
+    pub(crate) honesty_duration: f64,
     /// The emulated runs of section 5.
-    pub emulated: u64,
+    pub(crate) emulated: u64,
     /// The runs of section 4 that are followed sample by sample.
-    pub followed: u64,
+    pub(crate) followed: u64,
 }
 
 impl Scale {
     /// What the page is made of: the paper's 30 runs, and enough of the rest for 1 % of coverage.
-    pub const FULL: Self =
+    pub(crate) const FULL: Self =
         Self { runs: 30, honesty_runs: 240, honesty_duration: 72.0, emulated: 200, followed: 200 };
 
     /// How often `progress` is told of a run.
-    pub const fn total(&self) -> u64 {
+    pub(crate) const fn total(&self) -> u64 {
         3 * self.runs + 6 * self.honesty_runs + self.emulated + self.followed
     }
 }
@@ -80,7 +80,7 @@ pub(super) struct LagCase {
 
 /// Everything that the page tells.
 #[derive(Clone, Debug)]
-pub struct Results {
+pub(crate) struct Results {
     pub(super) scale: Scale,
     pub(super) simulation: Experiment,
     pub(super) real_test: Experiment,
@@ -120,7 +120,10 @@ impl Results {
     ///
     /// # Errors
     /// [`ReproductionError`] of the first thing that fails.
-    pub fn compute(scale: Scale, progress: impl Fn() + Sync) -> Result<Self, ReproductionError> {
+    pub(crate) fn compute(
+        scale: Scale,
+        progress: impl Fn() + Sync,
+    ) -> Result<Self, ReproductionError> {
         let simulation = Experiment::simulation()?;
         let without = simulation.with(Sensors::WithoutGyroBias);
         let variant = Experiment::section_4_1()?;

@@ -1,6 +1,6 @@
 //! A dozen runs with random truth: the estimator's intervals hold it.
 
-use rins_reproduction::model_coverage::{Colour, Schedule, coverage};
+use crate::model_coverage::{Colour, Schedule, coverage};
 
 #[test]
 fn intervals_hold_the_truth() {

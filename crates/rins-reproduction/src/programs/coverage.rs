@@ -1,41 +1,26 @@
 //! Prints how honest the estimator of `Model::full()` is; fails where it is not.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
-use std::process::ExitCode;
+use std::error::Error;
 
+use crate::error::ReproductionError;
+use crate::model_coverage::{Colour, Coverage, Schedule, coverage};
 use indicatif::ProgressBar;
 use rins_frames::units::DEG_PER_HOUR;
-use rins_reproduction::ReproductionError;
-use rins_reproduction::model_coverage::{Colour, Coverage, Schedule, coverage};
 
 /// How many runs of each kind, where nothing is said.
-const RUNS: usize = 200;
+pub(super) const RUNS: usize = 200;
 
-fn main() -> ExitCode {
-    let argument = std::env::args().nth(1);
-    let n_runs = match argument.as_deref().map(str::parse) {
-        None => RUNS,
-        Some(Ok(n)) if n > 1 => n,
-        _ => {
-            eprintln!("error: the only argument is the number of runs, at least 2");
-            return ExitCode::from(2);
-        }
-    };
-    match run(n_runs) {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(faults) => {
-            eprintln!("error: {faults} figures are not those of a consistent estimator");
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
+/// Prints a table; whether all figures are what they should be.
+pub(super) fn run(n_runs: usize) -> Result<bool, Box<dyn Error>> {
+    let faults = table(n_runs)?;
+    if faults > 0 {
+        eprintln!("error: {faults} figures are not those of a consistent estimator");
     }
+    Ok(faults == 0)
 }
 
 /// Prints a table and returns how many figures are not what they should be.
-fn run(n_runs: usize) -> Result<usize, ReproductionError> {
+fn table(n_runs: usize) -> Result<usize, ReproductionError> {
     println!(
         "| schedule | noise | pooled 95 % | each | NEES of 27 | variance / bound, at most | B found [deg/h] |"
     );

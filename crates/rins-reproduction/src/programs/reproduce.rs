@@ -1,42 +1,15 @@
 //! Runs the paper's experiments and writes, or with `--check` compares, the page that shows them.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
 use std::error::Error;
 use std::fs;
 use std::path::Path;
-use std::process::ExitCode;
 
+use crate::report::{FIGURES, File, Results, Scale, files};
+use crate::stale::differences;
 use indicatif::{ProgressBar, ProgressStyle};
-use rins_reproduction::differences;
-use rins_reproduction::report::{FIGURES, File, Results, Scale, files};
 
 /// How many differences are shown before it is clear that the page is old.
 const SHOWN: usize = 20;
-
-fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => write(),
-        ["--check"] => check(),
-        _ => {
-            eprintln!("usage: reproduce [--check]");
-            return ExitCode::from(2);
-        }
-    };
-    match done {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error}");
-            let mut source = error.source();
-            while let Some(cause) = source {
-                eprintln!("  because {cause}");
-                source = cause.source();
-            }
-            ExitCode::FAILURE
-        }
-    }
-}
 
 fn root() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -51,7 +24,8 @@ fn made() -> Result<Vec<File>, Box<dyn Error>> {
     Ok(files(&results))
 }
 
-fn write() -> Result<bool, Box<dyn Error>> {
+/// Writes the page and its figures.
+pub(super) fn write() -> Result<bool, Box<dyn Error>> {
     let files = made()?;
     fs::create_dir_all(root().join(FIGURES))?;
     for File { path, text } in &files {
@@ -62,7 +36,7 @@ fn write() -> Result<bool, Box<dyn Error>> {
 }
 
 /// Whether the files kept say what is made now.
-fn check() -> Result<bool, Box<dyn Error>> {
+pub(super) fn check() -> Result<bool, Box<dyn Error>> {
     let mut fresh = true;
     for File { path, text } in made()? {
         let kept = fs::read_to_string(root().join(&path)).unwrap_or_default();

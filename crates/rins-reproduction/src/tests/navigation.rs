@@ -1,11 +1,13 @@
 //! Table 4: the model's figures against those of an independent model, and the lag in the printed ones.
 
+use crate::causes::{Cause, velocity_explanations};
+use crate::experiment::{Experiment, Sensors};
+use crate::printed;
+use crate::pure_navigation::{Outcome, PureNavigation};
+use crate::readout::{Disagreement, Pair, Turning};
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, PPM};
 use rins_imu::{Axis, ImuError, TriadError};
-use rins_reproduction::causes::{Cause, velocity_explanations};
-use rins_reproduction::readout::{Disagreement, Pair, Turning};
-use rins_reproduction::{Experiment, Outcome, PureNavigation, Sensors, printed};
 use rins_testing::assert_close;
 
 fn noiseless(sensors: Sensors) -> PureNavigation {

@@ -1,10 +1,12 @@
 //! Table 3, and whether the covariances behind it are honest.
 
+use crate::bias_filter::BiasFilter;
+use crate::coverage::{Model, Schedule, coverage};
+use crate::experiment::{Experiment, Sensors};
+use crate::monte_carlo::Campaign;
 use nalgebra::Matrix3;
 use rins_calibration::{AngleSource, Reference, Setup, SpinAxisFilter, Start, TableReading};
 use rins_frames::units::{ARCSEC, PPM};
-use rins_reproduction::coverage::{Model, Schedule, coverage};
-use rins_reproduction::{BiasFilter, Campaign, Experiment, Sensors};
 use rins_simulation::Simulated;
 use rins_testing::{assert_close, chi_squared_mean_bounds};
 

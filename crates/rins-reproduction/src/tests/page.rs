@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use rins_reproduction::differences;
-use rins_reproduction::report::{FIGURES, File, PAGE, Results, Scale, files};
+use crate::report::{FIGURES, File, PAGE, Results, Scale, files};
+use crate::stale::differences;
 
 /// So little that only what does not depend on the runs can be compared.
 const SMALL: Scale =

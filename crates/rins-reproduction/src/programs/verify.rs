@@ -1,28 +1,23 @@
 //! Prints eqs. (6), (8), (9) and (A.5) against numerical integration; fails if a bound is broken.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
-use std::process::ExitCode;
+use std::error::Error;
 
-use rins_reproduction::accelerometers::{ALL, Left, TURNS, left_over};
-use rins_reproduction::grid::{ATTITUDES, Errors, RATES, Row, TIMES, grid};
-use rins_reproduction::{Experiment, ReproductionError};
+use crate::accelerometers::{ALL, Left, TURNS, left_over};
+use crate::error::ReproductionError;
+use crate::experiment::Experiment;
+use crate::grid::{ATTITUDES, Errors, RATES, Row, TIMES, grid};
 
-fn main() -> ExitCode {
-    match run() {
-        Ok(0) => ExitCode::SUCCESS,
-        Ok(broken) => {
-            eprintln!("error: {broken} bounds are broken");
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
+/// Prints the grid; whether it keeps all bounds.
+pub(super) fn run() -> Result<bool, Box<dyn Error>> {
+    let broken = print()?;
+    if broken > 0 {
+        eprintln!("error: {broken} bounds are broken");
     }
+    Ok(broken == 0)
 }
 
 /// Prints the grid and returns how many bounds it breaks.
-fn run() -> Result<usize, ReproductionError> {
+fn print() -> Result<usize, ReproductionError> {
     let rows = grid(&TIMES, &ATTITUDES, &RATES)?;
     println!(
         "velocity errors [m/s]: printed = eqs. (8), (9); corrected = with the opposite sign; flat = integrated on a flat Earth;\n\

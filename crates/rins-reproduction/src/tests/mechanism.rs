@@ -1,6 +1,6 @@
 //! Eqs. (6), (8), (9) over a small grid, and that its bounds can break.
 
-use rins_reproduction::grid::{Errors, Row, grid};
+use crate::grid::{Errors, Row, grid};
 
 #[test]
 fn no_bound_is_broken() {
