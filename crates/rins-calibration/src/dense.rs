@@ -7,7 +7,7 @@ use rins_lanes::Vector;
 use crate::filter::MEASUREMENTS;
 use crate::kernel::{Kernel, WithAxis};
 use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY};
-use crate::structured::{Comparison, Found, With};
+use crate::structured::{Comparison, UpdateResult, With};
 
 impl Comparison<f64, STATES> {
     /// Zero velocity, which the computed one is `velocity` off, above the three rows, as a
@@ -48,7 +48,7 @@ impl Comparison<f64, STATES> {
     }
 }
 
-impl Found<f64, STATES> {
+impl UpdateResult<f64, STATES> {
     /// The logarithm of the probability density of the six innovations.
     pub(crate) fn log_likelihood(&self) -> f64 {
         let dof = MEASUREMENTS as f64;

@@ -8,7 +8,7 @@ use crate::filter::{AngleSource, MEASUREMENTS, Start, StartSigmas};
 use crate::kernel::{Interval, Kernel, WithAxis};
 use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY};
 use crate::setup::Setup;
-use crate::structured::{Comparison, Covariance, Found, Means};
+use crate::structured::{Comparison, Covariance, Means, UpdateResult};
 
 /// What of a variance some thousand plain steps may have rounded; of a measurement's noise it is less
 /// than 1e-6, since none was more than 1e7 times as precise.
@@ -97,12 +97,12 @@ impl Kernel<f64, WithAxis, STATES> {
         filter: &mut FactorisedFilter<STATES>,
         comparison: &Comparison<f64, STATES>,
         velocity: &Vector<f64>,
-    ) -> Result<(Found<f64, STATES>, f64), UpdateError> {
+    ) -> Result<(UpdateResult<f64, STATES>, f64), UpdateError> {
         let measurement = comparison.measurement(velocity, self.setup.velocity_noise);
         let innovation = filter.update(&measurement)?;
         let p = filter.factors().covariance();
         self.covariance = Covariance::from_fn(0.0, |row, column| p[(row, column)]);
-        let found = Found {
+        let found = UpdateResult {
             whitened: innovation.whitened.into(),
             inverse_scales: [f64::NAN; MEASUREMENTS],
             state: filter.state.into(),

@@ -6,7 +6,9 @@ use rins_motion::{Figures, Mechanisation, VerticalChannel};
 
 use crate::layout::{AXIS, PAPER_STATES, SPIN_AXIS_ERRORS, STATES};
 use crate::setup::Setup;
-use crate::structured::{Comparison, Covariance, Found, Input, Means, States, Transition, With};
+use crate::structured::{
+    Comparison, Covariance, Input, Means, States, Transition, UpdateResult, With,
+};
 
 /// The ratio of a measured combination's variance, its states taken apart, to its noise from which on
 /// the covariance is kept as factors: below it the plain form keeps six digits of every sigma.
@@ -117,7 +119,11 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
     /// One sample by the plain update, on a table at rest in its place; says whether all that it is
     /// compared with may be taken in plainly.
     #[inline(always)]
-    pub(crate) fn step(&mut self, sample: &Sample<T>, reading: &Reading<T>) -> (Found<T, N>, bool) {
+    pub(crate) fn step(
+        &mut self,
+        sample: &Sample<T>,
+        reading: &Reading<T>,
+    ) -> (UpdateResult<T, N>, bool) {
         let interval = self.predict(sample);
         let comparison = self.compare(&interval, reading);
         let (off, noise) = (self.mechanisation.velocity, self.setup.velocity_noise);

@@ -6,7 +6,7 @@ use rins::{
     ApplyOptions, CalibrateOptions, ConvertOptions, DiagnoseOptions, Log, MonteCarloOptions,
     NavigateOptions, ObserveOptions,
 };
-use rins_io::{IoError, shown, write_file};
+use rins_io::{IoError, ensure_replaceable_folder, shown, write_file};
 
 use crate::args::{
     Apply, Arguments, Calibrate, Command, Convert, Demo, Diagnose, Init, MonteCarlo, Navigate,
@@ -18,6 +18,9 @@ use crate::progress::{drawn, during};
 
 /// Does what the command line says.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    if let Some(folder) = arguments.command.folder() {
+        ensure_replaceable_folder(folder, arguments.overwrite())?;
+    }
     match &arguments.command {
         Command::Demo(demo) => run_demo(arguments, demo),
         Command::Init(init) => run_init(arguments, init),
@@ -125,7 +128,7 @@ fn run_diagnose(arguments: &Arguments, diagnose: &Diagnose) -> anyhow::Result<()
         bootstrap: diagnose.bootstrap,
         progress: drawn(),
     };
-    deliver(arguments, &rins::diagnose(logs, &options)?, "")
+    deliver(arguments, &rins::diagnose(logs, options)?, "")
 }
 
 fn run_observe(arguments: &Arguments, observe: &Observe) -> anyhow::Result<()> {

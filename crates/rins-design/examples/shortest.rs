@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .fold(Model::full(), |model, term| model.with(TermInstance::new(term).estimated()));
     let effects = terms.map(Effect::of);
     let pair = Pair::of(&information(std::slice::from_ref(&given), &model)?, &effects);
-    println!("one rate separates them by {:.2?} sigma", pair.told);
+    println!("one rate separates them by {:.2?} sigma", pair.separation);
     let limits = Limits {
         rate: 100.0 * DEG_PER_SECOND,
         acceleration: 10.0 * DEG_PER_SECOND,

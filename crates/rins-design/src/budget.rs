@@ -1,14 +1,14 @@
-//! What each error is worth in navigation: the drift that it makes over a run's own motion.
+//! The error budget of free inertial navigation: the drift that each parameter causes over the motion of a run.
 
 use nalgebra::{DMatrix, Matrix3xX, Vector3};
 use rins_frames::{Body, Dcm, InFrame, Increments, Nav, Table};
 use rins_motion::{Navigator, Recording, Station, VerticalChannel};
 use rins_terms::{Acting, KinematicState, Model, TermInstance, Track, catalogue, derivatives};
 
-/// How long is navigated \[s\]: the time of the paper's tables.
+/// The duration of free inertial navigation \[s\]: that of the paper's tables.
 const LASTING: f64 = 360.0;
 
-/// A change of velocity and attitude.
+/// Errors of velocity and attitude.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
     /// Of the velocity, east, north and up \[m/s\].
@@ -17,40 +17,40 @@ pub struct Drift {
     pub attitude: Vector3<f64>,
 }
 
-/// What one parameter is worth.
+/// The contribution of one parameter to the error budget.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Worth {
-    /// The drift that its 1σ makes.
+pub struct Contribution {
+    /// The drift due to its 1σ.
     pub by_sigma: Drift,
-    /// The drift that its value makes where it is left in.
+    /// The drift due to its value if it is not compensated.
     pub by_value: Drift,
 }
 
-/// The drift by each parameter, and by what is unknown of all together.
+/// The drift due to each parameter, and due to the uncertainties of all parameters together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// After how long \[s\].
+    /// The duration of free inertial navigation \[s\].
     pub after: f64,
-    /// One for each parameter that belongs to the run.
-    pub worth: Vec<Worth>,
-    /// The 1σ of the drift by all parameters, with their correlations.
+    /// One for each estimated parameter of the run.
+    pub contributions: Vec<Contribution>,
+    /// The 1σ of the drift due to all parameters, with their correlations.
     pub total: Drift,
 }
 
-/// A parameter whose worth is asked for.
+/// A parameter with its estimate.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked<'a> {
+pub struct EstimatedParameter<'a> {
     /// The term, with its settings.
     pub chosen: &'a TermInstance,
-    /// Which of the term's parameters it is.
+    /// The index of the parameter within the term.
     pub parameter: usize,
     /// Its value, in SI units.
     pub value: f64,
-    /// The 1σ of that, in SI units.
+    /// Its 1σ, in SI units.
     pub sigma: f64,
 }
 
-/// What is navigated: readings without errors, and where they begin.
+/// The true motion: readings without errors, and the initial state.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth<'a> {
     /// Where the table stands.
@@ -64,10 +64,14 @@ pub struct Truth<'a> {
 }
 
 impl Budget {
-    /// The worth of each parameter over the first minutes of a run; `covariance`, n by n in SI units, is that of the n `asked`.
+    /// The error budget over the first minutes of a run; `covariance` (n × n, SI units) is that of the n `parameters`.
     ///
-    /// Each is free navigation with that one error in the readings, against free navigation without.
-    pub fn of(truth: &Truth<'_>, asked: &[Asked<'_>], covariance: &DMatrix<f64>) -> Self {
+    /// A contribution is the difference of two solutions: free inertial navigation with this one error, and without errors.
+    pub fn of(
+        truth: &Truth<'_>,
+        parameters: &[EstimatedParameter<'_>],
+        covariance: &DMatrix<f64>,
+    ) -> Self {
         let times = &truth.recording.times;
         let from = times.first().copied().unwrap_or_default();
         let samples = times.iter().take_while(|time| **time - from < LASTING).count();
@@ -80,13 +84,13 @@ impl Budget {
             .collect();
         let none = Dcm::<Table, Table>::identity();
         let without = navigated(truth, &truth.recording.increments[..samples], none);
-        let worth: Vec<Worth> =
-            asked.iter().map(|asked| worth(truth, &moments, asked, &without)).collect();
+        let contributions: Vec<Contribution> =
+            parameters.iter().map(|one| contribution(truth, &moments, one, &without)).collect();
         let total = |of: fn(&Drift) -> Vector3<f64>| {
-            let per_unit: Vec<Vector3<f64>> = worth
+            let per_unit: Vec<Vector3<f64>> = contributions
                 .iter()
-                .zip(asked)
-                .map(|(worth, asked)| of(&worth.by_sigma) / asked.sigma)
+                .zip(parameters)
+                .map(|(contribution, parameter)| of(&contribution.by_sigma) / parameter.sigma)
                 .collect();
             if per_unit.is_empty() {
                 return Vector3::zeros();
@@ -98,20 +102,25 @@ impl Budget {
         Self {
             after,
             total: Drift { velocity: total(|d| d.velocity), attitude: total(|d| d.attitude) },
-            worth,
+            contributions,
         }
     }
 }
 
-/// Where free navigation ends.
+/// The final state of free inertial navigation.
 struct End {
     velocity: Vector3<f64>,
     nav_from_body: Dcm<Nav, Body>,
 }
 
-fn worth(truth: &Truth<'_>, moments: &[KinematicState], asked: &Asked<'_>, without: &End) -> Worth {
-    let alone = Model { terms: vec![asked.chosen.clone()] };
-    let acting = Acting::by(&alone, truth.track, &[(0, asked.parameter)]).concat();
+fn contribution(
+    truth: &Truth<'_>,
+    moments: &[KinematicState],
+    estimated: &EstimatedParameter<'_>,
+    without: &End,
+) -> Contribution {
+    let alone = Model { terms: vec![estimated.chosen.clone()] };
+    let acting = Acting::by(&alone, truth.track, &[(0, estimated.parameter)]).concat();
     let effect: Vec<[Vector3<f64>; 3]> = moments
         .iter()
         .map(|moment| {
@@ -121,13 +130,13 @@ fn worth(truth: &Truth<'_>, moments: &[KinematicState], asked: &Asked<'_>, witho
         .collect();
     let felt = effect.iter().any(|[gyro, accel, _]| gyro.norm() > 0.0 || accel.norm() > 0.0);
     // Navigation starts from the attitude of the axis, without this error in it.
-    let start = if asked.chosen.term.is(&catalogue::AXIS_ATTITUDE) {
+    let start = if estimated.chosen.term.is(&catalogue::AXIS_ATTITUDE) {
         effect.first().map_or(Vector3::zeros(), |[.., tilt]| *tilt)
     } else {
         Vector3::zeros()
     };
     if !felt && start == Vector3::zeros() {
-        return Worth::default();
+        return Contribution::default();
     }
     let drift = |size: f64| {
         let increments: Vec<Increments> = truth
@@ -148,7 +157,7 @@ fn worth(truth: &Truth<'_>, moments: &[KinematicState], asked: &Asked<'_>, witho
         let turned = (with.nav_from_body * without.nav_from_body.inverse()).rotation_vector();
         Drift { velocity: with.velocity - without.velocity, attitude: -turned }
     };
-    Worth { by_sigma: drift(asked.sigma), by_value: drift(asked.value) }
+    Contribution { by_sigma: drift(estimated.sigma), by_value: drift(estimated.value) }
 }
 
 fn navigated(truth: &Truth<'_>, increments: &[Increments], off: Dcm<Table, Table>) -> End {

@@ -6,7 +6,7 @@
 //! **What it does.** A [`Planned`] run is a scenario of which only motion, site and data sheet count. [`information`] is what several
 //! of them hold together. [`Pair`] is how well two effects are separated, [`propose`] looks through a library of schedules for the
 //! shortest one that reaches a [`Goal`] within the [`Limits`] of a table, and [`next_test`] does that for two effects that a run could
-//! not separate. A [`Budget`] is what errors of given sizes are worth in free inertial navigation.
+//! not separate. A [`Budget`] is the error budget of free inertial navigation.
 //!
 //! **What it does not do.** It reads no files and decides nothing about measured data.
 
@@ -19,7 +19,7 @@ mod pair;
 mod planned;
 mod proposal;
 
-pub use budget::{Asked, Budget, Drift, Truth, Worth};
+pub use budget::{Budget, Contribution, Drift, EstimatedParameter, Truth};
 pub use effect::Effect;
 pub use error::DesignError;
 pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};

@@ -29,8 +29,9 @@ pub fn information(planned: &[Planned], model: &Model) -> Result<Joint, DesignEr
 pub struct Pair {
     /// The first effect against the second, and the second against the first.
     pub separations: [Separation; 2],
-    /// By how many sigmas the first, of its typical size, differs from the second in its worst direction; and the other way.
-    pub told: [f64; 2],
+    /// The significance of the first effect, of its typical size and in its worst direction, if any amount of the second may be
+    /// present; and the reverse \[sigma\].
+    pub separation: [f64; 2],
 }
 
 impl Pair {
@@ -41,16 +42,16 @@ impl Pair {
         let information = with_priors(joint, &both);
         let separations =
             [separation(&information, &first, &second), separation(&information, &second, &first)];
-        let told = separations.each_ref().map(|separation| {
-            let least = separation.directions.iter().map(|direction| direction.told);
+        let separation = separations.each_ref().map(|separation| {
+            let least = separation.directions.iter().map(|direction| direction.separation);
             if separation.directions.is_empty() { 0.0 } else { least.fold(f64::INFINITY, f64::min) }
         });
-        Self { separations, told }
+        Self { separations, separation }
     }
 
     /// Whether the effects are separated, each of its typical size.
     pub fn is_separated(&self) -> bool {
-        self.told.iter().all(|told| *told >= ENOUGH)
+        self.separation.iter().all(|sigmas| *sigmas >= ENOUGH)
     }
 }
 

@@ -3,10 +3,9 @@
 use rins_calibration::Setup;
 use rins_estimation::{Noise, Reference, Rig, Run};
 use rins_frames::{Dcm, Nav, Table};
-use rins_imu::{ImuError, ImuSpec};
+use rins_imu::ImuSpec;
 use rins_motion::{Profile, Segment};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
-use rins_terms::Model;
 
 use crate::error::DesignError;
 
@@ -33,12 +32,7 @@ impl Planned {
         imu: ImuSpec,
         (noise, wobble, acceleration): (f64, f64, Option<f64>),
     ) -> Self {
-        let mut scenario = Scenario {
-            imu_error: ImuError::default(),
-            noise: None,
-            effects: Model::default(),
-            ..scenario
-        };
+        let mut scenario = scenario.without_errors();
         if let TableRecord::Angle(encoder) = &mut scenario.table {
             *encoder = Encoder::default();
         }

@@ -59,9 +59,10 @@ impl<'a> Goal<'a> {
                 (least, least >= ENOUGH)
             }
             Self::Sigma { effect, sigma } => {
-                let told = joint.identifiability();
-                let place = told.find(&effect.ids[0]);
-                let reached = place.map_or(f64::INFINITY, |place| told.seen[place].sigma);
+                let identifiability = joint.identifiability();
+                let place = identifiability.find(&effect.ids[0]);
+                let reached =
+                    place.map_or(f64::INFINITY, |place| identifiability.parameters[place].sigma);
                 (reached, reached <= *sigma)
             }
         }

@@ -6,7 +6,8 @@ use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rins_estimation::{
-    Fit, FitError, Foretold, Indefinite, Known, Layout, Linear, NoiseKnowledge, Run, fit, fit_near,
+    EpochPrediction, Fit, FitError, Indefinite, Layout, Linear, NoiseKnowledge, ParameterPosterior,
+    Run, fit, fit_near,
 };
 use rins_imu::ImuSpec;
 use rins_terms::{Model, NotUndone, Owner, Role};
@@ -26,7 +27,7 @@ const TAIL: f64 = 0.025;
 
 /// How well a model foretells what was held out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foresight {
+pub struct PredictiveScore {
     /// The logarithm of the probability density of all that was held out \[nats\].
     pub log_score: f64,
     /// The mean normalised innovation squared of an epoch; `nis_dof` if the model is right.
@@ -54,9 +55,9 @@ pub struct Gain {
     /// How many revolutions, or pieces of a rest, they make.
     pub blocks: usize,
     /// The model as it was given.
-    pub before: Foresight,
+    pub before: PredictiveScore,
     /// The model with the causes.
-    pub after: Foresight,
+    pub after: PredictiveScore,
     /// Between what the rise of the log score is with 95 % probability, as the blocks scatter \[nats\].
     pub interval: (f64, f64),
     /// How far free inertial navigation drifts.
@@ -90,7 +91,7 @@ pub enum GainError {
     Fit(#[from] FitError),
     /// The held-out data cannot be foretold.
     #[error("the held-out data cannot be predicted")]
-    Foretold(#[from] Indefinite),
+    EpochPrediction(#[from] Indefinite),
     /// The errors that were found cannot be undone.
     #[error("the causes cannot be compensated")]
     NotUndone(#[from] NotUndone),
@@ -251,7 +252,7 @@ fn with_causes_held(fit: &Fit, given: usize) -> Model {
 
 /// How well the whole was foretold, and each block.
 struct Scores {
-    foresight: Foresight,
+    foresight: PredictiveScore,
     blocks: Vec<f64>,
 }
 
@@ -265,7 +266,7 @@ fn scored(
 ) -> Result<Scores, Indefinite> {
     let places = Layout::of(&fit.model().free(imu), runs).places;
     let offset = DVector::zeros(fit.parameters.len());
-    let mut known = Known::new(offset, fit.covariance.clone());
+    let mut known = ParameterPosterior::new(offset, fit.covariance.clone());
     let mut blocks = Vec::new();
     let (mut log_score, mut square, mut epochs) = (0.0, 0.0, 0_usize);
     for (((linear, noise), places), held) in
@@ -275,9 +276,9 @@ fn scored(
         let block_of = |samples: &Range<usize>| {
             within.iter().position(|block| block.start <= samples.start && samples.end <= block.end)
         };
-        let told = known.foretell(linear, noise, places, |samples| block_of(samples).is_some())?;
+        let told = known.predict(linear, noise, places, |samples| block_of(samples).is_some())?;
         let mut sums = vec![0.0; within.len()];
-        for Foretold { samples, innovation, log_density } in &told {
+        for EpochPrediction { samples, innovation, log_density } in &told {
             if let Some(block) = block_of(samples) {
                 sums[block] += log_density;
             }
@@ -289,7 +290,7 @@ fn scored(
     }
     let nis_mean = square / epochs.max(1) as f64;
     let nis_dof = fit.linear.iter().map(Linear::shown).max().unwrap_or(0);
-    Ok(Scores { foresight: Foresight { log_score, nis_mean, nis_dof }, blocks })
+    Ok(Scores { foresight: PredictiveScore { log_score, nis_mean, nis_dof }, blocks })
 }
 
 /// Between what the sum is with 95 % probability, if blocks are drawn again from those there are.

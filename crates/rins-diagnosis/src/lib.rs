@@ -55,7 +55,7 @@ mod gain_spans;
 
 pub use candidates::{Candidate, candidates};
 pub use diagnosis::{Cause, Diagnosis, DiagnosisError, FALSE_ALARMS, Rival, diagnose, suppose};
-pub use gain::{Foresight, Gain, GainError, GainVerdict};
+pub use gain::{Gain, GainError, GainVerdict, PredictiveScore};
 pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;
 pub use limits::{Limit, chance, limits};

@@ -73,14 +73,3 @@ pub(crate) struct Held {
     /// Of the velocity gained \[m²/s²\].
     pub(crate) velocity: Vector3<f64>,
 }
-
-/// A ratio of positive durations or angles as a number of samples, one at least.
-pub(crate) fn whole(ratio: f64) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "it is positive, and at most the number of samples"
-    )]
-    let whole = ratio.round() as usize;
-    whole.max(1)
-}

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 use rins_frames::Increments;
-use rins_motion::Recording;
+use rins_motion::{Recording, whole};
 
-use crate::epoch::{Epoch, whole};
+use crate::epoch::Epoch;
 
 /// At least so many samples on either side say how much the motion changes from one to the next.
 const FEWEST_AROUND: usize = 3;

@@ -35,10 +35,10 @@ mod space;
 mod step;
 
 mod evidence;
-mod foretold;
 mod gram;
 mod pass;
 mod posterior;
+mod prediction;
 mod stride;
 
 mod epoch;
@@ -58,17 +58,18 @@ pub use evidence::{Indefinite, Turned, attitudes, innovations};
 pub use filter::Filter;
 pub use fit::{fit, fit_near};
 pub use fit_error::FitError;
-pub use foretold::{Foretold, Known};
 pub use gravity::{AXIS_BY_GRAVITY, AxisSeen, axis_from_gravity, turning_span};
 pub use identifiability::{
-    Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Observable, Rank,
-    Seen, Separation, Unknown, Unobservable, distance, gauge_of, joint, separation,
+    Alias, Direction, EXACT, GAUGES, Gauge, Identifiability, Joint, JointError, Observable,
+    ParameterObservability, Rank, Separation, Unknown, Unobservable, distance, gauge_of, joint,
+    separation,
 };
 pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use named::InRun;
 pub use noise_parameters::{Noise, NoiseKnowledge, NoiseParameters, TriadStrengths};
 pub use posterior::{Evidence, Posterior, correlation};
+pub use prediction::{EpochPrediction, ParameterPosterior};
 pub use prior_consistency::{Departure, Quantity};
 pub use rounding::AngleSteps;
 pub use run::{Reference, Rig, Run, RunError};

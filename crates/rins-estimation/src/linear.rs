@@ -1,5 +1,6 @@
 //! A run made linear: how each epoch's readings follow from attitude, velocity and the parameters.
 
+use rins_motion::whole;
 use std::ops::Range;
 
 use nalgebra::Vector3;
@@ -8,7 +9,7 @@ use rins_frames::{Dcm, InFrame, Nav, Table};
 use rins_terms::{Model, SettingKind, Surroundings, Track, catalogue};
 
 use crate::build::{Build, Compared};
-use crate::epoch::{Epoch, SHORTEST_EPOCH, Span, whole};
+use crate::epoch::{Epoch, SHORTEST_EPOCH, Span};
 use crate::held::hold;
 use crate::path;
 use crate::run::{Reference, Run};

@@ -38,11 +38,11 @@ impl Fit {
     /// predictive check of Box, 1980). What is not observable departs from nothing.
     pub fn prior_departures(
         &self,
-        told: &Identifiability,
+        identifiability: &Identifiability,
         sheet: &NoiseParameters,
     ) -> Vec<Departure> {
         let of_parameter = |place: usize| {
-            let seen = &told.seen[place];
+            let seen = &identifiability.parameters[place];
             if !(seen.identifiable || seen.shown == Observable::Combination) {
                 return None;
             }

@@ -9,9 +9,10 @@ impl Identifiability {
     /// The places of the unobservable parameters: those of which the data tell less than twice what was known before, neither
     /// alone nor in a combination.
     pub fn unobservable(&self) -> Vec<usize> {
-        let is_unobservable =
-            |&place: &usize| !self.seen[place].identifiable && self.seen[place].aliases.is_empty();
-        (0..self.seen.len()).filter(is_unobservable).collect()
+        let is_unobservable = |&place: &usize| {
+            !self.parameters[place].identifiable && self.parameters[place].aliases.is_empty()
+        };
+        (0..self.parameters.len()).filter(is_unobservable).collect()
     }
 }
 

@@ -53,7 +53,9 @@ pub use log::{
     PsinsHeader, Redivided, Rounded, peek, read, read_log,
 };
 pub use model::ModelFile;
-pub use output::{Overwrite, ensure_replaceable, write_file, write_files, write_folder};
+pub use output::{
+    Overwrite, ensure_replaceable, ensure_replaceable_folder, write_file, write_files, write_folder,
+};
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{

@@ -192,6 +192,15 @@ fn exchange(new: &Path, place: &Path, aside: TempDir) -> io::Result<TempDir> {
     }
 }
 
+/// Fails if [`write_folder`] would not put its result here: before what takes minutes to compute is computed.
+///
+/// # Errors
+/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the system refuses.
+pub fn ensure_replaceable_folder(path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
+    split(path)?;
+    replaceable(path, overwrite).map(drop)
+}
+
 /// Whether there is a folder that will be replaced.
 fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
     let found = match fs::symlink_metadata(path) {

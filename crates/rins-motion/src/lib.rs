@@ -47,6 +47,7 @@ mod station;
 mod strapdown;
 mod truth;
 mod turntable;
+mod whole;
 
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
@@ -61,3 +62,4 @@ pub use station::Station;
 pub use strapdown::{Figures, Mechanisation, NavState, Navigator, VerticalChannel};
 pub use truth::{TrueMotion, TrueSample};
 pub use turntable::{Profile, ProfileError, Segment};
+pub use whole::whole;

@@ -54,6 +54,12 @@ impl Scenario {
         }
     }
 
+    /// The same run without errors of the IMU, noise of the IMU, and effects.
+    #[must_use]
+    pub fn without_errors(self) -> Self {
+        Self { imu_error: ImuError::default(), noise: None, effects: Model::default(), ..self }
+    }
+
     /// The noise of IMU and encoder, with what the effects make of it.
     pub(crate) fn noises(&self) -> Noises {
         let encoder = match self.table {

@@ -28,7 +28,8 @@ impl Unit {
     pub(crate) const DEG_PER_HOUR_PER_KELVIN_PER_MINUTE: Self =
         Self::new("deg/h/(K/min)", DEG_PER_HOUR * 60.0);
     /// Degrees an hour per g \[rad s/m\].
-    pub(crate) const DEG_PER_HOUR_PER_G: Self = Self::new("deg/h/g", DEG_PER_HOUR / STANDARD_GRAVITY);
+    pub(crate) const DEG_PER_HOUR_PER_G: Self =
+        Self::new("deg/h/g", DEG_PER_HOUR / STANDARD_GRAVITY);
     /// Degrees an hour per g².
     pub(crate) const DEG_PER_HOUR_PER_G2: Self =
         Self::new("deg/h/g^2", DEG_PER_HOUR / (STANDARD_GRAVITY * STANDARD_GRAVITY));
@@ -83,7 +84,8 @@ impl Unit {
     /// Millionths of standard gravity per root hour, as a random walk \[m/s²/√s\].
     pub const MICRO_G_PER_ROOT_HOUR: Self = Self::new("ug/sqrt(h)", MICRO_G / 60.0);
     /// Degrees an hour per degree a second: a ratio of rates.
-    pub(crate) const DEG_PER_HOUR_PER_DEG_PER_SECOND: Self = Self::new("deg/h/(deg/s)", 1.0 / 3600.0);
+    pub(crate) const DEG_PER_HOUR_PER_DEG_PER_SECOND: Self =
+        Self::new("deg/h/(deg/s)", 1.0 / 3600.0);
     /// Degrees an hour per (degree a second)² \[s/rad\].
     pub(crate) const DEG_PER_HOUR_PER_DEG_PER_SECOND_2: Self =
         Self::new("deg/h/(deg/s)^2", 1.0 / (3600.0 * DEG));

@@ -1,17 +1,10 @@
 //! The catalogue's effects as hidden ones, and as their rivals.
 
 use rins_blind::Effect;
-use rins_terms::{SettingKind, Term, TermInstance, catalogue};
+use rins_terms::{Model, SettingKind, Term, TermInstance, catalogue};
 
-/// What the baseline holds anyway, what is a choice of frame, and what leaves nothing behind.
-static NEVER_HIDDEN: [&Term; 11] = [
-    &catalogue::GYRO_BIAS,
-    &catalogue::GYRO_SCALE,
-    &catalogue::GYRO_MISALIGNMENT,
-    &catalogue::ACCEL_BIAS,
-    &catalogue::ACCEL_SCALE,
-    &catalogue::ACCEL_MISALIGNMENT,
-    &catalogue::AXIS_ATTITUDE,
+/// What is a choice of frame, and what leaves nothing behind.
+static NEVER_HIDDEN: [&Term; 4] = [
     &catalogue::AXIS_AZIMUTH,
     &catalogue::MOUNTING,
     &catalogue::ENCODER_ZERO,
@@ -24,9 +17,10 @@ const ORDERS: [f64; 12] = [-4.0, -3.0, -2.0, -1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0,
 /// The parts of a run after which something happens.
 const PARTS: u32 = 16;
 
-/// Whether a term is a signal that can be hidden in a run.
+/// Whether a term is a signal that can be hidden in a run, and the baseline does not hold.
 pub fn is_hideable(term: &Term) -> bool {
-    term.is_signal() && !NEVER_HIDDEN.iter().any(|never| never.is(term))
+    let is_baseline = Model::full().terms.iter().any(|own| own.term.is(term));
+    term.is_signal() && !is_baseline && !NEVER_HIDDEN.iter().any(|never| never.is(term))
 }
 
 /// A term with its numbers, as the generator takes it.

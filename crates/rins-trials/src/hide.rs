@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalogue::{alike, hidden, is_hideable, rivals};
 use crate::laboratory::{Laboratory, log_uniform};
-use crate::stand::{Stand, StandError, Told};
+use crate::stand::{ExtraInformation, Stand, StandError};
 
 /// How many widths of a dead zone are tried, and how near one has to come to what was meant.
 const MOST_WIDTHS: usize = 16;
@@ -206,7 +206,7 @@ pub(crate) fn quiet(laboratory: &Laboratory) -> rins_blind::Experiment {
 
 /// Parameters `meant` sigmas off zero in a random direction of those in which that is not out of all proportion,
 /// in SI units, and how many such directions there are.
-fn sized(told: &Told, meant: f64, random: &mut Random) -> Option<(Vec<f64>, usize)> {
+fn sized(told: &ExtraInformation, meant: f64, random: &mut Random) -> Option<(Vec<f64>, usize)> {
     let SymmetricEigen { eigenvalues, eigenvectors } =
         SymmetricEigen::new(told.information.clone());
     let shown: Vec<usize> = (0..eigenvalues.len())
@@ -227,7 +227,7 @@ fn sized(told: &Told, meant: f64, random: &mut Random) -> Option<(Vec<f64>, usiz
 }
 
 /// The 1σ of each parameter of the first term beyond the baseline, within its usual size.
-fn bounds(told: &Told) -> Vec<f64> {
+fn bounds(told: &ExtraInformation) -> Vec<f64> {
     let n = told.information.nrows();
     let sum = &told.information + DMatrix::identity(n, n);
     let Some(factor) = sum.cholesky() else { return told.scale.clone() };
@@ -236,7 +236,7 @@ fn bounds(told: &Told) -> Vec<f64> {
 }
 
 /// By how much the squares fall where term `rival` is free.
-pub(crate) fn explained(told: &Told, rival: usize) -> f64 {
+pub(crate) fn explained(told: &ExtraInformation, rival: usize) -> f64 {
     let places = told.places(rival);
     let (start, size) = (places.start, places.len());
     let mut information = told.information.view((start, start), (size, size)).into_owned();

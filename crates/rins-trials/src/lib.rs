@@ -39,5 +39,5 @@ pub use hide::Hidden;
 pub use journal::{Plan, Record, one, records, run, time, try_out};
 pub use laboratory::{Laboratory, Length, Level, Schedule};
 pub use outside::Outside;
-pub use stand::{Stand, StandError, Told, recording};
+pub use stand::{ExtraInformation, Stand, StandError, recording};
 pub use trouble::Trouble;

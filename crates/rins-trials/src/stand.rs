@@ -82,19 +82,19 @@ impl Stand {
     ///
     /// # Errors
     /// [`StandError`] if the noise makes no covariance.
-    pub fn told(&self, run: &Run, more: &[TermInstance]) -> Result<Told, StandError> {
+    pub fn told(&self, run: &Run, more: &[TermInstance]) -> Result<ExtraInformation, StandError> {
         let mut model = self.model.clone();
         model.terms.extend(more.iter().cloned());
         let free = model.free(&self.imu);
         let places: Vec<(usize, usize)> = free.iter().map(|f| (f.term, f.parameter)).collect();
         let evidence = Evidence::of(&linearise(run, &model, &places), &self.noise)?;
-        Ok(Told::of(&evidence, &free, self.model.terms.len()))
+        Ok(ExtraInformation::of(&evidence, &free, self.model.terms.len()))
     }
 }
 
 /// What a run says of terms beyond the baseline, in units of their usual sizes.
 #[derive(Clone, Debug)]
-pub struct Told {
+pub struct ExtraInformation {
     /// The squares that are left beside the baseline.
     pub square: f64,
     /// The information on the further parameters, the baseline estimated beside.
@@ -107,7 +107,7 @@ pub struct Told {
     pub starts: Vec<usize>,
 }
 
-impl Told {
+impl ExtraInformation {
     fn of(evidence: &Evidence, free: &[FreeParameter], baseline: usize) -> Self {
         let scale = DVector::from_iterator(free.len(), free.iter().map(|f| f.sigma));
         let all = DMatrix::from_fn(free.len(), free.len(), |row, column| {

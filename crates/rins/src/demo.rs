@@ -74,7 +74,7 @@ pub fn demo(progress: &Progress) -> Result<Demo> {
     let calibration = calibrate(vec![log.clone()], &options)?;
     // There is more in the run than the paper's filter has states for.
     let options = DiagnoseOptions { progress: progress.clone(), ..DiagnoseOptions::default() };
-    Ok(Demo { calibration, diagnosis: diagnose(vec![log], &options)? })
+    Ok(Demo { calibration, diagnosis: diagnose(vec![log], options)? })
 }
 
 impl fmt::Display for Demo {

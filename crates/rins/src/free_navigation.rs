@@ -6,7 +6,7 @@ use rins_frames::units::DEG;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::angles::EulerDegrees;
+use crate::values::EulerDegrees;
 use rins_report::{Cell, Column, Item, Plot, Section, Series, Style, Table};
 
 /// A change of the velocity error by less than this factor is none.

@@ -44,11 +44,11 @@ pub mod navigate;
 pub mod observe;
 pub mod simulate;
 
-mod angles;
 mod consistency;
 mod error;
 mod finite;
 mod free_navigation;
+mod identifiability;
 mod log;
 mod options;
 mod outcome;
@@ -57,7 +57,8 @@ mod progress;
 mod schema;
 mod settings;
 mod table;
-mod told;
+
+mod values;
 
 pub use rins_estimation as estimation;
 pub use rins_frames as frames;
@@ -71,7 +72,6 @@ pub use rins_terms as terms;
 
 pub use align::align;
 pub use allan::allan;
-pub use angles::EulerDegrees;
 pub use apply::{ApplyOptions, apply};
 pub use calibrate::{CalibrateOptions, calibrate};
 pub use campaign::{MonteCarloOptions, merge, monte_carlo};
@@ -82,6 +82,9 @@ pub use convert::{ConvertOptions, convert};
 pub use diagnose::{DiagnoseOptions, diagnose};
 pub use error::{Error, Result};
 pub use free_navigation::{BeforeAfterResult, NavigationResult};
+pub use identifiability::{
+    GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
+};
 pub use init::init;
 pub use log::{Log, OutsideRange, OutsideRate, OutsideTemperature, StaticIntervalResult};
 pub use navigate::{NavigateOptions, navigate};
@@ -91,9 +94,7 @@ pub use outcome::Outcome;
 pub use progress::{Progress, Step};
 pub use schema::schemas;
 pub use simulate::simulate;
-pub use told::{
-    GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
-};
+pub use values::{EstimateResult, EulerDegrees};
 
 /// The version of the results' schema.
 pub const SCHEMA: u32 = 2;

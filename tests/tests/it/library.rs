@@ -39,6 +39,6 @@ fn a_program_prints_what_the_command_prints() {
     says(folder.path(), &format!("calibrate {shown}"), &calibrated(None));
     let full = calibrated(Some(ModelChoice::Full));
     says(folder.path(), &format!("calibrate {shown} --model full"), &full);
-    let diagnosis = rins::diagnose(vec![log()], &DiagnoseOptions::default()).unwrap();
+    let diagnosis = rins::diagnose(vec![log()], DiagnoseOptions::default()).unwrap();
     says(folder.path(), &format!("diagnose {shown}"), &diagnosis);
 }

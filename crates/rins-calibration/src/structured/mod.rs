@@ -24,7 +24,7 @@ mod update;
 
 pub use covariance::Covariance;
 pub use transition::{Input, Means, States, Transition};
-pub use update::{Comparison, Found, With};
+pub use update::{Comparison, UpdateResult, With};
 
 /// How many navigation errors there are: position, velocity, attitude, three each.
 pub const NAVIGATION: usize = 9;

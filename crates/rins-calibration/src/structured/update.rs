@@ -33,7 +33,7 @@ pub enum With<T, const N: usize> {
 
 /// What an update found, and how far off it takes each state to be.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<T, const N: usize> {
+pub struct UpdateResult<T, const N: usize> {
     /// N(0, 1) and independent of each other if the model is right.
     pub whitened: [T; 6],
     /// The inverse standard deviations of the innovations, each given those before it; not a number
@@ -52,7 +52,7 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         comparison: &Comparison<T, N>,
         velocity: &Vector<T>,
         velocity_noise: f64,
-    ) -> Found<T, N> {
+    ) -> UpdateResult<T, N> {
         let zero_velocity = velocity_noise * velocity_noise;
         let mut with_state =
             [self.rows[VELOCITY], self.rows[VELOCITY + 1], self.rows[VELOCITY + 2]];
@@ -75,7 +75,7 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         second.add_to(&mut state, &second_whitened);
         let ([a, b, c], [d, e, f]) = (first_whitened.0, second_whitened.0);
         let ([i, j, k], [l, m, n]) = (first.inverse_scales, second.inverse_scales);
-        Found { whitened: [a, b, c, d, e, f], inverse_scales: [i, j, k, l, m, n], state }
+        UpdateResult { whitened: [a, b, c, d, e, f], inverse_scales: [i, j, k, l, m, n], state }
     }
 
     /// The ratios of the measured combinations' variances, their states taken apart, to the noise:

@@ -65,7 +65,7 @@ pub enum Observable {
 
 /// One unknown in the light of the data.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Seen {
+pub struct ParameterObservability {
     /// What of it the data tell.
     pub shown: Observable,
     /// What stands beside it in the sum that is told; none if it is told alone, or not at all.
@@ -89,21 +89,21 @@ pub struct Seen {
 /// let unknown = |id: &str| Unknown { id: id.into(), model_id: id.into(), run: None, unit: Unit::ONE, sigma: 1.0 };
 /// // A hundred readings of a + 2 b, each to 1σ of 1.
 /// let information = DMatrix::from_row_slice(2, 2, &[100.0, 200.0, 200.0, 400.0]);
-/// let told = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
-/// assert_eq!(told.rank.rank(), 1);
+/// let identifiability = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
+/// assert_eq!(identifiability.rank.rank(), 1);
 /// // They tell b + a/2 to 0.05, and neither alone.
-/// assert_eq!(told.seen[1].shown, Observable::Combination);
-/// assert!((told.seen[1].aliases[0].coefficient - 0.5).abs() < 1e-12);
-/// assert!((told.seen[1].data_sigma - 0.05).abs() < 1e-12);
-/// assert!((told.seen[0].aliases[0].coefficient - 2.0).abs() < 1e-12);
-/// assert!((told.seen[0].data_sigma - 0.1).abs() < 1e-12);
+/// assert_eq!(identifiability.parameters[1].shown, Observable::Combination);
+/// assert!((identifiability.parameters[1].aliases[0].coefficient - 0.5).abs() < 1e-12);
+/// assert!((identifiability.parameters[1].data_sigma - 0.05).abs() < 1e-12);
+/// assert!((identifiability.parameters[0].aliases[0].coefficient - 2.0).abs() < 1e-12);
+/// assert!((identifiability.parameters[0].data_sigma - 0.1).abs() < 1e-12);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
     /// The unknowns.
     pub unknowns: Vec<Unknown>,
     /// What is told of each.
-    pub seen: Vec<Seen>,
+    pub parameters: Vec<ParameterObservability>,
     /// How many combinations the data tell, and which unknowns stand for them.
     pub rank: Rank,
 }
@@ -112,10 +112,10 @@ pub struct Identifiability {
 const SLIGHT: f64 = 0.1;
 
 /// How many times better a sum must be told than the parameter itself, what was known beforehand being used, for only
-/// the sum to count as told.
+/// the sum to count as identifiability.
 const DOMINANT: f64 = 5.0;
 
-/// The part of what was known beforehand below which data must bring a parameter's sigma, for it to count as told.
+/// The part of what was known beforehand below which data must bring a parameter's sigma, for it to count as identifiability.
 const SEEN: f64 = 0.5;
 
 impl Identifiability {
@@ -128,7 +128,7 @@ impl Identifiability {
         let scaled = scaled(information, &sigmas);
         let rank = Rank::of(&scaled);
         let posterior = with_prior(&scaled);
-        let nothing = |(variance, sigma): (&f64, &f64)| Seen {
+        let nothing = |(variance, sigma): (&f64, &f64)| ParameterObservability {
             shown: Observable::Nothing,
             aliases: Vec::new(),
             data_sigma: f64::INFINITY,
@@ -136,13 +136,13 @@ impl Identifiability {
             gauge: None,
             identifiable: false,
         };
-        let seen = posterior.diagonal().iter().zip(&sigmas).map(nothing).collect();
-        let mut told = Self { unknowns, seen, rank };
-        (0..told.rank.kept.len()).for_each(|place| told.see_kept(place));
-        (0..told.rank.lost.len()).for_each(|place| told.see_lost(place));
-        told.see_together(&posterior);
-        told.name_gauges();
-        told
+        let parameters = posterior.diagonal().iter().zip(&sigmas).map(nothing).collect();
+        let mut identifiability = Self { unknowns, parameters, rank };
+        (0..identifiability.rank.kept.len()).for_each(|place| identifiability.see_kept(place));
+        (0..identifiability.rank.lost.len()).for_each(|place| identifiability.see_lost(place));
+        identifiability.see_together(&posterior);
+        identifiability.name_gauges();
+        identifiability
     }
 
     /// The place of the unknown of this id, of the IMU or of the first run.
@@ -150,12 +150,12 @@ impl Identifiability {
         self.unknowns.iter().position(|unknown| unknown.id == id)
     }
 
-    /// Of an unknown that is kept: with what it is told.
+    /// Of an unknown that is kept: with what it is identifiability.
     fn see_kept(&mut self, place: usize) {
         let (kept, sigma) = (self.rank.kept[place], self.rank.sigmas[place]);
         let shares = self.rank.coefficients.row(place);
         let unit = self.unknowns[kept].sigma;
-        let own = self.seen[kept].sigma / unit;
+        let own = self.parameters[kept].sigma / unit;
         let mut beside: Vec<usize> =
             if own > DOMINANT * sigma { (0..shares.len()).collect() } else { Vec::new() };
         beside.sort_by(|&a, &b| shares[b].abs().total_cmp(&shares[a].abs()));
@@ -177,7 +177,7 @@ impl Identifiability {
                 Alias { unknown, coefficient, exactly }
             })
             .collect();
-        let seen = &mut self.seen[kept];
+        let seen = &mut self.parameters[kept];
         seen.data_sigma = sigma * unit;
         seen.identifiable = aliases.is_empty() && own < SEEN;
         seen.shown = if aliases.is_empty() { Observable::Alone } else { Observable::Combination };
@@ -186,14 +186,17 @@ impl Identifiability {
 
     /// Names what no schedule would tell, of what the data show at all.
     fn name_gauges(&mut self) {
-        let shown =
-            self.unknowns.iter().zip(&self.seen).filter(|(_, s)| s.shown != Observable::Nothing);
+        let shown = self
+            .unknowns
+            .iter()
+            .zip(&self.parameters)
+            .filter(|(_, s)| s.shown != Observable::Nothing);
         let shown: Vec<&str> = shown.map(|(unknown, _)| unknown.model_id.as_str()).collect();
         for gauge in GAUGES.iter().filter(|gauge| gauge.is_open(&shown)) {
             let of_gauge =
                 |lost: &&Unobservable| gauge.holds(&self.unknowns[lost.unknown].model_id);
             for lost in self.rank.lost.iter().filter(of_gauge) {
-                self.seen[lost.unknown].gauge.get_or_insert(gauge);
+                self.parameters[lost.unknown].gauge.get_or_insert(gauge);
             }
         }
     }
@@ -223,13 +226,13 @@ impl Identifiability {
         let kept = self.rank.kept[best];
         let own = self.rank.coefficients[(best, place)] * self.unknowns[kept].sigma
             / self.unknowns[unknown].sigma;
-        let beside = self.seen[kept].aliases.iter().filter(|alias| alias.unknown != unknown);
+        let beside = self.parameters[kept].aliases.iter().filter(|alias| alias.unknown != unknown);
         let rest = beside.map(|alias| Alias { coefficient: alias.coefficient / own, ..*alias });
         let aliases = std::iter::once(Alias { unknown: kept, coefficient: 1.0 / own, exactly })
             .chain(rest)
             .collect();
-        let data_sigma = self.seen[kept].data_sigma / own.abs();
-        let seen = &mut self.seen[unknown];
+        let data_sigma = self.parameters[kept].data_sigma / own.abs();
+        let seen = &mut self.parameters[unknown];
         (seen.aliases, seen.data_sigma) = (aliases, data_sigma);
         seen.shown = Observable::Part { of, exactly };
     }
@@ -274,7 +277,7 @@ impl Identifiability {
                         exactly: false,
                     })
                     .collect();
-                let seen = &mut self.seen[unknown];
+                let seen = &mut self.parameters[unknown];
                 seen.aliases = aliases;
                 seen.data_sigma = data_sigma * unit / shares[row].abs();
                 seen.shown = if unknown == leading {

@@ -1,25 +1,25 @@
-//! What it costs to tell one effect from another.
+//! The separability of two effects: how much weaker one is known if the other is estimated too.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// The part of a direction's information that must be its own for it to be told: a kappa of thirty thousand.
+/// The least part of a direction's information that is not shared with the other effect: a separation cost of thirty thousand.
 const SAME: f64 = 1e-9;
 
-/// A direction of one effect, and how it fares against the other.
+/// A direction in the parameters of one effect, compared with the other effect.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Direction {
-    /// How many times harder it is to tell from the other effect than to see: `1/sin` of the angle between their
-    /// signatures; infinite if they are one.
+    /// The separation cost, `1/sin` of the angle between the signatures of the two effects: the factor by which the sigma
+    /// increases if the other effect is estimated too. Infinite if the signatures are equal.
     pub kappa: f64,
     /// The direction in the first effect's parameters, in units of their priors, the largest of them one.
     pub along: DVector<f64>,
-    /// By how many sigmas an effect of this size is seen, the other absent.
-    pub seen: f64,
-    /// By how many sigmas it is told from any amount of the other.
-    pub told: f64,
+    /// The significance of an effect of this size if the other is absent, in sigmas.
+    pub detection: f64,
+    /// Its significance if any amount of the other may be present, in sigmas.
+    pub separation: f64,
 }
 
-/// Two effects side by side, the nuisances estimated along.
+/// The separability of two effects; all other parameters are estimated too.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
     /// The directions of the first effect that have a counterpart in the second, the most alike first.
@@ -35,10 +35,9 @@ impl Separation {
     }
 }
 
-/// What it costs to tell the unknowns `first` from `second`; all others of `information` are nuisances.
+/// The separability of the unknowns `first` and `second`; all others of `information` are nuisance parameters.
 ///
-/// `information` is in units of the priors. What is known of nuisances beforehand is added to its
-/// diagonal by who calls.
+/// `information` is in units of the prior sigmas. It contains the priors of the nuisance parameters already.
 pub fn separation(information: &DMatrix<f64>, first: &[usize], second: &[usize]) -> Separation {
     let both: Vec<usize> = first.iter().chain(second).copied().collect();
     let left = without_nuisances(information, &both);
@@ -59,14 +58,14 @@ pub fn separation(information: &DMatrix<f64>, first: &[usize], second: &[usize])
             let cosine = alike.eigenvalues[column].clamp(0.0, 1.0);
             let own = if 1.0 - cosine > SAME { 1.0 - cosine } else { 0.0 };
             let unit = &one.matrix * alike.eigenvectors.column(column);
-            // A unit of it is seen by one sigma.
+            // A unit of it has a significance of one sigma.
             let size = unit.amax();
-            let seen = 1.0 / size;
+            let detection = 1.0 / size;
             Direction {
                 kappa: own.sqrt().recip(),
                 along: unit / size,
-                seen,
-                told: seen * own.sqrt(),
+                detection,
+                separation: detection * own.sqrt(),
             }
         })
         .collect();

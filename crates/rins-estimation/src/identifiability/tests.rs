@@ -55,17 +55,22 @@ fn of_baseline(rates: &[(f64, f64)]) -> Identifiability {
 
 #[test]
 fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
-    let told = of_baseline(&[(10.0, 360.0)]);
-    assert_eq!(told.rank.rank() + 3, told.unknowns.len());
+    let identifiability = of_baseline(&[(10.0, 360.0)]);
+    assert_eq!(identifiability.rank.rank() + 3, identifiability.unknowns.len());
     // A clear case: rounding is far below what is told faintly.
-    assert!(told.rank.most_null < 1e-4 * told.rank.least_told, "{:?}", told.rank);
+    assert!(
+        identifiability.rank.most_null < 1e-4 * identifiability.rank.least_told,
+        "{:?}",
+        identifiability.rank
+    );
     // Without the mounting, which limits the misalignments more than a bias does:
     let spin = model(&["gyro.bias", "accel.bias", "axis.attitude"])
         .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
         .with(TermInstance::new(&catalogue::GYRO_MISALIGNMENT).estimating(&["xz", "yz"]));
     let run = run(&[(10.0, 360.0)], 25.0, 0.0);
-    let told = joint(&[run], &spin, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability();
-    assert_eq!(told.rank.rank() + 3, told.unknowns.len());
+    let identifiability =
+        joint(&[run], &spin, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability();
+    assert_eq!(identifiability.rank.rank() + 3, identifiability.unknowns.len());
     // b + (S, M) ω with ω of the table and the Earth: the combination is S + b/ω.
     // The axis is tilted to the south.
     let earth = 7.292115e-5 * ((45.0 - 25.0) * DEG).sin();
@@ -75,18 +80,31 @@ fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
         ("gyro.misalignment.xz", "gyro.bias.x"),
         ("gyro.misalignment.yz", "gyro.bias.y"),
     ] {
-        let (kept, lost) = (told.find(kept).unwrap(), told.find(lost).unwrap());
-        assert_eq!(told.seen[kept].shown, Observable::Combination);
-        let aliases = &told.seen[kept].aliases;
+        let (kept, lost) =
+            (identifiability.find(kept).unwrap(), identifiability.find(lost).unwrap());
+        assert_eq!(identifiability.parameters[kept].shown, Observable::Combination);
+        let aliases = &identifiability.parameters[kept].aliases;
         assert_eq!(aliases.len(), 1);
         assert_eq!((aliases[0].unknown, aliases[0].exactly), (lost, true));
         assert_close!(aliases[0].coefficient * rate, 1.0, 1e-6);
-        assert_eq!(told.seen[lost].shown, Observable::Part { of: vec![kept], exactly: true });
+        assert_eq!(
+            identifiability.parameters[lost].shown,
+            Observable::Part { of: vec![kept], exactly: true }
+        );
         // The other is told in the same sum, as many times better as it counts there.
-        assert_eq!(told.seen[lost].aliases[0].unknown, kept);
-        assert_close!(told.seen[lost].aliases[0].coefficient / rate, 1.0, 1e-6);
-        assert_close!(told.seen[lost].data_sigma / told.seen[kept].data_sigma / rate, 1.0, 1e-6);
-        assert!(!told.seen[kept].identifiable && !told.seen[lost].identifiable);
+        assert_eq!(identifiability.parameters[lost].aliases[0].unknown, kept);
+        assert_close!(identifiability.parameters[lost].aliases[0].coefficient / rate, 1.0, 1e-6);
+        assert_close!(
+            identifiability.parameters[lost].data_sigma
+                / identifiability.parameters[kept].data_sigma
+                / rate,
+            1.0,
+            1e-6
+        );
+        assert!(
+            !identifiability.parameters[kept].identifiable
+                && !identifiability.parameters[lost].identifiable
+        );
     }
 }
 
@@ -99,18 +117,23 @@ fn a_reversal_rates_or_dwells_tell_all_of_the_baseline() {
     let ladder: Vec<(f64, f64)> =
         [10.0, -10.0, 20.0, -20.0, 5.0, -5.0].map(|rate| (rate, 60.0)).to_vec();
     for rates in [vec![(10.0, 180.0), (-10.0, 180.0)], ladder, dwells] {
-        let told = of_baseline(&rates);
-        assert!(told.rank.lost.is_empty(), "{rates:?}: {:?}", told.rank);
-        assert!(told.seen.iter().all(|seen| seen.identifiable && seen.shown == Observable::Alone));
+        let identifiability = of_baseline(&rates);
+        assert!(identifiability.rank.lost.is_empty(), "{rates:?}: {:?}", identifiability.rank);
+        assert!(
+            identifiability
+                .parameters
+                .iter()
+                .all(|seen| seen.identifiable && seen.shown == Observable::Alone)
+        );
     }
 }
 
 /// White noise over 180 s each way leaves the mean of both, and half of their difference.
 #[test]
 fn predicted_sigmas_are_those_of_means_of_white_noise() {
-    let told = of_baseline(&[(10.0, 180.0), (-10.0, 180.0)]);
+    let identifiability = of_baseline(&[(10.0, 180.0), (-10.0, 180.0)]);
     let mean = 0.02 * DEG_PER_HOUR / 360.0_f64.sqrt();
-    let sigma = |id: &str| told.seen[told.find(id).unwrap()].data_sigma;
+    let sigma = |id: &str| identifiability.parameters[identifiability.find(id).unwrap()].data_sigma;
     assert_close!(sigma("gyro.bias.x") / mean, 1.0, 0.02);
     // An encoder of 1 arcsec blurs the ends of a run of gyro z a little.
     assert_close!(sigma("gyro.scale.z") * 10.0 * DEG_PER_SECOND / mean, 1.04, 0.04);
@@ -124,13 +147,22 @@ fn gauges_stay_lost_under_a_rich_schedule() {
     let full = Model::full();
     let more = model(&["mounting", "encoder.zero", "wrong_gravity"]);
     let model = Model { terms: full.terms.into_iter().chain(more.terms).collect() };
-    let told = joint(&runs, &model, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability();
+    let identifiability =
+        joint(&runs, &model, &IMU, &NoiseParameters::of(&IMU)).unwrap().identifiability();
     let named = |name: &str| {
-        told.seen.iter().filter(|seen| seen.gauge.is_some_and(|gauge| gauge.name == name)).count()
+        identifiability
+            .parameters
+            .iter()
+            .filter(|seen| seen.gauge.is_some_and(|gauge| gauge.name == name))
+            .count()
     };
     // Told or not is clear: what is not told is so to a millionth, what the Earth does to attitudes within an epoch
     // included.
-    assert!(told.rank.most_null < 5e-12 && told.rank.least_told > 1e-9, "{:?}", told.rank);
+    assert!(
+        identifiability.rank.most_null < 5e-12 && identifiability.rank.least_told > 1e-9,
+        "{:?}",
+        identifiability.rank
+    );
     // One for each run, and the others once: about x and about y.
     assert_eq!(named("the zero of the table angle"), 3);
     assert_eq!(named("the body axes about the spin axis"), 1);
@@ -138,7 +170,11 @@ fn gauges_stay_lost_under_a_rich_schedule() {
     assert_eq!(named("the mounting of the IMU on the table about y"), 1);
     // What belongs to the sensors is told, but for these.
     let told_well = ["gyro.scale.z", "gyro.bias.x"];
-    assert!(told_well.iter().all(|id| told.seen[told.find(id).unwrap()].identifiable));
+    assert!(
+        told_well
+            .iter()
+            .all(|id| identifiability.parameters[identifiability.find(id).unwrap()].identifiable)
+    );
 }
 
 #[test]
@@ -199,13 +235,13 @@ fn two_harmonics_that_differ_in_sign_separate_by_the_closed_form() {
         let (information, first, second) = of_one_per_turn(&turns);
         // s √(4 Nf Nr / (Nf + Nr)) of a signal that is seen by s √(Nf + Nr).
         let expected = (forward + back) / (2.0 * f64::sqrt(forward * back));
-        let told = separation(&information, &first, &second);
-        assert_eq!((told.directions.len(), told.absorbed), (2, [0, 0]));
-        for direction in &told.directions {
+        let identifiability = separation(&information, &first, &second);
+        assert_eq!((identifiability.directions.len(), identifiability.absorbed), (2, [0, 0]));
+        for direction in &identifiability.directions {
             // Bias and scale take a little of three turns.
             assert_close!(direction.kappa, expected, 0.03);
             let apart = distance(&information, &first, &direction.along);
-            assert_close!(apart, direction.told, 1e-6 * direction.told);
+            assert_close!(apart, direction.separation, 1e-6 * direction.separation);
         }
     }
 }
@@ -291,5 +327,5 @@ fn simulated_runs_tell_two_effects_apart_as_predicted() {
         })
         .sum();
     let apart = (gain / RUNS as f64 - 2.0).sqrt();
-    assert_close!(apart / direction.told, 1.0, 0.2);
+    assert_close!(apart / direction.separation, 1.0, 0.2);
 }

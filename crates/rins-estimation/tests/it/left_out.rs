@@ -4,7 +4,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use rins_estimation::{Fit, Foretold, Known, NoiseKnowledge, NoiseParameters, Run, fit, linearise};
+use rins_estimation::{
+    EpochPrediction, Fit, NoiseKnowledge, NoiseParameters, ParameterPosterior, Run, fit, linearise,
+};
 use rins_frames::InFrame;
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::{Axis, ImuError, TriadError};
@@ -78,8 +80,8 @@ fn what_is_foretold_is_as_likely_as_the_whole() {
     let expected = DVector::from_iterator(p, offsets);
     let prior = DMatrix::from_diagonal(&DVector::from_iterator(p, variances));
     let places: Vec<usize> = (0..p).collect();
-    let mut known = Known::new(expected, prior);
-    let all = known.foretell(&fit.linear[0], &fit.noise[0], &places, |_| true).unwrap();
+    let mut known = ParameterPosterior::new(expected, prior);
+    let all = known.predict(&fit.linear[0], &fit.noise[0], &places, |_| true).unwrap();
     let sum: f64 = all.iter().map(|epoch| epoch.log_density).sum();
     let figures = fit.evidence.figures as f64;
     let whole = fit.log_likelihood - 0.5 * figures * std::f64::consts::TAU.ln();
@@ -99,14 +101,14 @@ fn what_is_not_known_is_learnt() {
     let held = |samples: &Range<usize>| samples.start >= SPAN.start && samples.end <= SPAN.end;
     let foretold = |sigma: f64| {
         let variance = DMatrix::from_element(1, 1, sigma * sigma);
-        let mut known = Known::new(DVector::zeros(1), variance);
-        known.foretell(&linear, &fit.noise[0], &[0], held).unwrap()
+        let mut known = ParameterPosterior::new(DVector::zeros(1), variance);
+        known.predict(&linear, &fit.noise[0], &[0], held).unwrap()
     };
-    let mean = |told: &[Foretold]| {
+    let mean = |told: &[EpochPrediction]| {
         let squares: f64 = told.iter().map(|one| one.innovation.norm_squared()).sum();
         squares / told.len() as f64
     };
-    let density = |told: &[Foretold]| told.iter().map(|one| one.log_density).sum::<f64>();
+    let density = |told: &[EpochPrediction]| told.iter().map(|one| one.log_density).sum::<f64>();
     let (sure, unsure) = (foretold(0.01 * PPM), foretold(off));
     assert!(density(&unsure) > density(&sure) + 100.0, "{} {}", density(&unsure), density(&sure));
     // Six figures an epoch: as large as foretold, which they are far from if the parameter were known.
@@ -122,8 +124,8 @@ fn right_parameters_foretell_best() {
     let density = |model: &Model| {
         let linear = linearise(&run, model, &[]);
         let held = |samples: &Range<usize>| samples.start >= SPAN.start && samples.end <= SPAN.end;
-        let mut known = Known::new(DVector::zeros(0), DMatrix::zeros(0, 0));
-        let foretold = known.foretell(&linear, &fit.noise[0], &[], held).unwrap();
+        let mut known = ParameterPosterior::new(DVector::zeros(0), DMatrix::zeros(0, 0));
+        let foretold = known.predict(&linear, &fit.noise[0], &[], held).unwrap();
         foretold.iter().map(|one| one.log_density).sum::<f64>()
     };
     let right = density(&fit.models[0]);

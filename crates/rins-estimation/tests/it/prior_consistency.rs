@@ -10,12 +10,15 @@ use crate::unobservable::{IMUS, fitted, turned};
 
 fn departures(error: &ImuError, seed: u64) -> Vec<(String, Departure)> {
     let fit = fitted(&turned(error, seed));
-    let told = fit.identifiability();
+    let identifiability = fit.identifiability();
     let named = |departure: Departure| match departure.of {
-        Quantity::Parameter(place) => (told.unknowns[place].id.clone(), departure),
+        Quantity::Parameter(place) => (identifiability.unknowns[place].id.clone(), departure),
         of => (format!("{of:?}"), departure),
     };
-    fit.prior_departures(&told, &NoiseParameters::of(&fibre())).into_iter().map(named).collect()
+    fit.prior_departures(&identifiability, &NoiseParameters::of(&fibre()))
+        .into_iter()
+        .map(named)
+        .collect()
 }
 
 #[test]

@@ -92,7 +92,7 @@ fn fitted(runs: &[Run]) -> Fit {
 #[test]
 fn gravity_in_many_attitudes_tells_the_accelerometers() {
     let fit = fitted(&rests(2000.0, 0));
-    let told = fit.identifiability();
+    let identifiability = fit.identifiability();
     let accel = truth(2000.0).accel;
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
         for (id, truth) in [("bias", accel.bias[axis]), ("scale", accel.matrix[(axis, axis)])] {
@@ -100,14 +100,17 @@ fn gravity_in_many_attitudes_tells_the_accelerometers() {
             let off = (estimate.value - truth) / estimate.sigma;
             assert!(off.abs() < 4.0, "{id} {name} is off by {off} sigma");
             assert!(20.0 * estimate.sigma < estimate.parameter.sigma, "{estimate:?}");
-            assert!(told.seen[told.find(&estimate.parameter.id).unwrap()].identifiable);
+            assert!(
+                identifiability.parameters[identifiability.find(&estimate.parameter.id).unwrap()]
+                    .identifiable
+            );
         }
     }
     // Which way the body axes point is not told: of two axes' misalignments only what is between them.
     for (one, other, place) in [("xy", "yx", (0, 1)), ("xz", "zx", (0, 2)), ("yz", "zy", (1, 2))] {
-        let of = |name| told.find(&format!("accel.misalignment.{name}")).unwrap();
+        let of = |name| identifiability.find(&format!("accel.misalignment.{name}")).unwrap();
         let (first, second) = (of(one), of(other));
-        let aliases = &told.seen[first].aliases;
+        let aliases = &identifiability.parameters[first].aliases;
         assert_eq!(aliases.iter().map(|alias| alias.unknown).collect::<Vec<_>>(), [second]);
         let (value, sigma) = fit.sum(first, aliases);
         let truth = accel.matrix[place] + accel.matrix[(place.1, place.0)];
@@ -121,9 +124,13 @@ fn gravity_in_many_attitudes_tells_the_accelerometers() {
 #[test]
 fn what_rests_do_not_show_is_said_to_be_hidden() {
     let fit = fitted(&rests(2000.0, 0));
-    let told = fit.identifiability();
+    let identifiability = fit.identifiability();
     for id in ["gyro.scale.x", "gyro.scale.z", "gyro.misalignment.xz"] {
-        assert_eq!(told.seen[told.find(id).unwrap()].shown, Observable::Nothing, "{id}");
+        assert_eq!(
+            identifiability.parameters[identifiability.find(id).unwrap()].shown,
+            Observable::Nothing,
+            "{id}"
+        );
     }
     let bias = fit.parameter("gyro.bias.y").unwrap();
     assert!((bias.value - 250.0 * DEG_PER_HOUR).abs() < 4.0 * bias.sigma);

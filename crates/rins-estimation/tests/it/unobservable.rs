@@ -60,8 +60,8 @@ fn what_is_not_observable_keeps_its_expected_value_and_its_prior_sigma() {
         .map(|seed| {
             let error = drawn(seed);
             let fit = fitted(&turned(&error, seed));
-            let told = fit.identifiability();
-            let unobservable = told.unobservable();
+            let identifiability = fit.identifiability();
+            let unobservable = identifiability.unobservable();
             let kept = fit.clone().with_prior_values_at(&unobservable);
             for &place in &unobservable {
                 let estimate = &kept.parameters[place];
@@ -71,13 +71,13 @@ fn what_is_not_observable_keeps_its_expected_value_and_its_prior_sigma() {
                 let in_model = kept.models[0].terms[here.term].values[here.parameter];
                 assert_eq!(in_model.to_bits(), estimate.expected.to_bits(), "{estimate:?}");
             }
-            for (place, seen) in told.seen.iter().enumerate() {
+            for (place, seen) in identifiability.parameters.iter().enumerate() {
                 // What is observable hardly depends on what is not.
                 let (before, after) =
                     (fit.sum(place, &seen.aliases), kept.sum(place, &seen.aliases));
                 if seen.identifiable {
                     let moved = (after.0 - before.0).abs() / before.1;
-                    assert!(moved < 3.0, "{}: {moved} sigma", told.unknowns[place].id);
+                    assert!(moved < 3.0, "{}: {moved} sigma", identifiability.unknowns[place].id);
                 }
             }
             let (squares, figures) = squares(&kept, &error);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::options::StaticOptions;
-use rins_motion::{Recording, median};
+use rins_motion::{Recording, median, whole};
 
 /// How long a cell is at least \[s\]; a cell holds whole samples.
 const CELL: f64 = 0.1;
@@ -91,8 +91,7 @@ impl Cells {
         let length = median(all.cells.iter().map(|cell| cell.span.len() as f64)).unwrap_or(1.0);
         let cell = length * interval;
         let needed = (WINDOW / cell).max(WINDOW_SAMPLES as f64 / length);
-        all.window =
-            super::whole::whole((needed * (1.0 - 1e-9)).ceil()).clamp(1, all.cells.len().max(1));
+        all.window = whole((needed * (1.0 - 1e-9)).ceil()).clamp(1, all.cells.len().max(1));
         let step = |stated: Option<f64>, of: &dyn Fn(usize) -> f64| {
             stated.unwrap_or_else(|| least_step((0..samples.len()).map(of)))
         };

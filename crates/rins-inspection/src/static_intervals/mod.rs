@@ -17,7 +17,6 @@ mod split;
 mod stated;
 mod table;
 mod wander;
-mod whole;
 
 use std::ops::Range;
 

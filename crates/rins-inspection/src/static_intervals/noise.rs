@@ -7,8 +7,7 @@ use rins_frames::units::DEG_PER_SECOND;
 
 use super::cells::Cells;
 use super::options::StaticOptions;
-use super::whole::whole;
-use rins_motion::median;
+use rins_motion::{median, whole};
 
 /// A window moves if its scatter is so many times that of the quietest.
 const SCATTER_RATIO: f64 = 4.0;

@@ -12,10 +12,9 @@ use super::noise::{Limits, Noise};
 use super::options::StaticOptions;
 use super::split::{SIGMAS, coarse_step};
 use super::wander::wanders;
-use super::whole::whole;
 use super::{drift, split, table};
 use crate::rows::rows_of;
-use rins_motion::Recording;
+use rins_motion::{Recording, whole};
 
 /// A cell at the end of an interval that is so many sigma off its mean belongs to the motion that follows: of a thousand
 /// ends a few lose a cell by chance.

@@ -140,7 +140,8 @@ pub const ATTITUDE_SIGMA: Kind = Kind::new(
     },
 );
 /// The standard deviation of a small angle.
-pub(crate) const ANGLE_SIGMA: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
+pub(crate) const ANGLE_SIGMA: Kind =
+    Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
 /// The resolution of an angle; zero is none.
 pub(crate) const ANGLE_RESOLUTION: Kind =
     Kind::new("an angle", Dimension::ANGLE, "0.1 arcsec", Range::NotNegative);
@@ -183,7 +184,8 @@ pub const TABLE_ACCELERATION: Kind = Kind::new(
     Range::Positive,
 );
 /// A ratio's standard deviation.
-pub(crate) const RATIO_SIGMA: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Positive);
+pub(crate) const RATIO_SIGMA: Kind =
+    Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Positive);
 /// A ratio of either sign.
 pub const RATIO: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Any);
 /// The root power density of a gyro's noise.

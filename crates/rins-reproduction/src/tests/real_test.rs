@@ -39,8 +39,9 @@ fn emulated_runs_estimate_table_5_from_errors_that_differ() {
         assert_close!(run.after.attitude.yaw, 0.0, 0.1 * DEG);
         assert!((run.online.attitude.yaw - run.after.attitude.yaw).abs() < 0.002 * DEG, "{run:?}");
     }
-    let spread =
-        |of: &dyn Fn(&real_test::Emulated) -> f64| crate::statistics::Sample::of(runs.iter().map(of)).deviation;
+    let spread = |of: &dyn Fn(&real_test::Emulated) -> f64| {
+        crate::statistics::Sample::of(runs.iter().map(of)).deviation
+    };
     assert!(spread(&|run| run.truth.z) > 1.0 * PPM);
     assert!(spread(&|run| run.after.attitude.yaw) > 0.005 * DEG);
     assert!((runs[0].after.velocity[1] - runs[1].after.velocity[1]).abs() > 1e-3);

@@ -23,7 +23,7 @@ const SHORTEST_REST: f64 = 5.0;
 
 /// An attitude found from a rest.
 #[derive(Debug)]
-pub(crate) struct Found {
+pub(crate) struct AlignmentSolution {
     /// The body's attitude over the rest.
     pub(crate) nav_from_body: Dcm<Nav, Body>,
     /// The 1σ of the error about east, north and up \[rad\]; no third if north was not found.
@@ -42,7 +42,7 @@ pub(crate) struct Found {
     pub(crate) residual: Rates,
 }
 
-impl Found {
+impl AlignmentSolution {
     /// Whether the Earth's rotation showed north.
     pub(crate) const fn north_found(&self) -> bool {
         self.hidden.is_none()
@@ -66,7 +66,7 @@ impl Found {
 }
 
 /// Aligns on the longest static interval of a run.
-pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
+pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<AlignmentSolution> {
     let span = longest(loaded, SHORTEST_REST).ok_or_else(|| {
         anyhow::anyhow!("{}, so there is nothing to align on", none_found(loaded, SHORTEST_REST))
     })?;
@@ -74,7 +74,7 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<Found> {
 }
 
 /// Aligns on one rest of a run.
-pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<Found> {
+pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<AlignmentSolution> {
     let recording = &loaded.recording;
     let mean = RestMean::of(recording, span.clone())
         .ok_or_else(|| anyhow::anyhow!("the static interval holds no samples"))?;
@@ -113,7 +113,7 @@ pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<
         let body_from_nav = fine.nav_from_body.inverse();
         Rates { angular_rate: fine.earth_rate_seen, specific_force: body_from_nav * up }
     });
-    Ok(Found {
+    Ok(AlignmentSolution {
         nav_from_body,
         sigma,
         hidden,

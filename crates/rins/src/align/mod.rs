@@ -9,7 +9,7 @@ use anyhow::Context;
 use rins_inspection::StaticIntervals;
 use rins_io::shown;
 
-pub(crate) use self::found::{ANY_AZIMUTH, Found, found, found_over};
+pub(crate) use self::found::{ANY_AZIMUTH, AlignmentSolution, found, found_over};
 pub use self::result::{AboutAxes, AlignResult, ApparentSite, ExpectedSite, LeveledDegrees};
 use crate::check::refuse_mistaken;
 use crate::error::Result;
@@ -19,7 +19,7 @@ use crate::log::{Log, static_intervals};
 #[derive(Debug)]
 pub struct Alignment<'a> {
     log: &'a Log,
-    found: Found,
+    found: AlignmentSolution,
     statics: StaticIntervals,
 }
 

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Alignment;
 use super::text::own_axes;
-use crate::angles::EulerDegrees;
 use crate::log::{StaticIntervalResult, only, statics_result};
+use crate::values::EulerDegrees;
 
 /// The result of `rins align`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,7 +5,7 @@ use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR};
 use rins_frames::{EulerAngles, SignedAxes};
 use rins_io::Loaded;
 
-use super::found::Found;
+use super::found::AlignmentSolution;
 use crate::log::BEYOND_DATA_SHEET;
 
 /// The axes of a run among the sensors' own.
@@ -13,7 +13,7 @@ pub(super) fn own_axes(loaded: &Loaded) -> SignedAxes {
     SignedAxes::from(loaded.rig.spin)
 }
 
-pub(super) fn sentences(found: &Found, loaded: &Loaded) -> Vec<String> {
+pub(super) fn sentences(found: &AlignmentSolution, loaded: &Loaded) -> Vec<String> {
     let angles = found.nav_from_body.euler_angles();
     let from = found.start;
     let to = loaded.recording.times[found.span.end - 1];
@@ -60,7 +60,7 @@ pub(super) fn sentences(found: &Found, loaded: &Loaded) -> Vec<String> {
     sentences
 }
 
-pub(super) fn rows(found: &Found, loaded: &Loaded) -> Vec<Vec<String>> {
+pub(super) fn rows(found: &AlignmentSolution, loaded: &Loaded) -> Vec<Vec<String>> {
     let row = |name: &str, value: String, sigma: String, note: String| {
         vec![name.to_owned(), value, sigma, note]
     };

@@ -6,25 +6,25 @@ use rins_frames::units::DEG;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What each error is worth in free inertial navigation from rest.
+/// The error budget of free inertial navigation from rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BudgetResult {
-    /// After how long \[s\].
+    /// The duration of free inertial navigation \[s\].
     pub after_s: f64,
-    /// Each parameter by itself.
-    pub parameters: Vec<WorthResult>,
-    /// The 1σ of the drift by all, with their correlations.
+    /// The contribution of each parameter.
+    pub parameters: Vec<ContributionResult>,
+    /// The 1σ of the drift due to all parameters, with their correlations.
     pub total_1_sigma: DriftResult,
 }
 
-/// What one error is worth.
+/// The contribution of one parameter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WorthResult {
-    /// The parameter.
+pub struct ContributionResult {
+    /// The id of the parameter.
     pub id: String,
-    /// The drift that its 1σ makes.
+    /// The drift due to its 1σ.
     pub by_sigma: DriftResult,
-    /// The drift that its value makes where it is not compensated.
+    /// The drift due to its value if it is not compensated.
     pub by_value: DriftResult,
 }
 
@@ -40,11 +40,12 @@ pub struct DriftResult {
 impl BudgetResult {
     /// An error budget of parameters with these ids.
     pub(super) fn of(ids: &[&str], budget: &Budget) -> Self {
-        let parameters = ids.iter().zip(&budget.worth).map(|(id, worth)| WorthResult {
-            id: (*id).to_owned(),
-            by_sigma: (&worth.by_sigma).into(),
-            by_value: (&worth.by_value).into(),
-        });
+        let parameters =
+            ids.iter().zip(&budget.contributions).map(|(id, one)| ContributionResult {
+                id: (*id).to_owned(),
+                by_sigma: (&one.by_sigma).into(),
+                by_value: (&one.by_value).into(),
+            });
         Self {
             after_s: budget.after,
             parameters: parameters.collect(),

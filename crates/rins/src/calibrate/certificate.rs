@@ -5,7 +5,7 @@ use std::sync::Arc;
 use anyhow::Context;
 use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
-use rins_design::{Asked, Budget, Truth};
+use rins_design::{Budget, EstimatedParameter, Truth};
 use rins_estimation::{
     Departure, Estimate, Fit, Identifiability, InRun, NoiseParameters, Reference, Run,
     Unobservable, fit,
@@ -20,13 +20,13 @@ use rins_terms::{
 use crate::check::steady_rates;
 use crate::log::repairs;
 use crate::options::NoiseChoice;
-use crate::preparation::{Case, Prepared};
+use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// At most so many rates of a run are told one by one.
 const MOST_RATES: usize = 7;
 
-/// The estimates from one run or several, and what they are worth.
+/// The estimates from one run or several, with their observability and error budget.
 #[derive(Debug)]
 pub(crate) struct Certificate {
     /// What the model is called.
@@ -36,7 +36,7 @@ pub(crate) struct Certificate {
     /// The estimates, along the sensors' own axes.
     pub(crate) fit: Fit,
     /// What the data tell of each.
-    pub(crate) told: Identifiability,
+    pub(crate) identifiability: Identifiability,
     /// The parameters that keep the values that were expected of them.
     pub(crate) held: Vec<usize>,
     /// What was found, against the data sheet and what else was stated beforehand.
@@ -65,7 +65,7 @@ pub(crate) struct CertifiedRun {
     pub(crate) before: FreeNavigation,
     /// The same with all that was estimated undone.
     pub(crate) after: FreeNavigation,
-    /// What each parameter of this run and of the IMU is worth.
+    /// The error budget of the first run.
     pub(crate) budget: Budget,
     /// The place of each of these among all parameters.
     pub(crate) places: Vec<usize>,
@@ -75,7 +75,7 @@ pub(crate) struct CertifiedRun {
 
 impl Certificate {
     /// Estimates the model of a case from its runs.
-    pub(crate) fn of(case: Case, progress: &Progress) -> anyhow::Result<Self> {
+    pub(crate) fn of(case: EstimationProblem, progress: &Progress) -> anyhow::Result<Self> {
         let stage = progress.begin("calibrating", None);
         let found = fit(&case.given(), &case.model, case.imu(), case.knowledge(), |iteration| {
             stage.at(&format!("calibrating, last step {:.3} sigma", iteration.step));
@@ -88,7 +88,7 @@ impl Certificate {
     /// What follows from a case and what was estimated from it.
     ///
     /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
-    pub(crate) fn with(mut case: Case, fit: Fit) -> anyhow::Result<Self> {
+    pub(crate) fn with(mut case: EstimationProblem, fit: Fit) -> anyhow::Result<Self> {
         let given = case.given_of_logs();
         // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
         let is_kept = |run: usize, id: &str| match case.runs.get(run) {
@@ -100,12 +100,12 @@ impl Certificate {
             parameter.owner != Owner::Placement || run.is_none_or(|run| is_kept(run, &parameter.id))
         });
         let fit = fit.along(SignedAxes::IDENTITY);
-        let mut told = fit.identifiability();
+        let mut identifiability = fit.identifiability();
         if let [_] = case.runs[..] {
-            told.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
+            identifiability.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
         }
-        let departures = fit.prior_departures(&told, &NoiseParameters::of(case.imu()));
-        let held = held(&fit, &told);
+        let departures = fit.prior_departures(&identifiability, &NoiseParameters::of(case.imu()));
+        let held = held(&fit, &identifiability);
         let fit = fit.with_prior_values_at(&held);
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
@@ -121,13 +121,13 @@ impl Certificate {
         let innovations: Vec<_> =
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
-        let Case { name: model, noise, remarks, .. } = case;
+        let EstimationProblem { name: model, noise, remarks, .. } = case;
         let besides = Vec::new();
         Ok(Self {
             model,
             runs: certified,
             fit,
-            told,
+            identifiability,
             held,
             departures,
             consistency,
@@ -139,7 +139,7 @@ impl Certificate {
 
     /// The value and the 1σ of what the data tell of a parameter: of itself, or of the sum that it is in, in SI units.
     pub(crate) fn value(&self, place: usize) -> (f64, f64) {
-        self.fit.sum(place, &self.told.seen[place].aliases)
+        self.fit.sum(place, &self.identifiability.parameters[place].aliases)
     }
 
     /// What reading the logs has repaired or left out, log by log.
@@ -179,10 +179,10 @@ impl CertifiedRun {
         let in_run = |place: usize| Some((place, fit.in_run(&fit.parameters[place], run)?));
         let (places, here): (Vec<usize>, Vec<InRun>) =
             (0..fit.parameters.len()).filter_map(in_run).unzip();
-        let asked: Vec<Asked<'_>> = places
+        let asked: Vec<EstimatedParameter<'_>> = places
             .iter()
             .zip(&here)
-            .map(|(&place, here)| Asked {
+            .map(|(&place, here)| EstimatedParameter {
                 chosen: &model.terms[here.term],
                 parameter: here.parameter,
                 value: here.sign * fit.parameters[place].value,
@@ -214,7 +214,7 @@ impl CertifiedRun {
 /// The parameters that are left at the values that were expected of them: those of which the data would tell nothing
 /// if all else were known, and those that they hardly tell better than a data sheet. What an earlier calibration said of a
 /// parameter is an estimate as good as this one.
-fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
+fn held(fit: &Fit, identifiability: &Identifiability) -> Vec<usize> {
     let is_held = |&place: &usize| {
         let role = |run: usize| {
             let here = fit.in_run(&fit.parameters[place], run)?;
@@ -222,9 +222,9 @@ fn held(fit: &Fit, told: &Identifiability) -> Vec<usize> {
         };
         let role = (0..fit.models.len()).find_map(role);
         let visible = |lost: &Unobservable| lost.unknown != place || lost.visible;
-        role == Some(Role::Free) || !told.rank.lost.iter().all(visible)
+        role == Some(Role::Free) || !identifiability.rank.lost.iter().all(visible)
     };
-    told.unobservable().into_iter().filter(is_held).collect()
+    identifiability.unobservable().into_iter().filter(is_held).collect()
 }
 
 /// How a run moved that consists of so many rests, or turns.

@@ -5,7 +5,7 @@ use rins_report::number::figure;
 use rins_terms::Unit;
 
 use super::certificate::Certificate;
-use crate::told::name;
+use crate::identifiability::name;
 
 /// A mean NIS above this is no matter of a sensor error more or less.
 pub(super) const ABSURD_NIS: f64 = 100.0;
@@ -50,9 +50,10 @@ impl Certificate {
 /// What a departure is of: its id and unit.
 pub(super) fn quantity(certificate: &Certificate, of: Quantity) -> (String, Unit) {
     match of {
-        Quantity::Parameter(place) => {
-            (name(&certificate.told, place), certificate.fit.parameters[place].parameter.unit)
-        }
+        Quantity::Parameter(place) => (
+            name(&certificate.identifiability, place),
+            certificate.fit.parameters[place].parameter.unit,
+        ),
         Quantity::GyroNoise => ("gyro.noise".into(), Unit::DEG_PER_HOUR_PER_ROOT_HERTZ),
         Quantity::AccelNoise => ("accel.noise".into(), Unit::MICRO_G_PER_ROOT_HERTZ),
     }
@@ -65,7 +66,9 @@ pub(super) fn departure_in_words(certificate: &Certificate, departure: &Departur
         .map(|value| figure(value / unit.factor, 4));
     let [value, expected, sigma] = figures;
     let aliases = match departure.of {
-        Quantity::Parameter(place) => !certificate.told.seen[place].aliases.is_empty(),
+        Quantity::Parameter(place) => {
+            !certificate.identifiability.parameters[place].aliases.is_empty()
+        }
         _ => false,
     };
     let what = if aliases { format!("The combination that {id} leads") } else { id };

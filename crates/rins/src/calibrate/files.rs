@@ -8,8 +8,8 @@ use rins_terms::{Model, Role, catalogue};
 
 use super::certificate::Certificate;
 use super::compensation::of_run_alone;
+use crate::identifiability::observability;
 use crate::log::covered;
-use crate::told::observability;
 
 impl Certificate {
     /// The model with the estimates in it, and a calibration file for each run.
@@ -98,12 +98,12 @@ fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {
 }
 
 fn notes(certificate: &Certificate, run: usize, places: &[usize]) -> Vec<String> {
-    let Certificate { fit, told, .. } = certificate;
+    let Certificate { fit, identifiability, .. } = certificate;
     let note = |&place: &usize| {
         let mut note = format!(
             "{}: {}",
-            told.unknowns[place].id,
-            observability(told, place, Some(certificate.value(place)))
+            identifiability.unknowns[place].id,
+            observability(identifiability, place, Some(certificate.value(place)))
         );
         if certificate.held.contains(&place) {
             note += if fit.parameters[place].expected == 0.0 {
@@ -114,9 +114,9 @@ fn notes(certificate: &Certificate, run: usize, places: &[usize]) -> Vec<String>
         }
         note
     };
-    let unseen = places.iter().filter(|&&place| !told.seen[place].identifiable);
+    let unseen = places.iter().filter(|&&place| !identifiability.parameters[place].identifiable);
     let mut notes: Vec<String> = unseen.map(note).collect();
-    if places.iter().any(|&place| !told.seen[place].aliases.is_empty()) {
+    if places.iter().any(|&place| !identifiability.parameters[place].aliases.is_empty()) {
         let shared = places.iter().any(|&place| fit.parameters[place].run.is_none());
         let of_all = certificate.runs.iter().filter(|_| shared);
         let alone = certificate.runs[run..=run].iter().filter(|_| !shared);

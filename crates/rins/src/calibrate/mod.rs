@@ -3,6 +3,7 @@
 mod budget;
 mod certificate;
 mod compensation;
+mod compensation_guide;
 mod departure;
 mod files;
 mod noise;
@@ -10,9 +11,8 @@ mod outcome;
 mod page;
 mod paper;
 mod result;
-mod worth;
 
-pub use self::budget::{BudgetResult, DriftResult, WorthResult};
+pub use self::budget::{BudgetResult, ContributionResult, DriftResult};
 pub(crate) use self::certificate::Certificate;
 use self::paper::PaperCalibration;
 pub(crate) use self::result::departures;
@@ -23,7 +23,7 @@ pub use self::result::{
 use crate::error::Result;
 use crate::log::Log;
 use crate::options::{ModelChoice, NamedModel, NoiseChoice};
-use crate::preparation::{Case, Prepared};
+use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// What a calibration is asked for.
@@ -90,7 +90,7 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
     let runs = logs.into_iter().map(|log| Prepared::of(log, options.noise));
     let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
     drop(stage);
-    let case = Case::of(runs, named, options.noise)?;
+    let case = EstimationProblem::of(runs, named, options.noise)?;
     let certificate = Certificate::of(case, &options.progress)?;
     Ok(Calibration(Kind::Certificate(Box::new(certificate))))
 }

@@ -9,13 +9,13 @@ use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
 
 use super::certificate::{Certificate, CertifiedRun};
+use super::compensation_guide::{budget_section, compensation_section};
 use super::departure::departure_in_words;
 use super::noise::{noise_section, noise_sentence};
-use super::worth::{budget_section, compensation_section};
 use crate::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::free_navigation::{gain_sentence, navigation_section};
+use crate::identifiability::{badge, gauge_sentences, observability, rank_sentence};
 use crate::table::aligned;
-use crate::told::{badge, gauge_sentences, observability, rank_sentence};
 
 /// What the rows of an innovation are.
 const CHANNELS: [&str; MEASUREMENTS] = [
@@ -47,7 +47,7 @@ pub(super) fn certificate_text(certificate: &Certificate) -> String {
             figure(estimate.value / unit.factor, 4),
             figure(estimate.sigma / unit.factor, 4),
             unit.symbol.into(),
-            observability(&certificate.told, place, Some(certificate.value(place))),
+            observability(&certificate.identifiability, place, Some(certificate.value(place))),
         ]);
     }
     if !several {
@@ -56,7 +56,7 @@ pub(super) fn certificate_text(certificate: &Certificate) -> String {
         }
     }
     text.push_str(&aligned(&rows));
-    for sentence in gauge_sentences(&certificate.told) {
+    for sentence in gauge_sentences(&certificate.identifiability) {
         let _ = writeln!(text, "  {sentence}");
     }
     text
@@ -79,7 +79,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
     });
     sentences.extend(gains);
     sentences.push(consistency_sentence(&certificate.consistency));
-    sentences.push(rank_sentence(&certificate.told));
+    sentences.push(rank_sentence(&certificate.identifiability));
     sentences.push(noise_sentence(certificate));
     sentences.extend(certificate.remarks.iter().cloned());
     sentences
@@ -130,7 +130,7 @@ pub(super) fn certificate_report(certificate: &Certificate) -> Report {
 }
 
 fn parameters_section(certificate: &Certificate) -> Section {
-    let told = &certificate.told;
+    let identifiability = &certificate.identifiability;
     let several = certificate.runs.len() > 1;
     let rows = certificate.fit.parameters.iter().enumerate().map(|(place, estimate)| {
         let unit = estimate.parameter.unit;
@@ -147,11 +147,11 @@ fn parameters_section(certificate: &Certificate) -> Section {
                 value: (estimate.value - estimate.expected) / wide,
                 sigma: estimate.sigma / wide,
             },
-            badge(told, place),
-            Cell::text(if told.seen[place].identifiable {
+            badge(identifiability, place),
+            Cell::text(if identifiability.parameters[place].identifiable {
                 String::new()
             } else {
-                observability(told, place, Some(certificate.value(place)))
+                observability(identifiability, place, Some(certificate.value(place)))
             }),
         ];
         if !several {
@@ -193,7 +193,7 @@ fn parameters_section(certificate: &Certificate) -> Section {
             rows: axes.collect(),
         }),
     ];
-    let gauges = gauge_sentences(told).into_iter();
+    let gauges = gauge_sentences(identifiability).into_iter();
     items.splice(1..1, gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: "Parameters".into(),

@@ -9,14 +9,13 @@ use super::budget::BudgetResult;
 use super::certificate::{Certificate, CertifiedRun};
 use super::compensation::EQUATION;
 use super::departure::quantity;
-use crate::angles::EulerDegrees;
-use crate::compare::EstimateResult;
 use crate::consistency::ConsistencyResult;
 use crate::free_navigation::BeforeAfterResult;
+use crate::identifiability::{IdentifiabilityResult, ObservabilityResult, coefficient, meaning};
 use crate::log::StaticIntervalResult;
 use crate::options::NoiseChoice;
 use crate::preparation::across_axis;
-use crate::told::{IdentifiabilityResult, ObservabilityResult, coefficient, meaning};
+use crate::values::{EstimateResult, EulerDegrees};
 
 /// The result of `rins calibrate`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +50,7 @@ pub struct CalibrateResult {
     pub noise: Option<NoiseResult>,
     /// What is observable of all parameters together.
     pub identifiability: IdentifiabilityResult,
-    /// What each parameter is worth in free navigation of the first run.
+    /// The error budget of free inertial navigation over the first run.
     pub error_budget: BudgetResult,
     /// How errors are compensated.
     pub compensation: String,
@@ -183,7 +182,7 @@ pub struct RunResult {
     pub navigation: BeforeAfterResult,
     /// What the innovations say of the model.
     pub consistency: ConsistencyResult,
-    /// What each parameter of this run and of the IMU is worth.
+    /// The error budget of free inertial navigation over the first run.
     pub error_budget: BudgetResult,
 }
 
@@ -219,7 +218,7 @@ impl CalibrateResult {
             iterations: iterations.collect(),
             log_likelihood: Some(fit.log_likelihood),
             noise: Some(certificate.into()),
-            identifiability: IdentifiabilityResult::of(&certificate.told),
+            identifiability: IdentifiabilityResult::of(&certificate.identifiability),
             error_budget: BudgetResult::of(&ids(certificate, first), &first.budget),
             compensation: EQUATION.into(),
             static_intervals: statics(&runs),
@@ -267,9 +266,10 @@ impl DepartureResult {
 
 impl ParameterResult {
     fn of(certificate: &Certificate, place: usize) -> Self {
-        let Certificate { fit, told, .. } = certificate;
+        let Certificate { fit, identifiability, .. } = certificate;
         let estimate = &fit.parameters[place];
-        let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+        let (unknown, seen) =
+            (&identifiability.unknowns[place], &identifiability.parameters[place]);
         let factor = estimate.parameter.unit.factor;
         let (value, sigma) = certificate.value(place);
         Self {
@@ -287,13 +287,13 @@ impl ParameterResult {
                 .data_sigma
                 .is_finite()
                 .then_some(seen.data_sigma / unknown.unit.factor),
-            observability: ObservabilityResult::of(told, place),
+            observability: ObservabilityResult::of(identifiability, place),
             alias_coefficients: seen
                 .aliases
                 .iter()
-                .map(|alias| coefficient(told, place, alias))
+                .map(|alias| coefficient(identifiability, place, alias))
                 .collect(),
-            meaning: meaning(told, place),
+            meaning: meaning(identifiability, place),
         }
     }
 }

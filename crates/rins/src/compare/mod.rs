@@ -11,7 +11,7 @@ use rins_io::{Calibration, parameters, shown};
 use rins_terms::Role;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-pub use self::result::{ChangeResult, CompareResult, EstimateResult, TogetherResult};
+pub use self::result::{ChangeResult, CompareResult, TogetherResult};
 use crate::error::Result;
 
 /// What one parameter did.

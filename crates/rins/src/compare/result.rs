@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Comparison;
+use crate::values::EstimateResult;
 
 /// The result of `rins compare`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -43,15 +44,6 @@ pub struct ChangeResult {
     pub sigma: f64,
     /// The difference in sigmas.
     pub sigmas: f64,
-}
-
-/// An estimate, in the unit of its parameter.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct EstimateResult {
-    /// The value.
-    pub value: f64,
-    /// Its 1σ.
-    pub sigma: f64,
 }
 
 /// All differences together, with both covariances.

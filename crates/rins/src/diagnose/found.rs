@@ -17,7 +17,7 @@ use rins_terms::{Model, TermInstance, Unit};
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
 use crate::calibrate::Certificate;
-use crate::preparation::{Case, Prepared};
+use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// An amplitude beyond the largest usual one by more than this many of its sigmas is not plausible.
@@ -41,7 +41,7 @@ pub(crate) enum Verdict {
 
 /// A finished diagnosis with all that a reader is told of it.
 #[derive(Debug)]
-pub(crate) struct Found {
+pub(crate) struct DiagnosisOutcome {
     pub(crate) verdict: Verdict,
     /// The causes, by the weight of their evidence.
     pub(crate) causes: Vec<Named>,
@@ -69,7 +69,7 @@ pub(crate) struct Found {
 
 /// What is asked of a diagnosis.
 #[derive(Default)]
-pub(crate) struct Asked {
+pub(crate) struct Request {
     /// The effects that are supposed to be there, if none are searched for.
     pub(crate) supposed: Option<Vec<TermInstance>>,
     /// The run on which the gain is measured, if it is another.
@@ -88,7 +88,7 @@ pub(crate) struct ByChance {
     pub(crate) share: f64,
 }
 
-/// A cause, and what its amplitude is worth.
+/// An identified effect, with the significance and plausibility of its amplitude.
 #[derive(Debug)]
 pub(crate) struct Named {
     pub(crate) cause: Cause,
@@ -127,9 +127,13 @@ impl Shift {
     }
 }
 
-impl Found {
+impl DiagnosisOutcome {
     /// Diagnoses the runs of a case.
-    pub(crate) fn of(case: Case, asked: &Asked, progress: &Progress) -> anyhow::Result<Self> {
+    pub(crate) fn of(
+        case: EstimationProblem,
+        asked: &Request,
+        progress: &Progress,
+    ) -> anyhow::Result<Self> {
         let started = Instant::now();
         let runs = case.given();
         let stage = progress.begin("estimating the model", None);

@@ -126,13 +126,13 @@ fn drifting(drift: &Drift) -> String {
 
 #[cfg(test)]
 mod tests {
-    use rins_diagnosis::Foresight;
+    use rins_diagnosis::PredictiveScore;
 
     use super::*;
 
     /// A gain of 30 nats after which the attitude is so many times as far off.
     fn measured(times: f64) -> Measured {
-        let foresight = |log_score| Foresight { log_score, nis_mean: 6.0, nis_dof: 6 };
+        let foresight = |log_score| PredictiveScore { log_score, nis_mean: 6.0, nis_dof: 6 };
         let drift = Drift {
             after: 60.0,
             windows: 3,

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::finite::finite;
-use crate::preparation::{Case, Prepared};
+use crate::preparation::{EstimationProblem, Prepared};
 
 /// On what a gain is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,7 +29,11 @@ pub(crate) struct Measured {
 
 impl Measured {
     /// What `after` gains over `before` on a part of the runs of a case, or on another run.
-    pub(crate) fn of(case: &Case, held_out: Option<&Prepared>, fits: (&Fit, &Fit)) -> Self {
+    pub(crate) fn of(
+        case: &EstimationProblem,
+        held_out: Option<&Prepared>,
+        fits: (&Fit, &Fit),
+    ) -> Self {
         let (imu, knowledge) = (case.imu(), case.knowledge());
         let runs = case.given();
         match held_out {
@@ -42,7 +46,7 @@ impl Measured {
     }
 
     /// What `after` gains where the table turns fastest, both estimated at the slower rates.
-    pub(crate) fn at_the_fastest_rate(case: &Case, fits: (&Fit, &Fit)) -> Self {
+    pub(crate) fn at_the_fastest_rate(case: &EstimationProblem, fits: (&Fit, &Fit)) -> Self {
         let gain = Gain::at_the_fastest_rate(&case.given(), fits, case.imu(), case.knowledge());
         Self { on: On::Fastest, gain }
     }

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use rins_io::{ModelFile, shown};
 use rins_terms::TermInstance;
 
-use self::found::{Asked, Found};
+use self::found::{DiagnosisOutcome, Request};
 pub use self::measured::{DriftPairResult, GainResult, PairResult};
 pub use self::result::{
     AlternativeResult, CauseParameterResult, CauseResult, DiagnoseResult, FalseAlarmsResult,
@@ -26,7 +26,7 @@ pub use self::result::{
 use crate::error::Result;
 use crate::log::Log;
 use crate::options::{ModelChoice, NamedModel, NoiseChoice};
-use crate::preparation::{Case, Prepared};
+use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// What a diagnosis is asked for.
@@ -64,7 +64,7 @@ impl Default for DiagnoseOptions {
 
 /// What a model leaves unexplained, the effects that explain it, and what they gain.
 #[derive(Debug)]
-pub struct Diagnosis(Box<Found>);
+pub struct Diagnosis(Box<DiagnosisOutcome>);
 
 /// Estimates a model from the logs of one IMU, and searches the catalogue for effects that it lacks.
 ///
@@ -77,36 +77,36 @@ pub struct Diagnosis(Box<Found>);
 /// ```no_run
 /// use rins::{DiagnoseOptions, Log, Outcome};
 /// let log = Log::open("rig.toml")?;
-/// let diagnosis = rins::diagnose(vec![log], &DiagnoseOptions::default())?;
+/// let diagnosis = rins::diagnose(vec![log], DiagnoseOptions::default())?;
 /// print!("{diagnosis}");
 /// for cause in diagnosis.result().causes {
 ///     println!("{}: p = {:e}", cause.effect, cause.p_value);
 /// }
 /// # Ok::<(), rins::Error>(())
 /// ```
-pub fn diagnose(logs: Vec<Log>, options: &DiagnoseOptions) -> Result<Diagnosis> {
+pub fn diagnose(logs: Vec<Log>, options: DiagnoseOptions) -> Result<Diagnosis> {
     Ok(Diagnosis(Box::new(found(logs, options)?)))
 }
 
-fn found(logs: Vec<Log>, options: &DiagnoseOptions) -> anyhow::Result<Found> {
+fn found(logs: Vec<Log>, options: DiagnoseOptions) -> anyhow::Result<DiagnosisOutcome> {
     let stage = options.progress.begin("preparing", None);
     let prepared = |log: Log| anyhow::Ok(Prepared::of(log, options.noise)?.alone());
     let runs = logs.into_iter().map(prepared).collect::<anyhow::Result<Vec<_>>>()?;
-    let held_out = options.held_out.clone().map(prepared).transpose()?;
+    let held_out = options.held_out.map(prepared).transpose()?;
     drop(stage);
     let named = NamedModel::of(&options.model, &runs[0].loaded.rig.spin)?;
-    let case = Case::of(runs, named, options.noise)?;
+    let case = EstimationProblem::of(runs, named, options.noise)?;
     if let Some(held_out) = &held_out {
         case.ensure_same_imu(held_out)?;
     }
     let supposed = options.hypothesis.as_deref().map(|file| hypothesis(file, &case)).transpose()?;
     let asked =
-        Asked { supposed, held_out, transfer: options.transfer, bootstrap: options.bootstrap };
-    Found::of(case, &asked, &options.progress)
+        Request { supposed, held_out, transfer: options.transfer, bootstrap: options.bootstrap };
+    DiagnosisOutcome::of(case, &asked, &options.progress)
 }
 
 /// The effects of a model file beyond a case's model.
-fn hypothesis(file: &Path, case: &Case) -> anyhow::Result<Vec<TermInstance>> {
+fn hypothesis(file: &Path, case: &EstimationProblem) -> anyhow::Result<Vec<TermInstance>> {
     let mut terms = ModelFile::read_along(file, &case.runs[0].loaded.rig.spin)?.model.terms;
     terms.retain(|chosen| !case.model.terms.iter().any(|own| own.term.is(chosen.term)));
     let silent = terms.iter().find(|chosen| !chosen.term.is_signal());

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rins_diagnosis::Overlay;
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G};
 
-use super::found::Found;
+use super::found::DiagnosisOutcome;
 use rins_report::{Item, Plot, Section, Series, Style};
 
 /// The channels, and the unit in which each is shown.
@@ -25,7 +25,7 @@ const PARTS: (usize, usize) = (240, 72);
 const HIGHEST_ORDER: u8 = 8;
 
 /// One section a run.
-pub(super) fn overlay_sections(found: &Found) -> Vec<Section> {
+pub(super) fn overlay_sections(found: &DiagnosisOutcome) -> Vec<Section> {
     let runs = &found.certificate.runs;
     let sections = runs.iter().zip(&found.overlays).map(|(run, overlays)| {
         let heading = if runs.len() > 1 {

@@ -2,7 +2,7 @@
 
 use rins_diagnosis::Limit;
 
-use super::found::{Found, Named};
+use super::found::{DiagnosisOutcome, Named};
 use super::gain::gain_section;
 use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
@@ -12,7 +12,7 @@ use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
 
 /// The report page.
-pub(super) fn diagnosis_report(found: &Found) -> Report {
+pub(super) fn diagnosis_report(found: &DiagnosisOutcome) -> Report {
     let certificate = &found.certificate;
     let samples: usize = certificate.runs.iter().map(|run| run.prepared.samples()).sum();
     let mut summary = summary(found);
@@ -34,7 +34,7 @@ pub(super) fn diagnosis_report(found: &Found) -> Report {
     }
 }
 
-fn causes(found: &Found) -> Section {
+fn causes(found: &DiagnosisOutcome) -> Section {
     let rows: Vec<Vec<Cell>> = found.causes.iter().flat_map(cause_rows).collect();
     let items = if rows.is_empty() {
         vec![Item::Note(Tone::Good, "Nothing of the catalogue is significant.".into())]
@@ -102,7 +102,7 @@ fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
         .collect()
 }
 
-fn unexplained(found: &Found) -> Section {
+fn unexplained(found: &DiagnosisOutcome) -> Section {
     let rows: Vec<Vec<Cell>> = found
         .unexplained
         .iter()
@@ -144,7 +144,7 @@ fn unexplained(found: &Found) -> Section {
     }
 }
 
-fn shifts(found: &Found) -> Section {
+fn shifts(found: &DiagnosisOutcome) -> Section {
     let rows = found.shifts.iter().map(|shift| {
         let unit = shift.before.parameter.unit;
         let estimate = |estimate: &rins_estimation::Estimate| Cell::Estimate {
@@ -183,7 +183,7 @@ fn shifts(found: &Found) -> Section {
     }
 }
 
-fn limits(found: &Found) -> Section {
+fn limits(found: &DiagnosisOutcome) -> Section {
     let rows = found.limits.iter().map(|limit| {
         let parameter = &limit.term.parameters[limit.parameter];
         let unit = parameter.unit;
@@ -255,7 +255,7 @@ fn power(limits: &[Limit]) -> Vec<Item> {
     })]
 }
 
-fn untestable(found: &Found) -> Section {
+fn untestable(found: &DiagnosisOutcome) -> Section {
     let rows = found
         .untestable
         .iter()

@@ -6,7 +6,7 @@ use rins_diagnosis::{FALSE_ALARMS, Unexplained};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::found::{Found, Named, Shift, Verdict};
+use super::found::{DiagnosisOutcome, Named, Shift, Verdict};
 use super::measured::GainResult;
 use super::structure::{size_in_words, structure_in_words};
 use crate::calibrate::{DepartureResult, NoiseResult, departures};
@@ -224,7 +224,7 @@ pub struct FalseAlarmsResult {
 
 impl DiagnoseResult {
     /// The whole of a diagnosis.
-    pub(super) fn of(found: &Found) -> Self {
+    pub(super) fn of(found: &DiagnosisOutcome) -> Self {
         let certificate = &found.certificate;
         let names: Vec<String> =
             certificate.runs.iter().map(|run| run.prepared.name.clone()).collect();
@@ -273,7 +273,7 @@ impl DiagnoseResult {
 }
 
 impl CauseResult {
-    fn of(found: &Found, named: &Named) -> Self {
+    fn of(found: &DiagnosisOutcome, named: &Named) -> Self {
         let cause = &named.cause;
         let imu = &found.certificate.runs[0].prepared.imu;
         let parameters = cause.parameters.iter().map(|estimate| {
@@ -333,7 +333,7 @@ impl CauseResult {
 }
 
 impl UnexplainedResult {
-    fn of(found: &Found, one: &Unexplained) -> Self {
+    fn of(found: &DiagnosisOutcome, one: &Unexplained) -> Self {
         let fit = &found.certificate.fit;
         let worst = one.worst.iter().filter_map(|(id, value)| {
             let unit = fit.parameter(id)?.parameter.unit;

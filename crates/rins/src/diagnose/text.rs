@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use super::found::{Found, Named};
+use super::found::{DiagnosisOutcome, Named};
 use super::words::{next_steps, probability, summary};
 use crate::settings::settings_in_words;
 use crate::table::aligned;
 use rins_report::number::estimate;
 
 /// The summary for a terminal: what was found in plain words, then the figures.
-pub(super) fn diagnosis_text(found: &Found) -> String {
+pub(super) fn diagnosis_text(found: &DiagnosisOutcome) -> String {
     let mut text = format!("{}\n", found.title());
     for sentence in summary(found) {
         // Writing to a string cannot fail.

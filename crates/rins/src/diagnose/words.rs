@@ -3,7 +3,7 @@
 use rins_diagnosis::Unexplained;
 use rins_terms::catalogue;
 
-use super::found::{ByChance, Found, Named, Verdict};
+use super::found::{ByChance, DiagnosisOutcome, Named, Verdict};
 use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
 use crate::settings::{settings_in_words, symbol};
@@ -19,7 +19,7 @@ const CONVENTION: f64 = 0.02;
 const AHEAD: f64 = 3.0;
 
 /// The result: what was wrong, by how much, how sure, and what it did.
-pub(super) fn summary(found: &Found) -> Vec<String> {
+pub(super) fn summary(found: &DiagnosisOutcome) -> Vec<String> {
     let mut sentences = vec![headline(found)];
     sentences.extend(found.causes.iter().filter_map(doubt));
     sentences.extend(found.unexplained.iter().map(|one| remainder(found, one)));
@@ -72,7 +72,7 @@ fn is_ahead_of_its_time(named: &Named) -> bool {
 }
 
 /// Whether the table's angle is late, or early, by whole samples or by half ones.
-fn is_convention(found: &Found, named: &Named) -> bool {
+fn is_convention(found: &DiagnosisOutcome, named: &Named) -> bool {
     let samples = named.cause.parameters.first().and_then(|delay| found.in_samples(delay));
     let is = |samples: f64| {
         let halves = (2.0 * samples).round();
@@ -81,7 +81,7 @@ fn is_convention(found: &Found, named: &Named) -> bool {
     named.cause.term.is(&catalogue::ENCODER_LATENCY) && samples.is_some_and(is)
 }
 
-fn headline(found: &Found) -> String {
+fn headline(found: &DiagnosisOutcome) -> String {
     if found.verdict == Verdict::Adequate && !found.causes.is_empty() {
         let supposed: Vec<&str> = found.causes.iter().map(|named| named.cause.term.name).collect();
         return format!(
@@ -126,7 +126,7 @@ fn headline(found: &Found) -> String {
 }
 
 /// What no effect explains, and what harm it may do.
-fn remainder(found: &Found, one: &Unexplained) -> String {
+fn remainder(found: &DiagnosisOutcome, one: &Unexplained) -> String {
     let size = size_in_words(one).map_or_else(String::new, |size| format!(", {size}"));
     let fit = &found.certificate.fit;
     let worst: Vec<String> = one
@@ -151,7 +151,7 @@ fn remainder(found: &Found, one: &Unexplained) -> String {
 }
 
 /// A cause's amplitude: its parameters that are not zero, with their sigma.
-fn amplitude(found: &Found, named: &Named) -> String {
+fn amplitude(found: &DiagnosisOutcome, named: &Named) -> String {
     let cause = &named.cause;
     let largest = cause
         .parameters
@@ -222,7 +222,7 @@ fn odds_in_words(odds: f64) -> String {
 }
 
 /// What the causes did to the estimates as long as they were not in the model.
-fn damage(found: &Found) -> String {
+fn damage(found: &DiagnosisOutcome) -> String {
     if found.shifts.is_empty() {
         return "It biases no estimate of the model by more than its sigma.".into();
     }
@@ -247,7 +247,7 @@ fn damage(found: &Found) -> String {
 }
 
 /// What to do next.
-pub(super) fn next_steps(found: &Found) -> Vec<String> {
+pub(super) fn next_steps(found: &DiagnosisOutcome) -> Vec<String> {
     let mut steps: Vec<String> = found
         .causes
         .iter()

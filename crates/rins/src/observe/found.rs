@@ -11,13 +11,13 @@ use crate::progress::Progress;
 #[derive(Debug)]
 pub(super) struct Observed {
     pub(super) schedule: Schedule,
-    pub(super) told: Identifiability,
+    pub(super) identifiability: Identifiability,
     pub(super) pair: Option<Pair>,
 }
 
 /// All that was found.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct ObservabilityStudy {
     pub(super) model: String,
     pub(super) observed: Vec<Observed>,
     pub(super) effects: Option<[Effect; 2]>,
@@ -30,7 +30,7 @@ pub(super) struct Found {
     pub(super) scenarios: Vec<String>,
 }
 
-impl Found {
+impl ObservabilityStudy {
     /// Looks for the next schedule, if the given one does not do.
     pub(super) fn search(&mut self, model: &Model, progress: &Progress) -> anyhow::Result<()> {
         let given = &self.observed[0];
@@ -58,6 +58,8 @@ impl Found {
 impl Observed {
     /// Whether a parameter is known to this 1σ.
     pub(super) fn knows(&self, effect: &Effect, sigma: f64) -> bool {
-        self.told.find(&effect.ids[0]).is_some_and(|place| self.told.seen[place].sigma <= sigma)
+        self.identifiability
+            .find(&effect.ids[0])
+            .is_some_and(|place| self.identifiability.parameters[place].sigma <= sigma)
     }
 }

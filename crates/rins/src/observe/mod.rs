@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use rins_design::{Limits, Pair, Planned, TYPICAL_ACCELERATION, TYPICAL_RATE, information};
 
 pub use self::chosen::Want;
-use self::found::{Found, Observed};
+use self::found::{ObservabilityStudy, Observed};
 pub use self::result::{
     DirectionResult, LimitsResult, ObserveResult, ProposalResult, ScheduleResult, SegmentResult,
     SeparationResult, SeparationsResult,
@@ -64,7 +64,7 @@ impl Default for ObserveOptions {
 
 /// What schedules show, and the one to run next.
 #[derive(Debug)]
-pub struct Observability(Box<Found>);
+pub struct Observability(Box<ObservabilityStudy>);
 
 /// The information that the scenarios' runs would hold on the parameters of a model, without noise and without errors.
 ///
@@ -85,7 +85,7 @@ pub fn observe(scenarios: &[PathBuf], options: &ObserveOptions) -> Result<Observ
     Ok(Observability(Box::new(found(scenarios, options)?)))
 }
 
-fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Found> {
+fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<ObservabilityStudy> {
     let effects = options
         .separate
         .as_ref()
@@ -116,11 +116,11 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Foun
     for schedule in schedules {
         let joint = information(&schedule.runs, &model)?;
         let pair = effects.as_ref().map(|effects| Pair::of(&joint, effects));
-        observed.push(Observed { told: joint.identifiability(), schedule, pair });
+        observed.push(Observed { identifiability: joint.identifiability(), schedule, pair });
         stage.done(observed.len());
     }
     drop(stage);
-    let mut found = Found {
+    let mut found = ObservabilityStudy {
         model: name.into(),
         observed,
         effects,

@@ -1,22 +1,22 @@
 //! What was found of schedules, as a report page.
 
-use super::found::{Found, Observed};
+use super::found::{ObservabilityStudy, Observed};
 use super::words::{comparison, pair_sentences, proposal_sentences, row};
-use crate::told::{badge, gauge_sentences, list, rank_sentence};
+use crate::identifiability::{badge, gauge_sentences, list, rank_sentence};
 use rins_report::{Cell, Column, Item, Report, Section, Table, Tone};
 
-pub(super) fn report(found: &Found) -> Report {
+pub(super) fn report(found: &ObservabilityStudy) -> Report {
     let names: Vec<String> =
         found.observed.iter().map(|observed| observed.schedule.name.clone()).collect();
     let first = &found.observed[0];
     let mut summary = Vec::new();
     if found.observed.len() == 1 {
         summary.extend(proposal_sentences(found));
-        summary.push(rank_sentence(&first.told));
+        summary.push(rank_sentence(&first.identifiability));
         summary.extend(first.pair.iter().flat_map(|pair| pair_sentences(pair, found)));
     } else {
         summary.extend(found.observed.iter().map(|observed| {
-            format!("{}: {}", observed.schedule.name, rank_sentence(&observed.told))
+            format!("{}: {}", observed.schedule.name, rank_sentence(&observed.identifiability))
         }));
     }
     let mut sections = Vec::new();
@@ -32,7 +32,7 @@ pub(super) fn report(found: &Found) -> Report {
     }
 }
 
-fn comparison_section(found: &Found) -> Section {
+fn comparison_section(found: &ObservabilityStudy) -> Section {
     let mut rows = comparison(found).into_iter();
     let heads = rows.next().unwrap_or_default();
     let columns = heads.iter().take(heads.len() - 1).enumerate();
@@ -49,16 +49,16 @@ fn comparison_section(found: &Found) -> Section {
 }
 
 fn schedule_section(observed: &Observed) -> Section {
-    let told = &observed.told;
-    let rows = (0..told.unknowns.len()).map(|place| {
-        let [id, unit, known, data, both, meaning] = row(told, place);
+    let identifiability = &observed.identifiability;
+    let rows = (0..identifiability.unknowns.len()).map(|place| {
+        let [id, unit, known, data, both, meaning] = row(identifiability, place);
         vec![
             Cell::text(id),
             Cell::text(known),
             Cell::text(data),
             Cell::text(both),
             Cell::text(unit),
-            badge(told, place),
+            badge(identifiability, place),
             Cell::text(meaning),
         ]
     });
@@ -75,16 +75,16 @@ fn schedule_section(observed: &Observed) -> Section {
         ],
         rows: rows.collect(),
     })];
-    let gauges = gauge_sentences(told).into_iter();
+    let gauges = gauge_sentences(identifiability).into_iter();
     items.extend(gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: observed.schedule.name.clone(),
         intro: format!(
             "{:.0} s. {} The least observable direction has an information of {:.0e}, the null space {:.0e}.",
             observed.schedule.duration(),
-            rank_sentence(told),
-            told.rank.least_told,
-            told.rank.most_null
+            rank_sentence(identifiability),
+            identifiability.rank.least_told,
+            identifiability.rank.most_null
         ),
         items,
     }

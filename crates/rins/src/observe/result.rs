@@ -6,10 +6,10 @@ use rins_frames::units::DEG;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::found::{Found, Observed};
-use crate::angles::EulerDegrees;
+use super::found::{ObservabilityStudy, Observed};
 use crate::finite::finite;
-use crate::told::{IdentifiabilityResult, PredictedResult};
+use crate::identifiability::{IdentifiabilityResult, PredictedResult};
+use crate::values::EulerDegrees;
 
 /// The result of `rins observe`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -133,7 +133,7 @@ pub struct SegmentResult {
 }
 
 impl ObserveResult {
-    pub(super) fn of(found: &Found) -> Self {
+    pub(super) fn of(found: &ObservabilityStudy) -> Self {
         let limits = &found.limits;
         Self {
             schema: crate::SCHEMA,
@@ -156,15 +156,18 @@ impl ObserveResult {
 }
 
 impl ScheduleResult {
-    fn of(Observed { schedule, told, pair }: &Observed, found: &Found) -> Self {
+    fn of(
+        Observed { schedule, identifiability, pair }: &Observed,
+        found: &ObservabilityStudy,
+    ) -> Self {
         let paths = schedule.paths.iter().map(|path| path.display().to_string());
         Self {
             name: schedule.name.clone(),
             scenarios: paths.collect(),
             duration_s: schedule.duration(),
-            identifiability: IdentifiabilityResult::of(told),
-            parameters: (0..told.unknowns.len())
-                .map(|place| PredictedResult::of(told, place))
+            identifiability: IdentifiabilityResult::of(identifiability),
+            parameters: (0..identifiability.unknowns.len())
+                .map(|place| PredictedResult::of(identifiability, place))
                 .collect(),
             separation: pair.as_ref().map(|pair| SeparationsResult::of(pair, found)),
         }
@@ -172,21 +175,21 @@ impl ScheduleResult {
 }
 
 impl SeparationsResult {
-    fn of(pair: &Pair, found: &Found) -> Self {
+    fn of(pair: &Pair, found: &ObservabilityStudy) -> Self {
         let name = |place: usize| found.effects.as_ref().map(|effects| effects[place].name.clone());
         let of = |place: usize| {
             let separation: &Separation = &pair.separations[place];
             let directions = separation.directions.iter().map(|direction| DirectionResult {
                 kappa: finite(direction.kappa),
-                detection_sigma: direction.seen,
-                separation_sigma: direction.told,
+                detection_sigma: direction.detection,
+                separation_sigma: direction.separation,
                 along: direction.along.as_slice().to_vec(),
             });
             SeparationResult {
                 effect: name(place),
                 from: name(1 - place),
                 kappa: finite(separation.kappa()),
-                separation_sigma: pair.told[place],
+                separation_sigma: pair.separation[place],
                 directions: directions.collect(),
                 absorbed: separation.absorbed[0],
             }
@@ -196,7 +199,7 @@ impl SeparationsResult {
 }
 
 impl ProposalResult {
-    fn of(proposal: &Proposal, found: &Found) -> Self {
+    fn of(proposal: &Proposal, found: &ObservabilityStudy) -> Self {
         let candidate = &proposal.candidate;
         let profile = candidate
             .segments
@@ -205,9 +208,12 @@ impl ProposalResult {
         let attitudes = candidate.runs.iter().map(|run| run.nav_from_table().euler_angles().into());
         let files = (1..=candidate.runs.len()).map(|place| format!("next-{place}.toml"));
         let sigma = found.wanted.as_ref().and_then(|(effect, _)| {
-            let told = proposal.joint.identifiability();
-            let place = told.find(&effect.ids[0])?;
-            Some(told.seen[place].sigma / told.unknowns[place].unit.factor)
+            let identifiability = proposal.joint.identifiability();
+            let place = identifiability.find(&effect.ids[0])?;
+            Some(
+                identifiability.parameters[place].sigma
+                    / identifiability.unknowns[place].unit.factor,
+            )
         });
         let pair = found.proposed_pair.as_ref();
         Self {

@@ -48,13 +48,8 @@ impl Schedule {
 /// The plan of a scenario file: what the data sheets say stands in the rig file of a run that is made from it.
 fn planned(path: &Path) -> anyhow::Result<Planned> {
     let file = ScenarioFile::read(path)?;
-    let scenario = Scenario {
-        profile: short(&file.scenario)?,
-        noise: None,
-        effects: rins_terms::Model::default(),
-        imu_error: rins_imu::ImuError::default(),
-        ..file.scenario.clone()
-    };
+    let profile = short(&file.scenario)?;
+    let scenario = Scenario { profile, ..file.scenario.clone() }.without_errors();
     let run = simulate(&scenario).with_context(|| shown(path))?;
     let rig = rins_io::Rig::parse(&file.rig_toml(&run.recording), path)?;
     let imu = *rig.require_imu().context("what a schedule shows depends on the IMU's noise")?;

@@ -7,9 +7,9 @@ use rins_frames::units::DEG;
 
 use rins_design::{ENOUGH, Pair};
 
-use super::found::{Found, Observed};
+use super::found::{ObservabilityStudy, Observed};
+use crate::identifiability::{gauge_sentences, meaning, name, rank_sentence};
 use crate::table::aligned;
-use crate::told::{gauge_sentences, meaning, name, rank_sentence};
 use rins_report::number::figure;
 
 /// A number to three digits.
@@ -18,7 +18,7 @@ fn short(value: f64) -> String {
 }
 
 /// What is to be said of two effects under a schedule.
-pub(super) fn pair_sentences(pair: &Pair, found: &Found) -> Vec<String> {
+pub(super) fn pair_sentences(pair: &Pair, found: &ObservabilityStudy) -> Vec<String> {
     let Some(effects) = &found.effects else { return Vec::new() };
     let mut sentences = Vec::new();
     for (place, separation) in pair.separations.iter().enumerate() {
@@ -27,12 +27,15 @@ pub(super) fn pair_sentences(pair: &Pair, found: &Found) -> Vec<String> {
             sentences.push(format!("{own} is not observable beside the parameters of the model."));
             continue;
         };
-        let weakest =
-            separation.directions.iter().min_by(|a, b| a.told.total_cmp(&b.told)).unwrap_or(worst);
+        let weakest = separation
+            .directions
+            .iter()
+            .min_by(|a, b| a.separation.total_cmp(&b.separation))
+            .unwrap_or(worst);
         sentences.push(format!(
             "{own} of typical size is detected with {} sigma and separated from {other} by {} ({ENOUGH} required); kappa is {}.",
-            short(weakest.seen),
-            short(weakest.told),
+            short(weakest.detection),
+            short(weakest.separation),
             short(worst.kappa)
         ));
     }
@@ -40,7 +43,7 @@ pub(super) fn pair_sentences(pair: &Pair, found: &Found) -> Vec<String> {
 }
 
 /// What the search came to.
-pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
+pub(super) fn proposal_sentences(found: &ObservabilityStudy) -> Vec<String> {
     let given = &found.observed[0];
     let limits = &found.limits;
     let within = format!(
@@ -72,8 +75,10 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
     let figure = match (&found.effects, &found.wanted) {
         (Some(_), _) => format!("{} sigma apart", short(proposal.reached)),
         (_, Some((effect, _))) => {
-            let told = proposal.joint.identifiability();
-            let unit = told.find(&effect.ids[0]).map(|place| told.unknowns[place].unit);
+            let identifiability = proposal.joint.identifiability();
+            let unit = identifiability
+                .find(&effect.ids[0])
+                .map(|place| identifiability.unknowns[place].unit);
             unit.map_or_else(String::new, |unit| {
                 format!(
                     "{} to {} {}",
@@ -115,7 +120,7 @@ pub(super) fn proposal_sentences(found: &Found) -> Vec<String> {
     sentences
 }
 
-pub(super) fn text(found: &Found) -> String {
+pub(super) fn text(found: &ObservabilityStudy) -> String {
     let mut text = String::new();
     if found.observed.len() > 1 {
         text.push_str(&aligned(&comparison(found)));
@@ -127,23 +132,25 @@ pub(super) fn text(found: &Found) -> String {
         return text;
     }
     let observed = &found.observed[0];
-    let told = &observed.told;
+    let identifiability = &observed.identifiability;
     let _ = writeln!(
         text,
         "Schedule {}, duration {:.0} s",
         observed.schedule.name,
         observed.schedule.duration()
     );
-    let _ = writeln!(text, "  {}\n", rank_sentence(told));
+    let _ = writeln!(text, "  {}\n", rank_sentence(identifiability));
     let heading =
         ["parameter", "unit", "prior σ", "σ, data only*", "σ, data and prior", "observability"];
     let mut rows = vec![heading.map(String::from).to_vec()];
-    rows.extend((0..told.unknowns.len()).map(|place| row(told, place).to_vec()));
+    rows.extend(
+        (0..identifiability.unknowns.len()).map(|place| row(identifiability, place).to_vec()),
+    );
     text.push_str(&aligned(&rows));
     text.push_str(
         "  * of the combination, if it is one; the null space is fixed at its prior mean\n",
     );
-    for sentence in gauge_sentences(told) {
+    for sentence in gauge_sentences(identifiability) {
         let _ = writeln!(text, "  {sentence}");
     }
     let sentences: Vec<String> = observed
@@ -162,21 +169,21 @@ pub(super) fn text(found: &Found) -> String {
 }
 
 /// A parameter as cells of a table.
-pub(super) fn row(told: &Identifiability, place: usize) -> [String; 6] {
-    let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+pub(super) fn row(identifiability: &Identifiability, place: usize) -> [String; 6] {
+    let (unknown, seen) = (&identifiability.unknowns[place], &identifiability.parameters[place]);
     let factor = unknown.unit.factor;
     [
-        name(told, place),
+        name(identifiability, place),
         unknown.unit.symbol.into(),
         short(unknown.sigma / factor),
         short(seen.data_sigma / factor),
         short(seen.sigma / factor),
-        meaning(told, place),
+        meaning(identifiability, place),
     ]
 }
 
 /// Schedules side by side: their sigmas, and what they do not tell.
-pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
+pub(super) fn comparison(found: &ObservabilityStudy) -> Vec<Vec<String>> {
     let line = |head: &str, of: &dyn Fn(&Observed) -> String| {
         let mut row = vec![head.to_string()];
         row.extend(found.observed.iter().map(of));
@@ -187,7 +194,8 @@ pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
         line("schedule", &|observed| observed.schedule.name.clone()),
         line("duration [s]", &|observed| format!("{:.0}", observed.schedule.duration())),
         line("null space", &|observed| {
-            (observed.told.unknowns.len() - observed.told.rank.rank()).to_string()
+            (observed.identifiability.unknowns.len() - observed.identifiability.rank.rank())
+                .to_string()
         }),
     ];
     if found.effects.is_some() {
@@ -202,21 +210,24 @@ pub(super) fn comparison(found: &Found) -> Vec<Vec<String>> {
             observed
                 .pair
                 .as_ref()
-                .map_or_else(String::new, |pair| short(pair.told[0].min(pair.told[1])))
+                .map_or_else(String::new, |pair| short(pair.separation[0].min(pair.separation[1])))
         }));
     }
     for unknown in found.observed[0]
-        .told
+        .identifiability
         .unknowns
         .iter()
         .filter(|unknown| unknown.run.is_none_or(|run| run == 0))
     {
         let head = format!("{} [{}]", unknown.id, unknown.unit.symbol);
         rows.push(line(&head, &|observed| {
-            let told = &observed.told;
-            told.find(&unknown.id).map_or_else(String::new, |place| {
-                let mark = if told.seen[place].identifiable { "" } else { " *" };
-                format!("{}{mark}", short(told.seen[place].sigma / unknown.unit.factor))
+            let identifiability = &observed.identifiability;
+            identifiability.find(&unknown.id).map_or_else(String::new, |place| {
+                let mark = if identifiability.parameters[place].identifiable { "" } else { " *" };
+                format!(
+                    "{}{mark}",
+                    short(identifiability.parameters[place].sigma / unknown.unit.factor)
+                )
             })
         }));
     }

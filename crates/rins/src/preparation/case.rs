@@ -14,7 +14,7 @@ use crate::log::ensure_temperature;
 use crate::options::{NamedModel, NoiseChoice};
 
 /// What is estimated, from what, and what is known beforehand.
-pub(crate) struct Case {
+pub(crate) struct EstimationProblem {
     /// The runs, in the order in which they were given.
     pub(crate) runs: Vec<Prepared>,
     /// What the model is called.
@@ -27,7 +27,7 @@ pub(crate) struct Case {
     pub(crate) remarks: Vec<String>,
 }
 
-impl Case {
+impl EstimationProblem {
     /// A model on runs, if these are of one IMU.
     pub(crate) fn of(
         runs: Vec<Prepared>,

@@ -6,5 +6,5 @@ mod case;
 mod prepared;
 mod rests;
 
-pub(crate) use self::case::Case;
+pub(crate) use self::case::EstimationProblem;
 pub(crate) use self::prepared::{Prepared, across_axis, repeats_in_words, screened};

@@ -16,7 +16,7 @@ use rins_motion::Recording;
 
 use super::attitude::{Attitude, FOUND_HERE, aligned};
 use super::rests::{self, OnAxis, Rests};
-use crate::align::{ANY_AZIMUTH, Found, found};
+use crate::align::{ANY_AZIMUTH, AlignmentSolution, found};
 use crate::check::refuse_mistaken;
 use crate::log::{
     Log, StaticIntervalResult, lasting, only, setup, static_intervals, statics_in_words,
@@ -327,7 +327,7 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
 
 /// A run of many rests, each with an attitude of its own.
 fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
-    let stood = |found: &Found| {
+    let stood = |found: &AlignmentSolution| {
         let recording = loaded.recording.slice(found.span.start, found.span.end);
         let nav_from_table = found.nav_from_body * Dcm::<Table, Body>::about_z(0.0).inverse();
         (recording, nav_from_table)

@@ -11,7 +11,7 @@ use rins_inspection::StaticIntervals;
 use rins_io::Loaded;
 use rins_motion::Recording;
 
-use crate::align::{Found, found_over};
+use crate::align::{AlignmentSolution, found_over};
 
 /// The shortest rest that is used \[s\].
 pub(super) const SHORTEST: f64 = 2.0;
@@ -62,7 +62,7 @@ fn up_in_body(recording: &Recording, span: Range<usize>) -> Vector3<f64> {
 /// The static intervals of one log, how each stands, and in how many attitudes.
 pub(crate) struct Rests {
     /// In order of time.
-    pub(super) found: Vec<Found>,
+    pub(super) found: Vec<AlignmentSolution>,
     /// How many attitudes gravity distinguishes.
     pub(super) attitudes: usize,
     /// From when to when there are rests \[s\].
@@ -85,7 +85,7 @@ impl Rests {
             return Ok(None);
         }
         let found = spans.into_iter().map(|span| found_over(loaded, span));
-        let found = found.collect::<anyhow::Result<Vec<Found>>>()?;
+        let found = found.collect::<anyhow::Result<Vec<AlignmentSolution>>>()?;
         let end = found.last().map_or(0.0, |last| recording.times[last.span.end - 1]);
         let lasting = [found.first().map_or(0.0, |first| first.start), end];
         Ok(Some(Self { found, attitudes: ways.len(), lasting }))

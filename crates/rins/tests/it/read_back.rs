@@ -83,7 +83,7 @@ fn a_diagnosis() {
         hypothesis: Some(model),
         ..DiagnoseOptions::default()
     };
-    reads_back("diagnose", &rins::diagnose(vec![log], &options).unwrap());
+    reads_back("diagnose", &rins::diagnose(vec![log], options).unwrap());
 }
 
 #[test]

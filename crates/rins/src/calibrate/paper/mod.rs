@@ -9,7 +9,7 @@ mod result;
 use anyhow::Context;
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use rins_calibration::{Calibration, Parameter, likely_wobble, table_angles};
-use rins_design::{Asked, Budget, Truth};
+use rins_design::{Budget, EstimatedParameter, Truth};
 use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
 use rins_inspection::Repeats;
@@ -22,7 +22,7 @@ use crate::log::{Log, covered};
 use crate::preparation::{repeats_in_words, screened};
 use crate::progress::Progress;
 
-/// The estimates of the paper's filter from one log, and what they are worth.
+/// The estimates of the paper's filter from one log, and their error budget.
 #[derive(Debug)]
 pub(crate) struct PaperCalibration {
     /// The log, repeated samples taken out.
@@ -31,7 +31,7 @@ pub(crate) struct PaperCalibration {
     calibration: Calibration,
     /// The paper's model of the run with the estimates in it.
     model: Model,
-    /// What each estimate is worth over the calibrated span.
+    /// The error budget over the calibrated span.
     budget: Budget,
     /// What was taken out of the log, in words.
     remark: Option<String>,
@@ -147,7 +147,7 @@ fn covariance(calibration: &Calibration) -> Covariance {
     }
 }
 
-/// What each estimate is worth over the calibrated span.
+/// The error budget over the calibrated span.
 fn budget(calibration: &Calibration, model: &Model, loaded: &Loaded) -> anyhow::Result<Budget> {
     let (span, recording) = (&calibration.span, &loaded.recording);
     let latency = loaded.rig.log.table_angle().and_then(|angle| angle.latency);
@@ -164,13 +164,13 @@ fn budget(calibration: &Calibration, model: &Model, loaded: &Loaded) -> anyhow::
         angles[span.start..=span.end].to_vec(),
         undone.temperature.clone(),
     );
-    let asked: Vec<Asked<'_>> = calibration
+    let asked: Vec<EstimatedParameter<'_>> = calibration
         .parameters
         .iter()
         .filter_map(|estimate| {
             let (term, parameter) = model.find(&estimate.id)?;
             let (value, sigma) = (estimate.value, estimate.sigma);
-            Some(Asked { chosen: &model.terms[term], parameter, value, sigma })
+            Some(EstimatedParameter { chosen: &model.terms[term], parameter, value, sigma })
         })
         .collect();
     let covariance = DMatrix::from_fn(asked.len(), asked.len(), |row, column| {

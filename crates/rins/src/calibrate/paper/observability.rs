@@ -2,7 +2,7 @@
 
 use rins_calibration::{Parameter, Partner};
 
-use crate::told::{OBSERVABLE, Summand, only_in, sum_in_words};
+use crate::identifiability::{OBSERVABLE, Summand, only_in, sum_in_words};
 
 /// What the three estimates also carry, from accelerometer errors that the model does not have.
 pub(super) const SYSTEMATIC_NOTE: &str = "Accelerometer biases also affect the zero-velocity updates \

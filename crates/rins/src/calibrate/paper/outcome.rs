@@ -10,9 +10,9 @@ use rins_report::Report;
 use super::PaperCalibration;
 use super::page::{calibration_report, calibration_text};
 use super::result::result;
+use crate::calibrate::compensation_guide::{budget_section, compensation_section};
 use crate::calibrate::departure::ABSURD_NIS;
 use crate::calibrate::result::CalibrateResult;
-use crate::calibrate::worth::{budget_section, compensation_section};
 use crate::log::with_repairs;
 use crate::outcome::Outcome;
 

@@ -12,8 +12,8 @@ use rins_report::{
 use super::observability::{SYSTEMATIC_NOTE, meaning};
 use crate::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::free_navigation::{gain_sentence, navigation_section};
+use crate::identifiability::OBSERVABLE;
 use crate::table::aligned;
-use crate::told::OBSERVABLE;
 
 /// In place of the value of a parameter that has none of its own.
 const NONE: &str = "–";

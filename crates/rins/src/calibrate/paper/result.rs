@@ -8,8 +8,10 @@ use crate::calibrate::budget::BudgetResult;
 use crate::calibrate::compensation::EQUATION;
 use crate::calibrate::result::{CalibrateResult, ParameterResult};
 use crate::free_navigation::BeforeAfterResult;
+use crate::identifiability::{
+    IdentifiabilityResult, OBSERVABLE, ObservabilityResult, SummandResult,
+};
 use crate::log::{static_intervals, statics_result};
-use crate::told::{IdentifiabilityResult, OBSERVABLE, ObservabilityResult, SummandResult};
 
 pub(super) fn result(of: &PaperCalibration) -> CalibrateResult {
     let PaperCalibration { log, calibration, budget, remark, .. } = of;

@@ -44,24 +44,25 @@ pub struct GaugeResult {
 
 impl IdentifiabilityResult {
     /// What is observable of all parameters together.
-    pub(crate) fn of(told: &Identifiability) -> Self {
+    pub(crate) fn of(identifiability: &Identifiability) -> Self {
         let ids = |places: &[usize]| -> Vec<String> {
-            places.iter().map(|&place| told.unknowns[place].id.clone()).collect()
+            places.iter().map(|&place| identifiability.unknowns[place].id.clone()).collect()
         };
-        let Sorted { observable, in_combination, unobservable } = Sorted::of(told);
-        let gauges = gauges(told).into_iter().map(|gauge| {
-            let of = (0..told.seen.len()).filter(|&place| told.seen[place].gauge == Some(gauge));
+        let Sorted { observable, in_combination, unobservable } = Sorted::of(identifiability);
+        let gauges = gauges(identifiability).into_iter().map(|gauge| {
+            let of = (0..identifiability.parameters.len())
+                .filter(|&place| identifiability.parameters[place].gauge == Some(gauge));
             let of: Vec<usize> = of.collect();
             GaugeResult { name: gauge.name.into(), why: gauge.why.into(), parameters: ids(&of) }
         });
-        let rank = told.rank.rank();
+        let rank = identifiability.rank.rank();
         Self {
-            unknowns: told.unknowns.len(),
+            unknowns: identifiability.unknowns.len(),
             rank: Some(rank),
-            null_space_dimension: Some(told.unknowns.len() - rank),
-            better_than_prior: Some(told.rank.kept.len()),
-            least_information: Some(told.rank.least_told),
-            null_information: Some(told.rank.most_null),
+            null_space_dimension: Some(identifiability.unknowns.len() - rank),
+            better_than_prior: Some(identifiability.rank.kept.len()),
+            least_information: Some(identifiability.rank.least_told),
+            null_information: Some(identifiability.rank.most_null),
             observable: ids(&observable),
             combination: ids(&in_combination),
             unobservable: ids(&unobservable),
@@ -121,20 +122,21 @@ pub struct PredictedResult {
 }
 
 impl ObservabilityResult {
-    pub(crate) fn of(told: &Identifiability, place: usize) -> Self {
-        let seen = &told.seen[place];
+    pub(crate) fn of(identifiability: &Identifiability, place: usize) -> Self {
+        let seen = &identifiability.parameters[place];
         let observability = match seen.shown {
             _ if seen.identifiable => OBSERVABLE,
             Observable::Combination | Observable::Part { .. } => "combination",
             Observable::Alone | Observable::Nothing => "prior_dominated",
         };
-        let aliases = seen.aliases.iter().map(|alias| told.unknowns[alias.unknown].id.clone());
+        let aliases =
+            seen.aliases.iter().map(|alias| identifiability.unknowns[alias.unknown].id.clone());
         let combination = seen.aliases.iter().map(|alias| {
-            let other = &told.unknowns[alias.unknown];
+            let other = &identifiability.unknowns[alias.unknown];
             SummandResult {
                 id: other.id.clone(),
                 run: other.run.map(|run| run + 1),
-                coefficient: coefficient(told, place, alias),
+                coefficient: coefficient(identifiability, place, alias),
                 exactly: Some(alias.exactly),
             }
         });
@@ -150,8 +152,9 @@ impl ObservabilityResult {
 }
 
 impl PredictedResult {
-    pub(crate) fn of(told: &Identifiability, place: usize) -> Self {
-        let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+    pub(crate) fn of(identifiability: &Identifiability, place: usize) -> Self {
+        let (unknown, seen) =
+            (&identifiability.unknowns[place], &identifiability.parameters[place]);
         let factor = unknown.unit.factor;
         Self {
             id: unknown.id.clone(),
@@ -160,7 +163,7 @@ impl PredictedResult {
             prior_sigma: unknown.sigma / factor,
             data_sigma: seen.data_sigma.is_finite().then_some(seen.data_sigma / factor),
             sigma: seen.sigma / factor,
-            observability: ObservabilityResult::of(told, place),
+            observability: ObservabilityResult::of(identifiability, place),
         }
     }
 }

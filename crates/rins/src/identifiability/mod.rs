@@ -65,8 +65,8 @@ pub(crate) fn only_in(combination: &str, found: Option<(f64, f64, &str)>) -> Str
 }
 
 /// The name of an unknown, with its run if there are several.
-pub(crate) fn name(told: &Identifiability, place: usize) -> String {
-    let unknown = &told.unknowns[place];
+pub(crate) fn name(identifiability: &Identifiability, place: usize) -> String {
+    let unknown = &identifiability.unknowns[place];
     match unknown.run {
         Some(run) => format!("{} of run {}", unknown.id, run + 1),
         None => unknown.id.clone(),
@@ -74,29 +74,29 @@ pub(crate) fn name(told: &Identifiability, place: usize) -> String {
 }
 
 /// The observability of an unknown, as a person reads it.
-pub(crate) fn meaning(told: &Identifiability, place: usize) -> String {
-    observability(told, place, None)
+pub(crate) fn meaning(identifiability: &Identifiability, place: usize) -> String {
+    observability(identifiability, place, None)
 }
 
 /// The same with what the combination was found to be, if one is what is observable: value and 1σ in SI units.
 pub(crate) fn observability(
-    told: &Identifiability,
+    identifiability: &Identifiability,
     place: usize,
     found: Option<(f64, f64)>,
 ) -> String {
-    let (unknown, seen) = (&told.unknowns[place], &told.seen[place]);
+    let (unknown, seen) = (&identifiability.unknowns[place], &identifiability.parameters[place]);
     match seen.shown {
         _ if seen.identifiable => OBSERVABLE.into(),
         Observable::Alone => "prior-dominated".into(),
         Observable::Nothing => "unobservable (prior-dominated)".into(),
         Observable::Combination | Observable::Part { .. } => {
             let summand = |alias: &Alias| Summand {
-                coefficient: coefficient(told, place, alias),
-                unit: told.unknowns[alias.unknown].unit.symbol,
-                name: name(told, alias.unknown),
+                coefficient: coefficient(identifiability, place, alias),
+                unit: identifiability.unknowns[alias.unknown].unit.symbol,
+                name: name(identifiability, alias.unknown),
             };
             let others = seen.aliases.iter().map(summand);
-            let sum = sum_in_words(&name(told, place), unknown.unit.symbol, others);
+            let sum = sum_in_words(&name(identifiability, place), unknown.unit.symbol, others);
             let unit = unknown.unit;
             let found =
                 found.map(|(value, sigma)| (value / unit.factor, sigma / unit.factor, unit.symbol));
@@ -107,14 +107,14 @@ pub(crate) fn observability(
 }
 
 /// What one of an alias' unit counts, in the unit of the parameter beside which it stands.
-pub(crate) fn coefficient(told: &Identifiability, place: usize, alias: &Alias) -> f64 {
-    let factor = |place: usize| told.unknowns[place].unit.factor;
+pub(crate) fn coefficient(identifiability: &Identifiability, place: usize, alias: &Alias) -> f64 {
+    let factor = |place: usize| identifiability.unknowns[place].unit.factor;
     alias.coefficient * factor(alias.unknown) / factor(place)
 }
 
 /// The observability as a badge.
-pub(crate) fn badge(told: &Identifiability, place: usize) -> Cell {
-    let seen = &told.seen[place];
+pub(crate) fn badge(identifiability: &Identifiability, place: usize) -> Cell {
+    let seen = &identifiability.parameters[place];
     match seen.shown {
         _ if seen.identifiable => Cell::badge(Tone::Good, OBSERVABLE),
         Observable::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
@@ -133,27 +133,32 @@ struct Sorted {
 }
 
 impl Sorted {
-    fn of(told: &Identifiability) -> Self {
-        let (observable, others): (Vec<usize>, Vec<usize>) =
-            (0..told.seen.len()).partition(|&place| told.seen[place].identifiable);
-        let in_combination =
-            others.into_iter().filter(|&place| !told.seen[place].aliases.is_empty()).collect();
-        Self { observable, in_combination, unobservable: told.unobservable() }
+    fn of(identifiability: &Identifiability) -> Self {
+        let (observable, others): (Vec<usize>, Vec<usize>) = (0..identifiability.parameters.len())
+            .partition(|&place| identifiability.parameters[place].identifiable);
+        let in_combination = others
+            .into_iter()
+            .filter(|&place| !identifiability.parameters[place].aliases.is_empty())
+            .collect();
+        Self { observable, in_combination, unobservable: identifiability.unobservable() }
     }
 }
 
 /// How many are told how, in a sentence or two.
-pub(crate) fn rank_sentence(told: &Identifiability) -> String {
-    let Sorted { observable, in_combination, unobservable } = Sorted::of(told);
-    let (n, rank) = (told.unknowns.len(), told.rank.rank());
+pub(crate) fn rank_sentence(identifiability: &Identifiability) -> String {
+    let Sorted { observable, in_combination, unobservable } = Sorted::of(identifiability);
+    let (n, rank) = (identifiability.unknowns.len(), identifiability.rank.rank());
     let mut text = format!(
         "Of {n} parameters {} are observable and {} only in combinations",
         observable.len(),
         in_combination.len()
     );
     if !unobservable.is_empty() {
-        let mut names: Vec<String> =
-            unobservable.iter().take(MOST_NAMED).map(|&place| name(told, place)).collect();
+        let mut names: Vec<String> = unobservable
+            .iter()
+            .take(MOST_NAMED)
+            .map(|&place| name(identifiability, place))
+            .collect();
         if unobservable.len() > MOST_NAMED {
             names.push(format!("{} others", unobservable.len() - MOST_NAMED));
         }
@@ -177,9 +182,9 @@ pub(crate) fn list(words: &[String]) -> String {
 }
 
 /// The gauges met, each once.
-fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
+fn gauges(identifiability: &Identifiability) -> Vec<&'static Gauge> {
     let mut met: Vec<&'static Gauge> = Vec::new();
-    for gauge in told.seen.iter().filter_map(|seen| seen.gauge) {
+    for gauge in identifiability.parameters.iter().filter_map(|seen| seen.gauge) {
         if !met.contains(&gauge) {
             met.push(gauge);
         }
@@ -188,9 +193,9 @@ fn gauges(told: &Identifiability) -> Vec<&'static Gauge> {
 }
 
 /// What no schedule tells, a sentence for each gauge met.
-pub(crate) fn gauge_sentences(told: &Identifiability) -> Vec<String> {
+pub(crate) fn gauge_sentences(identifiability: &Identifiability) -> Vec<String> {
     let sentence = |gauge: &Gauge| {
         format!("Gauge freedom (unobservable under every schedule): {}: {}.", gauge.name, gauge.why)
     };
-    gauges(told).into_iter().map(sentence).collect()
+    gauges(identifiability).into_iter().map(sentence).collect()
 }

@@ -11,7 +11,7 @@ use crate::step::SHOWN;
 
 /// What an epoch shows, against what was foretold of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Foretold {
+pub struct EpochPrediction {
     /// The samples of the epoch.
     pub samples: Range<usize>,
     /// The whitened innovation, N(0, I) if the model is right.
@@ -22,13 +22,13 @@ pub struct Foretold {
 
 /// What is known of parameters, and learnt of them from every epoch that is foretold.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Known {
+pub struct ParameterPosterior {
     /// How far they are expected from where runs are linear, in SI units.
     offset: DVector<f64>,
     covariance: DMatrix<f64>,
 }
 
-impl Known {
+impl ParameterPosterior {
     /// Parameters that are expected so far from where runs are linear, with this covariance, both in SI units.
     ///
     /// # Panics
@@ -53,13 +53,13 @@ impl Known {
     ///
     /// # Panics
     /// If there is not a place for each parameter of the run.
-    pub fn foretell(
+    pub fn predict(
         &mut self,
         linear: &Linear,
         noise: &Noise,
         places: &[usize],
         asked: impl Fn(&Range<usize>) -> bool,
-    ) -> Result<Vec<Foretold>, Indefinite> {
+    ) -> Result<Vec<EpochPrediction>, Indefinite> {
         assert_eq!(places.len(), linear.parameters, "a place for each parameter of the run");
         let constant = 0.5 * linear.shown() as f64 * std::f64::consts::TAU.ln();
         let mut all = Vec::new();
@@ -69,7 +69,7 @@ impl Known {
                 let (innovation, further) = self.learn(filter.whitened(), places)?;
                 let log_density =
                     -0.5 * innovation.norm_squared() - log_determinant - further - constant;
-                all.push(Foretold { samples, innovation, log_density });
+                all.push(EpochPrediction { samples, innovation, log_density });
             }
             Some(())
         })?;

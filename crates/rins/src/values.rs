@@ -1,4 +1,4 @@
-//! Angles of a result, for a machine.
+//! Values that several results have, for a machine.
 
 use rins_frames::EulerAngles;
 use rins_frames::units::DEG;
@@ -20,4 +20,13 @@ impl From<EulerAngles> for EulerDegrees {
     fn from(angles: EulerAngles) -> Self {
         Self { roll: angles.roll / DEG, pitch: angles.pitch / DEG, yaw: angles.yaw / DEG }
     }
+}
+
+/// An estimate, in the unit of its parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EstimateResult {
+    /// The value.
+    pub value: f64,
+    /// Its 1σ.
+    pub sigma: f64,
 }

@@ -1,4 +1,4 @@
-//! How a calibration is used: the compensation in words, and what each error is worth in navigation.
+//! The compensation equation and its steps, and the error budget of free inertial navigation.
 
 use rins_frames::units::{ARCSEC, DEG};
 use rins_terms::Model;
@@ -46,19 +46,19 @@ pub(super) fn compensation_section(model: &Model) -> Section {
     }
 }
 
-/// What each parameter makes of free navigation.
+/// The contribution of each parameter to the error of free inertial navigation.
 pub(super) fn budget_section(heading: &str, ids: &[&str], budget: &Budget) -> Section {
     let shown = |value: f64| Cell::Number { value, decimals: 5 };
     let mut rows: Vec<Vec<Cell>> = ids
         .iter()
-        .zip(&budget.worth)
-        .map(|(id, worth)| {
+        .zip(&budget.contributions)
+        .map(|(id, one)| {
             vec![
                 Cell::text(*id),
-                shown(worth.by_value.velocity.norm()),
-                shown(worth.by_value.attitude.norm() / DEG),
-                shown(worth.by_sigma.velocity.norm()),
-                Cell::Number { value: worth.by_sigma.attitude.norm() / ARCSEC, decimals: 3 },
+                shown(one.by_value.velocity.norm()),
+                shown(one.by_value.attitude.norm() / DEG),
+                shown(one.by_sigma.velocity.norm()),
+                Cell::Number { value: one.by_sigma.attitude.norm() / ARCSEC, decimals: 3 },
             ]
         })
         .collect();
