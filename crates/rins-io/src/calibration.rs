@@ -36,7 +36,7 @@ const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
 const MEANING: &str = "\
 # Errors of an inertial measurement unit in its own body axes x, y and z, for any spin axis.
 #
-#   measured    = true + bias + [S, M] true
+#   measured    = true + bias + (S + M) true
 #   compensated = (I + [S, M])^-1 (measured - bias)
 #
 # S: scale errors, on the diagonal. M: misalignments, off it, named by row and column:

@@ -46,7 +46,7 @@ pub static GAUGES: &[Gauge] = &[
     },
     Gauge {
         name: "the body axes about the spin axis",
-        why: "a common rotation of gyros and accelerometers about it equals other body axes; fix \
+        why: "a common rotation of both triads about it is only another choice of body axes; fix \
               accel.misalignment.xy or yx",
         members: &[
             &[(&catalogue::GYRO_MISALIGNMENT, "xy")],
