@@ -21,6 +21,14 @@ pub enum LogProblem {
         /// How many there are.
         samples: usize,
     },
+    /// It is a file of another format.
+    #[error("this is {name}, not text: {remedy}")]
+    Container {
+        /// The format's name, with its article.
+        name: &'static str,
+        /// How to read or to convert it.
+        remedy: &'static str,
+    },
     /// It is not UTF-8 text.
     #[error("not UTF-8 text; is it binary or UTF-16?")]
     NotText,
