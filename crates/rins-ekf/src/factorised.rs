@@ -18,8 +18,8 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// The estimate of an `N`-element state, with the covariance as factors `U D Uᵀ`.
 ///
 /// It processes the same measurements as [`Filter`](crate::Filter) with the same results. If only combinations of states are
-/// measured, its sigmas keep six digits for prior variances up to 1e16 times the noise, and from 1e18 on it refuses the
-/// measurement, as the plain filter does from 1e10 on.
+/// measured, its sigmas keep six digits as long as the remaining variances of the states are below 1e16 times the noise. From
+/// 1e18 on it refuses the measurement, as the plain filter does from 1e10 on.
 ///
 /// ```
 /// use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
