@@ -5,9 +5,9 @@
 //!
 //! | | Earth | errors | valid |
 //! | --- | --- | --- | --- |
-//! | [`ClosedForm`] | flat, not turning | three of the spin axis, eqs. (6), (8), (9) | first order |
-//! | [`flat_navigation`] | flat, not turning | three of the spin axis | to rounding |
-//! | [`LinearModel`] | round, turning | all 24 of both triads | first order |
+//! | [`ClosedForm`] | flat, not rotating | three of the spin axis, eqs. (6), (8), (9) | first order |
+//! | [`flat_navigation`] | flat, not rotating | three of the spin axis | to rounding |
+//! | [`LinearModel`] | round, rotating | all 24 of both triads | first order |
 //!
 //! **The sign of eqs. (6), (8) and (9).** The paper (‹nie2019›) integrates `+C_b^n δω` in eq. (A.2); its own eqs. (7) and
 //! (12), and any strapdown navigator, need `-C_b^n δω`. Therefore every term driven by a gyro error is printed with the wrong
