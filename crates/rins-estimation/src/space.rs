@@ -104,7 +104,7 @@ impl<'a> Space<'a> {
         covariance
     }
 
-    /// Resets the covariance of attitude and velocity to that of a table at an unknown attitude near its readings.
+    /// Resets the covariance of attitude and velocity to its initial value, without correlations to other states.
     pub(crate) fn forget_navigation(&self, covariance: &mut DMatrix<f64>) {
         covariance.rows_mut(0, NAVIGATION).fill(0.0);
         covariance.columns_mut(0, NAVIGATION).fill(0.0);

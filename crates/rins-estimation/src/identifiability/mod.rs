@@ -59,7 +59,7 @@ pub enum Observable {
         /// Whether its signature is exactly a sum of theirs.
         exactly: bool,
     },
-    /// Unobservable: the data reduce the prior uncertainty insignificantly even if everything else is known.
+    /// Unobservable: the data hold less information than the prior even if everything else is known.
     Nothing,
 }
 
