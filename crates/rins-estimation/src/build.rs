@@ -17,7 +17,7 @@ pub(crate) struct Compared<'a> {
     columns: Vec<Vec<Acting<'a>>>,
     readings: Option<&'a [f64]>,
     sway: Option<Sway>,
-    /// The matrices `(I + [S, M])⁻¹` of gyros and accelerometers, which convert errors of readings to errors of the true
+    /// The matrices `(I + S + M)⁻¹` of gyros and accelerometers, which convert errors of readings to errors of the true
     /// quantities.
     inverse_gains: [Matrix3<f64>; 2],
 }

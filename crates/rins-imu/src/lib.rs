@@ -1,7 +1,7 @@
 //! What an inertial measurement unit gets wrong, and how to undo it.
 //!
 //! **What it does.** [`ImuError`] is the deterministic part of eq. (1): measured = true + bias +
-//! `[S, M]` true, for a triad of gyros and a triad of accelerometers, with its exact inverse
+//! `(S + M)` true, for a triad of gyros and a triad of accelerometers, with its exact inverse
 //! [`Compensation`]. [`ImuNoise`] is the random part: white noise, random walk, Gauss-Markov and
 //! flicker noise, and a finite resolution, from a [`Seed`] that gives the same numbers on every
 //! machine. [`AllanPlan`] finds its strengths in a rest, by the Allan deviation.

@@ -22,7 +22,7 @@ pub enum LogProblem {
         samples: usize,
     },
     /// It is a file of another format.
-    #[error("this is {name}, not text: {remedy}")]
+    #[error("this is {name}, which is not read: {remedy}")]
     Container {
         /// The format's name, with its article.
         name: &'static str,

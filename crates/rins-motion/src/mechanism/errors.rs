@@ -52,7 +52,7 @@ impl SpinAxisErrors {
 pub struct SensorErrors {
     /// The gyros' biases \[rad/s\].
     pub gyro_bias: InFrame<Body>,
-    /// The gyros' scale errors and misalignments, `[S, M]`.
+    /// The gyros' scale errors and misalignments, `(S + M)`.
     pub gyro_matrix: Matrix3<f64>,
     /// The accelerometers' biases \[m/s²\].
     pub accel_bias: InFrame<Body>,
