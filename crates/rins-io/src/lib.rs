@@ -50,7 +50,7 @@ pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WritePro
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
-    PsinsHeader, Redivided, Rounded, peek, read, read_log,
+    Overflow, PsinsHeader, Redivided, Rounded, peek, read, read_log,
 };
 pub use model::ModelFile;
 pub use output::{

@@ -6,6 +6,7 @@ mod evidence;
 mod findings;
 mod label;
 mod layout;
+mod novatel;
 mod pace;
 mod page;
 mod place;
@@ -75,6 +76,8 @@ pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
     }
     if let Some(header) = psins::header(log)? {
         psins::write(&mut page, log, folder, &header);
+    } else if let Some(messages) = novatel::messages(log)? {
+        novatel::write(&mut page, log, folder, messages);
     } else {
         let sample = Sample::read(log)?;
         columns(&mut page, log, folder, &sample);
@@ -104,7 +107,7 @@ fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
         }
         clock_keys::gaps(page, pace.as_ref());
     } else {
-        page.known("format", &page::text("csv"));
+        page.known("format", &page::text(sample.format));
         sections::shape(page, sample);
         clock_keys::write(page, sample, pace.as_ref(), channels.table.is_some());
         channels.write(page, findings);

@@ -3,6 +3,7 @@
 use super::label::{Label, Role};
 use super::page::short;
 use super::sample::Sample;
+use crate::log::continued;
 use crate::quantity::Dimension;
 
 /// A step longer than this many median steps is a gap.
@@ -91,7 +92,9 @@ impl Pace {
     /// What the steps of a column show; `None` if it does not go on.
     fn of(sample: &Sample, column: usize) -> Option<Self> {
         let steps = |run: &Vec<Vec<f64>>| -> Vec<f64> {
-            run[column].windows(2).map(|pair| pair[1] - pair[0]).collect()
+            let mut times = run[column].clone();
+            continued(&mut times, None);
+            times.windows(2).map(|pair| pair[1] - pair[0]).collect()
         };
         let all: Vec<f64> = sample.runs.iter().flat_map(steps).collect();
         let mut sorted: Vec<f64> = all.iter().copied().filter(|step| step.is_finite()).collect();

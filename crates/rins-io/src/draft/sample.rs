@@ -4,7 +4,7 @@ use std::io::{BufReader, Seek, SeekFrom};
 use std::path::Path;
 
 use crate::error::{IoError, LogError};
-use crate::log::{Delimiter, Fields, Head, Lines, LogProblem};
+use crate::log::{Delimiter, Fields, Head, Lines, LogProblem, all_columns, nanoseconds};
 use crate::source;
 
 /// The rows of a run.
@@ -19,6 +19,8 @@ const OTHER_RUNS: u64 = 8;
 /// What a log's header and some of its rows say.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sample {
+    /// The format of its file, as a rig file names it.
+    pub(super) format: &'static str,
     pub(super) delimiter: Delimiter,
     /// The columns' names, where there are any.
     pub(super) names: Option<Vec<String>>,
@@ -40,6 +42,9 @@ impl Sample {
     /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if its first rows are no columns of
     /// numbers.
     pub(super) fn read(path: &Path) -> Result<Self, IoError> {
+        if let Some((format, names, numbers)) = all_columns(path)? {
+            return Ok(Self::of_columns(format, names, &numbers));
+        }
         let mut lines = Lines::open(path)?;
         let head = Head::read(&mut lines)?;
         let mut first = Rows::new(&head);
@@ -64,7 +69,24 @@ impl Sample {
             runs.extend(others(path, &head));
         }
         let Head { delimiter, names, count, .. } = head;
-        Ok(Self { delimiter, names, count, runs, whole })
+        Ok(Self { format: "csv", delimiter, names, count, runs, whole })
+    }
+
+    /// Of the columns of a binary file.
+    fn of_columns(format: &'static str, names: Vec<String>, numbers: &[Vec<f64>]) -> Self {
+        let rows = numbers.first().map_or(0, Vec::len);
+        let run = |start: usize| -> Run {
+            let end = (start + RUN).min(rows);
+            numbers.iter().map(|column| column[start..end].to_vec()).collect()
+        };
+        let first = (0..rows.min(RUN * FIRST_RUNS)).step_by(RUN);
+        let places = usize::try_from(OTHER_RUNS).unwrap_or_default();
+        let others = (1..=places).map(|index| rows / (places + 1) * index);
+        let whole = rows <= RUN * FIRST_RUNS;
+        let others = others.filter(|start| !whole && *start >= RUN * FIRST_RUNS);
+        let runs = first.chain(others).map(run).collect();
+        let (delimiter, count) = (Delimiter::Comma, names.len());
+        Self { format, delimiter, names: Some(names), count, runs, whole }
     }
 
     /// What to call a column in a rig file: by its name or, where that is not its own, by its
@@ -112,6 +134,14 @@ fn run_at(path: &Path, head: &Head, place: u64) -> Option<Run> {
     (rows.length > 1).then_some(rows.columns)
 }
 
+/// The number in a field; the seconds since 1970 of a date with a time of day.
+fn number(field: &str) -> Option<f64> {
+    match field.parse::<f64>() {
+        Ok(number) => Some(number).filter(|number| number.is_finite()),
+        Err(_) => nanoseconds(field).map(|instant| instant as f64 * 1e-9),
+    }
+}
+
 /// Rows that are being read.
 struct Rows {
     delimiter: Delimiter,
@@ -142,7 +172,7 @@ impl Rows {
             return Err(LogProblem::FieldCount { got, expected });
         }
         for (column, field) in self.columns.iter_mut().zip(fields) {
-            column.push(field.parse().ok().filter(|n: &f64| n.is_finite()).unwrap_or(f64::NAN));
+            column.push(number(&field).unwrap_or(f64::NAN));
         }
         self.length += 1;
         Ok(())
@@ -150,7 +180,7 @@ impl Rows {
 
     fn note_text(&mut self, line: u64, row: &str) {
         for (text, field) in self.texts.iter_mut().zip(Fields::of(row, self.delimiter)) {
-            if text.is_none() && !field.is_empty() && field.parse::<f64>().is_err() {
+            if text.is_none() && !field.is_empty() && number(&field).is_none() {
                 *text = Some((line, field.chars().take(40).collect()));
             }
         }

@@ -40,7 +40,11 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
     } else {
         format!("{rows} rows, distributed over the log, were read.")
     };
-    page.remark(&format!("{count} columns between {between}, {header}."));
+    if sample.format == "csv" {
+        page.remark(&format!("{count} columns between {between}, {header}."));
+    } else {
+        page.remark(&format!("{count} columns of numbers."));
+    }
     page.remark(&rows);
     let words: Vec<String> = (0..sample.count)
         .filter(|column| !sample.is_numeric(*column))

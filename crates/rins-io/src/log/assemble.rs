@@ -41,6 +41,7 @@ pub(super) fn read(
     };
     clock.summary.left_out = files.left_out();
     clock.summary.rounded = files.rounded;
+    clock.summary.overflows = mem::take(&mut files.overflows);
     clock.summary.time_origin = files.instants.map_or(0.0, |instants| instants.origin());
     files.compare(clock.summary.nominal_interval)?;
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::clock::{Clock, Stamps};
 use super::even::undo_rounding;
 use super::instant::Instants;
+use super::overflow::{Overflow, continued};
 use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted};
@@ -35,6 +36,8 @@ pub(super) struct Files {
     pub(super) instants: Option<Instants>,
     /// What became of the stamps of the gyros' file.
     pub(super) rounded: Option<Rounded>,
+    /// The overflows of the time column of the gyros' file.
+    pub(super) overflows: Vec<Overflow>,
 }
 
 /// One file, and of its columns those that are asked for.
@@ -175,10 +178,17 @@ impl Files {
         let mut instants = unit.map(Instants::new);
         let mut files = Vec::with_capacity(wanted.len());
         let mut rounded = None;
+        let mut overflows = Vec::new();
         for (path, asked) in wanted {
             let time = spec.time.as_ref().map(|time| time.column.as_str());
             let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()) };
             let mut columns = table::read(path, spec.table, wanted)?;
+            if let Some(time) = &spec.time {
+                let continued = continued(&mut columns.time, time.unit.seconds());
+                if files.is_empty() {
+                    overflows = continued;
+                }
+            }
             if let Some(time) = spec.time.as_ref().filter(|time| time.unit == TimeUnit::Samples) {
                 let interval = rig.log.rate.map_or(1.0, |rate| 1.0 / rate);
                 count(path, &time.column, &mut columns, interval)?;
@@ -192,7 +202,7 @@ impl Files {
             files.push(OneFile { path: path.into(), asked, columns });
         }
         let accel = spec.accel_clock.as_ref().map(|clock| own_clock(spec, clock, instants));
-        Ok(Self { together: files, instants, accel: accel.transpose()?, rounded })
+        Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
 
     /// The lines of any of the files that are no samples.
@@ -276,6 +286,7 @@ fn own_clock(
     let asked = Asked::of(&spec.accel.columns);
     let wanted = Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)) };
     let mut columns = table::read(&spec.accel.path, spec.table, wanted)?;
+    let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
     let _rounded = undo_rounding(&mut columns.time, None);
     let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
     if shift != 0.0 {

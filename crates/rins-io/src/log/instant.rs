@@ -1,5 +1,7 @@
 //! Time stamps, read without losing what a double cannot hold.
 
+use super::date_time::nanoseconds;
+
 /// Stamps beyond this \[s\] (48 days) are counted from a whole second near the first: a double
 /// near it steps by a nanosecond, and near the seconds since 1970 by a quarter of a microsecond.
 const LARGEST: f64 = 4194304.0;
@@ -25,9 +27,16 @@ impl Instants {
         Self { per_second: if is_whole { whole } else { per_second }, origin: None }
     }
 
-    /// The stamp's time after the origin \[s\]; `None` if it is not a number.
+    /// The stamp's time after the origin \[s\]; `None` if it is neither a number nor, where stamps are in seconds, a date with a
+    /// time of day.
     pub(super) fn seconds(&mut self, text: &str) -> Option<f64> {
-        Some(self.after_origin(text.parse().ok()?, || fixed(text)))
+        if let Ok(stamp) = text.parse() {
+            return Some(self.after_origin(stamp, || fixed(text)));
+        }
+        let nanoseconds =
+            nanoseconds(text).filter(|_| self.per_second.to_bits() == 1_f64.to_bits())?;
+        let scale = 10_i128.pow(DECIMALS.unsigned_abs() - 9);
+        Some(self.after_origin(nanoseconds as f64 * 1e-9, || nanoseconds.checked_mul(scale)))
     }
 
     /// The same of a stamp that is a number.

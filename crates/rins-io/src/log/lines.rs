@@ -37,7 +37,7 @@ impl Lines<BufReader<Source>> {
     }
 
     /// The lines of a log whose messages begin as elsewhere comments do.
-    pub(super) fn messages(path: &Path) -> Result<Self, IoError> {
+    pub(crate) fn messages(path: &Path) -> Result<Self, IoError> {
         Ok(Self { commented: false, ..Self::open(path)? })
     }
 }

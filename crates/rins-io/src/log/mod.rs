@@ -3,11 +3,13 @@
 mod assemble;
 mod clock;
 mod container;
+mod date_time;
 mod even;
 mod fields;
 mod files;
 mod instant;
 mod lines;
+mod overflow;
 mod problem;
 mod psins;
 mod redivide;
@@ -19,14 +21,17 @@ use std::path::Path;
 
 use rins_motion::{Recording, Station, with_ramps};
 
+pub(crate) use date_time::nanoseconds;
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
 pub(crate) use lines::Lines;
+pub use overflow::Overflow;
+pub(crate) use overflow::continued;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
 pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded};
-pub(crate) use table::{Head, MOST_COLUMNS, most_rows};
+pub(crate) use table::{Head, MOST_COLUMNS, all as all_columns, most_rows};
 pub use table::{LogHead, peek};
 
 use crate::error::{IoError, LogError};

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::overflow::Overflow;
+
 /// What a log may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogPolicy {
@@ -37,6 +39,8 @@ pub struct LogSummary {
     pub time_origin: f64,
     /// What became of accelerometers that have a clock of their own.
     pub redivided: Option<Redivided>,
+    /// The overflows of the time column over which it is continued.
+    pub overflows: Vec<Overflow>,
     /// The even clock whose stamps stand in the place of rounded ones.
     pub rounded: Option<Rounded>,
     /// How many ramps between the rates of a commanded profile are shaped as the gyro about the axis shows them, and not
@@ -109,6 +113,7 @@ impl LogSummary {
             left_out: Vec::new(),
             time_origin: 0.0,
             redivided: None,
+            overflows: Vec::new(),
             rounded: None,
             ramps: 0,
         }

@@ -23,6 +23,7 @@ pub use log_spec::{
     AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, ScaledColumn, Stamp,
     Table, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
 };
+pub(crate) use novatel::of_type as novatel_imu;
 pub use place::InitialAttitude;
 pub(crate) use place::{angles, station};
 pub use table::TableSpec;

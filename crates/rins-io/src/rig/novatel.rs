@@ -31,6 +31,31 @@ pub(super) const IMUS: [&str; 15] = [
     "EG320N",
 ];
 
+/// The IMU of this type number in RAWIMUX and RAWIMUSX messages; `None` if its counts are not known.
+///
+/// ‹novatel-oem7›, table "IMU Type".
+pub(crate) fn of_type(number: u32) -> Option<&'static str> {
+    let name = match number {
+        1 => "HG1700-AG11",
+        4 => "HG1700-AG17",
+        5 | 27 => "HG1900",
+        8 => "LN200",
+        11 => "HG1700-AG58",
+        12 => "HG1700-AG62",
+        13 => "FSAS",
+        20 | 28 => "HG1930",
+        26 => "ISA-100C",
+        31 => "ADIS16488",
+        32 => "STIM300",
+        33 => "KVH1750",
+        41 => "EG320N",
+        52 => "uIMU",
+        58 => "HG4930",
+        _ => return None,
+    };
+    Some(name)
+}
+
 /// One count of the gyros and one of the accelerometers of an IMU; `None` if it is not known.
 ///
 /// ‹novatel-oem7›, table "Raw IMU Scale Factors". Counts are of angle and velocity over a sample but
@@ -60,6 +85,13 @@ pub(super) fn counts(imu: &str) -> Option<(Reading, Reading)> {
 mod tests {
     use super::{IMUS, Reading, counts};
     use rins_testing::assert_close;
+
+    #[test]
+    fn every_type_is_one_of_the_list() {
+        let known: Vec<_> = (0..100).filter_map(super::of_type).collect();
+        assert!(known.iter().all(|name| IMUS.contains(name)) && known.len() > 15, "{known:?}");
+        assert_eq!((super::of_type(26), super::of_type(0)), (Some("ISA-100C"), None));
+    }
 
     #[test]
     fn every_imu_that_is_listed_has_its_counts() {

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use rins_io::shown;
 use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig};
+use rins_report::number::figure;
 
 /// Time stamps that jitter by less than this share of an interval are told by no more than a figure.
 const ODD_JITTER: f64 = 0.02;
@@ -29,6 +30,7 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
             summary.jitter_rms / summary.nominal_interval * 100.0
         ));
     }
+    told.extend(overflows(summary));
     if let Some(rounded) = summary.rounded {
         told.push(format!(
             "time stamps are rounded to {}: they are those of an even clock of {:.6} Hz, whose intervals are used",
@@ -54,6 +56,25 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
         told.push("no time column: samples are taken to follow each other without a gap".into());
     }
     told
+}
+
+/// The overflows of the time column.
+fn overflows(summary: &LogSummary) -> Option<String> {
+    let [first, ..] = &summary.overflows[..] else { return None };
+    let bits = first.period.log2();
+    let period = if bits.fract() == 0.0 {
+        format!("a counter of {bits:.0} bits")
+    } else {
+        format!("a clock that starts again after {} units", figure(first.period, 6))
+    };
+    let count = match summary.overflows.len() {
+        1 => "once".to_owned(),
+        count => format!("{count} times"),
+    };
+    Some(format!(
+        "the time column is {period} and overflows {count}, first at sample {}: it is continued",
+        first.row + 1
+    ))
 }
 
 fn has_time(rig: &Rig) -> bool {

@@ -30,16 +30,34 @@ const COMPRESSED: u32 = 15;
 
 /// Reads columns of the matrices in the file at `path`.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    let Wanted { names, time } = wanted;
+    let asked: Vec<&str> =
+        names.iter().copied().chain(time.as_ref().map(|(name, _)| *name)).collect();
+    let mut found = found(path, &asked)?;
+    let mut lists = found.lists(&asked).map_err(|problem| LogError::of(path, problem))?;
+    let stamps = time.map(|(name, instants)| {
+        (name, lists.pop().map_or_else(Vec::new, |list| list.stamps(instants)))
+    });
+    together(path, names, lists.into_iter().map(Numbers::plain).collect(), stamps)
+}
+
+/// The names of the columns of the matrices in the file at `path` that are as long as the longest.
+pub(super) fn names(path: &Path) -> Result<Vec<String>, IoError> {
+    let found = found(path, &[])?;
+    let most = found.present.iter().map(|(_, rows)| *rows).max().unwrap_or_default();
+    let longest = found.present.into_iter().filter(|(_, rows)| *rows == most);
+    Ok(longest.map(|(name, _)| name).collect())
+}
+
+/// What a file holds of the columns that are asked for.
+fn found(path: &Path, asked: &[&str]) -> Result<Found, IoError> {
     let failed = || IoError::file("read", path);
     let file = source::open(path).map_err(failed())?;
     let length = source::length(path).map_err(failed())?;
     if length == 0 {
         return Err(LogError::of(path, LogProblem::Empty));
     }
-    let Wanted { names, time } = wanted;
-    let asked: Vec<&str> =
-        names.iter().copied().chain(time.as_ref().map(|(name, _)| *name)).collect();
-    let mut found = Found::new(&asked, most_rows(length));
+    let mut found = Found::new(asked, most_rows(length));
     let mut reader = BufReader::with_capacity(1 << 16, file);
     found.read(&mut reader).map_err(|problem| match problem {
         Problem::System(source) if source.kind() != std::io::ErrorKind::UnexpectedEof => {
@@ -54,11 +72,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         Problem::System(_) => LogError::of(path, damaged("it ends too early")),
         Problem::Log(problem) => LogError::of(path, problem),
     })?;
-    let mut lists = found.lists(&asked).map_err(|problem| LogError::of(path, problem))?;
-    let stamps = time.map(|(name, instants)| {
-        (name, lists.pop().map_or_else(Vec::new, |list| list.stamps(instants)))
-    });
-    together(path, names, lists.into_iter().map(Numbers::plain).collect(), stamps)
+    Ok(found)
 }
 
 fn damaged(message: &str) -> LogProblem {
@@ -82,8 +96,8 @@ struct Found {
     /// The variable and column of each; of a vector there is no column to tell.
     asked: Vec<(String, Option<usize>)>,
     lists: Vec<Option<Numbers>>,
-    /// The columns that there are.
-    present: Vec<String>,
+    /// The columns that there are, and their lengths.
+    present: Vec<(String, u64)>,
     most: u64,
 }
 
@@ -190,9 +204,9 @@ impl Found {
         let vector = rows == 1 || columns == 1;
         if vector {
             (rows, columns) = (rows.max(columns), 1);
-            self.present.push(name.to_string());
+            self.present.push((name.to_string(), rows));
         } else {
-            let named = (1..=columns.min(64)).map(|column| format!("{name}(:,{column})"));
+            let named = (1..=columns.min(64)).map(|column| (format!("{name}(:,{column})"), rows));
             self.present.extend(named);
         }
         let wanted: Vec<(usize, u64)> = self
@@ -241,7 +255,9 @@ impl Found {
         let mut lists: Vec<Numbers> = Vec::with_capacity(asked.len());
         for (name, list) in asked.iter().zip(&mut self.lists) {
             let Some(list) = list.take() else {
-                let missing = place(name, &self.present).err();
+                let present: Vec<String> =
+                    self.present.iter().map(|(name, _)| name.clone()).collect();
+                let missing = place(name, &present).err();
                 return Err(missing.unwrap_or_else(|| damaged("a variable occurs twice")));
             };
             if let Some(first) = lists.first()

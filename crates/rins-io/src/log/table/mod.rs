@@ -10,6 +10,7 @@ mod rows;
 mod text;
 mod typed;
 
+use std::io::Read as _;
 use std::path::Path;
 
 pub(crate) use self::columns::MOST_COLUMNS;
@@ -23,6 +24,29 @@ pub(crate) use typed::most_rows;
 use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
 use crate::rig::Table;
+use crate::source;
+
+/// All columns of numbers of the Parquet or MATLAB file at `path`, with their names; none of a file of another format.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn all(
+    path: &Path,
+) -> Result<Option<(&'static str, Vec<String>, Vec<Vec<f64>>)>, IoError> {
+    let mut beginning = [0; 20];
+    let mut file = source::open(path).map_err(IoError::file("read", path))?;
+    let length = file.read(&mut beginning).map_err(IoError::file("read", path))?;
+    let (format, table, names) = match &beginning[..length] {
+        bytes if bytes.starts_with(b"PAR1") => ("parquet", Table::Parquet, parquet::names(path)?),
+        bytes if bytes.starts_with(b"MATLAB 5.0 MAT-file") => {
+            ("mat", Table::Mat, mat::names(path)?)
+        }
+        _ => return Ok(None),
+    };
+    let asked: Vec<&str> = names.iter().map(String::as_str).collect();
+    let columns = read(path, table, Wanted { names: &asked, time: None })?;
+    Ok(Some((format, names, columns.numbers)))
+}
 
 /// No clock shows more seconds than this: 300 centuries.
 const LATEST: f64 = 1e12;

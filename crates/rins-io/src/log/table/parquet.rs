@@ -61,6 +61,13 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     together(path, names, numbers, stamps)
 }
 
+/// The names of the columns of numbers of the Parquet file at `path`.
+pub(super) fn names(path: &Path) -> Result<Vec<String>, IoError> {
+    let file = SoundParquet::open(path)?;
+    let numeric = file.columns().iter().filter(|column| Kind::of(column).is_some());
+    Ok(numeric.map(|column| column.path().string()).collect())
+}
+
 /// How numbers are kept in a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
