@@ -48,8 +48,7 @@ impl AlignmentSolution {
         self.hidden.is_none()
     }
 
-    /// Whether each gyro bias is observable over the static interval, along the sensors' own axes; otherwise it is the assumed
-    /// value.
+    /// Whether each gyro bias is observable over the static interval, along the sensors' own axes; if not, it is the assumed one.
     pub(super) fn bias_shown(&self, own_axes: &SignedAxes) -> [bool; 3] {
         let Some(fine) = self.fine else { return [true; 3] };
         let sigma = own_axes.undo(&fine.gyro_bias_sigma).abs();

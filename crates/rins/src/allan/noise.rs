@@ -162,8 +162,7 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
             };
             let lasting: f64 = filled.samples.iter().map(|sample| sample.interval).sum();
             let mean = filled.samples.iter().map(of).sum::<f64>() / lasting;
-            // The mean over each sample's own interval is subtracted, so that jitter of the intervals does not turn gravity into
-            // noise.
+            // The mean over each sample's own interval is subtracted: otherwise jitter of the intervals turns gravity into noise.
             let mut noise: Vec<f64> =
                 filled.samples.iter().map(|sample| of(sample) - mean * sample.interval).collect();
             let lines = take_out_lines(&mut noise, interval);

@@ -1,4 +1,4 @@
-//! Columns of numbers, picked by name or number from a log of any format.
+//! Columns of numbers, selected by name or number from a log of any format.
 
 mod columns;
 mod doubles;
@@ -23,14 +23,14 @@ use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
 use crate::rig::Table;
 
-/// No clock shows more seconds than this: 300 centuries.
+/// The maximum time of any clock \[s\]: 300 centuries.
 const LATEST: f64 = 1e12;
 
-/// Reads the columns that are `wanted` from the log at `path`, which is written as `table`.
+/// Reads the `wanted` columns from the log at `path`, whose format is `table`.
 ///
 /// # Errors
-/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is not what it is said to be, if
-/// a column is not there, or if one holds anything but finite numbers.
+/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it does not have this format, if
+/// a column does not exist, or if one contains anything but finite numbers.
 pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let time = wanted.time.as_ref().map(|(name, _)| *name);
     let columns = match table {

@@ -1,4 +1,4 @@
-//! Columns of text, between delimiters that are found out.
+//! Columns of text, whose delimiter is determined automatically.
 
 use std::io::BufRead;
 use std::path::Path;
@@ -47,7 +47,7 @@ fn read_from<R: BufRead>(
     let mut before = String::new();
     let mut repeated = Repeated::default();
     let mut row = |number: u64, line: &str| -> Result<(), IoError> {
-        // Some loggers write a sample twice; without a time stamp it may well be two samples.
+        // Some loggers write a sample twice; without a time stamp it could be two samples.
         if time.is_some() {
             let is_same = line == before;
             repeated
@@ -107,7 +107,7 @@ fn read_from<R: BufRead>(
     Ok(columns)
 }
 
-/// As much of a field as an error shows.
+/// A field, shortened for an error message.
 fn short(field: &str) -> String {
     field.chars().take(40).collect()
 }
@@ -123,18 +123,18 @@ fn number_of(name: &str, field: &str, value: Option<f64>) -> Result<f64, LogProb
     }
 }
 
-/// What the first lines of a text log tell, before anybody has said what its columns are.
+/// The first lines of a text log, which are read before the columns are assigned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogHead {
-    /// What stands between two fields.
+    /// The delimiter.
     pub delimiter: Delimiter,
-    /// The columns' names, where there are any.
+    /// The columns' names, if there are any.
     pub names: Option<Vec<String>>,
     /// The fields of the first rows, at most two.
     pub rows: Vec<Vec<String>>,
 }
 
-/// Looks at the first lines of the text log at `path`.
+/// Reads the first lines of the text log at `path`.
 ///
 /// # Errors
 /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is empty or not text.
@@ -144,16 +144,16 @@ pub fn peek(path: &Path) -> Result<LogHead, IoError> {
     Ok(LogHead { delimiter, names, rows: rows.iter().map(fields).collect() })
 }
 
-/// What the first lines tell.
+/// The first lines of a text log.
 pub(crate) struct Head {
     pub(crate) delimiter: Delimiter,
-    /// The columns' names, where there are any.
+    /// The columns' names, if there are any.
     pub(crate) names: Option<Vec<String>>,
     /// The number of columns.
     pub(crate) count: usize,
-    /// The line of the names, or the first of the numbers.
+    /// The line of the names, or the first line of numbers.
     line: u64,
-    /// The rows of numbers that have been read.
+    /// The rows of numbers in these lines.
     pub(crate) rows: Vec<(u64, String)>,
 }
 
@@ -182,7 +182,7 @@ impl Head {
         }
         let is_word = |field: &String| field.parse::<f64>().is_err();
         if opening.iter().filter(|field| is_word(field)).count() * 2 >= count {
-            // Below their names some columns have their units; a number that is miswritten is none.
+            // A second header line may contain units; a malformed number is not a unit.
             let is_unit = |field: &String| {
                 is_word(field)
                     && !field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l))
@@ -197,20 +197,20 @@ impl Head {
             let rows = second.into_iter().collect();
             return Ok(Self { delimiter, names: Some(opening), count, line, rows });
         }
-        // Array libraries write the names into a comment.
+        // Array libraries write the names in a comment.
         let names = comment.map(|text| fields(&text));
         let names = names.filter(|names| names.len() == count && names.iter().all(is_word));
         let rows = std::iter::once((line, first)).chain(second).collect();
         Ok(Self { delimiter, names, count, line, rows })
     }
 
-    /// The first name of a line of names that is no comment.
+    /// The first name in a line of names that is not a comment.
     fn header(&self) -> Option<&str> {
         let above = self.rows.first().is_none_or(|(line, _)| *line > self.line);
         self.names.as_ref().filter(|_| above)?.first().map(String::as_str)
     }
 
-    /// The place from zero of the column called `name`.
+    /// The index, from zero, of the column called `name`.
     fn place(&self, name: &str, path: &Path) -> Result<usize, IoError> {
         let names = self.names.as_deref().unwrap_or_default();
         let by_number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
@@ -224,7 +224,7 @@ impl Head {
         found.map_err(|problem| LogError::at(path, self.line, problem))
     }
 
-    /// The columns that there are, in words.
+    /// A list of the existing columns, for an error message.
     fn present(&self) -> String {
         match &self.names {
             Some(names) => listed(names),
