@@ -1,10 +1,10 @@
 //! Input and output of files: rigs, scenarios, logs, calibrations and results, with a check of every unit.
 //!
-//! **Scope.** [`read`] converts a rig file and its log to a [`Recording`](rins_motion::Recording) in SI units and radians.
+//! **What it does.** [`read`] converts a rig file and its log to a [`Recording`](rins_motion::Recording) in SI units and radians.
 //! [`ScenarioFile`], [`ModelFile`] and [`Calibration`] are the other TOML files; [`write_file`] and [`write_folder`] write
 //! results atomically. An [`IoError`] names the file, the line, the key or column, the value found and the value expected.
 //!
-//! **Outside the scope.** It draws no conclusions from the data, and reports every repair.
+//! **What it does not do.** It draws no conclusions from the data, and reports every repair.
 //!
 //! ```
 //! use rins_io::quantity::kinds;

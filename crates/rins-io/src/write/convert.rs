@@ -42,8 +42,8 @@ pub struct Converted {
 /// with the extension `toml`.
 ///
 /// The axes of the new log are the sensors' own body axes, right, front and up, or those of its format, whatever the spin axis;
-/// `[axis]` must accompany them. The new log is read before it is moved to its place, and every signal that is not bit-identical is
-/// reported.
+/// the new rig file keeps `[axis]`. The new log is read before it is moved to its place, and every signal that is not
+/// bit-identical is reported.
 ///
 /// # Errors
 /// [`IoError`] if the run cannot be read, if the format cannot represent it, or if the files cannot be
