@@ -8,7 +8,6 @@
 //! compensation ([`running`]), and the equations against numerical integration ([`grid`]). [`report`] writes the
 //! page of the book with its figures; [`differences`](stale::differences) compares it with the page in the
 //! repository.
-//! repository has fallen behind.
 //!
 //! **What it does not do.** It contains no algorithm that belongs to another crate, except
 //! [`BiasFilter`](bias_filter::BiasFilter), a filter with gyro biases as states, which shows the effect of their absence in the

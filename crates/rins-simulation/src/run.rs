@@ -67,6 +67,7 @@ impl Truth {
 /// Each sample is computed in the order true motion, eq. (1) and effects, noise, resolution; the table
 /// angle comes from its encoder. Effects on the log are applied last. The gyros, the accelerometers and the encoder
 /// have random numbers of their own, so that none of them changes with the settings of the others.
+///
 /// # Errors
 /// [`ScenarioError`] if a quantity is invalid, an effect needs something that the run does not have, or the run is
 /// empty or too long.
