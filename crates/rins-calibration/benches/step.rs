@@ -1,5 +1,4 @@
-//! One prediction and update of 12, 24, 40 and 48 states by 6 rows, beside the textbook's dense form, and in
-//! lanes.
+//! One prediction and update of 12, 24, 40 and 48 states by 6 rows, compared with the textbook's dense form, and in lanes.
 
 use std::hint::black_box;
 
@@ -11,17 +10,17 @@ use rins_calibration::structured::{
 };
 use rins_lanes::{Arch, Lane, Matrix, Real, Simd, Vector, WithSimd, rotation};
 
-/// How many steps one timing covers; the transition is a new one at each.
+/// The number of steps in one timing; each has another transition.
 const STEPS: usize = 200;
 
-/// The covariances must agree to this after the steps, in units of sigmas.
+/// The tolerance of the covariances after the steps, in units of sigmas.
 const AGREEMENT: f64 = 1e-10;
 
 const INTERVAL: f64 = 0.02;
 const VELOCITY_NOISE: f64 = 1e-4;
 const DENSITIES: [f64; 2] = [3e-4, 6e-6];
 
-/// Constants that enter the sensors one after the other.
+/// Constants that affect the sensors in turn.
 #[derive(Clone, Copy)]
 enum InTurn {}
 
@@ -29,7 +28,7 @@ const fn in_turn<const N: usize>() -> [Input; N] {
     let mut inputs = [Input::None; N];
     let mut index = NAVIGATION;
     while index < N {
-        // The first twelve are the gyros', as are those of the paper.
+        // The first twelve are errors of the gyros, as those of the paper.
         inputs[index] = if index < 21 { Input::Gyro(index % 3) } else { Input::Accel(index % 3) };
         index += 1;
     }
@@ -41,7 +40,7 @@ impl<const N: usize> States<N> for InTurn {
     const AXIS: Option<usize> = None;
 }
 
-/// What changes from step to step.
+/// The means of a step.
 fn means<T: Real>(like: T, step: usize) -> Means<T> {
     let turn = Vector::constant(like, [0.3, 0.4, 0.0035 * step as f64]);
     let (sin, cos) = 0.6_f64.sin_cos();
@@ -73,7 +72,7 @@ fn comparison<T: Real, const N: usize>(means: &Means<T>, rates: [T; N]) -> Compa
     }
 }
 
-/// Priors of one kind for all states, in their units.
+/// Priors of each kind of states, in their units.
 fn prior(row: usize, column: usize) -> f64 {
     let sigma = |index: usize| match index {
         0..3 => 1e-9,
@@ -82,7 +81,7 @@ fn prior(row: usize, column: usize) -> f64 {
     if row == column { sigma(row) * sigma(row) } else { 0.0 }
 }
 
-/// The innovations found, summed so that none is left out, and the covariance.
+/// The sum of the innovations, so that the compiler cannot omit any of them, and the covariance.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
 fn structured<T: Real, const N: usize>(
@@ -102,7 +101,7 @@ fn structured<T: Real, const N: usize>(
     (p, sum)
 }
 
-/// The same as `Φ`, `Q`, `H`, `R` and `C`.
+/// The same in the form of `Φ`, `Q`, `H`, `R` and `C`.
 struct Dense<const N: usize> {
     transition: SMatrix<f64, N, N>,
     noise: SMatrix<f64, N, N>,
@@ -163,7 +162,7 @@ fn dense<const N: usize>(means: &Means<f64>, rates: &[f64; N]) -> Dense<N> {
     }
 }
 
-/// The factors of the structured transition, multiplied out.
+/// The product of the factors of the structured transition.
 fn transition<const N: usize>(f: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     let part = |first: usize, share: f64| {
         let mut factor = SMatrix::<f64, N, N>::identity();
@@ -182,7 +181,7 @@ fn transition<const N: usize>(f: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     half_position * attitude * velocity * half_position
 }
 
-/// Joseph's form by nalgebra's products; [`Dense::cross`] comes in as it does for a correlated noise.
+/// Joseph's form with nalgebra's products; [`Dense::cross`] enters as for a correlated noise.
 fn textbook<const N: usize>(steps: &[Dense<N>]) -> (SMatrix<f64, N, N>, f64) {
     let mut p = SMatrix::<f64, N, N>::from_fn(prior);
     let mut sum = 0.0;
@@ -241,7 +240,7 @@ impl<const N: usize> WithSimd for Lanes<'_, N> {
     }
 }
 
-/// What the steps of one kind are timed on.
+/// The data of the steps of one kind.
 struct Case<const N: usize> {
     means: Vec<Means<f64>>,
     rates: [f64; N],
@@ -260,7 +259,7 @@ impl<const N: usize> Case<N> {
         Arch::new().dispatch(Lanes(black_box(&self.means), &self.rates))
     }
 
-    /// In the lanes that AVX2 has, where there is that, whatever else there is.
+    /// In the lanes of AVX2, if the machine has it, even if it has wider ones.
     fn in_avx2_lanes(&self) -> (usize, f64) {
         #[cfg(target_arch = "x86_64")]
         if let Some(four_lanes) = rins_lanes::x86::V3::try_new() {
@@ -269,7 +268,7 @@ impl<const N: usize> Case<N> {
         self.in_lanes()
     }
 
-    /// All that is timed finds the same; says how many lanes there are, and how many of AVX2.
+    /// Checks that all timed functions have the same result; returns the number of lanes, and that of AVX2.
     fn check(
         &self,
         structured: fn(&Self) -> (Covariance<f64, N>, f64),

@@ -1,4 +1,4 @@
-//! Calibrates a simulated run at one constant rate and compares the estimates with the truth.
+//! Calibrates a simulated run at one constant rate and compares the estimates with the true values.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use rins_calibration::{AxisAttitude, Setup, TableSpec, calibrate};

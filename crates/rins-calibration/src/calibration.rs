@@ -1,4 +1,5 @@
-//! A calibration: from a recording to parameters, their covariance, and what they are worth.
+//! A calibration: parameters with their covariance from a recording, a consistency test, and the effect on free inertial
+//! navigation.
 
 use std::ops::Range;
 
@@ -20,27 +21,27 @@ use crate::separability::SpinRateSums;
 use crate::setup::{Setup, TableSpec};
 use crate::table_angle::table_angles;
 
-/// The shortest rest at the start that is left out, and can be aligned on \[s\].
+/// The shortest static interval at the start that is excluded and that can be used for the alignment \[s\].
 const SHORTEST_REST: f64 = 5.0;
 
-/// The fewest samples a filter is run over.
+/// The smallest number of samples for the filter.
 const FEWEST_SAMPLES: usize = 100;
 
-/// The mean spin rate, root mean square \[rad/s\], below which the table has not turned.
+/// The smallest spin rate, root mean square, of a rotating table \[rad/s\].
 const LEAST_SPIN_RATE: f64 = 1e-3;
 
-/// What accelerometer errors, which the filter does not have, put into `M_xz`, `M_yz` \[rad\] and `S_z`
-/// by way of zero velocity, for biases of some 200 µg: less than this of a gyro bias is not told.
+/// The bias of `M_xz`, `M_yz` \[rad\] and `S_z` due to unmodeled accelerometer errors, through the zero velocity measurement,
+/// for biases of about 200 µg. A smaller effect of a gyro bias is not reported.
 const SYSTEMATIC: [f64; 3] = [0.03 * ARCSEC, 0.03 * ARCSEC, 0.1 * PPM];
 
-/// Why a recording could not be calibrated.
+/// The reason why a recording cannot be calibrated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CalibrationError {
-    /// Neither table angle nor table rate.
+    /// The recording has neither a table angle nor a table rate.
     #[error("the calibration needs the table angle or the commanded rate; the log has neither")]
     NoTable,
-    /// The table hardly turned.
+    /// The table hardly rotates.
     #[error(
         "the table hardly rotates ({spin_rate:.1e} rad/s rms): gyro errors along the spin axis are unobservable"
     )]
@@ -48,44 +49,44 @@ pub enum CalibrationError {
         /// The root mean square of the spin rate \[rad/s\].
         spin_rate: f64,
     },
-    /// Too few samples after the rest.
+    /// There are too few samples after the static interval.
     #[error(
         "only {samples} samples remain after the static interval at the start; at least {fewest} are needed"
     )]
     TooShort {
-        /// How many there are.
+        /// The number of samples.
         samples: usize,
-        /// How many are needed.
+        /// The required number.
         fewest: usize,
     },
-    /// No attitude given, and no rest to align on.
+    /// No attitude is given, and there is no static interval for the alignment.
     #[error(
         "the attitude of the spin axis is not given and the log does not start with a static interval of \
          {shortest} s for the alignment"
     )]
     NoAttitude {
-        /// The shortest rest that would do \[s\].
+        /// The shortest sufficient static interval \[s\].
         shortest: f64,
     },
-    /// The rest at the start cannot be aligned on.
+    /// The alignment over the static interval at the start failed.
     #[error(
         "the attitude of the spin axis is not given, and the alignment over the static interval at the start failed"
     )]
     Alignment(#[from] AlignmentError),
-    /// The filter broke off.
+    /// The filter failed.
     #[error("the filter failed at {time} s")]
     Update {
         /// The end of the sample's interval \[s\].
         time: f64,
-        /// Why.
+        /// The reason.
         source: UpdateError,
     },
-    /// The estimates cannot be compensated.
+    /// The estimates cannot be compensated: their matrix is singular.
     #[error("the estimates cannot be compensated")]
     Compensation(#[from] ImuCompensationError),
 }
 
-/// A moment of the filter's run.
+/// The estimate at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EstimatePoint {
     /// \[s\]
@@ -96,53 +97,53 @@ pub struct EstimatePoint {
     pub sigma: Vector3<f64>,
 }
 
-/// Where the start attitude came from.
+/// The source of the initial attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AttitudeSource {
-    /// It was given.
+    /// It is given.
     Given,
-    /// The rest at the start was aligned.
+    /// Alignment over the static interval at the start.
     Aligned,
 }
 
 /// A finished calibration.
 #[derive(Clone, Debug)]
 pub struct Calibration {
-    /// The samples the filter ran over: those after the rest at the start.
+    /// The samples of the filter: those after the static interval at the start.
     pub span: Range<usize>,
-    /// Where the start attitude came from.
+    /// The source of the initial attitude.
     pub attitude_source: AttitudeSource,
     /// The estimates.
     pub parameters: Vec<Parameter>,
     /// Their correlation matrix.
     pub correlation: Matrix3<f64>,
-    /// The estimates as a sensor error, to be compensated.
+    /// The estimates as a sensor error, for the compensation.
     pub imu_error: ImuError,
-    /// The attitude of the axis frame, from the whole run.
+    /// The estimated attitude of the axis frame, from the whole run.
     pub nav_from_table: Dcm<Nav, Table>,
     /// The 1σ of the three components of its error in n \[rad\].
     pub axis_sigma: Vector3<f64>,
-    /// What the innovations say of the model.
+    /// The consistency of the innovations with the model.
     pub consistency: Consistency,
-    /// The estimates on the way.
+    /// The estimates during the run.
     pub history: Vec<EstimatePoint>,
-    /// The whitened innovations, one a sample.
+    /// The whitened innovations, one for each sample.
     pub innovations: Vec<SVector<f64, MEASUREMENTS>>,
-    /// When each came: the ends of the samples' intervals \[s\].
+    /// The times of the innovations: the ends of the samples' intervals \[s\].
     pub innovation_times: Vec<f64>,
-    /// Free inertial navigation over the span with nothing compensated.
+    /// Free inertial navigation over the span without compensation.
     pub before: FreeNavigation,
-    /// The same, from the same attitude, with the estimates compensated.
+    /// The same from the same initial attitude, with the estimates compensated.
     pub after: FreeNavigation,
 }
 
 /// Runs the paper's 12-state filter over a recording.
 ///
-/// A rest at the start is left out: what the gyros do there is bias, which the model does not have.
-/// `progress` is told how many samples are done, now and then.
+/// A static interval at the start is excluded: there the gyro errors are biases, which are not part of the model. `progress`
+/// receives the number of processed samples from time to time.
 ///
 /// # Errors
-/// [`CalibrationError`]; nothing is half done.
+/// [`CalibrationError`]; there are no partial results.
 pub fn calibrate(
     recording: &Recording,
     setup: &Setup,
@@ -193,22 +194,22 @@ pub fn calibrate(
     })
 }
 
-/// How steady the spin axis most likely stands, 1σ of each component of its direction \[rad\], for
-/// a table of which that is not known.
+/// The maximum likelihood estimate of the wobble, 1σ of each component of the spin axis direction \[rad\], for a table
+/// without a stated wobble.
 ///
-/// It is the wobble under which the recording is most probable, to within a factor of two, from a ten
-/// thousandth to ten times the encoder's noise. A wobble that is not white is not told so.
+/// It is accurate to a factor of two, and searched between 1e-4 and 10 times the encoder's noise. The wobble is assumed
+/// white; other spectra are not detected.
 ///
 /// # Errors
 /// As [`calibrate`].
 pub fn likely_wobble(recording: &Recording, setup: &Setup) -> Result<f64, CalibrationError> {
-    /// The first minutes show it; more would only take longer.
+    /// The first minutes are sufficient; more samples only increase the time.
     const MOST_SAMPLES: usize = 10_000;
     let run = Run::prepare(recording, setup)?;
     let samples = run.span.len().min(MOST_SAMPLES);
     let log_likelihood = |wobble: f64| {
         let tried = Setup { table: TableSpec { wobble, ..setup.table }, ..*setup };
-        // A wobble so small that the filter cannot resolve it is not a candidate.
+        // A wobble that is too small for the numerical resolution of the filter is not a candidate.
         run.pass(&tried, samples, |_, _, _| ()).map_or(f64::NEG_INFINITY, |f| f.log_likelihood())
     };
     let mut best = (setup.table.angle_noise, log_likelihood(setup.table.angle_noise));
@@ -225,12 +226,12 @@ pub fn likely_wobble(recording: &Recording, setup: &Setup) -> Result<f64, Calibr
     Ok(best.0)
 }
 
-/// A recording made ready for the filter.
+/// A recording prepared for the filter.
 pub(crate) struct Run<'a> {
     recording: &'a Recording,
-    /// The table angle before the first sample and after each.
+    /// The table angle before the first sample, and after each sample.
     angles: Vec<f64>,
-    /// What is left after the rest at the start.
+    /// The samples after the static interval at the start.
     pub(crate) span: Range<usize>,
     pub(crate) start: Start,
     attitude_source: AttitudeSource,
@@ -273,7 +274,7 @@ impl<'a> Run<'a> {
         Ok(run)
     }
 
-    /// Runs the filter over the first `samples` of the span; `seen` is shown each step.
+    /// Runs the filter over the first `samples` of the span; `seen` receives each step.
     pub(crate) fn pass(
         &self,
         setup: &Setup,
@@ -305,7 +306,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// How the filter starts at the end of a rest.
+/// The initial state of the filter at the end of a static interval.
 fn start(
     recording: &Recording,
     setup: &Setup,

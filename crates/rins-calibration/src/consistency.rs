@@ -1,4 +1,4 @@
-//! Whether the innovations are what the model says: white, and of unit variance.
+//! Consistency of the innovations with the model: whiteness and unit variance.
 
 use nalgebra::SVector;
 use rustfft::{FftPlanner, num_complex::Complex};
@@ -6,46 +6,45 @@ use statrs::function::erf::erfc;
 
 use crate::filter::MEASUREMENTS;
 
-/// What the whitened innovations say of the model.
+/// The consistency of whitened innovations with the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Consistency {
-    /// The mean normalised innovation squared.
+    /// The mean normalized innovation squared (NIS).
     pub nis_mean: f64,
-    /// What it should be: the number of channels, on average where some epochs have fewer.
+    /// Its expectation: the number of channels, averaged over the epochs if some have fewer.
     pub nis_dof: f64,
-    /// How probable a mean so far off is, if the model is right (two-sided).
+    /// The p-value of the mean NIS (two-sided).
     pub nis_p: f64,
-    /// How probable innovations so far from white are, if the model is right; channels for which too
-    /// much noise was claimed are left out.
+    /// The p-value of the whiteness test, without the channels whose noise is overstated.
     pub whiteness_p: f64,
-    /// For each channel the RMS of its whitened innovation; 1 if the model is right.
+    /// The RMS of the whitened innovation of each channel; 1 if the model is correct.
     pub channel_rms: [f64; MEASUREMENTS],
-    /// For each channel the largest distance of its cumulative periodogram from a straight line.
+    /// The largest distance of the cumulative periodogram of each channel from a straight line.
     pub periodogram_distance: [f64; MEASUREMENTS],
 }
 
-/// What the two tests say together.
+/// The joint result of the two tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The innovations are what the model says they should be.
+    /// The innovations are consistent with the model.
     Fits,
-    /// They are smaller: more noise was claimed than there is, and the sigmas are too large.
+    /// The innovations are too small: the noise is overstated, and the sigmas are too large.
     NoiseOverstated,
-    /// They are larger or coloured: there is more in the data than in the model, and the sigmas are too small.
+    /// The innovations are too large or colored: there are unmodeled effects, and the sigmas are too small.
     Misfit,
 }
 
-/// A channel whose innovations are smaller than this share of what was claimed is not tested for
-/// whiteness: a filter that is told of too much noise colours them itself.
+/// The RMS of whitened innovations below which a channel is not tested for whiteness: a filter with overstated noise colors
+/// its innovations.
 const OVERSTATED: f64 = 0.8;
 
 impl Consistency {
-    /// The significance below which a test says no.
+    /// The p-value below which a test rejects the model.
     pub const SIGNIFICANCE: f64 = 0.005;
 
     /// The consistency of whitened innovations in order of time; `None` if there are fewer than 8.
     ///
-    /// A channel that is zero is one that this epoch does not have, and counts for nothing.
+    /// A channel of zero is absent in this epoch and is ignored.
     pub fn of(innovations: &[SVector<f64, MEASUREMENTS>]) -> Option<Self> {
         const FEWEST: usize = 8;
         if innovations.len() < FEWEST {
@@ -59,13 +58,13 @@ impl Consistency {
         let series: [Vec<f64>; MEASUREMENTS] = std::array::from_fn(series);
         let channels = series.iter().filter(|series| !series.is_empty()).count() as f64;
         let dof = series.iter().map(|series| series.len() as f64).sum::<f64>() / count;
-        // The sum is chi-squared with so many degrees of freedom that it is normal.
+        // The sum is chi-squared with so many degrees of freedom that it is approximately normal.
         let off = (sum - count * dof) / (2.0 * count * dof).sqrt();
         let mut channel_rms = [0.0; MEASUREMENTS];
         let mut distance = [0.0; MEASUREMENTS];
         let mut least_p = 1.0_f64;
         for (channel, series) in series.iter().enumerate() {
-            // One of a few epochs only tells nothing of its colour.
+            // A channel in few epochs has no meaningful spectrum.
             if series.len() < FEWEST {
                 continue;
             }
@@ -87,7 +86,7 @@ impl Consistency {
         })
     }
 
-    /// What the tests say together.
+    /// The joint result of the tests.
     pub fn verdict(&self) -> Verdict {
         let size_is_off = self.nis_p < Self::SIGNIFICANCE;
         let too_large = self.nis_mean > self.nis_dof;
@@ -101,10 +100,10 @@ impl Consistency {
     }
 }
 
-/// Bartlett's test: the largest distance of the normalised cumulative periodogram from that of
-/// white noise, and the probability of a larger one (Kolmogorov's distribution).
+/// Bartlett's test: the largest distance of the normalized cumulative periodogram from that of white noise, and its p-value
+/// (Kolmogorov's distribution).
 ///
-/// The mean is left in as the lowest frequency, since a constant innovation is no noise either.
+/// The mean is included as the lowest frequency, since a constant innovation is not noise either.
 fn cumulative_periodogram(series: &[f64]) -> (f64, f64) {
     let mut spectrum: Vec<Complex<f64>> = series.iter().map(|&x| Complex::new(x, 0.0)).collect();
     FftPlanner::new().plan_fft_forward(spectrum.len()).process(&mut spectrum);
@@ -159,7 +158,7 @@ mod tests {
         (0..2000).map(|_| SVector::from_fn(|_, _| StandardNormal.sample(&mut random))).collect()
     }
 
-    /// How many of 400 innovation sequences a test at 5 % calls inconsistent.
+    /// The numbers of inconsistent results of the two tests at 5 % for 400 innovation sequences.
     fn refused(spoil: fn(usize, &mut SVector<f64, MEASUREMENTS>)) -> (usize, usize) {
         let mut refused = (0, 0);
         for seed in 0..400 {
@@ -225,14 +224,14 @@ mod tests {
         assert_eq!(verdict(|_, innovation| innovation[1] += 0.5), Verdict::Misfit);
     }
 
-    /// A filter whose noise was overstated colours its innovations itself: small ones are not held against the model for
-    /// their colour, those of nearly the size that was claimed are.
+    /// A filter with overstated noise colors its innovations: small innovations are not a misfit because of their color,
+    /// those of nearly the stated size are.
     #[test]
     fn colour_of_innovations_that_are_too_small_is_no_misfit() {
         for (size, verdict) in [(0.5, Verdict::NoiseOverstated), (0.9, Verdict::Misfit)] {
             let mut innovations = white(5);
             for (index, innovation) in innovations.iter_mut().enumerate() {
-                // A line of unit power.
+                // A spectral line of unit power.
                 innovation[4] = size * std::f64::consts::SQRT_2 * (0.02 * index as f64).sin();
             }
             let consistency = Consistency::of(&innovations).unwrap();
@@ -242,8 +241,8 @@ mod tests {
         }
     }
 
-    /// All power at one of `n` frequencies, the `k`th: the step of the cumulative periodogram is `k/n` above the line of white
-    /// noise or `1 - (k + 1)/n` below it, whichever is more.
+    /// All power is at the `k`th of `n` frequencies: the step of the cumulative periodogram is `k/n` above the line of white
+    /// noise or `1 - (k + 1)/n` below it, whichever is larger.
     #[test]
     fn a_single_line_is_as_far_from_white_as_its_frequency_says() {
         const SAMPLES: usize = 64;
@@ -265,7 +264,7 @@ mod tests {
         }
         let consistency = Consistency::of(&innovations).unwrap();
         assert_eq!((consistency.nis_dof, consistency.verdict()), (5.0, Verdict::Fits));
-        // Two kinds of runs, one after the other.
+        // Two kinds of epochs in succession.
         innovations.extend(white(6));
         let consistency = Consistency::of(&innovations).unwrap();
         assert_eq!((consistency.nis_dof, consistency.verdict()), (5.5, Verdict::Fits));

@@ -1,4 +1,4 @@
-//! A sample's comparison as a measurement of the generic filter, and why that refuses one.
+//! The measurement of a sample in the form of the generic filter, and the reason for its refusal.
 
 use nalgebra::{SMatrix, SVector};
 use rins_ekf::{Filter, Measurement, UpdateError};
@@ -10,7 +10,7 @@ use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY
 use crate::structured::{Comparison, UpdateResult, With};
 
 impl Comparison<f64, STATES> {
-    /// Zero velocity, which the computed one is `velocity` off, above the three rows, as a
+    /// The measurements of zero velocity, with the error `velocity` of the computed velocity, and of the three rows, as one
     /// measurement of all states.
     pub(crate) fn measurement(
         &self,
@@ -49,7 +49,7 @@ impl Comparison<f64, STATES> {
 }
 
 impl UpdateResult<f64, STATES> {
-    /// The logarithm of the probability density of the six innovations.
+    /// The log-density of the six innovations.
     pub(crate) fn log_likelihood(&self) -> f64 {
         let dof = MEASUREMENTS as f64;
         let nis: f64 = self.whitened.iter().map(|nu| nu * nu).sum();
@@ -59,18 +59,18 @@ impl UpdateResult<f64, STATES> {
 }
 
 impl Kernel<f64, WithAxis, STATES> {
-    /// Why a comparison could not be used.
+    /// The reason why a measurement cannot be used.
     pub(crate) fn refusal(
         &self,
         comparison: &Comparison<f64, STATES>,
         velocity: &Vector<f64>,
     ) -> UpdateError {
-        // The covariance is what the failed update left, and says no less.
+        // The covariance after the failed update leads to the same error.
         let measurement = comparison.measurement(velocity, self.setup.velocity_noise);
         self.dense().update(&measurement).err().unwrap_or(UpdateError::Overflow)
     }
 
-    /// State and covariance as the generic filter holds them.
+    /// State and covariance in the form of the generic filter.
     pub(crate) fn dense(&self) -> Filter<STATES> {
         let p = &self.covariance;
         Filter {

@@ -1,4 +1,4 @@
-//! The estimates of a run alone: what a campaign keeps of each.
+//! The estimates of a run without further results, for a Monte Carlo campaign.
 
 use std::ops::Range;
 
@@ -10,18 +10,18 @@ use crate::filter::{MEASUREMENTS, Start};
 use crate::layout::SPIN_AXIS_ERRORS;
 use crate::setup::Setup;
 
-/// The spin-axis errors that a run shows.
+/// The estimated spin-axis errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub value: Vector3<f64>,
-    /// Their covariance, as the filter claims it.
+    /// Their covariance from the filter.
     pub covariance: Matrix3<f64>,
-    /// The mean normalised innovation squared over its degrees of freedom; 1 if the model is right.
+    /// The mean normalized innovation squared, divided by its degrees of freedom; 1 if the model is correct.
     pub nis_ratio: f64,
 }
 
-/// What [`calibrate`](crate::calibrate) estimates of a recording, without navigation and consistency.
+/// The estimate of [`calibrate`](crate::calibrate) without navigation and consistency.
 ///
 /// # Errors
 /// As [`calibrate`](crate::calibrate).
@@ -38,10 +38,10 @@ pub fn estimate(recording: &Recording, setup: &Setup) -> Result<Estimate, Calibr
     })
 }
 
-/// How the filter starts over a recording, and the samples that it runs over.
+/// The initial state of the filter for a recording, and the samples of the filter.
 ///
 /// # Errors
-/// As [`calibrate`](crate::calibrate), but for what breaks off on the way.
+/// As [`calibrate`](crate::calibrate), except for failures during the run.
 pub fn beginning(
     recording: &Recording,
     setup: &Setup,

@@ -1,4 +1,4 @@
-//! The same step on the factors of the covariance, for what the plain form cannot hold.
+//! The filter step on the factors of the covariance, for cases in which the plain form loses precision.
 
 use nalgebra::{SMatrix, SVector, Vector3};
 use rins_ekf::{CovarianceError, FactorisedFilter, Factors, Quantity, UpdateError};
@@ -10,30 +10,30 @@ use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY
 use crate::setup::Setup;
 use crate::structured::{Comparison, Covariance, Means, UpdateResult};
 
-/// What of a variance some thousand plain steps may have rounded; of a measurement's noise it is less
-/// than 1e-6, since none was more than 1e7 times as precise.
+/// The relative rounding error of a variance after thousands of plain steps. Relative to the noise of a measurement it is
+/// less than 1e-6, since no measurement was more than 1e7 times as precise (ratio of variances).
 const OF_PLAIN: f64 = 1e-13;
 
-/// Noise comes into three velocities and three attitudes.
+/// The number of noise inputs: three velocities and three attitudes.
 const SOURCES: usize = 6;
 
-/// How the states depend on independent sources, and the variances of these.
+/// The dependence of the states on independent sources, and the variances of the sources.
 type Sources = (SMatrix<f64, STATES, STATES>, SVector<f64, STATES>);
 
-/// `Φ`, how sources of noise enter, and their variances.
+/// `Φ`, the input matrix of the noise sources, and their variances.
 type DenseTransition =
     (SMatrix<f64, STATES, STATES>, SMatrix<f64, STATES, SOURCES>, SVector<f64, SOURCES>);
 
 impl Start {
-    /// The factors of the covariance, which hold what it rounds away: that the body's attitude is the
-    /// axis' but for a reading. Nothing if the axis' covariance is none.
+    /// The factors of the covariance, which retain what the covariance loses by rounding: the attitudes of body and axis
+    /// differ only by the error of a reading. `None` if the axis' covariance is invalid.
     pub(crate) fn factors(&self, setup: &Setup) -> Option<Factors<STATES>> {
         let (by, variances) = self.sources(setup).ok()?;
         Some(Factors::of_sources(&by, &variances))
     }
 
-    /// How the states depend on what is independent at the start, and the variances of that: body and
-    /// axis have the axis' error in common, and the body that of the reading.
+    /// The dependence of the initial states on independent sources, and their variances: the error of the axis is common to
+    /// axis and body, and the error of the reading is that of the body alone.
     fn sources(&self, setup: &Setup) -> Result<Sources, CovarianceError> {
         let StartSigmas { position, velocity, reading, sensor } = StartSigmas::of(setup);
         let axis = Factors::<3>::of(&self.axis_covariance)?;
@@ -55,7 +55,7 @@ impl Start {
 }
 
 impl Kernel<f64, WithAxis, STATES> {
-    /// Carries factors over an interval.
+    /// Propagates the factors over an interval.
     pub(crate) fn carry_factors(
         &self,
         filter: &mut FactorisedFilter<STATES>,
@@ -66,7 +66,7 @@ impl Kernel<f64, WithAxis, STATES> {
         filter.predict(&phi, &by, &variances);
     }
 
-    /// `Φ`, and the sources of noise: how they enter, and their variances.
+    /// `Φ`, and the noise sources: their input matrix and their variances.
     fn dense_transition(&self, interval: &Interval<f64>, means: &Means<f64>) -> DenseTransition {
         let transition = self.transition(interval, means);
         let mut phi = SMatrix::<f64, STATES, STATES>::identity();
@@ -81,7 +81,7 @@ impl Kernel<f64, WithAxis, STATES> {
         (phi, by, variances)
     }
 
-    /// The factors of a covariance that has been plain so far.
+    /// The factors of a covariance that was in plain form until now.
     pub(crate) fn factors(&self) -> Result<Factors<STATES>, UpdateError> {
         Factors::of_rounded(&self.dense().covariance, OF_PLAIN).map_err(|error| match error {
             CovarianceError::NotPositiveDefinite { index, variance } => {
@@ -91,7 +91,7 @@ impl Kernel<f64, WithAxis, STATES> {
         })
     }
 
-    /// The update of factors: what it found, and the log-likelihood of that.
+    /// The update of the factors: its result and log-likelihood.
     pub(crate) fn update_factors(
         &mut self,
         filter: &mut FactorisedFilter<STATES>,
@@ -107,7 +107,7 @@ impl Kernel<f64, WithAxis, STATES> {
             inverse_scales: [f64::NAN; MEASUREMENTS],
             state: filter.state.into(),
         };
-        // What was found goes into the navigator.
+        // The state is transferred to the navigator.
         filter.state.fill(0.0);
         Ok((found, innovation.log_likelihood()))
     }

@@ -1,4 +1,4 @@
-//! The paper's filter, eqs. (10)-(21), closed loop.
+//! The paper's filter, eqs. (10)-(21), in closed-loop form.
 
 use nalgebra::{ComplexField, Matrix3, RowSVector, SMatrix, SVector, Vector3};
 use rins_ekf::{FactorisedFilter, Factors, UpdateError};
@@ -11,15 +11,15 @@ use crate::kernel::{Kernel, PLAIN, Reading, Sample, WithAxis};
 use crate::layout::{ATTITUDE, AXIS, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY};
 use crate::setup::Setup;
 
-/// How many figures a sample is measured by: three of velocity, three of rate or angle.
+/// The number of measurements in a sample: three of velocity, three of rate or angle.
 pub const MEASUREMENTS: usize = 6;
 
-/// How far the surveyed position may be off at the start, as a length \[m\].
+/// 1σ of the surveyed position, as a length \[m\].
 ///
-/// Nothing here depends on it; it only keeps the covariance positive definite.
+/// No result depends on it; it only keeps the covariance positive definite.
 const POSITION_SIGMA: f64 = 1e-3;
 
-/// What the table said at the end of a sample.
+/// The table measurement at the end of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TableReading {
     /// The angle read from an encoder \[rad\].
@@ -28,74 +28,72 @@ pub enum TableReading {
     Rate(f64),
 }
 
-/// How a filter keeps its covariance.
+/// The form in which a filter stores its covariance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// As a matrix.
+    /// A matrix.
     Plain,
-    /// As factors `U D Uᵀ`.
+    /// Factors `U D Uᵀ`.
     Factorised,
 }
 
-/// What a sample is compared with.
+/// The reference of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
     /// The base's velocity \[m/s\]: zero on a fixed table.
     pub velocity: InFrame<Nav>,
-    /// What the table said.
+    /// The table measurement.
     pub table: TableReading,
 }
 
 impl Reference {
-    /// The reference on a table that does not move from its place.
+    /// The reference on a table with a fixed position.
     pub const fn fixed(table: TableReading) -> Self {
         Self { velocity: InFrame::zeros(), table }
     }
 }
 
-/// How the filter starts.
+/// The initial state of the filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// The axis frame's attitude.
+    /// The attitude of the axis frame.
     pub nav_from_table: Dcm<Nav, Table>,
     /// The covariance of its error, in n \[rad²\].
     pub axis_covariance: Matrix3<f64>,
     /// The table angle \[rad\].
     pub angle: f64,
-    /// Whether that angle was read, with the reading's noise, or is so by definition.
+    /// Whether that angle has the noise of a reading or is exact by definition.
     pub angle_source: AngleSource,
 }
 
-/// Where the table angle at the start came from.
+/// The source of the initial table angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AngleSource {
-    /// From an encoder, with its noise.
+    /// An encoder, with its noise.
     Read,
-    /// The rate is commanded from here on, so that the angle has no error of its own.
+    /// Definition: the rate is commanded from here on, so that the angle has no error.
     Defined,
 }
 
-/// A strapdown navigator that is held to zero velocity and to the table, and learns the gyro
-/// errors along the spin axis meanwhile.
+/// A strapdown navigator with zero velocity and table measurements that estimates the gyro errors along the spin axis.
 ///
-/// Every sample is compensated with the present estimate, navigated, and compared with zero
-/// velocity (Z1, eqs. (16)-(18)) and with the table. Against a commanded rate this is Z2 of eqs. (20)
-/// and (21): the gyro's noise then sits in the prediction and in the measurement alike, and their
-/// correlation is taken along. Against an encoder the computed attitude is compared with the
-/// axis frame turned by the angle read; an encoder's noise, differenced into a rate, would be a
-/// hundred times the gyro's. The corrections go back into navigator and estimate at once.
+/// Every sample is compensated with the current estimate, integrated, and compared with zero velocity (Z1, eqs. (16)-(18))
+/// and with the table. For a commanded rate the second measurement is Z2 of eqs. (20) and (21): the noise of the gyro is then
+/// in the prediction and in the measurement, and the filter includes this correlation. For an encoder the computed attitude
+/// is compared with the axis frame rotated by the measured angle; the noise of an encoder, differenced into a rate, would be
+/// a hundred times that of the gyro. The corrections are applied to navigator and estimate immediately.
 #[derive(Clone, Debug)]
 pub struct SpinAxisFilter {
     kernel: Kernel<f64, WithAxis, STATES>,
-    /// The covariance's factors at the start, until the first sample has been taken in.
+    /// The initial factors of the covariance, until the first sample.
     beginning: Option<Box<Factors<STATES>>>,
-    /// The covariance's factors, from where they are needed on; the kernel's is then a copy to read.
+    /// The factors of the covariance as soon as they are needed; the kernel's covariance is then a copy for readers.
     factorised: Option<Box<FactorisedFilter<STATES>>>,
     log_likelihood: f64,
 }
 
 impl SpinAxisFilter {
-    /// A filter that starts with the base at rest.
+    /// A filter that starts with a stationary base.
     pub fn new(setup: Setup, start: &Start) -> Self {
         let Start { nav_from_table, angle, .. } = *start;
         let nav_from_body = nav_from_table * Dcm::<Table, Body>::about_z(angle);
@@ -106,12 +104,12 @@ impl SpinAxisFilter {
         Self { kernel, beginning, factorised: None, log_likelihood: 0.0 }
     }
 
-    /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated so far.
+    /// The current estimate of `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub fn estimate(&self) -> Vector3<f64> {
         self.kernel.estimate.into()
     }
 
-    /// The estimate as a sensor error that can be compensated.
+    /// The estimate as a sensor error, for the compensation.
     pub fn gyro_error(&self) -> TriadError {
         gyro_error(&self.estimate())
     }
@@ -121,7 +119,7 @@ impl SpinAxisFilter {
         SMatrix::from_fn(|row, column| self.kernel.covariance.get(row, column))
     }
 
-    /// The attitude of the axis frame as estimated so far.
+    /// The current estimate of the attitude of the axis frame.
     pub fn nav_from_table(&self) -> Dcm<Nav, Table> {
         Dcm::from_kernel(self.kernel.nav_from_table.lane(0))
     }
@@ -131,9 +129,9 @@ impl SpinAxisFilter {
         &self.kernel
     }
 
-    /// The variance of a combination of states, in the order of [`crate::layout`].
+    /// The variance of a linear combination of states, in the order of [`crate::layout`].
     ///
-    /// Of a combination that is known much better than its states are, the covariance says less.
+    /// It is more precise than from the covariance for a combination whose variance is much smaller than those of its states.
     pub fn variance_of(&self, combination: &RowSVector<f64, STATES>) -> f64 {
         self.factorised.as_ref().map_or_else(
             || (combination * self.covariance() * combination.transpose())[0],
@@ -141,17 +139,17 @@ impl SpinAxisFilter {
         )
     }
 
-    /// Which form the covariance is kept in by now.
+    /// The current form of the covariance.
     pub const fn form(&self) -> Form {
         if self.factorised.is_some() { Form::Factorised } else { Form::Plain }
     }
 
-    /// The logarithm of the probability density of all references so far, under this setup.
+    /// The log-likelihood of all measurements so far under this setup.
     pub const fn log_likelihood(&self) -> f64 {
         self.log_likelihood
     }
 
-    /// Position, velocity and attitude, as corrected so far.
+    /// Position, velocity and attitude with all corrections so far.
     pub fn state(&self) -> NavState {
         let navigated = &self.kernel.mechanisation;
         let [latitude, longitude, height] = navigated.place;
@@ -162,15 +160,15 @@ impl SpinAxisFilter {
         }
     }
 
-    /// Takes in one sample and its reference; returns the whitened innovations.
+    /// Processes one sample and its reference; returns the whitened innovations.
     ///
-    /// **Which form runs.** From the first sample on of which a figure is more than 3,000 times as precise as what it
-    /// is compared with is known, its states taken apart, the covariance is kept as factors `U D Uᵀ`, in which no
-    /// digits are lost (a ratio of variances of 1e7); up to there it is the plain one, some ten times as fast.
+    /// **Form of the covariance.** It is plain up to the first sample in which a measurement is more than 3,000 times as
+    /// precise as its prediction, with correlations between states neglected (a ratio of variances of 1e7). From there on it
+    /// is stored as factors `U D Uᵀ`, which lose no digits. The plain form is about ten times as fast.
     ///
     /// # Errors
-    /// [`UpdateError`] if a figure is not finite, the innovation covariance is not positive definite,
-    /// or not even the factors could resolve the reference.
+    /// [`UpdateError`] if a value is not finite, the innovation covariance is not positive definite, or the precision of the
+    /// factors is insufficient for the reference.
     pub fn step(
         &mut self,
         sample: &Increments,
@@ -215,7 +213,7 @@ impl SpinAxisFilter {
             kernel.update_factors(filter, &comparison, &off)?
         } else {
             let found = kernel.covariance.update::<WithAxis>(&comparison, &off, noise);
-            // False for what is not a number, too.
+            // False for NaN, too.
             let finite = found.whitened.iter().copied().all(f64::is_finite);
             if !(finite && (0..STATES).all(|i| kernel.covariance.get(i, i) >= 0.0)) {
                 return Err(kernel.refusal(&comparison, &off));
@@ -229,7 +227,7 @@ impl SpinAxisFilter {
 }
 
 impl Start {
-    /// The covariance of all states that a filter starts with.
+    /// The initial covariance of all states.
     pub(crate) fn covariance(&self, setup: &Setup) -> SMatrix<f64, STATES, STATES> {
         let Self { nav_from_table, ref axis_covariance, angle_source, .. } = *self;
         let StartSigmas { position, velocity, reading, sensor } = StartSigmas::of(setup);
@@ -253,13 +251,13 @@ impl Start {
     }
 }
 
-/// The sigmas of what is independent at the start, beside the axis.
+/// The sigmas of the independent initial errors, except for those of the axis.
 pub(crate) struct StartSigmas {
     /// `δθ_x`, `δθ_y` \[rad\] and `δh` \[m\].
     pub(crate) position: Vector3<f64>,
     /// \[m/s\]
     pub(crate) velocity: Vector3<f64>,
-    /// A reading of the table's attitude, in s \[rad\].
+    /// The reading of the table's attitude, in s \[rad\].
     pub(crate) reading: Vector3<f64>,
     /// `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub(crate) sensor: Vector3<f64>,
@@ -282,7 +280,7 @@ impl StartSigmas {
     }
 }
 
-/// The triad error with these `M_xz`, `M_yz` and `S_z`, and no other.
+/// The triad error with these `M_xz`, `M_yz` and `S_z`; all other errors are zero.
 pub(crate) fn gyro_error(estimate: &Vector3<f64>) -> TriadError {
     let mut matrix = Matrix3::zeros();
     matrix.set_column(2, estimate);

@@ -1,9 +1,9 @@
-//! Thinned histories: enough points to draw, whatever the length of the run.
+//! Thinned histories: enough points for a plot, whatever the length of the run.
 
-/// How many points a history keeps, at most.
+/// The largest number of points in a history.
 const MOST_POINTS: usize = 4000;
 
-/// Which samples of a run a history keeps: every `stride`-th, and the last.
+/// The samples of a run in a history: every `stride`-th, and the last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thinning {
     stride: usize,

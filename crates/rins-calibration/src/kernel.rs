@@ -1,4 +1,4 @@
-//! One sample through the filter: compensated, navigated, predicted, compared, corrected.
+//! One sample of the filter: compensation, navigation, prediction, measurement, correction.
 
 use rins_frames::{Dcm, Nav};
 use rins_lanes::{Matrix, Real, Vector, rotation};
@@ -10,20 +10,20 @@ use crate::structured::{
     Comparison, Covariance, Input, Means, States, Transition, UpdateResult, With,
 };
 
-/// The ratio of a measured combination's variance, its states taken apart, to its noise from which on
-/// the covariance is kept as factors: below it the plain form keeps six digits of every sigma.
+/// The ratio of the variance of a predicted measurement, with correlations between states neglected, to its noise variance
+/// from which the covariance is stored as factors: below it the plain form keeps six digits of every sigma.
 pub(crate) const PLAIN: f64 = 1e7;
 
-/// `M_xz`, `M_yz` and `S_z`, each in its gyro in proportion to the spin rate, and no more: the paper's
-/// twelve states.
+/// The paper's twelve states: the constants are `M_xz`, `M_yz` and `S_z`, each of which affects its gyro in proportion to the
+/// spin rate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SpinAxisErrors {}
 
-/// The same, and the attitude error of the axis frame.
+/// The same with the attitude error of the axis frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum WithAxis {}
 
-/// Each of the spin-axis errors enters its gyro, and nothing else any.
+/// Each of the spin-axis errors affects its gyro; other constants affect no sensor.
 const fn inputs<const N: usize>() -> [Input; N] {
     let mut inputs = [Input::None; N];
     let mut axis = 0;
@@ -44,7 +44,7 @@ impl States<STATES> for WithAxis {
     const AXIS: Option<usize> = Some(AXIS.start());
 }
 
-/// One sample of one run, or of several that share its interval \[s\].
+/// One sample of one run, or of several runs with a common interval \[s\].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample<T> {
     /// \[rad\], in b.
@@ -54,16 +54,16 @@ pub(crate) struct Sample<T> {
     pub(crate) interval: f64,
 }
 
-/// What the table said at the end of the sample.
+/// The table measurement at the end of the sample.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Reading<T> {
-    /// The sine and cosine of the angle that was read.
+    /// The sine and cosine of the measured angle.
     Angle([T; 2]),
     /// The mean commanded rate \[rad/s\].
     Rate(T),
 }
 
-/// The filter's state: what it navigates, what it has learnt, and how well.
+/// The filter's state: navigation, estimate, and covariance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kernel<T, M, const N: usize> {
     pub(crate) setup: Setup,
@@ -75,7 +75,7 @@ pub(crate) struct Kernel<T, M, const N: usize> {
     constants: core::marker::PhantomData<M>,
 }
 
-/// What an interval left behind for the comparison at its end.
+/// The quantities of an interval that the measurement at its end needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interval<T> {
     /// The compensated mean rate \[rad/s\], in b.
@@ -88,8 +88,8 @@ pub(crate) struct Interval<T> {
 }
 
 impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
-    /// A kernel at rest at the station, with this attitude of body and axis and a covariance of which
-    /// `element` gives the lower triangle.
+    /// A kernel with a stationary base at the station, with this attitude of body and axis and a covariance with the lower
+    /// triangle `element`.
     pub(crate) fn at_rest(
         like: T,
         setup: &Setup,
@@ -116,8 +116,8 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         }
     }
 
-    /// One sample by the plain update, on a table at rest in its place; says whether all that it is
-    /// compared with may be taken in plainly.
+    /// Processes one sample by the plain update, on a stationary table; returns whether the plain form is precise enough for
+    /// all measurements.
     #[inline(always)]
     pub(crate) fn step(
         &mut self,
@@ -135,7 +135,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         (found, plain)
     }
 
-    /// Navigates one compensated sample, and predicts.
+    /// Integrates one compensated sample, and predicts the covariance.
     #[inline(always)]
     pub(crate) fn predict(&mut self, sample: &Sample<T>) -> Interval<T> {
         let (interval, means) = self.navigate(sample);
@@ -143,7 +143,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         interval
     }
 
-    /// Navigates one compensated sample; says what the error dynamics depend on meanwhile.
+    /// Integrates one compensated sample; returns the means on which the error dynamics depend.
     #[inline(always)]
     pub(crate) fn navigate(&mut self, sample: &Sample<T>) -> (Interval<T>, Means<T>) {
         let interval = sample.interval;
@@ -163,7 +163,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         (Interval { rate: angle.scaled(1.0 / interval), mean, figures, length: interval }, means)
     }
 
-    /// What a unit of each constant puts into its gyro.
+    /// The effect of a unit of each constant on its gyro.
     #[inline(always)]
     fn regressors(spin_rate: T) -> [T; N] {
         let mut regressors = [spin_rate.constant(0.0); N];
@@ -171,7 +171,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         regressors
     }
 
-    /// What carries the errors over an interval.
+    /// The transition of the errors over an interval.
     #[inline(always)]
     pub(crate) fn transition(
         &self,
@@ -183,20 +183,20 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         Transition::new(means, regressors, [imu.accel.noise_density, imu.gyro.noise_density])
     }
 
-    /// Carries the covariance over an interval.
+    /// Propagates the covariance over an interval.
     #[inline(always)]
     pub(crate) fn carry(&mut self, interval: &Interval<T>, means: &Means<T>) {
         self.transition(interval, means).carry(&mut self.covariance);
     }
 
-    /// Eq. (1) undone with the present estimate: exact, since only the third column is not zero.
+    /// Eq. (1) inverted with the current estimate: exact, since only the third column is not zero.
     #[inline(always)]
     fn compensate(&self, measured: &Vector<T>) -> Vector<T> {
         let z = measured[2] / (self.estimate[2] + 1.0);
         Vector([measured[0] - self.estimate[0] * z, measured[1] - self.estimate[1] * z, z])
     }
 
-    /// The three rows below zero velocity.
+    /// The three rows of the table measurement.
     #[inline(always)]
     pub(crate) fn compare(&self, interval: &Interval<T>, reading: &Reading<T>) -> Comparison<T, N> {
         match reading {
@@ -205,8 +205,8 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         }
     }
 
-    /// The attitude against the axis frame turned by the angle read: `φ - α` plus the encoder's error
-    /// about the spin axis, resolved in s.
+    /// The attitude relative to the axis frame rotated by the measured angle: `φ - α` plus the encoder's error about the spin
+    /// axis, resolved in s.
     #[inline(always)]
     fn compare_angle(&self, [sin, cos]: &[T; 2]) -> Comparison<T, N> {
         let (zero, one) = (sin.constant(0.0), sin.constant(1.0));
@@ -222,7 +222,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         Comparison { difference, by_attitude: c_sn, with: With::Axis, noise, cross: None }
     }
 
-    /// Z2: the gyro's rate less the Earth's and the table's, eqs. (20) and (21).
+    /// Z2: the gyro's rate minus those of the Earth and of the table, eqs. (20) and (21).
     ///
     /// Eq. (19) must read `C~_n^b = C_n^b (I + φ×)` for the signs of (21) to hold.
     #[inline(always)]
@@ -244,7 +244,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
         }
     }
 
-    /// Feeds the errors found back into navigator, axis and estimate.
+    /// Applies the estimated errors to navigator, axis and estimate.
     #[inline(always)]
     pub(crate) fn correct(&mut self, x: &[T; N], interval: &Interval<T>) {
         let cos = interval.figures.latitude[1];
@@ -263,7 +263,7 @@ impl<T: Real, M: States<N>, const N: usize> Kernel<T, M, N> {
     }
 }
 
-/// The rotation vectors of matrices that may turn far, run by run.
+/// The rotation vectors of matrices with large angles, run by run.
 #[cold]
 fn rotation_vector<T: Real>(c: &Matrix<T>) -> Vector<T> {
     let all: Vec<_> = (0..c[0][0].lanes())
@@ -283,7 +283,7 @@ mod tests {
 
     use crate::setup::TableSpec;
 
-    /// A correction of 6 m; what it does in second order is its square.
+    /// A correction of 6 m; its second-order effect is its square.
     const CORRECTION: f64 = 1e-6;
     const SECOND_ORDER: f64 = 10.0 * CORRECTION * CORRECTION;
 
@@ -299,14 +299,14 @@ mod tests {
         }
     }
 
-    /// East, north and up in axes of the Earth, at a latitude and a longitude.
+    /// The matrix from the axes east, north and up at a latitude and a longitude to axes of the Earth.
     fn earth_from_nav(latitude: f64, longitude: f64) -> Matrix3<f64> {
         let (sin, cos) = latitude.sin_cos();
         let (y, x) = longitude.sin_cos();
         Matrix3::new(-y, -sin * x, cos * x, x, -sin * y, cos * y, 0.0, cos, sin)
     }
 
-    /// The correction of a place by `x` alone, seen from the Earth: by which angle the level moved, and by which the body turned.
+    /// The rotations of the level and of the body relative to the Earth by a position correction `x` alone.
     fn corrected(latitude: f64, x: [f64; 2]) -> (Vector3<f64>, Vector3<f64>) {
         let body = *EulerAngles { roll: 0.4, pitch: -0.3, yaw: 2.0 }
             .dcm::<Nav, rins_frames::Body>()
@@ -345,8 +345,8 @@ mod tests {
         (of_level, of_body)
     }
 
-    /// A place that is corrected moves by as much over the ground at any latitude: north by the first angle turns the level back
-    /// about east, west by the second turns it back about north.
+    /// A position correction is the same distance on the ground at any latitude: a displacement north by the first angle
+    /// rotates the level negatively about east, a displacement west by the second rotates it negatively about north.
     #[test]
     fn a_place_is_corrected_by_angles_at_the_center_of_the_earth() {
         for latitude in [-70.0, -20.0, 0.0, 50.0].map(|latitude| latitude * DEG) {
@@ -357,8 +357,8 @@ mod tests {
         }
     }
 
-    /// The attitude error is one of the body against the level where it is computed to be. If only the place was wrong, the body
-    /// stands in the Earth as before, but for the turn of north about up, which the azimuth's error includes.
+    /// The attitude error is that of the body relative to the computed level. If only the position was wrong, the body keeps
+    /// its attitude relative to the Earth, except for the rotation of north about up, which the azimuth error includes.
     #[test]
     fn a_place_that_is_corrected_leaves_the_body_in_the_earth() {
         for latitude in [-70.0, -20.0, 0.0, 50.0].map(|latitude| latitude * DEG) {

@@ -1,4 +1,4 @@
-//! The paper's twelve states against a commanded rate, for one run or several side by side.
+//! The paper's twelve states with a commanded rate, for one run or several in parallel.
 
 use nalgebra::SMatrix;
 use rins_frames::{Body, Dcm, Table};
@@ -9,12 +9,12 @@ use crate::kernel::{Kernel, Reading, Sample, SpinAxisErrors};
 use crate::layout::PAPER_STATES;
 use crate::setup::Setup;
 
-/// The paper's filter of twelve states, eqs. (10)-(21), closed loop, for as many runs as `T` has
-/// lanes: a campaign's [`crate::SpinAxisFilter`].
+/// The paper's filter of twelve states, eqs. (10)-(21), in closed-loop form, for as many runs as `T` has lanes: the
+/// [`crate::SpinAxisFilter`] of a Monte Carlo campaign.
 ///
-/// It is the same arithmetic, without the axis frame's attitude, which only readings of an angle need.
-/// A run of which an innovation covariance is not positive definite is not a number from then on, and
-/// the update is the plain one throughout: [`Self::is_plain`] says whether that was right.
+/// The arithmetic is the same without the attitude of the axis frame, which only angle measurements need. A run whose
+/// innovation covariance is not positive definite is NaN from then on. The update is always the plain one: [`Self::is_plain`]
+/// states whether its precision was sufficient.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinAxisLanes<T> {
     kernel: Kernel<T, SpinAxisErrors, PAPER_STATES>,
@@ -22,7 +22,7 @@ pub struct SpinAxisLanes<T> {
 }
 
 impl<T: Real> SpinAxisLanes<T> {
-    /// Filters that start alike, with the base at rest, for the runs that `like` has a number of.
+    /// Filters with the same initial state and a stationary base, for as many runs as `like` has lanes.
     pub fn new(like: T, setup: &Setup, start: &Start) -> Self {
         let nav_from_table = start.nav_from_table;
         let nav_from_body = nav_from_table * Dcm::<Table, Body>::about_z(start.angle);
@@ -32,8 +32,8 @@ impl<T: Real> SpinAxisLanes<T> {
         Self { kernel, plain: true }
     }
 
-    /// Takes in one sample of each run, over an interval \[s\] that they share, and the mean rate
-    /// that the table was told to make over it \[rad/s\]; returns the whitened innovations.
+    /// Processes one sample of each run, over a common interval \[s\], with the mean commanded table rate over it \[rad/s\];
+    /// returns the whitened innovations.
     #[inline(always)]
     pub fn step(
         &mut self,
@@ -47,13 +47,12 @@ impl<T: Real> SpinAxisLanes<T> {
         found.whitened
     }
 
-    /// Whether no run was ever told anything so precise that the plain update lost digits of its
-    /// covariance.
+    /// Whether no measurement was so precise that the plain update lost digits of the covariance, in all runs.
     pub const fn is_plain(&self) -> bool {
         self.plain
     }
 
-    /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated so far.
+    /// The current estimate of `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub const fn estimate(&self) -> &Vector<T> {
         &self.kernel.estimate
     }
@@ -63,7 +62,7 @@ impl<T: Real> SpinAxisLanes<T> {
         SMatrix::from_fn(|row, column| self.kernel.covariance.get(row, column).lane(run))
     }
 
-    /// How far the navigated velocities are from zero \[m/s\].
+    /// The computed velocities, whose true value is zero \[m/s\].
     pub const fn velocity(&self) -> &Vector<T> {
         &self.kernel.mechanisation.velocity
     }

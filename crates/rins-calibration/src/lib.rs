@@ -1,15 +1,14 @@
 //! Self-calibration of a single-axis rotational inertial navigation system.
 //!
-//! **What it does.** [`calibrate`] runs the 12-state filter of the paper (‹nie2019›, eqs.
-//! (10)-(21), with its printed signs corrected) over a recording of an IMU that turns on a fixed
-//! table, closed loop: it estimates the gyro errors tied to the spin axis, `M_xz`, `M_yz` and `S_z`,
-//! and tells how well, in which combination with the gyro biases this schedule shows them, whether
-//! the innovations agree with the model, and what compensating the estimates does to free inertial
-//! navigation. The parts are public too: [`SpinAxisFilter`] takes one sample at a time,
-//! [`Consistency`] judges any whitened innovations, [`navigate_freely`] any recording.
+//! **What it does.** [`calibrate`] runs the 12-state filter of the paper (‹nie2019›, eqs. (10)-(21), with its printed signs
+//! corrected) in closed loop over a recording of an IMU that rotates on a fixed table. It estimates the gyro errors along the
+//! spin axis, `M_xz`, `M_yz` and `S_z`, with their uncertainties, the combinations with gyro biases that are observable under
+//! this schedule, the consistency of the innovations with the model, and the effect of the compensation on free inertial
+//! navigation. The parts are public too: [`SpinAxisFilter`] processes one sample at a time, [`Consistency`] tests any
+//! whitened innovations, and [`navigate_freely`] integrates any recording.
 //!
-//! **What it does not do.** Any other sensor error is left where it is. Where the data hold more than
-//! the three, the consistency figures say that the model does not fit, not what is missing.
+//! **What it does not do.** All other sensor errors are neglected. If the data contain other effects than the three, the
+//! consistency tests reject the model but do not identify the effects.
 //!
 //! Numbers are in SI units and radians; errors are computed minus true ([`layout`]).
 

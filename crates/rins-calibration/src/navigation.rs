@@ -1,4 +1,4 @@
-//! Free inertial navigation over a calibrated run, and how far it goes wrong.
+//! Free inertial navigation over a calibrated run, and its errors.
 
 use nalgebra::Vector3;
 use rins_frames::{Body, Dcm, EulerAngles, Increments, Nav, Site, Table};
@@ -7,20 +7,20 @@ use rins_motion::{Navigator, Recording, Station, VerticalChannel};
 
 use crate::history::Thinning;
 
-/// What free inertial navigation on a fixed table ended with.
+/// The result of free inertial navigation on a fixed table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeNavigation {
-    /// The velocity at the end \[m/s\]; the truth is zero.
+    /// The final velocity, whose true value is zero \[m/s\].
     pub velocity: Vector3<f64>,
-    /// How far east, north and up the computed position is off at the end \[m\].
+    /// The final position error, east, north and up \[m\].
     pub position_error: Vector3<f64>,
-    /// How far the axis frame's computed roll, pitch and yaw are off at the end \[rad\].
+    /// The final errors of the axis frame's computed roll, pitch and yaw \[rad\].
     pub attitude_error: EulerAngles,
-    /// The way there.
+    /// The errors during the run.
     pub history: Vec<NavigationPoint>,
 }
 
-/// A moment of free inertial navigation.
+/// The errors of free inertial navigation at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NavigationPoint {
     /// \[s\]
@@ -33,11 +33,11 @@ pub struct NavigationPoint {
     pub attitude_error: EulerAngles,
 }
 
-/// Navigates a recording freely from rest, with its vertical channel held.
+/// Integrates a recording from rest by free inertial navigation, with its vertical channel held.
 ///
-/// The attitude at its start is the axis frame at `nav_from_table` turned by the first of `angles`,
-/// which has one entry more than the recording has samples: the table angle before each and after
-/// the last. The error is told of the axis frame, so that the table's own turn does not show.
+/// The initial attitude is that of the axis frame, `nav_from_table`, rotated by the first of `angles`. These are the table
+/// angles before each sample and after the last, one more than the samples. The attitude error is that of the axis frame, so
+/// that it does not contain the table's rotation.
 pub fn navigate_freely(
     recording: &Recording,
     angles: &[f64],
@@ -50,8 +50,8 @@ pub fn navigate_freely(
     })
 }
 
-/// [`navigate_freely`] with a compensation that may differ from sample to sample; `compensated` gets a
-/// sample's index in the recording and the sample.
+/// [`navigate_freely`] with a compensation that may change from sample to sample; `compensated` receives a sample's index in
+/// the recording and the sample.
 pub(crate) fn navigate_compensating(
     recording: &Recording,
     angles: &[f64],
@@ -93,7 +93,7 @@ pub(crate) fn navigate_compensating(
     }
 }
 
-/// From `origin` to `place`, east, north and up \[m\], for places that are near each other.
+/// The displacement from `origin` to `place`, east, north and up \[m\], for small distances.
 fn displacement(origin: &Site, place: &Site) -> Vector3<f64> {
     let east = (origin.transverse_radius() + origin.height) * origin.latitude.cos();
     Vector3::new(

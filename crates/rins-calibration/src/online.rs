@@ -1,4 +1,4 @@
-//! The estimates after each sample, and navigation that is compensated with them while the table turns.
+//! The estimates after each sample, and online compensation of navigation with them.
 
 use std::ops::Range;
 
@@ -13,24 +13,24 @@ use crate::layout::SPIN_AXIS_ERRORS;
 use crate::navigation::{FreeNavigation, navigate_compensating};
 use crate::setup::Setup;
 
-/// What the filter estimates after each sample of a recording.
+/// The estimates after each sample of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunningEstimate {
-    /// The samples the filter ran over: those after the static interval at the start.
+    /// The samples of the filter: those after the static interval at the start.
     pub span: Range<usize>,
-    /// The estimate after each of them.
+    /// The estimate after each of these samples.
     pub points: Vec<EstimatePoint>,
 }
 
 impl RunningEstimate {
-    /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated from the samples before sample `index` of the
-    /// recording: zero up to the first sample of the span.
+    /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated from the samples before sample `index` of the recording: zero up to the
+    /// first sample of the span.
     pub fn before(&self, index: usize) -> Vector3<f64> {
         let seen = index.saturating_sub(self.span.start).min(self.points.len());
         seen.checked_sub(1).map_or_else(Vector3::zeros, |last| self.points[last].estimate)
     }
 
-    /// For each sample of a range of the recording, the compensation with what was estimated before it.
+    /// For each sample of a range of the recording, the compensation with the estimate before it.
     ///
     /// # Errors
     /// [`ImuCompensationError`] if one of the estimates cannot be compensated.
@@ -67,9 +67,9 @@ pub fn running_estimate(
     Ok(RunningEstimate { span: run.span, points })
 }
 
-/// [`navigate_freely`](crate::navigate_freely) with a compensation for each sample, so that estimates may be used as
-/// they come: online compensation. The estimates correct the sensors alone; position, velocity and attitude
-/// stay as they were integrated. A sample beyond the last compensation is not compensated.
+/// [`navigate_freely`](crate::navigate_freely) with a compensation for each sample: online compensation with the current
+/// estimates. They correct only the sensors, not the integrated position, velocity and attitude. Samples after the last
+/// compensation are not compensated.
 pub fn navigate_online(
     recording: &Recording,
     angles: &[f64],

@@ -1,22 +1,22 @@
-//! Estimated parameters: their names, units and what they stand for under the schedule flown.
+//! Estimated parameters: names, units, and the combinations that are observable under the schedule.
 
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 
-/// The kind of a sensor parameter, which decides the unit it is shown in.
+/// The kind of a sensor parameter, which determines its display unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
-    /// A gyro bias, in rad/s; shown in deg/h.
+    /// A gyro bias, in rad/s; displayed in deg/h.
     GyroBias,
-    /// An accelerometer bias, in m/s²; shown in µg.
+    /// An accelerometer bias, in m/s²; displayed in µg.
     AccelBias,
-    /// A scale error, a ratio; shown in ppm.
+    /// A scale error, a ratio; displayed in ppm.
     Scale,
-    /// A misalignment \[rad\]; shown in seconds of arc.
+    /// A misalignment \[rad\]; displayed in arcsec.
     Misalignment,
 }
 
 impl ParameterKind {
-    /// The unit's symbol in files and on screen.
+    /// The symbol of the display unit.
     pub const fn unit(self) -> &'static str {
         match self {
             Self::GyroBias => "deg/h",
@@ -26,7 +26,7 @@ impl ParameterKind {
         }
     }
 
-    /// One of the unit in SI units.
+    /// The display unit in SI units.
     pub const fn factor(self) -> f64 {
         match self {
             Self::GyroBias => DEG_PER_HOUR,
@@ -37,12 +37,12 @@ impl ParameterKind {
     }
 }
 
-/// A parameter that the data only show together with others.
+/// A parameter that is observable only in combination with another one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Partner {
     /// The other parameter's id.
     pub id: String,
-    /// How much of it is in the value: value = parameter + `share` × partner, SI units.
+    /// Its coefficient in the estimate: value = parameter + `share` × partner, SI units.
     pub share: f64,
     /// The other parameter's kind.
     pub kind: ParameterKind,
@@ -59,12 +59,12 @@ pub struct Parameter {
     pub value: f64,
     /// Its 1σ.
     pub sigma: f64,
-    /// What it cannot be told from under this schedule; empty if it stands alone.
+    /// The parameters that are indistinguishable from it under this schedule; empty if it is observable alone.
     pub partners: Vec<Partner>,
 }
 
 impl Parameter {
-    /// Whether the schedule shows this parameter alone.
+    /// Whether the parameter is observable alone under the schedule.
     pub const fn identifiable(&self) -> bool {
         self.partners.is_empty()
     }

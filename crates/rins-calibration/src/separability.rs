@@ -1,10 +1,10 @@
-//! How much of the gyro biases a schedule leaves in the three estimates.
+//! The contributions of the gyro biases to the three estimates under a schedule.
 
 use rins_imu::TriadSpec;
 
 use crate::parameter::{ParameterKind, Partner};
 
-/// Sums over the samples of a run, from which the biases' share in the estimates follows.
+/// Sums over the samples of a run that determine the contributions of the biases to the estimates.
 ///
 /// Along each axis the gyro error is `x ω_z + b`, with `x` one of `M_xz`, `M_yz`, `S_z`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,12 +27,12 @@ impl SpinRateSums {
         if self.duration > 0.0 { (self.square / self.duration).sqrt() } else { 0.0 }
     }
 
-    /// The bias that hides in an estimate of 1σ `sigma`, or `None` if this schedule keeps it out.
+    /// The bias that contributes to an estimate of 1σ `sigma`, or `None` if its contribution is insignificant under this
+    /// schedule.
     ///
-    /// The filter has no bias states: whatever the schedule could separate, a bias goes into the
-    /// estimate by the regression of a constant on the spin rate, `Σω / Σω²`, which for one constant
-    /// rate is `1/(ω + ω_ie,z)` and after an even reversal is nothing. It is told when a bias of
-    /// the data sheet's size would move the estimate by more than its sigma.
+    /// The filter has no bias states: under any schedule a bias contributes to the estimate by the regression of a constant
+    /// on the spin rate, `Σω / Σω²`. This is `1/(ω + ω_ie,z)` for a constant rate, and zero after a symmetric reversal. The
+    /// bias is reported if one of the data sheet's size changes the estimate by more than its sigma.
     pub(crate) fn partner(&self, spec: &TriadSpec, sigma: f64, id: &str) -> Option<Partner> {
         let share = self.rate / self.square;
         (share.abs() * spec.bias_sigma > sigma).then_some(Partner {
@@ -79,7 +79,7 @@ mod tests {
         }
     }
 
-    /// The bias of the data sheet moves the estimate by a little more than its sigma, or by a little less.
+    /// The bias of the data sheet changes the estimate by a little more than its sigma, or by a little less.
     #[test]
     fn a_bias_is_named_from_one_sigma_of_the_estimate_on() {
         let sums = sums(&[(10.0, 360.0)]);

@@ -1,53 +1,53 @@
-//! What is known before the calibration starts.
+//! The prior knowledge for the calibration.
 
 use rins_frames::EulerAngles;
 use rins_frames::units::ARCSEC;
 use rins_imu::ImuSpec;
 use rins_motion::Station;
 
-/// The attitude of the axis frame as it was surveyed.
+/// The surveyed attitude of the axis frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisAttitude {
-    /// Of the axis frame at table angle zero, eq. (5).
+    /// The Euler angles of the axis frame at table angle zero, eq. (5).
     pub angles: EulerAngles,
     /// The 1σ of each component of its error \[rad\].
     pub sigma: f64,
 }
 
-/// How well the table tells its own motion: 1σ of one reading, and its delay.
+/// The uncertainties of the table's readings, each 1σ, and their latency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableSpec {
-    /// Of the table angle \[rad\].
+    /// 1σ of the table angle \[rad\].
     pub angle_noise: f64,
-    /// Of the spin axis' direction, each of two components \[rad\].
+    /// Wobble: 1σ of the spin axis' direction, for each of two components \[rad\].
     pub wobble: f64,
-    /// Of the commanded rate's mean over a sample \[rad/s\].
+    /// 1σ of the commanded rate's mean over a sample \[rad/s\].
     pub rate_noise: f64,
-    /// By how much the angle is late, as far as known \[s\]: what is read at `t` was so at `t - latency`.
+    /// The known latency of the table angle \[s\]: the reading at `t` is the angle at `t - latency`.
     pub latency: f64,
 }
 
 impl TableSpec {
-    /// The angle noise of an encoder for which none is given \[rad\].
+    /// The default noise of an encoder angle \[rad\].
     pub const DEFAULT_ANGLE_NOISE: f64 = 1.0 * ARCSEC;
 }
 
-/// What is known of the station, the table and the IMU.
+/// The prior knowledge of the station, the table and the IMU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setup {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: Station,
-    /// The axis frame's attitude; without it the rest at the start must align it.
+    /// The attitude of the axis frame; without it, it is determined by alignment over the static interval at the start.
     pub axis: Option<AxisAttitude>,
-    /// The table's figures.
+    /// The uncertainties of the table.
     pub table: TableSpec,
     /// The IMU's data sheet.
     pub imu: ImuSpec,
-    /// How far the velocity of a fixed table may be from zero in one sample, 1σ \[m/s\].
+    /// 1σ of the velocity of a fixed table in one sample, whose mean is zero \[m/s\].
     pub velocity_noise: f64,
 }
 
 impl Setup {
-    /// The velocity noise of a table that stands on a pier \[m/s\]: a tenth of a micrometre at 2 Hz.
+    /// The velocity noise of a table on a pier \[m/s\]: a tenth of a micrometer at 2 Hz.
     pub const FIXED_TABLE_VELOCITY_NOISE: f64 = 1e-6;
 }

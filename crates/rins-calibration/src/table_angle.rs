@@ -1,9 +1,9 @@
-//! The table angle of each sample, from what was read of it or commanded.
+//! The table angle of each sample, from its readings or from the commanded rate.
 
 use rins_motion::{Recording, cubic};
 
-/// The table angle before the first sample of a recording and after each \[rad\]: as read, brought
-/// forward by its `latency` \[s\], over which it turned as the gyro says, or the commanded rate integrated from zero.
+/// The table angle before the first sample of a recording and after each sample \[rad\]: the reading, corrected for its
+/// `latency` \[s\] with the rotation measured by the gyro, or the integral of the commanded rate from zero.
 pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
     if let Some(read) = &recording.table_angle {
         let mut angles = vec![0.0];
@@ -17,7 +17,7 @@ pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
             };
             angles.extend(read.iter().zip(now).map(since));
         }
-        // Nothing was read before the first sample; the gyro says how far the table came since.
+        // There is no reading before the first sample; the gyro measures the rotation since then.
         if let (Some(first), Some(sample)) = (angles.get(1), recording.increments.first()) {
             angles[0] = first - sample.angle.components().z;
         }
@@ -32,13 +32,13 @@ pub fn table_angles(recording: &Recording, latency: f64) -> Option<Vec<f64>> {
     Some(std::iter::once(0.0).chain(turns).collect())
 }
 
-/// How far the z gyro turned by any time, its rate changing evenly from sample to sample.
+/// The angle of rotation of the z gyro at any time, with linear interpolation of its rate between the samples.
 struct Turned {
     /// The start of the first sample and the end of each \[s\].
     times: Vec<f64>,
-    /// How far it turned by then \[rad\].
+    /// The angle of rotation at these times \[rad\].
     angles: Vec<f64>,
-    /// Its rate then \[rad/s\].
+    /// The rates at these times \[rad/s\].
     rates: Vec<f64>,
 }
 
@@ -68,7 +68,7 @@ impl Turned {
         Self { times, angles, rates }
     }
 
-    /// By a time, before the start or after the end on at the rate there.
+    /// The angle at a time, extrapolated with a constant rate before the start and after the end.
     fn at(&self, time: f64) -> f64 {
         let edges = self.times.len();
         let after = self.times.partition_point(|edge| *edge <= time);
@@ -94,14 +94,14 @@ mod tests {
 
     const INTERVAL: f64 = 0.02;
 
-    /// A table that rests, ramps up at 20 deg/s² from a sample's end on, and turns at 15 deg/s.
+    /// A table that is static, accelerates with 20 deg/s² from the end of a sample on, and rotates at 15 deg/s.
     fn angle(time: f64) -> f64 {
         let ramping = (time - 1.0).clamp(0.0, 0.75);
         let on = (time - 1.75).max(0.0);
         (10.0 * ramping * ramping + 15.0 * on) * DEG
     }
 
-    /// Angles that were read too late, or too early, are those of the time again, over the ramp too.
+    /// Angles with a positive or negative latency are corrected, during the acceleration too.
     #[test]
     fn what_is_late_is_brought_forward() {
         let times: Vec<f64> = (1..=150).map(|sample| f64::from(sample) * INTERVAL).collect();
@@ -123,7 +123,7 @@ mod tests {
             assert_eq!(angles.len(), times.len() + 1);
             for (found, time) in angles[1..].iter().zip(&times) {
                 let off = (found - angle(*time)).abs() / ARCSEC;
-                // A ramp may begin anywhere in a sample: what is between two is known but to this.
+                // The acceleration may begin at any time within a sample: this is the uncertainty of the interpolation.
                 assert!(off < within, "{off} arcsec at {time} s of {latency} s");
             }
         }

@@ -13,8 +13,8 @@ pub(crate) use self::observe::Observe;
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
 ///
-/// A run is described by a rig file (rig.toml): what was measured, where, and what the data sheets
-/// say. `rins init LOG` drafts one. Start with `rins demo`.
+/// A rig file (rig.toml) describes a run: the log, the site, the table and the data sheets of the sensors.
+/// `rins init LOG` drafts one. Start with `rins demo`.
 #[derive(Debug, Parser)]
 #[command(name = "rins", version, max_term_width = 100)]
 pub(crate) struct Arguments {
@@ -55,17 +55,17 @@ impl Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Calibrate, compensate and re-navigate an embedded run: nothing to prepare
+    /// Calibrate, compensate and navigate a built-in example run; no input files needed
     Demo(Demo),
     /// Draft a rig file from a log; guesses are marked for you to confirm
     Init(Init),
     /// Write a simulated data set (run.csv, rig.toml, truth.json) from a scenario
     Simulate(Simulate),
-    /// Write a log in another format, with the rig file that reads it
+    /// Write a log in another format, and a matching rig file
     Convert(Convert),
-    /// Inspect a run: rate, gaps, static intervals, gravity, Earth rate, probable mistakes in units, signs and axes
+    /// Inspect a run: sampling rate, gaps, static intervals, gravity, Earth rate, probable errors of units, signs and axes
     Check(Input),
-    /// Identify the noise over a static interval: Allan deviations with bounds, and noise terms
+    /// Estimate the noise parameters from a static interval, with Allan deviations and their 95 % confidence bounds
     Allan(Input),
     /// Align over a static interval: level from gravity, north from the Earth's rotation
     Align(Input),
@@ -76,29 +76,31 @@ pub(crate) enum Command {
     /// Identify unmodeled effects in a run, and measure the gain in predicting held-out data
     ///
     /// The model is estimated. Every effect of the catalogue is then tested on the residuals, at all event times and
-    /// harmonic orders. The best one joins the model, with its p-value and the alternatives that this run does not
-    /// distinguish from it. The search ends when no effect is significant; residual structure that no effect explains is
-    /// reported as such. A mistake in units, signs or
-    /// axes ends the command with an error that states the correction.
+    /// harmonic orders. The most probable significant effect is added to the model; the result states its p-value and the
+    /// alternatives that this run does not distinguish from it. The search ends when no further effect is significant.
+    /// Residual structure that no effect explains is reported as such. An error of units, signs or axes ends the command;
+    /// the message states the correction.
     Diagnose(Diagnose),
     /// Predict the observability of parameters under a rotation schedule, and propose the schedule to run next
     ///
-    /// The information of a run on the parameters of a model is computed from the scenario's motion, site and data sheet,
-    /// without noise and without errors. For each parameter the result is its observability (by itself, or in a
-    /// combination), its sigma by the data alone, and its sigma with the data sheet as prior.
+    /// The Fisher information of a run on the parameters of a model is computed from the scenario's motion, site and data
+    /// sheet, without simulated noise and errors. For each parameter the result is its observability (by itself, or in a
+    /// combination), its sigma from the data alone, and its sigma with the data sheet as prior.
     ///
-    /// Several scenarios are runs of one IMU: parameters of the sensors are shared; attitude, turn-on biases and the like
-    /// belong to one run. An effect is named by its id, or by that of one of its parameters (accel.bias.x). Two effects
-    /// are separated if each, at its typical size and in its most similar direction, differs from any amount of the other
-    /// by 6 sigma, with the model's parameters estimated too.
+    /// Several scenarios are runs of one IMU: the parameters of the sensors are common to all runs; attitude, turn-on
+    /// biases and the parameters of the encoder and the base are separate for each run. An effect is named by its id, or by that
+    /// of one of its parameters (accel.bias.x).
+    ///
+    /// Two effects are separated if the part of the signature of each, at its typical magnitude, that neither the other
+    /// effect nor the model parameters can explain is at least 6 sigma, in the least favorable direction.
     Observe(Observe),
     /// Simulate and calibrate a scenario many times to test the consistency of the covariances (NEES)
     MonteCarlo(MonteCarlo),
-    /// Join the shards of a campaign
+    /// Merge the partial results of a Monte Carlo campaign
     Merge(Merge),
-    /// Write a log compensated by a calibration, with the rig file that reads it
+    /// Write a log compensated by a calibration, and a matching rig file
     Apply(Apply),
-    /// Compare two calibrations of one IMU: changes in sigmas
+    /// Compare two calibrations of one IMU: differences in units of their standard uncertainty
     Compare(Compare),
 }
 
@@ -120,7 +122,7 @@ pub(crate) struct Init {
 
 #[derive(Debug, Args)]
 pub(crate) struct Simulate {
-    /// A rig file with a truth section: errors, effects, temperature, noise, seed
+    /// The scenario: a rig file with a section [truth] (errors, effects, temperature, noise, seed)
     pub(crate) scenario: PathBuf,
     /// Folder for the run
     #[arg(short, long, value_name = "DIR")]
@@ -188,10 +190,10 @@ pub(crate) struct Input {
 pub(crate) struct Navigate {
     #[command(flatten)]
     pub(crate) input: Input,
-    /// Compensate the readings with this calibration first
+    /// Calibration file; the readings are compensated with it before navigation
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: Option<PathBuf>,
-    /// Compensate also at temperatures far outside the calibrated range
+    /// Compensate even if the temperature is outside the calibrated range by more than the width of this range
     #[arg(long, requires = "calibration")]
     pub(crate) extrapolate: bool,
 }
@@ -204,12 +206,12 @@ pub(crate) struct Calibrate {
     /// Folder for result.json, report.html, calibration.toml and model.toml
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// What to estimate: paper12 (`M_xz`, `M_yz` and `S_z` by the Kalman filter of Nie et al. 2019), full (biases, scale
-    /// errors, misalignments, the axis' attitude), or a model file; by default paper12 for one run with a
-    /// table reading, and full otherwise
+    /// The model: paper12 (`M_xz`, `M_yz` and `S_z` by the 12-state filter of Nie et al. (2019)), full (biases, scale errors,
+    /// misalignments, attitude of the spin axis), or a model file; by default paper12 for one run with an encoder angle
+    /// or a commanded table rate, and full otherwise
     #[arg(long, value_parser = ModelChoice::parse)]
     pub(crate) model: Option<ModelChoice>,
-    /// Estimate the noise from the data, or use that of the data sheet; paper12 uses the data sheet
+    /// Source of the noise parameters; paper12 always uses the data sheet
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
 }
@@ -225,20 +227,21 @@ pub(crate) struct Diagnose {
     /// Measure the predictive gain on this held-out run; by default on the last 30 % of every segment of constant rate
     #[arg(long, value_name = "RIG")]
     pub(crate) held_out: Option<PathBuf>,
-    /// Measure the predictive gain also at the table's fastest rate, with estimates from the slower rates
+    /// Measure the predictive gain also at the fastest rate of the table, with estimates from the slower rates
     #[arg(long)]
     pub(crate) transfer: bool,
-    /// The model: full (biases, scale errors, misalignments, the axis' attitude), or a model file
+    /// The model: full (biases, scale errors, misalignments, attitude of the spin axis), or a model file
     #[arg(long, default_value = "full", value_parser = ModelChoice::parse_estimated)]
     pub(crate) model: ModelChoice,
     /// Evaluate the effects of this model file instead of a search
     #[arg(long, alias = "suppose", value_name = "FILE")]
     pub(crate) hypothesis: Option<PathBuf>,
-    /// Estimate the noise from the data, or use that of the data sheet
+    /// Source of the noise parameters
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
-    /// Estimate the false alarm rate of the first search: draw the scores of all effects so many times under the extended
-    /// model, and count the draws in which an effect is reported; no runs are simulated
+    /// Estimate the false alarm rate of the first search: simulate the score statistics (gradients of the log-likelihood)
+    /// of all effects DRAWS times for a run that follows the extended model, and report the fraction with a false
+    /// detection; the readings themselves are not simulated
     #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) bootstrap: Option<u32>,
 }
@@ -259,7 +262,7 @@ pub(crate) struct MonteCarlo {
     /// Continue a campaign that was interrupted
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Run only shard I of N, such as 2/5, for `rins merge`
+    /// Run only part I of N (a shard), such as 2/5, for `rins merge`
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub(crate) shard: Option<(u64, u64)>,
     /// Number of threads; by default one per core
@@ -269,7 +272,7 @@ pub(crate) struct MonteCarlo {
 
 #[derive(Debug, Args)]
 pub(crate) struct Merge {
-    /// The results of all shards
+    /// The partial results: one file for each shard
     #[arg(required = true)]
     pub(crate) parts: Vec<PathBuf>,
     /// Merged results file (Parquet); the report has the same name with the extension .html
@@ -310,12 +313,12 @@ fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, Stri
     None
 }
 
-/// What is known of the random errors.
+/// Source of the noise parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Noise {
-    /// Estimate it; the data sheet is the first guess
+    /// Estimated by maximum likelihood; the data sheet gives the initial values and priors
     Likely,
-    /// Use the data sheet
+    /// Data-sheet values
     Given,
 }
 
@@ -332,7 +335,7 @@ impl From<Noise> for NoiseChoice {
 pub(crate) struct Apply {
     /// The rig file
     pub(crate) rig: PathBuf,
-    /// The calibration
+    /// The calibration file
     #[arg(long, value_name = "FILE")]
     pub(crate) calibration: PathBuf,
     /// The new log; its rig file has the same name with the extension .toml
@@ -341,16 +344,16 @@ pub(crate) struct Apply {
     /// The format; by default the extension decides: .csv, .parquet, .mat, .imu (psins) or .bin (psins-bin)
     #[arg(long, value_enum)]
     pub(crate) format: Option<Format>,
-    /// Compensate also at temperatures far outside the calibrated range
+    /// Compensate even if the temperature is outside the calibrated range by more than the width of this range
     #[arg(long)]
     pub(crate) extrapolate: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// The calibration before
+    /// Earlier calibration file
     pub(crate) before: PathBuf,
-    /// The calibration after
+    /// Later calibration file
     pub(crate) after: PathBuf,
     /// Folder for result.json and report.html
     #[arg(short, long, value_name = "DIR")]

@@ -1,4 +1,4 @@
-//! The shortest schedule that separates a g-sensitivity of the gyros from an eccentricity of the encoder.
+//! The shortest schedule that distinguishes a g-sensitivity of the gyros from an eccentricity of the encoder.
 
 use rins_design::{Effect, Goal, Limits, Pair, Planned, information, propose};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};

@@ -11,9 +11,9 @@ const LASTING: f64 = 360.0;
 /// Errors of velocity and attitude.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Of the velocity, east, north and up \[m/s\].
+    /// The error of the velocity, east, north and up \[m/s\].
     pub velocity: Vector3<f64>,
-    /// Of the attitude, about east, north and up \[rad\].
+    /// The error of the attitude, about east, north and up \[rad\].
     pub attitude: Vector3<f64>,
 }
 
@@ -53,13 +53,13 @@ pub struct EstimatedParameter<'a> {
 /// The true motion: readings without errors, and the initial state.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth<'a> {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: &'a Station,
     /// The attitude of the axis frame.
     pub nav_from_table: Dcm<Nav, Table>,
     /// Readings without errors.
     pub recording: &'a Recording,
-    /// How the table moved over these readings.
+    /// The trajectory of the table during these readings.
     pub track: &'a Track,
 }
 
@@ -129,7 +129,7 @@ fn contribution(
         })
         .collect();
     let felt = effect.iter().any(|[gyro, accel, _]| gyro.norm() > 0.0 || accel.norm() > 0.0);
-    // Navigation starts from the attitude of the axis, without this error in it.
+    // Navigation starts from the attitude of the axis, which this error changes.
     let start = if estimated.chosen.term.is(&catalogue::AXIS_ATTITUDE) {
         effect.first().map_or(Vector3::zeros(), |[.., tilt]| *tilt)
     } else {

@@ -1,21 +1,21 @@
-//! An effect, or some of its parameters, of which a schedule is asked.
+//! An effect, or some of its parameters, whose observability a schedule determines.
 
 use rins_estimation::Joint;
 use rins_terms::Term;
 
-/// An effect, or some of its parameters, of which a schedule is asked.
+/// An effect, or some of its parameters, whose observability a schedule determines.
 #[derive(Clone, Debug)]
 pub struct Effect {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The full ids of its parameters.
     pub ids: Vec<String>,
-    /// The term of the catalogue that it is.
+    /// Its term of the catalogue.
     pub term: &'static Term,
 }
 
 impl Effect {
-    /// All parameters of a term.
+    /// The effect of a term with all its parameters.
     ///
     /// ```
     /// let arm = rins_design::Effect::of(&rins_terms::catalogue::ACCEL_LEVER_ARM);
@@ -25,7 +25,7 @@ impl Effect {
         Self { name: term.id.into(), ids: term.parameter_ids().collect(), term }
     }
 
-    /// Where its parameters stand among the unknowns, of whichever run.
+    /// The places of its parameters among the unknowns, of all runs.
     pub(crate) fn places(&self, joint: &Joint) -> Vec<usize> {
         let is_of = |place: &usize| self.ids.contains(&joint.unknowns[*place].id);
         (0..joint.unknowns.len()).filter(is_of).collect()

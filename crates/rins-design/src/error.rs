@@ -1,45 +1,45 @@
-//! Why a schedule cannot be looked at.
+//! Errors of the evaluation of a schedule.
 
 use rins_estimation::{JointError, RunError};
 use rins_motion::ProfileError;
 use rins_simulation::ScenarioError;
 
-/// Why a schedule cannot be looked at.
+/// The reason why a schedule cannot be evaluated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DesignError {
     /// The run cannot be simulated.
     #[error("{name}: {source}")]
     Scenario {
-        /// What the run is called.
+        /// The name of the run.
         name: String,
-        /// Why it cannot.
+        /// The reason.
         source: ScenarioError,
     },
-    /// The run is no run to estimate from.
+    /// The run cannot be used for an estimation.
     #[error("{name}: {source}")]
     Run {
-        /// What the run is called.
+        /// The name of the run.
         name: String,
-        /// Why it is none.
+        /// The reason.
         source: RunError,
     },
-    /// The table of a run cannot move as is said.
+    /// The table cannot follow the motion of a run.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// The runs do not go together with the model.
+    /// The evidence of the runs on the parameters of the model cannot be calculated.
     #[error(transparent)]
     Joint(#[from] JointError),
-    /// The table turns, and nothing that would be recorded shows its angle.
+    /// The table rotates, and nothing that would be recorded determines its angle.
     #[error(
         "{name}: the log holds neither a table angle nor a rate, and the spin axis is vertical: the table angle is \
          unobservable"
     )]
     NoAngleReference {
-        /// What the run is called.
+        /// The name of the run.
         name: String,
     },
-    /// No schedule of the library is slow enough.
+    /// No schedule of the library is within the limits.
     #[error(
         "no schedule fits within the limits of the table: a ramp takes longer than its segment in every schedule"
     )]

@@ -1,12 +1,12 @@
-//! What a rotation schedule shows before it is run, and which one to run next.
+//! The observability of parameters under a rotation schedule before it is run, and the choice of the next schedule.
 //!
 //! The information of a run on the parameters `x` of a model is `Jᵀ R⁻¹ J`, with `J` the derivatives of the whitened innovations
 //! along the planned motion and `R` the noise of the data sheet: it needs neither measured data nor simulated noise.
 //!
-//! **What it does.** A [`Planned`] run is a scenario of which only motion, site and data sheet count. [`information`] is what several
-//! of them hold together. [`Pair`] is how well two effects are separated, [`propose`] looks through a library of schedules for the
-//! shortest one that reaches a [`Goal`] within the [`Limits`] of a table, and [`next_test`] does that for two effects that a run could
-//! not separate. A [`Budget`] is the error budget of free inertial navigation.
+//! **What it does.** A [`Planned`] run is a scenario of which only motion, site and data sheet matter. [`information`] is the
+//! joint information of several of them. [`Pair`] is the separability of two effects, [`propose`] searches a library of
+//! schedules for the shortest one that reaches a [`Goal`] within the [`Limits`] of a table, and [`next_test`] does that for
+//! two effects that a run could not distinguish. A [`Budget`] is the error budget of free inertial navigation.
 //!
 //! **What it does not do.** It reads no files and decides nothing about measured data.
 

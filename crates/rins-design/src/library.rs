@@ -1,4 +1,4 @@
-//! Schedules that a table could run.
+//! The library of rotation schedules.
 
 use std::fmt::Write as _;
 
@@ -8,32 +8,32 @@ use rins_motion::{Profile, Segment};
 
 use crate::planned::Planned;
 
-/// The rate of a table of which nothing is said \[rad/s\].
+/// The rate of a table without stated limits \[rad/s\].
 pub const TYPICAL_RATE: f64 = 10.0 * DEG_PER_SECOND;
 
-/// The acceleration of a table of which nothing is said \[rad/s²\].
+/// The angular acceleration of a table without stated limits \[rad/s²\].
 pub const TYPICAL_ACCELERATION: f64 = 5.0 * DEG_PER_SECOND;
 
-/// What a table can do, and how long one is ready to wait.
+/// The limits of a table, and the available time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// The fastest that it turns \[rad/s\].
+    /// The largest rate \[rad/s\].
     pub rate: f64,
-    /// How hard it changes its rate \[rad/s²\].
+    /// The angular acceleration between two rates \[rad/s²\].
     pub acceleration: f64,
-    /// The longest that all runs may take together \[s\].
+    /// The longest duration of all runs together \[s\].
     pub duration: f64,
-    /// Into how many directions the axis may be brought.
+    /// The largest number of directions of the axis.
     pub directions: usize,
 }
 
-/// How the table turns in one direction of its axis: rates as parts of the fastest.
+/// The rotation in one direction of the axis: rates relative to the largest.
 struct Shape {
     name: &'static str,
     rates: &'static [f64],
 }
 
-/// From the simplest on.
+/// The shapes, the simplest first.
 const SHAPES: [Shape; 5] = [
     Shape { name: "one rate", rates: &[1.0] },
     Shape { name: "forward and back", rates: &[1.0, -1.0] },
@@ -45,37 +45,36 @@ const SHAPES: [Shape; 5] = [
     },
 ];
 
-/// The durations in each direction of the axis that are tried \[s\].
+/// The durations of a run in each direction of the axis \[s\].
 const DURATIONS: [f64; 11] =
     [60.0, 90.0, 120.0, 180.0, 240.0, 360.0, 480.0, 720.0, 1080.0, 1440.0, 2880.0];
 
-/// A schedule that could be run next.
+/// A schedule of the library.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// What it is, in words.
+    /// Its description.
     pub words: String,
-    /// What it is made of, one for each direction of the axis.
+    /// Its runs, one for each direction of the axis.
     pub runs: Vec<Planned>,
-    /// The rates and durations of each \[rad/s, s\].
+    /// The rates and durations in each run \[rad/s, s\].
     pub segments: Vec<Segment>,
-    /// How long all takes \[s\].
+    /// The total duration \[s\].
     pub duration: f64,
 }
 
 impl Candidate {
-    /// Whether it takes as long in as many directions of the axis.
+    /// Whether it has the same duration and the same number of directions of the axis.
     pub(crate) fn is_as_long_as(&self, other: &Self) -> bool {
         self.runs.len() == other.runs.len() && self.duration.total_cmp(&other.duration).is_eq()
     }
 }
 
-/// All schedules within the limits, those first that need fewer directions of the axis, then the shorter ones, then
-/// the simpler.
+/// All schedules within the limits, ordered by the number of directions of the axis, then by duration, then by simplicity.
 pub(crate) fn candidates(given: &Planned, limits: &Limits) -> Vec<Candidate> {
     let mut all = Vec::new();
     for directions in 1..=limits.directions.min(3) {
         let longest = limits.duration / directions as f64;
-        // Where the limit is shorter than all of them, the limit.
+        // If the limit is shorter than all of them, the limit itself.
         let shorter = (longest < DURATIONS[0]).then_some(longest);
         let usual = DURATIONS.into_iter().filter(|duration| *duration <= longest);
         for duration in usual.chain(shorter) {
@@ -87,7 +86,7 @@ pub(crate) fn candidates(given: &Planned, limits: &Limits) -> Vec<Candidate> {
     all
 }
 
-/// None if a ramp does not fit.
+/// A schedule of this shape; `None` if a ramp does not fit.
 fn candidate(
     given: &Planned,
     limits: &Limits,
@@ -114,8 +113,8 @@ fn candidate(
     Some(Candidate { words, runs, segments, duration: total })
 }
 
-/// The given direction of the axis; a second, tilted by 5 deg, or by 30 deg where the first is nearly upright; and a
-/// third, tilted by 45 deg. Each is a third of a turn further about the vertical.
+/// The given direction of the axis; a second one with a tilt of 5 deg, or of 30 deg if the first is nearly vertical; and a
+/// third one with a tilt of 45 deg. The azimuths differ by 120 deg.
 fn attitudes(given: Dcm<Nav, Table>, directions: usize) -> Vec<Dcm<Nav, Table>> {
     let tilt = given.matrix()[(2, 2)].clamp(-1.0, 1.0).acos();
     let second = if tilt > 15.0 * DEG { 5.0 * DEG } else { 30.0 * DEG };

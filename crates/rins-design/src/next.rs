@@ -1,4 +1,4 @@
-//! The test that would separate two effects that a run could not separate.
+//! The test that distinguishes two effects which a run could not distinguish.
 
 use nalgebra::DVector;
 use rins_estimation::{Noise, Reference, Run};
@@ -11,36 +11,36 @@ use crate::library::{Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
 use crate::planned::Planned;
 use crate::proposal::{Goal, propose};
 
-/// The longest test that is proposed takes so many times as long as the run that could not tell.
+/// The longest duration of the proposed test, relative to that of the run.
 const LONGER: f64 = 2.0;
 
-/// Into how many directions the axis is brought at most.
+/// The largest number of directions of the axis.
 const DIRECTIONS: usize = 2;
 
-/// An effect of the size that was found, and the alternative from which a run could not separate it.
+/// An effect with its estimated size, and the alternative that a run could not exclude.
 #[derive(Clone, Copy, Debug)]
 pub struct Confused<'a> {
-    /// The effect, with its settings and the values that were found, in SI units.
+    /// The effect, with its settings and its estimated values, in SI units.
     pub found: &'a TermInstance,
     /// The alternative, with its settings.
     pub alternative: &'a TermInstance,
 }
 
-/// A schedule that separates an effect of the size that was found from an alternative.
+/// A schedule that distinguishes an effect of the estimated size from an alternative.
 #[derive(Clone, Debug)]
 pub struct NextTest {
-    /// The effect from which it tells the cause.
+    /// The alternative that it excludes.
     pub from: &'static Term,
-    /// What the table does, and for how long.
+    /// The description of the schedule.
     pub words: String,
-    /// By how many sigmas the two differ then.
+    /// The separation of the two effects, in sigmas.
     pub sigmas: f64,
 }
 
-/// The shortest schedule of the library that separates an effect from an alternative, both beside `model`; none if none of at
-/// most twice the run's length does.
+/// The shortest schedule of the library that distinguishes an effect from an alternative, with both in addition to `model`;
+/// `None` if there is no such schedule of at most twice the run's duration.
 ///
-/// The run is one of those that could not separate them, with the noise that was found in it.
+/// The run is one of those that could not distinguish them, with the noise estimated from it.
 ///
 /// # Errors
 /// [`DesignError`] if a schedule cannot be simulated.
@@ -68,7 +68,7 @@ pub fn next_test(
         model.terms.push(chosen);
     }
     let effects = pair.map(|chosen| Effect::of(chosen.term));
-    // In units of what is expected, as information is.
+    // In units of the priors, as the information is.
     let parameters = found.values.iter().zip(found.term.parameters);
     let along = parameters.map(|(value, parameter)| value / parameter.sigma(&imu));
     let along = DVector::from_vec(along.collect());
@@ -89,7 +89,7 @@ pub fn next_test(
     }))
 }
 
-/// Whether an effect would be there again in a run of its own, whatever the temperature does.
+/// Whether an effect recurs in another run, independently of the temperature.
 fn comes_again(term: &Term) -> bool {
     let in_time = [SettingKind::Time, SettingKind::TimeConstant, SettingKind::Frequency];
     !term.settings.iter().any(|setting| in_time.contains(&setting.kind))

@@ -1,4 +1,4 @@
-//! How well runs separate two effects.
+//! The separability of two effects in planned runs.
 
 use nalgebra::DMatrix;
 use rins_estimation::{Joint, NoiseParameters, Separation, joint, separation};
@@ -8,10 +8,10 @@ use crate::effect::Effect;
 use crate::error::DesignError;
 use crate::planned::Planned;
 
-/// By how many sigmas two effects must differ to be separated.
+/// The separation in sigmas from which two effects count as distinguishable.
 pub const ENOUGH: f64 = 6.0;
 
-/// The information of runs of one IMU, to these plans, on what `model` estimates.
+/// The joint information of these planned runs of one IMU on the free parameters of `model`.
 ///
 /// # Errors
 /// [`DesignError`] if a run cannot be simulated, or the model cannot be estimated from the runs.
@@ -24,7 +24,7 @@ pub fn information(planned: &[Planned], model: &Model) -> Result<Joint, DesignEr
     Ok(joint(&runs, model, imu, &NoiseParameters::of(imu))?)
 }
 
-/// How well runs separate two effects.
+/// The separability of two effects in planned runs.
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// The first effect against the second, and the second against the first.
@@ -35,7 +35,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// How the information of a schedule separates two effects, in the model's company.
+    /// The separability of two effects, with the other parameters of the model estimated too.
     pub fn of(joint: &Joint, effects: &[Effect; 2]) -> Self {
         let [first, second] = effects.each_ref().map(|effect| effect.places(joint));
         let both: Vec<usize> = first.iter().chain(&second).copied().collect();
@@ -49,13 +49,13 @@ impl Pair {
         Self { separations, separation }
     }
 
-    /// Whether the effects are separated, each of its typical size.
+    /// Whether the effects are distinguishable if each has its typical size.
     pub fn is_separated(&self) -> bool {
         self.separation.iter().all(|sigmas| *sigmas >= ENOUGH)
     }
 }
 
-/// The information in units of the priors, with what is known beforehand of all but the parameters at `places`.
+/// The information in units of the priors, with the priors of all parameters except those at `places` included.
 pub(crate) fn with_priors(joint: &Joint, places: &[usize]) -> DMatrix<f64> {
     let mut information = joint.information();
     for place in (0..information.nrows()).filter(|place| !places.contains(place)) {

@@ -1,4 +1,4 @@
-//! Runs that are planned: of one IMU, without errors and without noise.
+//! Planned runs of one IMU, without errors and without noise.
 
 use rins_calibration::Setup;
 use rins_estimation::{Noise, Reference, Rig, Run};
@@ -9,14 +9,14 @@ use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
 
 use crate::error::DesignError;
 
-/// A scenario, of which only what is planned matters: neither errors nor noise.
+/// A planned run: a scenario of which neither errors nor noise are used.
 #[derive(Clone, Debug)]
 pub struct Planned {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The data sheet of the IMU.
     pub imu: ImuSpec,
-    /// The table's acceleration, if it is said \[rad/s²\].
+    /// The angular acceleration of the table, if stated \[rad/s²\].
     pub acceleration: Option<f64>,
     scenario: Scenario,
     noise: f64,
@@ -24,8 +24,8 @@ pub struct Planned {
 }
 
 impl Planned {
-    /// The plan of a scenario with this table: the 1σ of a reading of its angle and of its axis' direction \[rad\], and its
-    /// acceleration, if it is said \[rad/s²\].
+    /// The plan of a scenario with this table: the 1σ of a reading of its angle and that of its axis' direction \[rad\], and
+    /// its angular acceleration, if stated \[rad/s²\].
     pub fn new(
         name: String,
         scenario: Scenario,
@@ -39,10 +39,10 @@ impl Planned {
         Self { name, imu, acceleration, scenario, noise, wobble }
     }
 
-    /// A plan at the place and with the attitude of a run that has been measured, as long and as fast.
+    /// A plan with the site, attitude, duration and rate of a measured run.
     ///
     /// # Errors
-    /// [`DesignError::Profile`] if the run lasts no time.
+    /// [`DesignError::Profile`] if the duration of the run is zero.
     pub fn like(run: &Run, noise: &Noise, imu: ImuSpec) -> Result<Self, DesignError> {
         let times = &run.recording.times;
         let duration = times[times.len() - 1] - times[0];
@@ -65,7 +65,7 @@ impl Planned {
         })
     }
 
-    /// The same with another motion and attitude of the axis.
+    /// The same with another motion and another attitude of the axis.
     #[must_use]
     pub fn moved(&self, profile: Profile, nav_from_table: Dcm<Nav, Table>) -> Self {
         let scenario = Scenario { profile, nav_from_table, ..self.scenario.clone() };
@@ -77,19 +77,19 @@ impl Planned {
         self.scenario.nav_from_table
     }
 
-    /// How long it takes \[s\].
+    /// The duration \[s\].
     pub fn duration(&self) -> f64 {
         self.scenario.profile.duration()
     }
 
-    /// The fastest that the table turns \[rad/s\].
+    /// The largest rate of the table \[rad/s\].
     pub fn fastest(&self) -> f64 {
         let steps = 1000;
         let times = (0..steps).map(|step| self.duration() * f64::from(step) / f64::from(steps));
         times.map(|time| self.scenario.profile.rate(time).abs()).fold(0.0, f64::max)
     }
 
-    /// The run that it makes.
+    /// The simulated run.
     pub(crate) fn run(&self) -> Result<Run, DesignError> {
         let scenario = &self.scenario;
         let recording = simulate(scenario)

@@ -1,4 +1,5 @@
-//! The next test: the shortest schedule that separates two effects, or shows a parameter well enough.
+//! The next test: the shortest schedule that distinguishes two effects, or determines a parameter with a required
+//! uncertainty.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -11,19 +12,19 @@ use crate::library::{Candidate, Limits, candidates};
 use crate::pair::{ENOUGH, Pair, information, with_priors};
 use crate::planned::Planned;
 
-/// What is asked of the next schedule.
+/// The goal of the next schedule.
 #[derive(Clone, Debug)]
 pub enum Goal<'a> {
-    /// Two effects, each in the directions in which the given schedule confuses it with the other.
+    /// To distinguish two effects, each in the directions in which it is confused with the other under the given schedule.
     Separate {
         /// The effects.
         effects: &'a [Effect; 2],
         /// The directions of each, in units of its priors.
         confused: [Vec<DVector<f64>>; 2],
     },
-    /// One parameter to this 1σ.
+    /// To determine one parameter with this 1σ.
     Sigma {
-        /// The effect, of one parameter.
+        /// The effect, which has one parameter.
         effect: &'a Effect,
         /// The 1σ, in SI units.
         sigma: f64,
@@ -31,7 +32,7 @@ pub enum Goal<'a> {
 }
 
 impl<'a> Goal<'a> {
-    /// To separate two effects where one run of the given schedule confuses them.
+    /// To distinguish two effects that one run of the given schedule confuses.
     pub fn separate(effects: &'a [Effect; 2], given: &Pair) -> Self {
         let confused = given.separations.each_ref().map(|separation| {
             let along = |direction: &Direction| direction.along.clone();
@@ -40,7 +41,7 @@ impl<'a> Goal<'a> {
         Self::Separate { effects, confused }
     }
 
-    /// What a schedule reaches, and whether that is enough: sigmas apart, or a 1σ in SI units.
+    /// The result of a schedule, and whether it reaches the goal: the separation in sigmas, or a 1σ in SI units.
     fn reached(&self, joint: &Joint) -> (f64, bool) {
         match self {
             Self::Separate { effects, confused } => {
@@ -50,7 +51,7 @@ impl<'a> Goal<'a> {
                 let mut least = f64::INFINITY;
                 for (own, alongs) in [first, second].iter().zip(confused) {
                     for along in alongs {
-                        // What belongs to a run is of this size in the first.
+                        // The size of parameters that belong to a run is that in the first run.
                         let n = along.len().min(own.len());
                         let along = along.rows(0, n).into_owned();
                         least = least.min(distance(&information, &own[..n], &along));
@@ -68,7 +69,7 @@ impl<'a> Goal<'a> {
         }
     }
 
-    /// Whether one figure is nearer to the goal than another.
+    /// Whether one result is closer to the goal than another.
     fn better(&self, one: f64, other: f64) -> bool {
         match self {
             Self::Separate { .. } => one > other,
@@ -77,25 +78,26 @@ impl<'a> Goal<'a> {
     }
 }
 
-/// A schedule that reaches a goal, or comes nearest to it.
+/// A schedule that reaches a goal, or is the closest to it.
 #[derive(Clone, Debug)]
 pub struct Proposal {
     /// The schedule.
     pub candidate: Candidate,
-    /// What it reaches: sigmas apart, or a 1σ in SI units.
+    /// The separation in sigmas, or a 1σ in SI units.
     pub reached: f64,
-    /// Whether that is enough.
+    /// Whether it reaches the goal.
     pub enough: bool,
-    /// What it says.
+    /// Its information.
     pub joint: Joint,
 }
 
-/// The first schedule of the library that reaches the goal, or the one that comes nearest.
+/// The first schedule of the library that reaches the goal, or the closest one.
 ///
-/// Schedules are of the IMU and at the place of the plan `given`. `tried` hears how many of how many have been looked at.
+/// The schedules are for the IMU and the site of the plan `given`. `tried` receives the number of evaluated schedules and the
+/// total.
 ///
 /// # Errors
-/// [`DesignError::NothingFits`] if no schedule does within the limits, and whatever [`information`] returns.
+/// [`DesignError::NothingFits`] if no schedule is within the limits, and all errors of [`information`].
 pub fn propose(
     given: &Planned,
     model: &Model,
@@ -108,7 +110,7 @@ pub fn propose(
     let mut best: Option<Proposal> = None;
     let mut all = all.into_iter().peekable();
     while let Some(first) = all.next() {
-        // Those of one duration are looked at together.
+        // Schedules of equal duration are evaluated in parallel.
         let mut group = vec![first];
         while let Some(next) = all.next_if(|next| next.is_as_long_as(&group[0])) {
             group.push(next);

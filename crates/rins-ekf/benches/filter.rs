@@ -1,4 +1,4 @@
-//! One prediction and update of 12 states by 6 measurements, beside the textbook's dense Joseph form.
+//! One prediction and update of 12 states by 6 measurements, compared with the textbook's dense Joseph form.
 
 use std::hint::black_box;
 
@@ -16,7 +16,7 @@ struct Case {
     measurement: Measurement<M, N>,
 }
 
-/// All elements of all matrices are at work.
+/// All elements of all matrices are nonzero.
 fn dense() -> Case {
     let wave = |i: usize, j: usize| (1.3 * i as f64 + 0.7 * j as f64).sin();
     let root = SMatrix::<f64, N, N>::from_fn(wave);
@@ -36,8 +36,8 @@ fn dense() -> Case {
     }
 }
 
-/// The calibration filter's pattern: attitude, velocity, and six constant sensor errors that feed
-/// them; velocity and three rates are measured.
+/// The pattern of the calibration filter: attitude, velocity, and six constant sensor errors that drive them; velocity and
+/// three rates are measured.
 fn sparse() -> Case {
     let mut case = dense();
     let block_used = |i: usize, j: usize| match (i / 3, j / 3) {

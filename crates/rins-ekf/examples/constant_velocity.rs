@@ -1,4 +1,4 @@
-//! A cart on a rail: filtered and smoothed, its innovations judged against a model that is too sure.
+//! A cart on a rail: filtered and smoothed, with a consistency test of a model whose noise is too small.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
@@ -13,11 +13,11 @@ const STATES: usize = VELOCITY.end();
 
 const INTERVAL: f64 = 0.1;
 const STEPS: usize = 500;
-/// How much the cart's speed changes \[m/s²\], and how well its position is seen \[m\], both 1σ.
+/// The acceleration of the cart \[m/s²\], and the uncertainty of its measured position \[m\], both 1σ.
 const ACCELERATION: f64 = 0.5;
 const SIGHT: f64 = 0.2;
 
-/// The filter's mean NIS, and its and the smoother's rms position error.
+/// The mean NIS of the filter, and the rms position errors of filter and smoother.
 fn run(believed_sight: f64) -> Result<[f64; 3], Box<dyn std::error::Error>> {
     let mut random = Pcg64::seed_from_u64(7);
     let mut normal = || -> f64 { StandardNormal.sample(&mut random) };

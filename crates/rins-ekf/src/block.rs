@@ -1,11 +1,10 @@
-//! Named places in a state vector.
+//! Named blocks of a state vector.
 
 use nalgebra::{SMatrix, SVector};
 
-/// `LEN` neighbouring elements of a state or measurement vector.
+/// `LEN` successive elements of a state or measurement vector.
 ///
-/// A layout is a chain of blocks, so that no offset is ever written as a number and a state is
-/// added in one line:
+/// A layout is a chain of blocks, so that no offset is ever written as a number and a state is added in one line:
 ///
 /// ```
 /// use rins_ekf::Block;
@@ -16,7 +15,7 @@ use nalgebra::{SMatrix, SVector};
 /// assert_eq!((VELOCITY.start(), STATES), (3, 8));
 /// ```
 ///
-/// A block of another length than its place does not compile:
+/// A block whose length differs from that of its place does not compile:
 /// ```compile_fail,E0308
 /// use nalgebra::{SMatrix, Vector2};
 /// use rins_ekf::Block;
@@ -30,7 +29,7 @@ pub struct Block<const LEN: usize> {
 }
 
 impl<const LEN: usize> Block<LEN> {
-    /// The block that opens a layout.
+    /// The first block of a layout.
     pub const fn first() -> Self {
         Self { start: 0 }
     }
@@ -92,7 +91,7 @@ impl<const LEN: usize> Block<LEN> {
         matrix.fixed_view_mut::<LEN, COLS>(self.start, columns.start).copy_from(value);
     }
 
-    /// Sets this block's elements on the diagonal of `matrix`, say to the variances of a start.
+    /// Sets this block's elements on the diagonal of `matrix`, for example to initial variances.
     ///
     /// # Panics
     /// If the block ends beyond `matrix`.

@@ -1,8 +1,8 @@
-//! Why a covariance or a measurement was refused.
+//! The reasons for the refusal of a covariance or a measurement.
 
 use core::fmt;
 
-/// Which input holds a number that is not finite.
+/// The input with a number that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -33,14 +33,14 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// Why a measurement was not used.
+/// The reason why a measurement was not used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum UpdateError {
     /// An input holds a number that is not finite.
     #[error("the {quantity} holds a number that is not finite")]
     NotFinite {
-        /// Which input.
+        /// The input.
         quantity: Quantity,
     },
     /// `S = H P Hᵀ + R` has no Cholesky factor.
@@ -51,20 +51,20 @@ pub enum UpdateError {
         /// Its smallest diagonal element.
         smallest: f64,
     },
-    /// The updated covariance would have a negative variance: the numbers are too far apart for the
-    /// precision of `f64`, or the covariance or the cross-covariance was never one.
+    /// The updated covariance would have a negative variance: the magnitudes differ by more than the precision of `f64`, or
+    /// the covariance or the cross-covariance is invalid.
     #[error(
         "state {index} would have the variance {variance:e}; scale the states, or check the covariances"
     )]
     NegativeVariance {
         /// The state's index.
         index: usize,
-        /// Its would-be variance.
+        /// The resulting variance.
         variance: f64,
     },
-    /// A measurement is so precise, beside what stays unknown of the states it mixes, that the updated
-    /// covariance cannot hold what it says: sigmas would be off by more than some
-    /// 1e-3 in the plain form, 1e-6 in the factorised one.
+    /// A measurement is so precise, relative to the remaining variances of the states that it combines, that the updated
+    /// covariance cannot represent the result: sigmas would have relative errors of more than about 1e-3 in the plain form,
+    /// 1e-6 in the factorized one.
     #[error(
         "the states in row {row} of the measurement keep a variance of {ratio:e} times its noise, more than the covariance can resolve; use the factorised form, or start with smaller variances"
     )]
@@ -74,14 +74,14 @@ pub enum UpdateError {
         /// `Σ h² P / R` of the row after the update.
         ratio: f64,
     },
-    /// The state's error explains more of a row's noise than there is.
+    /// The correlation with the state's error exceeds the variance of a row's noise.
     #[error(
         "the noise of row {row} would have the variance {variance:e} once the state's error is known; their covariance is too large"
     )]
     NoiseOverexplained {
         /// The measurement's row.
         row: usize,
-        /// What would be left of its variance.
+        /// The remaining variance.
         variance: f64,
     },
     /// Every input is finite and the result is not.
@@ -89,17 +89,17 @@ pub enum UpdateError {
     Overflow,
 }
 
-/// Why a matrix is not a covariance.
+/// The reason why a matrix is not a covariance.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CovarianceError {
     /// An input holds a number that is not finite.
     #[error("the {quantity} holds a number that is not finite")]
     NotFinite {
-        /// Which input.
+        /// The input.
         quantity: Quantity,
     },
-    /// Two mirrored elements differ.
+    /// Two symmetric elements differ.
     #[error(
         "the covariance is not symmetric: element ({row}, {column}) is off its mirror image by {difference:e}"
     )]
@@ -108,10 +108,10 @@ pub enum CovarianceError {
         row: usize,
         /// The element's column.
         column: usize,
-        /// The element less its mirror image.
+        /// The difference of the two elements.
         difference: f64,
     },
-    /// A combination of states would have a variance that is not positive.
+    /// A linear combination of states has a variance that is not positive.
     #[error(
         "the covariance is not positive definite: state {index} has the variance {variance:e} once those before it are known"
     )]
@@ -121,15 +121,15 @@ pub enum CovarianceError {
         /// Its variance given the states before it.
         variance: f64,
     },
-    /// A combination of states is known so much better than they are that the matrix, whose numbers have
-    /// sixteen digits, cannot say how well.
+    /// The variance of a linear combination of states is so much smaller than those of the states that the matrix, whose
+    /// numbers have sixteen digits, cannot represent it.
     #[error(
         "state {index} has {part:e} of its variance left once those after it are known, less than a covariance matrix can hold; build its factors from independent sources"
     )]
     Unresolved {
         /// The state's index.
         index: usize,
-        /// Its variance given the states after it, over its own.
+        /// Its variance given the states after it, divided by its own.
         part: f64,
     },
 }

@@ -8,24 +8,24 @@ use crate::innovation::Innovation;
 use crate::kernel::{add_product, is_finite, mirrored};
 use crate::measurement::Measurement;
 
-/// The largest ratio of a measured combination's variance, its states taken apart, to the
-/// measurement's noise after an update: its root times a rounding error is what a sigma may be off.
+/// The largest ratio after an update of the variance of a predicted measurement, with correlations between states neglected,
+/// to the measurement noise: the relative error of a sigma is the square root of this ratio times the rounding error.
 const RESOLVED: f64 = 1e18;
 
-/// What of a noise's variance may be rounding where the state's error explains all of it.
+/// The relative rounding error of a noise variance that the state's error explains completely.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Estimate of an `N`-element state, with the covariance as factors `U D Uᵀ`.
+/// The estimate of an `N`-element state, with the covariance as factors `U D Uᵀ`.
 ///
-/// It takes the same measurements as [`Filter`](crate::Filter) and finds the same. Its sigmas keep six digits where
-/// states whose variances stay up to 1e16 times the noise are only seen mixed, and beyond that it refuses,
-/// as the plain filter does from 1e10 on.
+/// It processes the same measurements as [`Filter`](crate::Filter) with the same results. If only combinations of states are
+/// measured, its sigmas keep six digits as long as the remaining variances of the states are below 1e16 times the noise. From
+/// 1e18 on it refuses the measurement, as the plain filter does from 1e10 on.
 ///
 /// ```
 /// use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
 /// use rins_ekf::{FactorisedFilter, Filter, Measurement};
 /// let prior = Matrix2::identity() * 1e16;
-/// // Only the sum is seen.
+/// // Only the sum is measured.
 /// let sum = RowVector2::new(1.0, 1.0);
 /// let reading = Measurement::new(Vector1::new(2.0), sum, Matrix1::new(1.0));
 /// let mut filter = FactorisedFilter::new(Vector2::zeros(), &prior)?;
@@ -43,7 +43,7 @@ pub struct FactorisedFilter<const N: usize> {
 }
 
 impl<const N: usize> FactorisedFilter<N> {
-    /// A filter that starts from this estimate and covariance.
+    /// A filter with this initial estimate and covariance.
     ///
     /// # Errors
     /// As [`Factors::of`].
@@ -58,18 +58,18 @@ impl<const N: usize> FactorisedFilter<N> {
         Ok(Self { state, factors })
     }
 
-    /// A filter that starts from this estimate and these factors of its covariance.
+    /// A filter with this initial estimate and these factors of its covariance.
     pub const fn from_factors(state: SVector<f64, N>, factors: Factors<N>) -> Self {
         Self { state, factors }
     }
 
-    /// The covariance's factors.
+    /// The factors of the covariance.
     pub const fn factors(&self) -> &Factors<N> {
         &self.factors
     }
 
-    /// Carries the estimate over one step of a linear system: `x ← Φ x`, `P ← Φ P Φᵀ + G W Gᵀ`, where
-    /// `by` is `G` and the noise's sources have these variances.
+    /// Propagates the estimate over one step of a linear system: `x ← Φ x`, `P ← Φ P Φᵀ + G W Gᵀ`, where `by` is `G`, and `W`
+    /// is diagonal with the variances of the noise sources.
     pub fn predict<const K: usize>(
         &mut self,
         transition: &SMatrix<f64, N, N>,
@@ -82,12 +82,12 @@ impl<const N: usize> FactorisedFilter<N> {
 
     /// Corrects the estimate and returns the innovation, whitened.
     ///
-    /// The rows are taken one by one (‹bierman1977›, ch. V). Their noises stand above the state as
-    /// further elements of it, whose factors say how they go together with each other and with the state's error.
+    /// The rows are processed one by one (‹bierman1977›, ch. V). Their noises precede the state as additional elements, whose
+    /// factors contain their correlations with each other and with the state's error.
     ///
     /// # Errors
-    /// [`UpdateError`] if a number is not finite or overflows, if the innovation has no covariance, if
-    /// noise and state's error can have none in common, or if the factors could not resolve the
+    /// [`UpdateError`] if a number is not finite or overflows, if the innovation covariance is not positive definite, if the
+    /// covariance of noise and state's error is impossible, or if the precision of the factors is insufficient for the
     /// measurement. The filter is then unchanged.
     pub fn update<const M: usize>(
         &mut self,
@@ -145,15 +145,15 @@ impl<const N: usize> FactorisedFilter<N> {
     }
 }
 
-/// The factors of `M` rows' noises and, below them, the state's error.
+/// The joint factors of the noises of `M` rows and of the state's error.
 struct Joint<const M: usize, const N: usize> {
     noise: Factors<M>,
-    /// How the noises depend on what the columns of the state's factors stand for.
+    /// The dependence of the noises on the sources of the state's factors.
     across: SMatrix<f64, M, N>,
     state: Factors<N>,
 }
 
-/// What a row's innovation goes together with: the noises, and the state's error.
+/// The covariances of a row's innovation with the noises and with the state's error.
 type With<const M: usize, const N: usize> = (SVector<f64, M>, SVector<f64, N>);
 
 impl<const M: usize, const N: usize> Joint<M, N> {
@@ -189,8 +189,8 @@ impl<const M: usize, const N: usize> Joint<M, N> {
         mirrored(covariance)
     }
 
-    /// Takes in one row: the variance of its innovation, given the rows before, and the covariances of
-    /// that with noises and state before it was known.
+    /// Processes one row: the variance of its innovation, given the previous rows, and its prior covariances with the noises
+    /// and with the state.
     fn take_in(&mut self, row: usize, by: &SVector<f64, N>) -> (f64, With<M, N>) {
         let (mut with_noise, mut with_state) =
             (SVector::<f64, M>::zeros(), SVector::<f64, N>::zeros());
@@ -216,12 +216,12 @@ impl<const M: usize, const N: usize> Joint<M, N> {
     }
 }
 
-/// What a row shows of a column of the factors, and by how much the columns before must make up for it;
-/// nothing if it shows nothing. `sum` is the innovation's variance as far as the columns before go.
+/// The covariance of a row with a column of the factors, and the multiple of the previous columns that is subtracted from the
+/// column; `None` if it is zero. `sum` is the variance of the innovation up to the previous columns.
 #[inline]
 fn shown(part: f64, variance: &mut f64, sum: &mut f64) -> Option<(f64, f64)> {
     let shown = *variance * part;
-    // False for NaN, which must show in the sum.
+    // False for NaN, which must propagate to the sum.
     if shown == 0.0 {
         return None;
     }
@@ -231,7 +231,7 @@ fn shown(part: f64, variance: &mut f64, sum: &mut f64) -> Option<(f64, f64)> {
     Some((shown, if before > 0.0 { -part / before } else { 0.0 }))
 }
 
-/// Adds to `column` its share of what the columns before it show, and to that what it shows itself.
+/// Adds to `column` its multiple `share` of the previous columns in `with`, and adds the column's own part `shown` to `with`.
 #[inline]
 fn exchange<const R: usize>(column: &mut [f64; R], with: &mut [f64; R], shown: f64, share: f64) {
     for (column, with) in column.iter_mut().zip(with) {

@@ -1,38 +1,37 @@
-//! A covariance by its factors `U D Uᵀ`, which hold what the covariance itself rounds away.
+//! A covariance in the form of its factors `U D Uᵀ`, which represent what the covariance loses by rounding.
 
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 use crate::error::{CovarianceError, Quantity};
 use crate::kernel::is_finite;
 
-/// The least part of a state's variance that may be left once others are known: below it a covariance
-/// written out as a matrix has lost the digits by which a sigma is told to 1e-6.
+/// The smallest fraction of a state's variance given others: below it a covariance in matrix form has lost the digits that
+/// determine a sigma to 1e-6.
 const HELD: f64 = 1e-10;
 
 /// A covariance `P = U D Uᵀ`, with a unit upper triangular `U` and no negative number in the diagonal `D`.
 ///
-/// An element of `D` is the variance of a state once those after it are known. Two states of variance
-/// 1 that are the same but for 1e-20 have the covariance 1, to the last bit of an `f64`; their
-/// factors still hold the 1e-20.
+/// An element of `D` is the variance of a state given those after it. Two states of variance 1 whose difference has the
+/// variance 1e-20 have the covariance 1, to the last bit of an `f64`; their factors still represent the 1e-20.
 ///
 /// ```
 /// use nalgebra::{Matrix2, Vector2};
 /// use rins_ekf::Factors;
-/// // One unknown for both states, and a little of its own for the first.
+/// // One common source of both states, and a small one of the first alone.
 /// let factors = Factors::of_sources(&Matrix2::new(1.0, 1.0, 0.0, 1.0), &Vector2::new(1e-20, 1.0));
 /// assert_eq!(factors.covariance(), Matrix2::from_element(1.0));
 /// assert_eq!(factors.variance_of(&nalgebra::RowVector2::new(1.0, -1.0)), 1e-20);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors<const N: usize> {
-    /// `U`; what is below the diagonal is zero.
+    /// `U`; the elements below the diagonal are zero.
     pub(crate) upper: SMatrix<f64, N, N>,
     /// `D`.
     pub(crate) variances: SVector<f64, N>,
 }
 
 impl<const N: usize> Factors<N> {
-    /// The factors of `A W Aᵀ`: of states that depend by `by` on independent sources of these variances.
+    /// The factors of `A W Aᵀ`: states that are the product of `by` and independent sources with these variances.
     pub fn of_sources<const K: usize>(
         by: &SMatrix<f64, N, K>,
         variances: &SVector<f64, K>,
@@ -45,11 +44,11 @@ impl<const N: usize> Factors<N> {
 
     /// The factors of a covariance.
     ///
-    /// A state with zero variance is known; its covariances must then be zero.
+    /// A state with zero variance is known exactly; its covariances must then be zero.
     ///
     /// # Errors
-    /// [`CovarianceError`] if a number is not finite, a combination of states would have a variance
-    /// below zero, or one so far below those of the states that the matrix cannot hold it.
+    /// [`CovarianceError`] if a number is not finite, or if a linear combination of states has a negative variance, or one so
+    /// far below those of the states that the matrix cannot represent it.
     pub fn of(covariance: &SMatrix<f64, N, N>) -> Result<Self, CovarianceError> {
         let factors = Self::of_rounded(covariance, 0.0)?;
         for index in 0..N {
@@ -61,13 +60,13 @@ impl<const N: usize> Factors<N> {
         Ok(factors)
     }
 
-    /// The factors of a covariance that has been rounded: a state of which no more than the part `rounding` of its variance
-    /// is left once those after it are known counts as known with them.
+    /// The factors of a covariance with rounding errors: a state whose variance given those after it is at most the fraction
+    /// `rounding` of its variance is treated as determined by them.
     ///
-    /// Of a filter that has been plain so far, say. Combinations are as well known as that could tell.
+    /// An example is the covariance of a filter that was in plain form so far. Combinations have the precision of that form.
     ///
     /// # Errors
-    /// [`CovarianceError`] if a number is not finite, or a combination's variance is further below zero.
+    /// [`CovarianceError`] if a number is not finite, or if the variance of a linear combination is negative beyond rounding.
     pub fn of_rounded(
         covariance: &SMatrix<f64, N, N>,
         rounding: f64,
@@ -79,8 +78,8 @@ impl<const N: usize> Factors<N> {
             .map_err(|(index, variance)| CovarianceError::NotPositiveDefinite { index, variance })
     }
 
-    /// The factors of what is left of a covariance, of which the upper triangle is read; the variances of `whole`, times
-    /// `rounding`, count as zero. Else the first state of which the variance is not positive, and that.
+    /// The factors of the remainder of a covariance, whose upper triangle is used; variances up to `rounding` times those of
+    /// `whole` count as zero. Otherwise the error is the first state whose variance is not positive, and that variance.
     pub(crate) fn eliminated(
         mut rest: SMatrix<f64, N, N>,
         whole: &SVector<f64, N>,
@@ -90,7 +89,7 @@ impl<const N: usize> Factors<N> {
         for j in (0..N).rev() {
             let variance = rest[(j, j)];
             let nothing = rounding * whole[j];
-            // No covariance is larger than the root of the variances' product.
+            // A covariance is at most the square root of the product of the variances.
             let known = variance.abs() <= nothing
                 && (0..j).all(|i| rest[(i, j)].abs() <= ComplexField::sqrt(whole[i] * nothing));
             if known {
@@ -144,13 +143,13 @@ impl<const N: usize> Factors<N> {
         covariance
     }
 
-    /// The variance of a combination of states.
+    /// The variance of a linear combination of states.
     pub fn variance_of(&self, combination: &SMatrix<f64, 1, N>) -> f64 {
         let by = combination * self.upper;
         (0..N).map(|k| by[k] * by[k] * self.variances[k]).sum()
     }
 
-    /// The factors after a step: of `Φ P Φᵀ` and what sources of noise add.
+    /// The factors after a step: those of `Φ P Φᵀ` plus the contribution of noise sources.
     pub(crate) fn carried<const K: usize>(
         &self,
         transition: &SMatrix<f64, N, N>,
@@ -177,13 +176,13 @@ impl<const N: usize> Factors<N> {
     }
 }
 
-/// How `N` states depend on `K` sources, a column for each state, and the sources' variances.
+/// The dependence of `N` states on `K` sources, a column for each state, and the variances of the sources.
 type Sources<'a, const K: usize, const N: usize> = (SMatrix<f64, K, N>, &'a SVector<f64, K>);
 
-/// The factors of what two sets of sources make: Gram and Schmidt's orthogonalisation, modified and
-/// weighted, from the last state to the first (‹thornton1976›; ‹bierman1977›, ch. VI).
+/// The factors from two sets of sources: modified weighted Gram-Schmidt orthogonalization, from the last state to the first
+/// (‹thornton1976›; ‹bierman1977›, ch. VI).
 ///
-/// Sums of squares and projections only: nothing is subtracted from a variance.
+/// It uses only sums of squares and projections: nothing is subtracted from a variance.
 fn gram_schmidt<const N: usize, const K: usize, const L: usize>(
     (mut a, weights_a): Sources<'_, K, N>,
     (mut b, weights_b): Sources<'_, L, N>,
@@ -208,13 +207,13 @@ fn gram_schmidt<const N: usize, const K: usize, const L: usize>(
     factors
 }
 
-/// The products of elements.
+/// The element-wise product.
 #[inline]
 fn times<const K: usize>(a: &[f64; K], b: &[f64; K]) -> [f64; K] {
     core::array::from_fn(|k| a[k] * b[k])
 }
 
-/// The scalar product, in four sums that run side by side.
+/// The scalar product, in four parallel sums.
 #[inline]
 fn dot<const K: usize>(a: &[f64; K], b: &[f64; K]) -> f64 {
     let mut sums = [0.0; 4];
@@ -224,7 +223,7 @@ fn dot<const K: usize>(a: &[f64; K], b: &[f64; K]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Takes `share` of `part` from `whole`.
+/// Subtracts `share` times `part` from `whole`.
 #[inline]
 fn take<const K: usize>(whole: &mut [f64; K], part: &[f64; K], share: f64) {
     for (whole, part) in whole.iter_mut().zip(part) {

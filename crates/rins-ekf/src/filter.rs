@@ -7,14 +7,13 @@ use crate::innovation::Innovation;
 use crate::kernel::{Factor, add_congruence, add_product, is_finite, mirrored};
 use crate::measurement::Measurement;
 
-/// The largest ratio of a measured combination's variance, its states taken apart, to the
-/// measurement's noise: rounding of 24 states' covariance, step after step, then takes some
-/// thousandth of a sigma.
+/// The largest ratio of the variance of a predicted measurement, with correlations between states neglected, to the
+/// measurement noise: the accumulated rounding of a covariance of 24 states is then about a thousandth of a sigma.
 const RESOLVED: f64 = 1e10;
 
 /// Estimate and covariance of an `N`-element state.
 ///
-/// A known constant, estimated from one reading of it:
+/// A constant, estimated from one reading of it:
 /// ```
 /// use nalgebra::{Matrix1, Vector1};
 /// use rins_ekf::{Filter, Measurement};
@@ -34,13 +33,13 @@ pub struct Filter<const N: usize> {
 }
 
 impl<const N: usize> Filter<N> {
-    /// A filter that starts from this estimate, its covariance checked.
+    /// A filter with this initial estimate and covariance, which is checked.
     ///
-    /// A state with zero variance is known; its covariances must then be zero.
+    /// A state with zero variance is known exactly; its covariances must then be zero.
     ///
     /// # Errors
-    /// [`CovarianceError`] if a number is not finite, the covariance is not exactly symmetric, or a
-    /// combination of states would have a variance below zero.
+    /// [`CovarianceError`] if a number is not finite, the covariance is not exactly symmetric, or a linear combination of
+    /// states has a negative variance.
     pub fn new(
         state: SVector<f64, N>,
         covariance: SMatrix<f64, N, N>,
@@ -50,9 +49,9 @@ impl<const N: usize> Filter<N> {
         Ok(filter)
     }
 
-    /// Whether the covariance still is one, as [`Filter::new`] asks of it.
+    /// Checks the covariance as in [`Filter::new`].
     ///
-    /// The steps themselves look at the diagonal only.
+    /// The steps themselves check only the diagonal.
     ///
     /// # Errors
     /// As [`Filter::new`].
@@ -69,7 +68,7 @@ impl<const N: usize> Filter<N> {
                 }
             }
         }
-        // Outer-product elimination, passing over states that are known.
+        // Outer-product elimination, without states that are known exactly.
         let mut rest = *p;
         for index in 0..N {
             let variance = rest[(index, index)];
@@ -91,16 +90,16 @@ impl<const N: usize> Filter<N> {
         Ok(())
     }
 
-    /// Carries the estimate over one step of a linear system: `x ← Φ x`, `P ← Φ P Φᵀ + Q`.
+    /// Propagates the estimate over one step of a linear system: `x ← Φ x`, `P ← Φ P Φᵀ + Q`.
     ///
-    /// `transition` is `Φ`; of `noise`, which is `Q`, the lower triangle is read. Numbers that are not
-    /// finite stay visible in the estimate, and the next update reports them.
+    /// `transition` is `Φ`; `noise` is `Q`, of which only the lower triangle is used. Numbers that are not finite propagate
+    /// to the estimate, and the next update reports them.
     pub fn predict(&mut self, transition: &SMatrix<f64, N, N>, noise: &SMatrix<f64, N, N>) {
         self.predict_to(transition * self.state, transition, noise);
     }
 
-    /// Carries the estimate over one step of a nonlinear system, whose state after it is `state` and
-    /// whose derivative is `transition`: `x ← f(x)`, `P ← Φ P Φᵀ + Q`.
+    /// Propagates the estimate over one step of a nonlinear system with the propagated state `state` and the derivative
+    /// `transition`: `x ← f(x)`, `P ← Φ P Φᵀ + Q`.
     pub fn predict_to(
         &mut self,
         state: SVector<f64, N>,
@@ -115,16 +114,13 @@ impl<const N: usize> Filter<N> {
 
     /// Corrects the estimate and returns the innovation, whitened.
     ///
-    /// With `C = E[(x − x̂) vᵀ]` (zero unless the measurement says otherwise) the gain is
-    /// `K = (P Hᵀ + C) S⁻¹` and `S = H P Hᵀ + H C + Cᵀ Hᵀ + R`. The covariance is Joseph's for noise
-    /// that is correlated with the error,
-    /// `(I−KH) P (I−KH)ᵀ + K R Kᵀ − (I−KH) C Kᵀ − K Cᵀ (I−KH)ᵀ`, in which an error of the gain is of
-    /// second order.
+    /// With `C = E[(x − x̂) vᵀ]` (zero unless the measurement states it) the gain is `K = (P Hᵀ + C) S⁻¹` and `S = H P Hᵀ + H
+    /// C + Cᵀ Hᵀ + R`. The covariance has Joseph's form for noise that is correlated with the error, `(I−KH) P (I−KH)ᵀ + K R
+    /// Kᵀ − (I−KH) C Kᵀ − K Cᵀ (I−KH)ᵀ`, in which an error of the gain is of second order.
     ///
     /// # Errors
-    /// [`UpdateError`] if a number is not finite or overflows, if `S` is not positive definite, if a
-    /// variance would be negative, or if the covariance could not resolve the measurement. The filter
-    /// is then unchanged.
+    /// [`UpdateError`] if a number is not finite or overflows, if `S` is not positive definite, if a variance would be
+    /// negative, or if the precision of the covariance is insufficient for the measurement. The filter is then unchanged.
     pub fn update<const M: usize>(
         &mut self,
         measurement: &Measurement<M, N>,
@@ -135,7 +131,7 @@ impl<const N: usize> Filter<N> {
         let Measurement { value: z, matrix: h, noise, cross } = measurement;
         let r = mirrored(*noise);
 
-        // Covariances of the state's error with the innovation, of that with the noise, and its own.
+        // The covariances of the state's error with the innovation, of the innovation with the noise, and of the innovation.
         let mut error_with_innovation = cross.unwrap_or_else(SMatrix::zeros);
         add_product(&mut error_with_innovation, &self.covariance, h);
         let mut innovation_with_noise = r;
@@ -158,9 +154,8 @@ impl<const N: usize> Filter<N> {
         let innovation = z - h * self.state;
         let state = self.state + gain * innovation;
 
-        // Joseph's form, with E = [I − KH, −K] and J the joint covariance of error and noise: the
-        // product E J Eᵀ from the left, each factor as the identity less something of rank M, so that
-        // no N × N matrices are multiplied.
+        // Joseph's form, with E = [I − KH, −K] and J the joint covariance of error and noise: the product E J Eᵀ from the
+        // left, with each factor as the identity minus a matrix of rank M, which avoids products of N × N matrices.
         let minus_gain = -gain;
         let mut covariance = self.covariance;
         add_product(&mut covariance, &minus_gain, &error_with_innovation);
@@ -201,7 +196,7 @@ impl<const N: usize> Filter<N> {
         })
     }
 
-    /// `otherwise`, unless a number of the filter's own that is not finite is behind it.
+    /// The error `otherwise`, unless its cause is a number in the filter that is not finite.
     fn refusal(&self, otherwise: UpdateError) -> UpdateError {
         self.culprit().map_or(otherwise, |quantity| UpdateError::NotFinite { quantity })
     }

@@ -1,4 +1,4 @@
-//! What an update found: the innovation, its covariance, and the statistics that judge a model.
+//! The result of an update: the innovation, its covariance, and statistics for consistency tests.
 
 use core::f64::consts::TAU;
 
@@ -9,25 +9,24 @@ use nalgebra::{ComplexField, SMatrix, SVector};
 pub struct Innovation<const M: usize> {
     /// `ν = z − H x̂`, in the measurement's units.
     pub value: SVector<f64, M>,
-    /// `S`, the covariance that the model claims for [`value`](Self::value).
+    /// `S`, the covariance of [`value`](Self::value) according to the model.
     pub covariance: SMatrix<f64, M, M>,
-    /// `L⁻¹ ν` with `S = L Lᵀ`: N(0, I), and independent from update to update, if the model is
-    /// right.
+    /// `L⁻¹ ν` with `S = L Lᵀ`: N(0, I), and independent from update to update, if the model is correct.
     pub whitened: SVector<f64, M>,
     /// The diagonal of `L⁻¹`.
     pub(crate) inverse_scales: SVector<f64, M>,
 }
 
 impl<const M: usize> Innovation<M> {
-    /// The normalised innovation squared, `νᵀ S⁻¹ ν`: χ² with `M` degrees of freedom if the model is
-    /// right (Bar-Shalom, Li and Kirubarajan 2001, sec. 5.4).
+    /// The normalized innovation squared, `νᵀ S⁻¹ ν`: χ² with `M` degrees of freedom if the model is correct (Bar-Shalom, Li
+    /// and Kirubarajan 2001, sec. 5.4).
     pub fn nis(&self) -> f64 {
         self.whitened.norm_squared()
     }
 
-    /// The logarithm of the probability density, given all measurements before, of this one.
+    /// The log-density of this measurement given all previous ones.
     ///
-    /// The sum over a run is the model's log-likelihood.
+    /// The sum over a run is the log-likelihood of the model.
     pub fn log_likelihood(&self) -> f64 {
         let minus_log_root_determinant: f64 =
             self.inverse_scales.iter().map(|&scale| ComplexField::ln(scale)).sum();

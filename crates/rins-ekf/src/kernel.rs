@@ -1,12 +1,12 @@
-//! The matrix kernels: one product, its exactly symmetric use, and a Cholesky factor.
+//! The matrix kernels: a product, its exactly symmetric form, and a Cholesky factor.
 //!
-//! Columns are contiguous, so every inner loop runs down a column, with its length known when compiled.
+//! Columns are contiguous, so every inner loop runs along a column, with a length known at compile time.
 
 use nalgebra::{ComplexField, SMatrix, SVector};
 
 /// `A P Aᵀ`, exactly symmetric, for a symmetric `P`.
 ///
-/// Of use for a noise that comes in through a matrix: `Q = G W Gᵀ`.
+/// An application is noise that enters through a matrix: `Q = G W Gᵀ`.
 ///
 /// ```
 /// use nalgebra::{Matrix1, Matrix2, Vector2};
@@ -22,7 +22,7 @@ pub fn congruence<const N: usize, const K: usize>(
     mirrored(product)
 }
 
-/// Adds `A P Aᵀ`, with a symmetric `P`, to `sum`, whose lower triangle is then to be mirrored.
+/// Adds `A P Aᵀ`, with a symmetric `P`, to `sum`; only the lower triangle is valid afterwards and must be mirrored.
 pub(crate) fn add_congruence<const N: usize, const K: usize>(
     sum: &mut SMatrix<f64, N, N>,
     a: &SMatrix<f64, N, K>,
@@ -35,8 +35,7 @@ pub(crate) fn add_congruence<const N: usize, const K: usize>(
 
 /// Adds `A Bᵀ` to `sum`.
 ///
-/// Where an element of `B` is zero nothing is added: a transition or a measurement matrix is mostly
-/// zeros, and belongs on the right.
+/// Zero elements of `B` are skipped: a transition or measurement matrix, which is mostly zeros, should be `B`.
 #[inline]
 pub(crate) fn add_product<const N: usize, const K: usize, const M: usize>(
     sum: &mut SMatrix<f64, N, M>,
@@ -77,7 +76,7 @@ pub(crate) fn mirrored<const N: usize>(mut lower: SMatrix<f64, N, N>) -> SMatrix
 /// Whether every element is finite.
 #[inline]
 pub(crate) fn is_finite<const R: usize, const C: usize>(matrix: &SMatrix<f64, R, C>) -> bool {
-    // Zero times anything that is not finite is NaN; sums, unlike a search, run in lanes.
+    // Zero times a number that is not finite is NaN; sums, unlike a search, are vectorized.
     let mut sums = [0.0; R];
     for column in &matrix.data.0 {
         for (sum, x) in sums.iter_mut().zip(column) {
@@ -87,16 +86,16 @@ pub(crate) fn is_finite<const R: usize, const C: usize>(matrix: &SMatrix<f64, R,
     sums.iter().sum::<f64>() == 0.0
 }
 
-/// A symmetric matrix `S = L Lᵀ` by its Cholesky factor.
+/// The Cholesky factor of a symmetric matrix `S = L Lᵀ`.
 pub(crate) struct Factor<const M: usize> {
-    /// `L`, with what was above the diagonal of `S` left in place.
+    /// `L`, with the elements of `S` above the diagonal left in place.
     lower: SMatrix<f64, M, M>,
-    /// The diagonal of `L`, inverted.
+    /// The inverse diagonal of `L`.
     inverse_diagonal: SVector<f64, M>,
 }
 
 impl<const M: usize> Factor<M> {
-    /// The factor of `s`, of which the lower triangle is read; `None` if it is not positive definite.
+    /// The factor of `s`, of which the lower triangle is used; `None` if it is not positive definite.
     #[inline]
     pub(crate) fn of(s: &SMatrix<f64, M, M>) -> Option<Self> {
         let mut lower = *s;
@@ -121,7 +120,7 @@ impl<const M: usize> Factor<M> {
     /// `A S⁻¹`.
     #[inline]
     pub(crate) fn divide<const N: usize>(&self, mut a: SMatrix<f64, N, M>) -> SMatrix<f64, N, M> {
-        // Column by column: first the columns of A L⁻ᵀ, then those of that times L⁻¹.
+        // Column by column: first the columns of A L⁻ᵀ, then those of its product with L⁻¹.
         for j in 0..M {
             let mut column = a.data.0[j];
             for (done, l_k) in a.data.0.iter().zip(&self.lower.data.0).take(j) {

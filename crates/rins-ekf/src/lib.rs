@@ -1,20 +1,18 @@
-//! A generic extended Kalman filter and smoother, for the few places that need exactly that.
+//! A generic extended Kalman filter and smoother.
 //!
-//! **What it does.** [`Filter`] predicts and updates a state of `N` elements with fixed-size matrices
-//! and without allocating. Every update returns its [`Innovation`], whitened: N(0, I) if the model is
-//! right, so that a model can be judged without a second path through the algebra. A [`Measurement`]
-//! brings its own matrix and noise, and may say that its noise is correlated with the state's error.
-//! A [`Block`] names a place in the state. A [`Smoother`] looks back.
+//! **What it does.** [`Filter`] predicts and updates a state of `N` elements with fixed-size matrices and without allocation.
+//! Every update returns its [`Innovation`], whitened: N(0, I) if the model is correct, so that consistency tests need no
+//! further algebra. A [`Measurement`] contains its own matrix and noise, and optionally the correlation of its noise with the
+//! state's error. A [`Block`] is a named block of the state. A [`Smoother`] estimates past states.
 //!
-//! **What it does not do.** It knows nothing of inertial navigation. It never rejects an outlier,
-//! clamps, inflates a covariance or falls back: a step is done as it was asked for, or it is an error
-//! and nothing has changed.
+//! **What it does not do.** It contains no inertial navigation. It never rejects an outlier, clamps, inflates a covariance or
+//! falls back: a step is carried out as requested, or it is an error and nothing has changed.
 //!
-//! **Which form.** [`Filter`]'s sigmas keep six digits while rows do not mix states whose variances stay
-//! above 1e6 times the noise, and three up to 1e10 times; beyond, it refuses. [`FactorisedFilter`]
-//! takes the same steps on the factors `U D Uᵀ`, and keeps six digits up to 1e16 times.
+//! **Form of the covariance.** [`Filter`]'s sigmas keep six digits while the variances of the states that a row combines stay
+//! below 1e6 times the noise, and three digits up to 1e10 times; beyond, it refuses the measurement. [`FactorisedFilter`]
+//! carries out the same steps on the factors `U D Uᵀ`, and keeps six digits up to 1e16 times.
 //!
-//! Position and velocity from positions:
+//! Position and velocity from position measurements:
 //! ```
 //! use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
 //! use rins_ekf::{Filter, Measurement};

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-/// A linearised measurement `z = H x + v` with `v ~ N(0, R)`.
+/// A linearized measurement `z = H x + v` with `v ~ N(0, R)`.
 ///
 /// ```
 /// use nalgebra::{Matrix1, RowVector2, Vector1};
@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, SVector};
 /// # assert!(position.cross.is_none());
 /// ```
 ///
-/// A matrix of the wrong shape does not compile:
+/// A matrix with a wrong shape does not compile:
 /// ```compile_fail,E0308
 /// use nalgebra::{Matrix1, RowVector3, Vector1};
 /// use rins_ekf::{Filter, Measurement};
@@ -25,9 +25,9 @@ use nalgebra::{SMatrix, SVector};
 pub struct Measurement<const M: usize, const N: usize> {
     /// `z`, in the measurement's units.
     pub value: SVector<f64, M>,
-    /// `H`, by which the measurement depends on the state.
+    /// `H`, the derivative of the measurement by the state.
     pub matrix: SMatrix<f64, M, N>,
-    /// `R`, the noise's covariance, of which the lower triangle is read.
+    /// `R`, the covariance of the noise, of which the lower triangle is used.
     pub noise: SMatrix<f64, M, M>,
     /// `C = E[(x − x̂) vᵀ]`, the covariance of the state's error (*true minus estimate*) before the
     /// update with the measurement's noise; `None` is zero.
@@ -44,8 +44,8 @@ impl<const M: usize, const N: usize> Measurement<M, N> {
         Self { value, matrix, noise, cross: None }
     }
 
-    /// A nonlinear measurement, linearised about `state`: `residual` is what was measured less what
-    /// `state` predicts, `z − h(x̂)`, and `matrix` is the derivative of `h` there.
+    /// A nonlinear measurement, linearized about `state`: `residual` is the measured minus the predicted value, `z − h(x̂)`,
+    /// and `matrix` is the derivative of `h` there.
     pub fn linearised(
         residual: &SVector<f64, M>,
         state: &SVector<f64, N>,
@@ -55,17 +55,17 @@ impl<const M: usize, const N: usize> Measurement<M, N> {
         Self::new(residual + matrix * state, matrix, noise)
     }
 
-    /// This measurement with a noise that also drove the prediction.
+    /// This measurement with noise that is correlated with the process noise of the prediction.
     ///
-    /// `cross` is `C = E[(x − x̂) vᵀ]`, *true minus estimate*. It arises where one sensor sample is
-    /// both integrated and compared: with process noise `x = Φ x' + G n` and measurement noise
-    /// `v = D n + …`, both from one `n ~ N(0, W)`, it is `C = G W Dᵀ`.
+    /// `cross` is `C = E[(x − x̂) vᵀ]`, *true minus estimate*. It is nonzero if one sensor sample is both integrated and
+    /// compared: with process noise `x = Φ x' + G n` and measurement noise `v = D n + …`, both from one `n ~ N(0, W)`, it is
+    /// `C = G W Dᵀ`.
     ///
     /// ```
     /// use nalgebra::{Matrix1, Vector1};
     /// use rins_ekf::{Filter, Measurement};
     /// // A rate gyro with noise variance 4 is integrated over one second, which adds −n to the
-    /// // computed angle's error; compared with a perfect table rate, it shows that very −n.
+    /// // computed angle's error; its difference from a perfect table rate measures the same −n.
     /// let mut filter = Filter { state: Vector1::new(0.0), covariance: Matrix1::new(4.0) };
     /// let difference = Measurement::new(Vector1::new(3.0), Matrix1::new(0.0), Matrix1::new(4.0))
     ///     .correlated_with_state_error(Matrix1::new(-4.0));

@@ -7,12 +7,12 @@ use nalgebra::{SMatrix, SVector};
 use crate::filter::Filter;
 use crate::kernel::{Factor, add_congruence, add_product, is_finite, mirrored};
 
-/// What the filter did over one step, from which the smoother works backwards.
+/// The record of one filter step for the smoother.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step<const N: usize> {
-    /// `Φ`, that led here from the step before.
+    /// `Φ` of the transition from the previous step.
     pub transition: SMatrix<f64, N, N>,
-    /// `Q`, that was added on the way; its lower triangle is read.
+    /// `Q` of this transition; its lower triangle is used.
     pub noise: SMatrix<f64, N, N>,
     /// The estimate before this step's measurements.
     pub predicted: Filter<N>,
@@ -27,13 +27,13 @@ pub struct Smoothed<const N: usize> {
     pub state: SVector<f64, N>,
     /// The covariance of the estimate's error, exactly symmetric.
     pub covariance: SMatrix<f64, N, N>,
-    /// By how much the later measurements move the filtered estimate: `state − filtered.state`.
+    /// The correction of the filtered estimate by the later measurements: `state − filtered.state`.
     ///
-    /// For an error-state filter, this is to be added to what was corrected and reset at this step.
+    /// For an error-state filter, it is added to the quantity that was corrected at this step before the reset.
     pub correction: SVector<f64, N>,
 }
 
-/// Why a run cannot be smoothed.
+/// The reason why a run cannot be smoothed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SmootherError {
@@ -54,7 +54,7 @@ pub enum SmootherError {
 }
 
 impl<const N: usize> Smoothed<N> {
-    /// The last estimate of a run, to which smoothing adds nothing.
+    /// The last estimate of a run, which smoothing does not change.
     fn last(filtered: &Filter<N>) -> Self {
         Self {
             state: filtered.state,
@@ -63,15 +63,15 @@ impl<const N: usize> Smoothed<N> {
         }
     }
 
-    /// The estimate one step earlier, where the filter had `earlier`; `self` is the estimate at the
-    /// end of `step`, whose predicted covariance is `predicted_factor`'s.
+    /// The estimate one step earlier, where `earlier` is the filtered one; `self` is the estimate at the end of `step`, and
+    /// `predicted_factor` is the factor of its predicted covariance.
     fn before(&self, step: &Step<N>, earlier: &Filter<N>, predicted_factor: &Factor<N>) -> Self {
         let mut earlier_with_predicted = SMatrix::zeros();
         add_product(&mut earlier_with_predicted, &earlier.covariance, &step.transition);
         let gain = predicted_factor.divide(earlier_with_predicted);
 
-        // Only what the step's measurements changed enters, not where the estimates stand, so that a
-        // reset between two steps makes no difference.
+        // Only the correction by the step's measurements enters, not the estimates themselves, so that a reset between two
+        // steps has no effect.
         let change = step.filtered.state - step.predicted.state + self.correction;
         let correction = gain * change;
 
@@ -83,10 +83,9 @@ impl<const N: usize> Smoothed<N> {
     }
 }
 
-/// A run's record, step by step, and the pass back over it (Rauch, Tung and Striebel 1965).
+/// The record of a run, step by step, and the backward pass (Rauch, Tung and Striebel 1965).
 ///
-/// The covariance is taken in the form `(I−GΦ) P (I−GΦ)ᵀ + G (Q + Pˢ) Gᵀ`, a sum of squares, where the
-/// textbook's has a difference.
+/// The covariance has the form `(I−GΦ) P (I−GΦ)ᵀ + G (Q + Pˢ) Gᵀ`, a sum of squares, instead of the textbook's difference.
 ///
 /// ```
 /// use nalgebra::{Matrix1, Vector1};
@@ -108,14 +107,13 @@ impl<const N: usize> Smoothed<N> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// **Error states.** A filter that corrects what it is about and then resets its state to zero
-/// records each step *before* the reset. [`Smoothed::correction`] is then what to add to the corrected
-/// quantity at that time, with the filter's own sign.
+/// **Error states.** A filter that corrects its reference quantity and then resets its state to zero records each step
+/// *before* the reset. [`Smoothed::correction`] is then added to the corrected quantity at that time, with the filter's sign.
 ///
 /// **Limit.** A measurement whose noise is correlated with the state's error
-/// ([`Measurement::correlated_with_state_error`](crate::Measurement::correlated_with_state_error))
-/// tells of the step's *beginning* what its end does not, and this smoother, like the textbook's, would
-/// miss that. Put the shared noise into the state to smooth such a run.
+/// ([`Measurement::correlated_with_state_error`](crate::Measurement::correlated_with_state_error)) holds information on the
+/// state at the *start* of the step beyond that on its end. This smoother, like the textbook's, does not use it. Augment the
+/// state with the shared noise to smooth such a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smoother<const N: usize> {
     start: Filter<N>,
@@ -123,7 +121,7 @@ pub struct Smoother<const N: usize> {
 }
 
 impl<const N: usize> Smoother<N> {
-    /// The record of a run that starts from this estimate.
+    /// The record of a run with this initial estimate.
     pub const fn new(start: Filter<N>) -> Self {
         Self { start, steps: Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! A lever arm that a model does not have spoils its fit; added to the list, it is found.
+//! An unmodeled lever arm degrades a fit; with its term in the model it is estimated.
 #![expect(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit};

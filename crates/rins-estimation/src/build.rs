@@ -1,4 +1,4 @@
-//! Epochs in the making: residuals sample by sample, derivatives piece by piece.
+//! Construction of epochs: residuals for each sample, derivatives for each piece.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_terms::{Acting, Dual64, KinematicState, KinematicStates, Model, Signals, Track, values};
@@ -8,21 +8,22 @@ use crate::gains::Growing;
 use crate::run::{Reference, Run};
 use crate::sway::Sway;
 
-/// What a run is compared with: a model, and the parameters by which derivatives are taken.
+/// The prediction of a run: a model, and the parameters for which derivatives are calculated.
 pub(crate) struct Compared<'a> {
     run: &'a Run,
-    /// The terms that do anything: hundreds may stand by to be tried.
+    /// The terms with an effect: a model may hold hundreds of inactive candidates.
     present: Vec<Acting<'a>>,
-    /// Of each column the term, with a derivative by one of its parameters, and what follows from that one too.
+    /// For each column, the term with the derivative by one of its parameters, and the terms that depend on it.
     columns: Vec<Vec<Acting<'a>>>,
     readings: Option<&'a [f64]>,
     sway: Option<Sway>,
-    /// What turns a difference in readings into one in what was true, `(I + [S, M])⁻¹`, of gyros and accelerometers.
+    /// The matrices `(I + S + M)⁻¹` of gyros and accelerometers, which convert errors of readings to errors of the true
+    /// quantities.
     inverse_gains: [Matrix3<f64>; 2],
 }
 
 impl<'a> Compared<'a> {
-    /// What a run is compared with along a track, derivatives being taken over pieces of it.
+    /// The prediction of a run along a track; derivatives are calculated over pieces of it.
     pub(crate) fn new(
         run: &'a Run,
         model: &'a Model,
@@ -44,17 +45,17 @@ impl<'a> Compared<'a> {
     }
 }
 
-/// Epochs in the making, one after the other.
+/// The construction of successive epochs.
 pub(crate) struct Build<'a> {
     compared: &'a Compared<'a>,
-    /// What is going on over each sample, and over each piece.
+    /// The kinematic states of each sample and of each piece.
     fine: KinematicStates<'a>,
     pieces: KinematicStates<'a>,
     growing: Growing,
 }
 
 impl<'a> Build<'a> {
-    /// From the moments of the first sample and of the first piece on.
+    /// Starts at the kinematic states of the first sample and of the first piece.
     pub(crate) fn new(
         compared: &'a Compared<'a>,
         fine: KinematicStates<'a>,
@@ -64,7 +65,7 @@ impl<'a> Build<'a> {
         Self { compared, fine, pieces, growing }
     }
 
-    /// Takes a piece only to know what readings differ by at its end.
+    /// Processes a piece only for the reading errors at its end.
     pub(crate) fn pass_piece(&mut self) {
         if let Some(piece) = self.pieces.advance() {
             self.compared.set_columns(&mut self.growing, piece);
@@ -72,7 +73,7 @@ impl<'a> Build<'a> {
         }
     }
 
-    /// An epoch: its residuals sample by sample, its columns piece by piece.
+    /// The next epoch: residuals for each sample, columns for each piece.
     pub(crate) fn epoch(&mut self, span: &Span, ends: impl Iterator<Item = usize>) -> Epoch {
         let mut turning = Turning::default();
         let mut duration = 0.0;
@@ -119,7 +120,7 @@ impl<'a> Build<'a> {
 }
 
 impl Compared<'_> {
-    /// What the parameters add to what is read in a piece.
+    /// Sets the derivatives of the readings in a piece by the parameters.
     fn set_columns(&self, growing: &mut Growing, piece: &KinematicState) {
         for (column, acting) in self.columns.iter().enumerate() {
             let mut signals = Acting::together(acting, piece);
@@ -128,14 +129,14 @@ impl Compared<'_> {
         }
     }
 
-    /// Leaves of some signals what is read: a command goes on whatever the table does.
+    /// Removes the angle error for a commanded rate: the command does not depend on the table.
     fn leave_what_is_read(&self, signals: &mut Signals) {
         if let Reference::Command { .. } = self.run.rig.reference {
             signals.angle = Dual64::from_re(0.0);
         }
     }
 
-    /// What a sample was read beyond the model; the attitude of the body in the axis frame, as [`turned_over`] has it.
+    /// Adds the residual of a sample; returns the attitude of the body in the axis frame as in [`turned_over`].
     fn residual(
         &self,
         growing: &mut Growing,
@@ -168,13 +169,13 @@ impl Compared<'_> {
     }
 }
 
-/// The mean attitude over a moment of a body on a table in the axis frame, for what gyros read and what accelerometers do:
-/// most of what gyros read goes with the table's rate, and counts by how far it turns, not by how long.
+/// The mean attitude of a body on a table in the axis frame over a sample, for gyros and for accelerometers. That for gyros
+/// is the mean over the angle instead of the time, because most of their error is proportional to the table rate.
 fn turned_over(moment: &KinematicState) -> [Matrix3<f64>; 2] {
     [turned_by(moment.middle_angle()), turned_by(moment.mean.angle)]
 }
 
-/// The attitude of a body on a table in the axis frame.
+/// The attitude of a body on a table in the axis frame, at this table angle.
 fn turned_by(angle: f64) -> Matrix3<f64> {
     let (sin, cos) = angle.sin_cos();
     Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)

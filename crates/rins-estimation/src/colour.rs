@@ -1,28 +1,28 @@
-//! Noise that remembers: flicker and random walk as sums of processes with memory.
+//! Colored noise: bias instability and random walk as sums of first-order Gauss-Markov processes.
 
 use crate::noise_parameters::TriadStrengths;
 
-/// The ratio of neighbouring correlation times of the processes that make flicker noise: between them its density
-/// is off by 4 %, where the strength of a flicker is seldom known to 20 %.
+/// The ratio of successive correlation times of the processes that represent flicker noise: the power spectral density
+/// deviates by 4 %, whereas a bias instability is rarely known to 20 %.
 const LADDER: f64 = 8.0;
 
-/// How many times the run the longest of them last: what lasts longer is a bias, and a parameter.
+/// The largest correlation time relative to the run: longer ones are a constant bias, which is a parameter.
 const LONGEST: f64 = 4.0;
 
-/// A process with memory, one for each axis of a triad: `b' = -b/τ + white noise`.
+/// A first-order Gauss-Markov process, one for each axis of a triad: `b' = -b/τ + white noise`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Process {
     /// The correlation time τ \[s\]; infinite for a random walk.
     time: f64,
-    /// The variance of `b`, or, of a random walk, its gain a second.
+    /// The variance of `b`; for a random walk, its increase per second.
     strength: f64,
 }
 
-/// What a process does over an epoch, exactly.
+/// The exact transition of a process over an epoch.
 ///
-/// From `b` at the epoch's start, `decay · b` is left at its end, its integral is `mean · b` times the
-/// epoch's length, and the mean of the integral up to every instant `half_mean · b` times half of it. To each
-/// comes a random part: those of the end, the integral and the integral's mean have these covariances.
+/// For `b` at the start of the epoch, the value at the end is `decay · b`, the integral is `mean · b` times the duration, and
+/// the mean over time of the running integral is `half_mean · b` times half the duration. Each has a random part: those of
+/// the end value, of the integral and of the integral's mean have these covariances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Passage {
     pub(crate) decay: f64,
@@ -48,12 +48,12 @@ const GAUSS: [(f64, f64); 5] = [
 impl Process {
     /// The variance at the start of a run.
     ///
-    /// A random walk starts from nothing: the turn-on bias is a parameter.
+    /// A random walk starts at zero: the turn-on bias is a parameter.
     pub(crate) fn initial_variance(&self) -> f64 {
         if self.time.is_finite() { self.strength } else { 0.0 }
     }
 
-    /// What is left of a unit of noise after `elapsed` \[s\], its integral, and that integral's integral.
+    /// The response to a unit impulse after `elapsed` \[s\], its integral, and the integral of that.
     fn response(&self, elapsed: f64) -> [f64; 3] {
         if self.time.is_infinite() {
             return [1.0, elapsed, 0.5 * elapsed * elapsed];
@@ -68,7 +68,7 @@ impl Process {
         [(-x).exp(), -(-x).exp_m1() * self.time, twice * self.time * self.time]
     }
 
-    /// What it does over `interval` \[s\].
+    /// The transition over `interval` \[s\].
     pub(crate) fn passage(&self, interval: f64) -> Passage {
         let density =
             if self.time.is_infinite() { self.strength } else { 2.0 * self.strength / self.time };
@@ -100,26 +100,26 @@ impl Process {
     }
 }
 
-/// The processes of a triad, and the density of white noise that the fastest of them amount to.
+/// The processes of a triad, and the noise density of those that are white at the epochs' resolution.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Colours {
     pub(crate) processes: Vec<Process>,
-    /// What is added to the density of white noise \[per Hz\].
+    /// The addition to the power spectral density of white noise \[per Hz\].
     pub(crate) white: f64,
 }
 
 impl Colours {
-    /// For a run of `duration` in epochs of `epoch` \[s\].
+    /// The processes for a run of `duration` in epochs of `epoch` \[s\].
     ///
-    /// Flicker of density `B²/2πf` is a ladder of processes whose times are a factor `r` apart, each of
-    /// variance `B² ln r / π`. What lasts less than an epoch is white as seen in epochs.
+    /// Flicker noise of power spectral density `B²/2πf` is the sum of processes whose correlation times have the ratio `r`,
+    /// each of variance `B² ln r / π`. Processes faster than an epoch are white at the epochs' resolution.
     pub(crate) fn of(strengths: &TriadStrengths, epoch: f64, duration: f64) -> Self {
         let mut colours = Self::default();
         if strengths.flicker > 0.0 {
             let variance =
                 strengths.flicker * strengths.flicker * LADDER.ln() / std::f64::consts::PI;
             let mut time = 0.75 * epoch;
-            // Those faster still: 2 σ² (τ/4 + τ/16 + ...).
+            // The faster processes: 2 σ² (τ/4 + τ/16 + ...).
             colours.white = 2.0 * variance * time / (LADDER - 1.0);
             while time < LONGEST * duration {
                 colours.processes.push(Process { time, strength: variance });
@@ -139,7 +139,7 @@ mod tests {
     use super::*;
     use rins_testing::assert_close;
 
-    /// Two passages one after the other are one of twice the length.
+    /// Two successive transitions equal one of twice the duration.
     #[test]
     fn two_short_passages_make_a_long_one() {
         for time in [0.3, 2.0, 500.0, f64::INFINITY] {
@@ -149,7 +149,7 @@ mod tests {
             let half_gain = one.half_mean * 0.125;
             assert_close!(one.decay * one.decay, long.decay, 1e-14);
             assert_close!(0.5 * (one.mean + one.decay * one.mean), long.mean, 1e-13);
-            // The mean over both halves: that of the first, and the second's on top of the first's end.
+            // The mean over both halves: that of the first, and that of the second added to the end value of the first.
             let half = 0.5 * (half_gain + gain + one.decay * half_gain);
             assert_close!(half, long.half_mean * 0.25, 1e-13);
             let close = |got: f64, want: f64| assert_close!(got, want, 1e-9 * want);
@@ -179,7 +179,7 @@ mod tests {
             let w = std::f64::consts::TAU * frequency;
             let of = |p: &Process| 2.0 * p.strength * p.time / (1.0 + w * w * p.time * p.time);
             let density: f64 = colours.processes.iter().map(of).sum::<f64>() + colours.white;
-            // Two-sided: half of B²/2πf... the ladder's own ripple is 3 %.
+            // Two-sided: half of B²/2πf. The ripple of the sum is 3 %.
             assert_close!(density * w / 9.0, 1.0, 0.1);
         }
     }

@@ -1,4 +1,4 @@
-//! A stretch of samples that is taken as one, and what is known of it.
+//! An epoch: successive samples that are processed as one update.
 
 use std::ops::Range;
 
@@ -9,33 +9,33 @@ use crate::gains::Gains;
 /// The shortest epoch \[s\].
 pub(crate) const SHORTEST_EPOCH: f64 = 0.1;
 
-/// A stretch of samples, taken as one.
+/// Successive samples that are processed as one update.
 ///
-/// Over it `φ`, the attitude error of the reference path, `C~ = (I - φ×) C`, and `v`, the velocity, both in the
-/// axis frame, go from `φ`, `v` to `φ + gain_φ`, `v + (φ × F) Δ + gain_v`, but for the Earth's turning of `φ`,
-/// which every gain holds too; what is observed are
-/// the mean of `φ` over the readings within and the velocity at the end. Every gain has one
-/// column of what was read beyond the model, and one a parameter: the derivative by it.
+/// `φ` is the attitude error of the reference trajectory, `C~ = (I - φ×) C`, and `v` the velocity error, both in the axis
+/// frame. Over the epoch they change to `φ + gain_φ` and `v + (φ × F) Δ + gain_v`, apart from the rotation of `φ` by the
+/// Earth's rate, which every gain includes. The measurements are the mean of `φ` over the readings of the epoch and the
+/// velocity at its end. Every gain has a column for the residuals of the readings and a column for each parameter: the
+/// derivative by that parameter.
 #[derive(Clone, Debug)]
 pub(crate) struct Epoch {
     /// The first sample, and the first of the next epoch.
     pub(crate) samples: (usize, usize),
-    /// How long \[s\].
+    /// The duration \[s\].
     pub(crate) duration: f64,
-    /// Whether samples are missing before it, so that nothing is known of φ and v.
+    /// Whether samples are missing before the epoch, so that φ and v are unknown at its start.
     pub(crate) fresh: bool,
-    /// Whether it plays no part: time goes by, and nothing is shown.
+    /// Whether the epoch is excluded from the estimate: time passes without an update.
     pub(crate) left_out: bool,
     pub(crate) gains: Gains,
     pub(crate) turning: Turning,
-    /// What is not known of it where samples are missing.
+    /// The uncertainty due to missing samples.
     pub(crate) held: Option<Held>,
-    /// The variance of its mean angle for which the encoder's steps are taken \[rad²\].
+    /// The variance of the mean angle that accounts for the encoder's quantization \[rad²\].
     pub(crate) rounding: f64,
 }
 
 impl Epoch {
-    /// How many readings the mean is of.
+    /// The number of readings in the mean.
     pub(crate) fn count(&self) -> f64 {
         (self.samples.1 - self.samples.0) as f64
     }
@@ -48,28 +48,28 @@ pub(crate) struct Span {
     pub(crate) fresh: bool,
 }
 
-/// What the body does over an epoch, as far as noise is carried by it.
+/// Integrals of the attitude of the body over an epoch, which propagate noise.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Turning {
     /// The integral of `C_b^s` \[s\].
     pub(crate) turned: Matrix3<f64>,
-    /// The mean of that over the readings \[s\].
+    /// The mean of this integral over the readings \[s\].
     pub(crate) mean: Matrix3<f64>,
-    /// Its integral \[s²\].
+    /// The integral of this integral \[s²\].
     pub(crate) twice: Matrix3<f64>,
 }
 
 /// The variances that missing samples add to an epoch, along x, y and z of the axis frame.
 ///
-/// The rates of the sample after a gap are held over it, and the motion went its own way.
+/// The rates of the sample after a gap are assumed over the whole gap; the actual motion differs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Held {
-    /// Of attitude at the end \[rad²\].
+    /// The variance of the attitude at the end \[rad²\].
     pub(crate) angle: Vector3<f64>,
-    /// Its covariance with the mean attitude that is shown.
+    /// Its covariance with the measured mean attitude.
     pub(crate) angle_with_mean: Vector3<f64>,
-    /// Of that mean.
+    /// The variance of that mean.
     pub(crate) mean_angle: Vector3<f64>,
-    /// Of the velocity gained \[m²/s²\].
+    /// The variance of the velocity increment \[m²/s²\].
     pub(crate) velocity: Vector3<f64>,
 }

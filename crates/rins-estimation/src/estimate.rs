@@ -1,4 +1,4 @@
-//! A finished estimate, and what is asked of it.
+//! A finished estimate and its queries.
 
 use nalgebra::{DMatrix, DVector, SVector};
 use rins_frames::SignedAxes;
@@ -13,12 +13,12 @@ use crate::posterior::Evidence;
 /// An estimated parameter, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// What it is.
+    /// The parameter.
     pub parameter: FreeParameter,
-    /// The run that it belongs to, counted from zero, the first of several that share it; none if all do, or there is
-    /// one only.
+    /// The run that it belongs to, counted from zero: the first of several that share it; `None` if all share it or there is
+    /// only one run.
     pub run: Option<usize>,
-    /// What it was expected to be.
+    /// The mean of its prior.
     pub expected: f64,
     /// The estimate.
     pub value: f64,
@@ -29,50 +29,50 @@ pub struct Estimate {
 /// One step of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
-    /// The largest of the steps, in sigmas.
+    /// The largest component of the step, in sigmas.
     pub step: f64,
-    /// The logarithm of the probability of the data, but for a constant.
+    /// The log marginal likelihood (parameters integrated out), up to a constant.
     pub log_likelihood: f64,
 }
 
 /// A finished estimate.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// The parameters, in the order of the model, those of the IMU first, then those of each run; [`Estimate::parameter`] has
+    /// The parameters in the order of the model: those of the IMU first, then those of each run. [`Estimate::parameter`] holds
     /// the place in the model of the run that it belongs to, or of the first run that has it.
     pub parameters: Vec<Estimate>,
-    /// Their covariance, in SI units; where the noise was found, its own uncertainty is in it.
+    /// Their covariance, in SI units. It includes the uncertainty of estimated noise parameters.
     pub covariance: DMatrix<f64>,
-    /// What the data alone say, made linear about the estimate.
+    /// The information of the data without the priors, linearized at the estimate.
     pub evidence: Evidence,
-    /// The logarithm of the probability of the data, the parameters integrated out, but for a constant.
+    /// The log marginal likelihood (parameters integrated out), up to a constant.
     pub log_likelihood: f64,
-    /// Each run's model with the estimates in it, along the run's axes.
+    /// The model of each run with the estimates as values, along the run's axes.
     pub models: Vec<Model>,
-    /// The axes along which the parameters are named, as they are picked from the sensors' own: the first run's, unless
-    /// [`Fit::along`] said otherwise.
+    /// The axes along which the parameters are named, relative to the sensors' own axes: those of the first run, unless
+    /// [`Fit::along`] changed them.
     pub axes: SignedAxes,
-    /// Each run's axes, as they are picked from the sensors' own.
+    /// The axes of each run, relative to the sensors' own axes.
     pub run_axes: Vec<SignedAxes>,
-    /// Each run's noise.
+    /// The noise of each run.
     pub noise: Vec<Noise>,
-    /// Each run, made linear about the estimate.
+    /// Each run, linearized at the estimate.
     pub linear: Vec<Linear>,
-    /// How the iteration went.
+    /// The iterations.
     pub iterations: Vec<Iteration>,
-    /// The inverse of about the curvature where the noise was found, if it was looked for.
+    /// The approximate inverse Hessian at the estimated noise parameters, if they were estimated.
     pub(crate) inverse_curvature: Option<DMatrix<f64>>,
 }
 
 impl Fit {
-    /// The parameter of this id, of the IMU or of the first run.
+    /// The parameter of this id, of the IMU or of the first run that has it.
     pub fn parameter(&self, id: &str) -> Option<&Estimate> {
         self.parameters.iter().find(|estimate| estimate.parameter.id == id)
     }
 
-    /// The same with the other parameters marginalized: integrated out with their priors.
+    /// The same fit with the other parameters marginalized: integrated out with their priors.
     ///
-    /// Models, and what is linear, keep them.
+    /// The models and the linearized runs keep them.
     #[must_use]
     pub fn marginal(mut self, keep: impl Fn(&Estimate) -> bool) -> Self {
         let (kept, others): (Vec<usize>, Vec<usize>) =
@@ -85,7 +85,7 @@ impl Fit {
             (place, parameter.sigma, expected - value)
         };
         let others: Vec<(usize, f64, f64)> = others.into_iter().map(prior).collect();
-        // An estimate was found with the same information.
+        // The estimate was calculated with the same information.
         let Some(evidence) = self.evidence.marginal(&kept, &others) else { return self };
         self.evidence = evidence;
         self.covariance = DMatrix::from_fn(kept.len(), kept.len(), |row, column| {
@@ -95,10 +95,10 @@ impl Fit {
         self
     }
 
-    /// The same where something else is unknown that would move the parameters by so much \[SI\] at its 1σ.
+    /// The same fit with an additional unknown effect that changes the parameters by `moves` \[SI\] at its 1σ.
     ///
     /// # Panics
-    /// If there are not as many as parameters.
+    /// If there is not one change for each parameter.
     #[must_use]
     pub fn with_unknown(mut self, moves: &DVector<f64>) -> Self {
         self.covariance += moves * moves.transpose();
@@ -108,7 +108,7 @@ impl Fit {
         self
     }
 
-    /// What the data tell of the parameters, the noise being what was found.
+    /// The observability of the parameters with the noise of the fit.
     pub fn identifiability(&self) -> Identifiability {
         let unknown = |estimate: &Estimate| Unknown {
             id: estimate.parameter.id.clone(),
@@ -134,7 +134,7 @@ impl Fit {
         (value, variance.max(0.0).sqrt())
     }
 
-    /// The whitened innovations of a run: each N(0, I) if the model is right.
+    /// The whitened innovations of a run: each is N(0, I) if the model is correct.
     ///
     /// # Panics
     /// If there is no such run.
@@ -144,7 +144,7 @@ impl Fit {
             .expect("the same filter has been run to find the estimate")
     }
 
-    /// The model of the IMU: what belongs to the sensors, and for the rest the first run's.
+    /// The model of the first run, with the estimates.
     pub fn model(&self) -> &Model {
         &self.models[0]
     }

@@ -1,8 +1,8 @@
-//! What a run says of the parameters: one pass of the filter, and one linear recursion a column.
+//! The information of a run on the parameters: one pass of the filter, with one linear recursion for each column.
 //!
-//! The filter's innovations and their derivatives by every parameter, whitened, are all there is to know
-//! of a linear model: sums of their products are the information, and equal what a filter with the
-//! parameters as states would find from a diffuse start.
+//! The whitened innovations of the filter and their derivatives by every parameter are sufficient statistics of a linear model:
+//! the sums of their products are the information matrix and the score. They equal those of a filter with the parameters as
+//! augmented states and a diffuse prior.
 
 use nalgebra::SVector;
 use rins_frames::{Dcm, Table};
@@ -19,22 +19,22 @@ use crate::space::Space;
 use crate::step::SHOWN;
 use crate::sway::Sway;
 
-/// A filter whose covariance could not be factored.
+/// The error that the covariance of an innovation could not be factored.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "the innovations' covariance is not positive definite at epoch {epoch}: a noise parameter is zero or \
      not plausible"
 )]
 pub struct Indefinite {
-    /// Which epoch.
+    /// The index of the epoch.
     pub epoch: usize,
 }
 
 impl Evidence {
-    /// What a linear run says, its noise being this strong.
+    /// The evidence of a linearized run with this noise.
     ///
     /// # Errors
-    /// [`Indefinite`] if the noise makes no covariance.
+    /// [`Indefinite`] if the covariance of an innovation is not positive definite.
     pub fn of(linear: &Linear, noise: &Noise) -> Result<Self, Indefinite> {
         let mut gram = Gram::new(linear.parameters + 1);
         let mut log_determinant = 0.0;
@@ -48,12 +48,12 @@ impl Evidence {
     }
 }
 
-/// The whitened innovations of a linear run where the parameters are `delta` from where it is linear.
+/// The whitened innovations of a linearized run for parameters that differ by `delta` from the point of linearization.
 ///
-/// Each is N(0, I) if the model is right. Epochs that play no part have none.
+/// Each is N(0, I) if the model is correct. Excluded epochs have none.
 ///
 /// # Errors
-/// [`Indefinite`] if the noise makes no covariance.
+/// [`Indefinite`] if the covariance of an innovation is not positive definite.
 pub fn innovations(
     linear: &Linear,
     noise: &Noise,
@@ -69,24 +69,24 @@ pub fn innovations(
     Ok(all)
 }
 
-/// How the axis frame is turned from where a model has it: by a base that tilts or sways, by an angle that is read wrong.
+/// The rotation of the axis frame relative to the model, due to base motion or an error of the table angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
-    /// After how many samples.
+    /// The number of samples up to this epoch's end.
     pub samples: usize,
-    /// From the frame as it is to the frame as the model has it.
+    /// The rotation from the actual frame to the frame of the model.
     pub by: Dcm<Table, Table>,
 }
 
-/// How the axis frame is turned after each epoch, as the filter knows it by then, the parameters being where the run is
-/// linear.
+/// The rotation of the axis frame after each epoch as estimated by the filter up to it, with the parameters at the point of
+/// linearization.
 ///
-/// Epochs that play no part have none.
+/// Excluded epochs have none.
 ///
 /// # Errors
-/// [`Indefinite`] if the noise makes no covariance.
+/// [`Indefinite`] if the covariance of an innovation is not positive definite.
 pub fn attitudes(run: &Run, linear: &Linear, noise: &Noise) -> Result<Vec<Turned>, Indefinite> {
-    // What is linear is what differs from the way that a base sways.
+    // The linear states are deviations from the sway trajectory of the base.
     let sway = Sway::of(run);
     let mut all = Vec::with_capacity(linear.epochs.len());
     pass(linear, noise, Some(&[1.0]), |epoch, filter, _| {
@@ -100,16 +100,16 @@ pub fn attitudes(run: &Run, linear: &Linear, noise: &Noise) -> Result<Vec<Turned
     Ok(all)
 }
 
-/// What is whitened of the first column, with the sign of an innovation.
+/// The first whitened column, with the sign of an innovation.
 fn innovation(whitened: &[f64]) -> SVector<f64, SHOWN> {
     let width = whitened.len() / SHOWN;
     SVector::from_fn(|part, _| -whitened[part * width])
 }
 
-/// Runs the filter; `each` is given every epoch with the filter after it, and half the logarithm of the determinant. Where it
-/// gives nothing back, something has no covariance.
+/// Runs the filter; `each` receives every epoch, the filter after it, and half the log-determinant of its innovation
+/// covariance. A `None` from it means that a covariance is not positive definite.
 ///
-/// With a `combination` the columns are summed up, each times its number, into one.
+/// With a `combination` the columns are replaced by their sum with these weights.
 pub(crate) fn pass(
     linear: &Linear,
     noise: &Noise,

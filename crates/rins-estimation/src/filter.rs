@@ -1,7 +1,7 @@
 //! The sequential solution: a filter whose states are navigation and the parameters.
 //!
-//! The covariance is kept in blocks. The parameters do not move, so that prediction touches the rows of
-//! navigation alone.
+//! The covariance is stored in blocks. The parameters are constant, so that the prediction changes only the rows of
+//! navigation.
 
 use nalgebra::{Cholesky, DMatrix, DVector, SMatrix, SVector};
 
@@ -13,16 +13,16 @@ use crate::noise_parameters::Noise;
 use crate::space::Space;
 use crate::step::{CARRIED_OF, NAVIGATION, SHOWN, SHOWN_OF, Step};
 
-/// An error-state filter over the epochs of a linear run.
+/// An error-state filter over the epochs of a linearized run, with the parameters as augmented states.
 ///
-/// What it ends with is the batch solution of the same model: each checks the other.
+/// Its final estimate is the batch solution of the same model: each verifies the other.
 pub struct Filter<'a> {
     space: Space<'a>,
     linear: &'a Linear,
     epoch: usize,
     state: DVector<f64>,
     parameters: DVector<f64>,
-    /// Of the states, of states with parameters, of parameters.
+    /// The covariances of the states, of the states with the parameters, and of the parameters.
     states: DMatrix<f64>,
     across: DMatrix<f64>,
     covariance: DMatrix<f64>,
@@ -35,11 +35,11 @@ impl std::fmt::Debug for Filter<'_> {
 }
 
 impl<'a> Filter<'a> {
-    /// A filter before the first epoch: the parameters are `expected` from where the run is linear,
-    /// within `sigmas`.
+    /// A filter before the first epoch. `expected` and `sigmas` are the means of the priors, relative to the point of
+    /// linearization, and their sigmas.
     ///
     /// # Panics
-    /// If there are not as many of both as parameters.
+    /// If there is not one of each for every parameter.
     pub fn new(linear: &'a Linear, noise: &Noise, sigmas: &[f64], expected: &[f64]) -> Self {
         assert_eq!(sigmas.len(), linear.parameters, "a sigma for each parameter");
         assert_eq!(expected.len(), linear.parameters, "an expected value for each parameter");
@@ -59,7 +59,7 @@ impl<'a> Filter<'a> {
         }
     }
 
-    /// The parameters, from where the run is linear.
+    /// The parameters relative to the point of linearization.
     pub const fn parameters(&self) -> &DVector<f64> {
         &self.parameters
     }
@@ -69,10 +69,10 @@ impl<'a> Filter<'a> {
         &self.covariance
     }
 
-    /// Takes the next epoch that plays a part; its whitened innovation, or nothing after the last.
+    /// Processes the next epoch that is not excluded. The result is its whitened innovation, or `None` after the last epoch.
     ///
     /// # Errors
-    /// [`Indefinite`] if the innovation has no covariance; the filter must not be used further.
+    /// [`Indefinite`] if the innovation covariance is not positive definite; the filter must not be used further.
     pub fn step(&mut self) -> Result<Option<SVector<f64, SHOWN>>, Indefinite> {
         while let Some(epoch) = self.linear.epochs.get(self.epoch).filter(|epoch| epoch.left_out) {
             self.pass_over(&self.space.step(epoch));
@@ -89,7 +89,7 @@ impl<'a> Filter<'a> {
         Ok(Some(innovation))
     }
 
-    /// Lets time go by for what has a memory; navigation starts anew afterwards.
+    /// Propagates the colored noise over an excluded epoch; navigation starts again afterwards.
     fn pass_over(&mut self, step: &Step) {
         for (place, &decay) in step.decay.iter().enumerate().skip(NAVIGATION) {
             self.state[place] *= decay;
@@ -101,7 +101,7 @@ impl<'a> Filter<'a> {
         }
     }
 
-    /// Attitude and velocity where the epoch's readings put them, with what the parameters do to these.
+    /// Initializes attitude and velocity from the epoch's readings, including their dependence on the parameters.
     fn start(&mut self, inputs: &Inputs) {
         let mut start = DMatrix::zeros(NAVIGATION, inputs.ncols());
         start.rows_mut(0, 3).copy_from(&-inputs.rows(6, 3));
@@ -112,7 +112,7 @@ impl<'a> Filter<'a> {
         self.space.forget_navigation(&mut self.states);
         let state = start.column(0) + by_parameters * &self.parameters;
         self.state.rows_mut(0, NAVIGATION).copy_from(&state);
-        // Coloured noise and parameters go together where a gap has been.
+        // Colored noise and parameters are correlated after a gap.
         let with_colours = by_parameters * self.across.transpose();
         for column in NAVIGATION..self.states.ncols() {
             for row in 0..NAVIGATION {
@@ -128,7 +128,8 @@ impl<'a> Filter<'a> {
 
     fn go(&mut self, step: &Step, inputs: &Inputs) -> Option<SVector<f64, SHOWN>> {
         let (n, p) = (self.state.len(), self.parameters.len());
-        // What follows from the states: navigation as carried, what is shown, and the columns' parts in both.
+        // Linear functions of the states: the propagated navigation states, the measurement, and the parameters'
+        // contributions to both.
         let following = step.following(n);
         let (carry, shown) = (following.select_rows(&CARRIED_OF), following.select_rows(&SHOWN_OF));
         let input = inputs.view((0, 1), (NAVIGATION, p));
@@ -138,7 +139,7 @@ impl<'a> Filter<'a> {
         }
         let shown_input = shown_inputs.columns(1, p);
         let offset = shown_inputs.column(0);
-        // Covariances of what is shown with states and parameters, and of navigation as carried.
+        // Covariances of the measurement with states and parameters, and of the propagated navigation states.
         let shown_states = &shown * &self.states + shown_input * self.across.transpose();
         let shown_parameters = &shown * &self.across + shown_input * &self.covariance;
         let carried_states = &carry * &self.states + input * self.across.transpose();
@@ -193,7 +194,7 @@ impl<'a> Filter<'a> {
     }
 }
 
-/// What the epoch adds to the columns, a row a gain.
+/// The gains of the columns in an epoch, a row for each gain.
 type Inputs = DMatrix<f64>;
 
 fn inputs(epoch: &Epoch, parameters: usize) -> Inputs {

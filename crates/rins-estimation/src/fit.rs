@@ -17,29 +17,29 @@ use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
 use crate::stride::{Bottom, Damping, Place, Stride, Until, leaves_little};
 
-/// The most times that a run is made linear.
+/// The largest number of linearizations of a run.
 const MOST_ITERATIONS: usize = 20;
 
-/// A step below this many sigmas leads near enough to judge the noise, and to take derivatives in earnest.
+/// A step below this many sigmas is close enough to estimate the noise, and to calculate derivatives for every sample.
 const NEAR: f64 = 1.0;
 
-/// After a step of so many sigmas and more noise is judged again: coarse derivatives led somewhere else.
+/// After a step of this many sigmas or more, the noise is estimated again: coarse derivatives led away from the estimate.
 const FAR: f64 = 10.0;
 
-/// How often noise is judged at most.
+/// The largest number of noise estimations.
 const MOST_JUDGED: usize = 3;
 
-/// Noise is judged again if the squares of what is left differ by this part from what it says of them.
+/// The noise is estimated again if the sum of squared residuals differs from its expectation by more than this fraction.
 const MISJUDGED: f64 = 0.1;
 
-/// Estimates what `model` leaves free from `runs` of one IMU.
+/// Estimates the free parameters of `model` from `runs` of one IMU.
 ///
-/// The model, and the ids of all parameters, are along the axes of the first run. What belongs to the sensors is shared; what belongs
-/// to a run is estimated for each, or for those together that were not switched off in between. The values that the model has are
-/// what is expected, within the priors' sigmas. `progress` is told of every iteration.
+/// The model, and the ids of all parameters, are along the axes of the first run. Parameters of the sensors are shared;
+/// parameters of a run are estimated for each run, or jointly for runs without a power cycle in between. The values in the
+/// model are the means of the priors, and the sigmas are those of the parameters. `progress` is called after each iteration.
 ///
 /// # Errors
-/// [`FitError`] if there is nothing to do, or it does not converge.
+/// [`FitError`] if there is nothing to estimate, or the iteration does not converge.
 pub fn fit(
     runs: &[Run],
     model: &Model,
@@ -50,10 +50,10 @@ pub fn fit(
     fitted((runs, None), model, imu, knowledge, progress)
 }
 
-/// The same, sooner, where much the same has been estimated from these runs, or from most of them: it starts there.
+/// The same fit, started from the estimate `near` of a similar model from all or most of these runs, which saves iterations.
 ///
 /// # Errors
-/// [`FitError`] if there is nothing to do, or it does not converge.
+/// [`FitError`] if there is nothing to estimate, or the iteration does not converge.
 pub fn fit_near(
     near: &Fit,
     runs: &[Run],
@@ -109,7 +109,7 @@ fn fitted(
         let earlier = iterations.len();
         problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
         let said = problem.posterior(&problem.linear, &noise, iterations.len())?;
-        // Judged far from where the estimate ends, noise may stand for what the parameters explain there.
+        // Noise estimated far from the final estimate may include what the parameters explain there.
         let was_near = iterations[earlier..].iter().all(|iteration| iteration.step < FAR);
         if !find_noise || judged == MOST_JUDGED || was_near && problem.fits(&said.0) {
             break said;
@@ -119,8 +119,8 @@ fn fitted(
     Ok(Fit { inverse_curvature, ..fit })
 }
 
-/// Makes all noise as strong as the residuals, if these are stronger: a model that does not fit would chase them
-/// from one end of the priors to the other.
+/// Increases the noise to the level of the residuals if these are larger: an inadequate model would otherwise vary the
+/// parameters over the full range of the priors.
 fn calm(noise: &mut [Noise], evidence: &Evidence, posterior: &Posterior) {
     let factor = (posterior.square / evidence.figures as f64).sqrt();
     if factor <= 1.5 {
@@ -134,20 +134,20 @@ fn calm(noise: &mut [Noise], evidence: &Evidence, posterior: &Posterior) {
     }
 }
 
-/// Runs, a model for each, and where each one's parameters stand among all.
+/// Runs, a model for each, and the places of their parameters in the joint vector.
 struct Problem<'a> {
     runs: &'a [Run],
     models: Vec<Model>,
-    /// For each run, which of its model's parameters are free.
+    /// For each run, the free parameters of its model.
     free: Vec<Vec<(usize, usize)>>,
     layout: Layout,
     expected: Vec<f64>,
     values: Vec<f64>,
-    /// Each run, linear about these values, and how finely.
+    /// Each run, linearized at these values, and the resolution of the derivatives.
     linear: Vec<Linear>,
     pieces: Pieces,
     damping: Damping,
-    /// What is not known because an estimate has no place to rest.
+    /// The additional covariance of an estimate that does not converge to one point.
     about: DMatrix<f64>,
 }
 
@@ -182,7 +182,7 @@ impl<'a> Problem<'a> {
         problem
     }
 
-    /// Starts where another fit found what is estimated here too.
+    /// Starts at the estimate of another fit, for the parameters that both estimate.
     fn start_near(&mut self, near: &Fit) {
         for (place, (free, run)) in self.layout.all.iter().enumerate() {
             let chosen = &self.models[run.unwrap_or(0)].terms[free.term];
@@ -198,7 +198,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Puts the values into the models, and makes the runs linear about them.
+    /// Sets the values in the models, and linearizes the runs there.
     fn take_values(&mut self, pieces: Pieces) {
         for (run, model) in self.models.iter_mut().enumerate() {
             let places = self.layout.places[run].iter().zip(&self.layout.signs[run]);
@@ -206,7 +206,7 @@ impl<'a> Problem<'a> {
                 model.terms[term].values[parameter] = sign * self.values[place];
             }
         }
-        // A day's run would not fit into memory twice.
+        // Two linearizations of a run of a day exceed the memory.
         self.linear.clear();
         let runs = self.runs.iter().zip(&self.models).zip(&self.free);
         self.linear =
@@ -214,7 +214,7 @@ impl<'a> Problem<'a> {
         self.pieces = pieces;
     }
 
-    /// Whether the noise is as strong as what is left, where the parameters are estimated.
+    /// Whether the residuals agree with the noise at the estimate.
     fn fits(&self, evidence: &Evidence) -> bool {
         let figures = evidence.figures as f64;
         let dof = figures - self.layout.all.len() as f64;
@@ -249,7 +249,7 @@ impl<'a> Problem<'a> {
         Ok((evidence, finite.ok_or(FitError::NoInformation { iteration })?))
     }
 
-    /// Goes from estimate to estimate.
+    /// Iterates to the estimate.
     fn settle(
         &mut self,
         until: Until,
@@ -306,17 +306,17 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// How far the values may be from what was expected, 1σ.
+    /// The sigmas of the priors.
     fn sigmas(&self) -> Vec<f64> {
         self.layout.all.iter().map(|(free, _)| free.sigma).collect()
     }
 
-    /// By how much the values are off from what was expected.
+    /// The means of the priors minus the values.
     fn offsets(&self) -> Vec<f64> {
         self.expected.iter().zip(&self.values).map(|(expected, value)| expected - value).collect()
     }
 
-    /// The same in squares of what is expected of it.
+    /// The sum of squares of these offsets in units of the priors' sigmas.
     fn pull(&self) -> f64 {
         let of = |(offset, (free, _)): (f64, &(FreeParameter, Option<usize>))| {
             (offset / free.sigma).powi(2)
@@ -324,9 +324,9 @@ impl<'a> Problem<'a> {
         self.offsets().into_iter().zip(&self.layout.all).map(of).sum()
     }
 
-    /// Goes to the estimate.
+    /// Takes a damped step toward the estimate.
     ///
-    /// On the way derivatives need not be exact; where it ends they are.
+    /// Derivatives are approximate on the way and exact at the end.
     fn advance(&mut self, posterior: &Posterior, until: Until) -> Stride {
         let before = self.values.clone();
         let sigmas = posterior.covariance.diagonal().map(f64::sqrt);
@@ -337,7 +337,7 @@ impl<'a> Problem<'a> {
             *value += step;
         }
         for (free, places) in self.free.iter().zip(&self.layout.places) {
-            // Derivatives by an attitude are by what is turned on from it.
+            // The derivative by an attitude refers to a rotation after that attitude.
             if let Some(attitude) = attitude_of(&self.models[0], free, places) {
                 let turn = |of: &[f64]| {
                     Dcm::<Table, Table>::from_rotation_vector(
@@ -350,7 +350,7 @@ impl<'a> Problem<'a> {
                 }
             }
         }
-        // Once they have been exact they stay so: where the two differ, as by an event within an epoch, it would go to and fro.
+        // Exact derivatives are kept: if coarse ones differ, as for an event within an epoch, it would alternate.
         let last = until == Until::Converged
             && (stride.to_estimate < NEAR || self.pieces == Pieces::Samples);
         self.take_values(if last { Pieces::Samples } else { Pieces::Coarse });
@@ -364,8 +364,8 @@ impl<'a> Problem<'a> {
         around: &[[Vec<Noise>; 2]],
         iterations: Vec<Iteration>,
     ) -> Result<Fit, FitError> {
-        // Flicker is shown by few figures: the covariance is the mean over what its strength might be, and
-        // where the estimate would then be.
+        // The bias instability is determined by few data: the covariance is the mean over its uncertainty and the resulting
+        // changes of the estimate.
         let mut covariance = &posterior.covariance + &self.about;
         let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
         let others = sides.into_par_iter().map(|side| {

@@ -1,45 +1,45 @@
-//! What may go wrong on the way to an estimate.
+//! Errors of the estimation.
 
 use crate::evidence::Indefinite;
 
-/// Why no estimate was found.
+/// The reason why there is no estimate.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
     /// There is no run.
     #[error("no run is given for the estimation")]
     NoRun,
-    /// The model estimates nothing.
+    /// The model has no free parameters.
     #[error("the model has no parameter to estimate")]
     NothingFree,
-    /// The model estimates more than is done in reasonable time.
+    /// The model has more free parameters than can be estimated in reasonable time.
     #[error(
         "the model estimates {parameters} parameters, at most {most} are possible: remove some"
     )]
     ManyParameters {
-        /// How many it estimates.
+        /// The number of its free parameters.
         parameters: usize,
-        /// The most.
+        /// The largest possible number.
         most: usize,
     },
-    /// The filter broke off.
+    /// The filter failed.
     #[error(transparent)]
     Indefinite(#[from] Indefinite),
-    /// The information is not finite.
+    /// The information matrix is not finite.
     #[error("the information matrix is not finite at iteration {iteration}")]
     NoInformation {
-        /// Which iteration.
+        /// The iteration.
         iteration: usize,
     },
-    /// The steps did not become small.
+    /// The iteration did not converge.
     #[error(
         "not converged after {iterations} iterations: the last step is {step} sigma; the model does not \
          describe these data"
     )]
     Diverged {
-        /// How many iterations were made.
+        /// The number of iterations.
         iterations: usize,
-        /// The largest of the last steps, in sigmas.
+        /// The largest component of the last step, in sigmas.
         step: f64,
     },
 }

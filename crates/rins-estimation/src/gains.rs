@@ -1,4 +1,4 @@
-//! What attitude, velocity and readings gain over an epoch: a number for each column.
+//! Gains: the changes of attitude error, velocity error and attitude measurement over an epoch, one number for each column.
 #![expect(
     clippy::inline_always,
     reason = "what is not inlined is compiled without the vector instructions"
@@ -8,17 +8,17 @@ use nalgebra::{Matrix3, SVector, Vector3};
 use rins_lanes::{Arch, Lane, Matrix, Real, Simd, Vector, WithSimd};
 use rins_terms::{Signals, Surroundings};
 
-/// Rows are filled up with zeros to whole vectors of the widest machine.
+/// Rows are padded with zeros to whole SIMD vectors of the widest machine.
 pub(crate) const WIDEST: usize = 8;
 
-/// Three components of each of three gains.
+/// The number of rows: three components of each of three gains.
 pub(crate) const ROWS: usize = 9;
 
-/// What the columns gain over an epoch: that of what was read beyond the model, then one a parameter, the derivative
-/// by it.
+/// The gains of the columns over an epoch: first the column of the residuals of the readings, then a column for each parameter,
+/// the derivative by it.
 ///
-/// Nine rows, a number a column: what φ gains, what v gains, and what is shown of the attitude, the mean over
-/// the readings of φ and of what they are predicted to be beyond it, less what they were.
+/// There are nine rows with a number for each column: the change of φ, the change of v, and the attitude measurement. The
+/// latter is the mean over the readings of φ and of the predicted minus the actual reading.
 #[derive(Clone, Debug)]
 pub(crate) struct Gains {
     columns: usize,
@@ -27,28 +27,28 @@ pub(crate) struct Gains {
 }
 
 impl Gains {
-    /// Of so many columns, nothing.
+    /// Zero gains of this number of columns.
     pub(crate) fn none(columns: usize) -> Self {
         let width = columns.next_multiple_of(WIDEST);
         Self { columns, width, numbers: vec![0.0; ROWS * width] }
     }
 
-    /// What φ and v gain: six rows.
+    /// The changes of φ and v: six rows.
     pub(crate) fn navigation(&self) -> &[f64] {
         &self.numbers[..6 * self.width]
     }
 
-    /// What is shown of the attitude: three rows.
+    /// The attitude measurement: three rows.
     pub(crate) fn shown(&self) -> &[f64] {
         &self.numbers[6 * self.width..]
     }
 
-    /// A column: what φ and v gain, and what is shown of the attitude.
+    /// A column: the changes of φ and v, and the attitude measurement.
     pub(crate) fn column(&self, column: usize) -> SVector<f64, ROWS> {
         SVector::from_fn(|row, _| self.numbers[row * self.width + column])
     }
 
-    /// The columns summed up into one, each times its weight.
+    /// The weighted sum of the columns, as one column.
     pub(crate) fn combined(&self, weights: &[f64]) -> Self {
         let mut sum = Self::none(1);
         let rows = self.numbers.chunks_exact(self.width);
@@ -58,7 +58,7 @@ impl Gains {
         sum
     }
 
-    /// The same with columns more: copies of these, and such of nothing.
+    /// The same with additional columns: copies of the given columns, or zeros for `None`.
     #[must_use]
     pub(crate) fn with(&self, more: &[Option<usize>]) -> Self {
         let mut all = Self::none(self.columns + more.len());
@@ -73,21 +73,21 @@ impl Gains {
     }
 }
 
-/// What surrounds the table, as kernels take it.
+/// The Earth's rate and the specific force in the axis frame, in the form for kernels.
 #[derive(Clone, Copy, Debug)]
 struct Around {
     earth_rate: [f64; 3],
     force: [f64; 3],
 }
 
-/// The rates of one column, or of several side by side: of φ, of v, and what a reading differs by.
+/// The rates of change of one column or of several in parallel: of φ, of v, and the error of a reading.
 struct Rates<T> {
     attitude: Vector<T>,
     velocity: Vector<T>,
     reading: Vector<T>,
 }
 
-/// What one column, or several, have gained since the epoch began; what is shown is summed up over the readings.
+/// The changes of one column, or of several, since the epoch began; those of the measurement are summed over the readings.
 #[derive(Clone, Copy, Debug)]
 struct Gained<T> {
     attitude: Vector<T>,
@@ -96,8 +96,7 @@ struct Gained<T> {
 }
 
 impl<T: Real> Gained<T> {
-    /// So many more samples, over which the rates are the same; what a reading differs by goes evenly from what it
-    /// was `before` to what it is.
+    /// Adds `samples` samples with constant rates. The error of a reading changes linearly from `before` to its new value.
     #[inline(always)]
     fn add(
         &mut self,
@@ -109,7 +108,7 @@ impl<T: Real> Gained<T> {
         let like = rates.attitude[0];
         let earth_rate = Vector::constant(like, around.earth_rate);
         let force = Vector::constant(like, around.force);
-        // φ' = -E × φ + rate, over a time too short for the square of its turn to count.
+        // φ' = -E × φ + rate; the interval is so short that second-order terms of the rotation are negligible.
         let halfway = self.attitude + rates.attitude.scaled(0.5 * interval);
         let change = (rates.attitude - earth_rate.cross(&halfway)).scaled(interval);
         let after = self.attitude + change;
@@ -123,25 +122,25 @@ impl<T: Real> Gained<T> {
     }
 }
 
-/// The gains of an epoch in the making.
+/// The gains of an epoch under construction.
 pub(crate) struct Growing {
     columns: usize,
     width: usize,
-    /// Of what was read beyond the model.
+    /// The column of the residuals.
     residual: Gained<f64>,
-    /// Nine rows of what the parameters' columns have gained.
+    /// The columns of the parameters, in nine rows.
     gained: Vec<f64>,
-    /// What a parameter adds to gyros and accelerometers, in body axes, and to a reading: nine rows, and the last three
-    /// as they were before.
+    /// The derivatives by the parameters of gyro and accelerometer readings in body axes and of the attitude reading: nine
+    /// rows. `before` holds the last three rows at the previous piece.
     by: Vec<f64>,
     before: Vec<f64>,
 }
 
-/// What turns what a column adds into what was true, in the axis frame: of gyros and accelerometers.
+/// The matrices that convert errors of gyro and accelerometer readings to errors of the true quantities in the axis frame.
 pub(crate) type Turned = [Matrix3<f64>; 2];
 
 impl Growing {
-    /// Of so many parameters.
+    /// Gains for this number of parameters.
     pub(crate) fn new(parameters: usize) -> Self {
         let width = parameters.next_multiple_of(WIDEST);
         let zero = Vector([0.0; 3]);
@@ -155,7 +154,7 @@ impl Growing {
         }
     }
 
-    /// What the parameter of this place adds to what is read: its signals' derivatives.
+    /// Sets the derivatives of the readings by a parameter: the derivatives of its signals.
     pub(crate) fn set(&mut self, parameter: usize, by: &Signals) {
         let numbers = [
             by.gyro[0].eps,
@@ -173,12 +172,12 @@ impl Growing {
         }
     }
 
-    /// What readings differ by is from now on where the parameters have it.
+    /// Starts the errors of the attitude readings at their current derivatives.
     pub(crate) fn begin(&mut self) {
         self.before.copy_from_slice(&self.by[6 * self.width..]);
     }
 
-    /// One more sample of what was read beyond the model: rates in the axis frame, and what a reading was less.
+    /// Adds the residual of one sample: rates in the axis frame, and the predicted minus the actual attitude reading.
     pub(crate) fn add_residual(
         &mut self,
         [attitude, velocity, reading]: [Vector3<f64>; 3],
@@ -191,7 +190,7 @@ impl Growing {
         self.residual.add(&rates, &before, &Around::of(surroundings), (interval, 1.0));
     }
 
-    /// So many more samples, taken as one, of the parameters' columns.
+    /// Adds `samples` samples, processed as one, to the columns of the parameters.
     pub(crate) fn add(
         &mut self,
         turned: &Turned,
@@ -209,7 +208,7 @@ impl Growing {
         }
     }
 
-    /// The gains of an epoch of so many readings; the next one begins.
+    /// The gains of an epoch of this number of readings; starts the next one.
     pub(crate) fn finish(&mut self, readings: f64) -> Gains {
         let mut gains = Gains::none(self.columns + 1);
         let Gained { attitude, velocity, shown } = self.residual;
@@ -239,7 +238,7 @@ impl Around {
     }
 }
 
-/// The columns of a piece, as many at once as the machine's vectors hold.
+/// The columns of a piece, with as many in parallel as a SIMD vector holds.
 struct Grow<'a> {
     growing: &'a mut Growing,
     turned: &'a Turned,
@@ -260,7 +259,7 @@ impl WithSimd for Grow<'_> {
         let width = width / S::F64_LANES;
         let vector = |rows: &[S::f64s], first: usize, place: usize| {
             let lane = |row: usize| Lane::new(simd, rows[(first + row) * width + place]);
-            // One after the other: `map` of an array is not always inlined, and then has no vector instructions.
+            // Written out: `map` of an array is not always inlined, and then has no vector instructions.
             Vector([lane(0), lane(1), lane(2)])
         };
         let [of_gyros, of_accels] =

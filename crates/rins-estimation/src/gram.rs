@@ -1,13 +1,13 @@
-//! Sums of products of many rows.
+//! Gram matrices: sums of outer products of many columns.
 
 use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::{Accum, Mat, Par};
 use nalgebra::DMatrix;
 
-/// How many columns are taken together.
+/// The number of columns in a block.
 const COLUMNS: usize = 384;
 
-/// `Σ Z Zᵀ` over matrices `Z` of few columns, a block at a time.
+/// `Σ Z Zᵀ` over matrices `Z` of few columns, calculated block by block.
 pub(crate) struct Gram {
     block: Mat<f64>,
     filled: usize,
@@ -19,7 +19,7 @@ impl Gram {
         Self { block: Mat::zeros(rows, COLUMNS), filled: 0, sum: Mat::zeros(rows, rows) }
     }
 
-    /// Adds the products of some columns, which lie one after the other, each with numbers of no account at its end.
+    /// Adds the products of successive columns, each of which may have unused numbers at its end.
     pub(crate) fn add(&mut self, columns: &[f64], count: usize) {
         if self.filled + count > COLUMNS {
             self.empty();

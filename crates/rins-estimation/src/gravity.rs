@@ -1,4 +1,4 @@
-//! A wheel without an encoder: when it turned, and how its axis stood.
+//! A table without an encoder: the span in which it rotates, and the attitude of its axis.
 
 use std::ops::Range;
 
@@ -7,23 +7,24 @@ use rins_frames::units::DEG;
 use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use rins_motion::Recording;
 
-/// The least rate of a turning wheel \[rad/s\].
+/// The smallest rate of a rotating table \[rad/s\].
 const LEAST_RATE: f64 = 0.1;
 
-/// The part of its fastest rate below which a wheel is being started or stopped, by hands that tilt it.
+/// The fraction of the largest rate below which the table is being started or stopped by hand, which tilts it.
 const LEAST_PART: f64 = 0.3;
 
 /// The time over which rates are smoothed \[s\].
 const SMOOTHING: f64 = 0.25;
 
-/// Two phases of gravity, the pulls of w² and w' on what is off the axis, and constants in the body.
+/// The columns of the regression: two components of gravity, the effects of w² and w' on the lever arm, and two constants in
+/// the body.
 const COLUMNS: usize = 6;
 
-/// The longest stretch of samples over which the body turns about z one way, and not slowly: what a run without
-/// a table reading is taken from.
+/// The longest span of samples with a rotation about z in one direction and not slowly: the data of a run without a table
+/// angle.
 ///
-/// Slowly is by less than a third of the fastest rate, the rate that of the z gyro, smoothed over a quarter of a
-/// second. `None` if it never turns.
+/// Slow means less than 0.3 of the largest rate. The rate is that of the z gyro, smoothed over a quarter of a second. `None` if
+/// the table never rotates.
 pub fn turning_span(recording: &Recording) -> Option<Range<usize>> {
     let mut rate = 0.0;
     let rates: Vec<f64> = recording
@@ -56,39 +57,40 @@ pub fn turning_span(recording: &Recording) -> Option<Range<usize>> {
     longest
 }
 
-/// How far a gyro's scale may be off.
+/// The largest scale error of the z gyro.
 const LARGEST_SCALE_ERROR: f64 = 0.05;
 
-/// The most of a turning that is looked at \[rad\]: sixty turns show the axis, and the search grows with their square.
+/// The largest angle of rotation that is used \[rad\]: sixty revolutions determine the axis, and the search time increases with
+/// their square.
 const MOST_TURNED: f64 = 60.0 * std::f64::consts::TAU;
 
-/// By how much two scales that are tried differ in the angle at the end \[rad\].
+/// The difference of the final angle between successive trial scale factors \[rad\].
 const STEP: f64 = 0.25;
 
-/// How far gravity's turning may be off the axis that it shows, 1σ \[rad\]: the base may move.
+/// 1σ of the axis attitude from gravity \[rad\]: the base may move.
 pub const AXIS_BY_GRAVITY: f64 = 2.0 * DEG;
 
-/// How an axis stands.
+/// The attitude of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisSeen {
     /// The attitude of the axis frame.
     pub nav_from_table: Dcm<Nav, Table>,
-    /// Whether its heading was surveyed; if not it is arbitrary.
+    /// Whether the heading is known from a survey; otherwise it is arbitrary.
     pub heading_known: bool,
 }
 
-/// The attitude of an axis about which the body turns, from the accelerometers.
+/// The attitude of the axis about which the body rotates, from the accelerometers.
 ///
-/// What of the specific force turns with the body is gravity's part across the axis; the part along
-/// it is what the z accelerometer reads. The gyro's scale error, which would take its angle away from
-/// gravity's within a few turns, is searched for beside it. The table angle is zero where the run begins.
+/// The component of the specific force that rotates in the body is the component of gravity perpendicular to the axis; the z
+/// accelerometer measures the component along it. The scale error of the gyro, by which its angle would depart from that of
+/// gravity within a few revolutions, is estimated by a grid search. The table angle is zero at the start of the run.
 ///
-/// Gravity does not show where the axis heads: it does so as it was `surveyed`. The surveyed yaw alone would not say it, for
-/// that depends on how far the table has turned, which nobody knows where nothing reads it. It is all that is taken of a
-/// survey that leans by more than three times [`AXIS_BY_GRAVITY`] less or more than what is seen, or by no more than that
-/// itself; without a survey the yaw is zero. The heading is not known then.
+/// Gravity does not determine the heading of the axis, which is that of `surveyed`. The surveyed yaw alone does not determine
+/// it either, because it depends on the unknown table angle. Only the yaw of a survey is used if its tilt differs by more than
+/// three times [`AXIS_BY_GRAVITY`] from the measured one, or is itself smaller than that; without a survey the yaw is zero. The
+/// heading is unknown in these cases.
 ///
-/// `None` if the body makes less than a turn.
+/// `None` if the body rotates by less than one revolution.
 pub fn axis_from_gravity(recording: &Recording, surveyed: Option<EulerAngles>) -> Option<AxisSeen> {
     let turned: f64 = recording.increments.iter().map(|k| k.angle.components().z.abs()).sum();
     let turned = turned.min(MOST_TURNED);
@@ -113,7 +115,7 @@ pub fn axis_from_gravity(recording: &Recording, surveyed: Option<EulerAngles>) -
     Some(AxisSeen { nav_from_table: headed.unwrap_or(axis), heading_known: headed.is_some() })
 }
 
-/// An axis with the heading of the surveyed one; `None` where the two do not lean alike, or not at all.
+/// An axis with the heading of the surveyed one; `None` if the tilts of the two differ, or are too small.
 fn headed(axis: &Dcm<Nav, Table>, surveyed: &Dcm<Nav, Table>) -> Option<Dcm<Nav, Table>> {
     const FAR: f64 = 3.0 * AXIS_BY_GRAVITY;
     let leaning = |axis: &Dcm<Nav, Table>| {
@@ -128,8 +130,8 @@ fn headed(axis: &Dcm<Nav, Table>, surveyed: &Dcm<Nav, Table>) -> Option<Dcm<Nav,
     alike.then(|| Dcm::<Nav, Nav>::from_rotation_vector(&about_up) * *axis)
 }
 
-/// Where up is in the axis frame, if the true rate is `scale` times what the z gyro reads; and what is left over
-/// of the accelerometers' readings across the axis, as a sum of squares.
+/// The direction of up in the axis frame if the true rate is `scale` times the reading of the z gyro, and the sum of squared
+/// residuals of the accelerometer readings perpendicular to the axis.
 fn up_seen(recording: &Recording, scale: f64) -> Option<(Vector3<f64>, f64)> {
     let samples = &recording.increments;
     let mut normal = DMatrix::<f64>::zeros(COLUMNS, COLUMNS);

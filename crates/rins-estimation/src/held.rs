@@ -1,4 +1,4 @@
-//! What is not known of the motion while samples were missing.
+//! The uncertainty of the motion during missing samples.
 
 use nalgebra::Vector3;
 use rins_frames::Increments;
@@ -6,10 +6,10 @@ use rins_motion::{Recording, whole};
 
 use crate::epoch::Epoch;
 
-/// At least so many samples on either side say how much the motion changes from one to the next.
+/// The smallest number of samples on each side from which the variation of the motion is estimated.
 const FEWEST_AROUND: usize = 3;
 
-/// Tells every epoch what is not known of it for want of samples.
+/// Sets the uncertainty due to missing samples in every epoch.
 pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
     let samples = &recording.increments;
     let (usual, longest) = (recording.mean_interval(), recording.longest_interval());
@@ -21,7 +21,7 @@ pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
         let lasting = increments.interval - usual;
         let [angle, velocity] =
             scatter(recording, sample, lasting / usual).map(|v| v * lasting.powi(2));
-        // The readings from this sample's end on show it.
+        // The readings from the end of this sample on contain it.
         let part = (epoch.samples.1 - sample) as f64 / epoch.count();
         let held = epoch.held.get_or_insert_default();
         held.angle += angle;
@@ -31,8 +31,8 @@ pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
     }
 }
 
-/// The mean squares by which the rates around a sample differ from its own, \[rad²/s²\] and \[m²/s⁴\]: as many of them on
-/// either side as are `missing`. The body turns between x and y, which share theirs.
+/// The mean squared differences between the rates around a sample and its own, \[rad²/s²\] and \[m²/s⁴\], from as many samples
+/// on each side as are `missing`. The body rotates between x and y, which have a common value.
 fn scatter(recording: &Recording, sample: usize, missing: f64) -> [Vector3<f64>; 2] {
     let samples = &recording.increments;
     let reach = FEWEST_AROUND.max(whole(missing));

@@ -1,4 +1,4 @@
-//! Where the parameters of several runs stand among all.
+//! The places of the parameters of several runs in the joint parameter vector.
 
 use rins_imu::ImuSpec;
 use rins_terms::{FreeParameter, Model, Owner, TermInstance, catalogue};
@@ -6,39 +6,40 @@ use rins_terms::{FreeParameter, Model, Owner, TermInstance, catalogue};
 use crate::fit_error::FitError;
 use crate::run::Run;
 
-/// The most parameters of a model: time goes with their square and cube, and so many take some ten seconds.
+/// The largest number of parameters of a model: the time increases with their square and cube, and this number takes about
+/// ten seconds.
 const MOST_PARAMETERS: usize = 256;
 
-/// All parameters of some runs of one IMU: those of the sensors are shared, and by runs that were not switched off in
-/// between the turn-on biases too; the others are each run's own.
+/// The joint parameter vector of several runs of one IMU. Parameters of the sensors are shared; turn-on biases are shared
+/// by runs without a power cycle in between; all other parameters belong to single runs.
 ///
-/// Runs about different axes of the IMU share what is the same along the sensors' own axes. All ids are along the axes of the
-/// first run.
+/// Runs with different spin axes in the IMU share the parameters that are the same along the sensors' own axes. All ids are
+/// along the axes of the first run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
-    /// Each parameter, as the first run that has it has it, and of which run it is, the first of those that share it; of
-    /// none if all share it, or there is one run only.
+    /// Each parameter as in the first run that has it, and the run that it belongs to: the first of those that share it, or
+    /// `None` if all runs share it or there is only one run.
     pub all: Vec<(FreeParameter, Option<usize>)>,
-    /// For each run the place among all of each parameter of its model.
+    /// For each run, the place in `all` of each parameter of its model.
     pub places: Vec<Vec<usize>>,
-    /// For each run what each of its parameters is multiplied by to be that among all: 1 or -1.
+    /// For each run, the factor that converts each of its parameters to the one in `all`: 1 or -1.
     pub signs: Vec<Vec<f64>>,
 }
 
 impl Layout {
-    /// Of these runs, each of which has the parameters `free`. One run has its parameters in the model's order; of several,
-    /// those of the sensors come first.
+    /// The layout of these runs, each of which has the parameters `free`. The parameters of one run are in the model's
+    /// order; for several runs, those of the sensors come first.
     ///
     /// # Panics
-    /// If the runs are about different axes.
+    /// If the runs have different axes.
     pub fn of(free: &[FreeParameter], runs: &[Run]) -> Self {
         assert!(runs.iter().all(|run| run.axes == runs[0].axes), "runs about one axis");
         let signed = free.iter().map(|parameter| (parameter.clone(), 1.0)).collect();
         Self::joined(&vec![signed; runs.len()], runs)
     }
 
-    /// Of these runs, for each of which the parameters are given with their ids along the first run's axes, and what each is
-    /// multiplied by to be along these.
+    /// The layout of these runs. The parameters of each run are given with their ids along the first run's axes and with
+    /// the factor that converts each value to these axes.
     fn joined(free: &[Vec<(FreeParameter, f64)>], runs: &[Run]) -> Self {
         let signs =
             free.iter().map(|of_run| of_run.iter().map(|(_, sign)| *sign).collect()).collect();
@@ -66,7 +67,7 @@ impl Layout {
             for (index, (parameter, _)) in free[number].iter().enumerate() {
                 places[number][index] = match (parameter.owner, before) {
                     (Owner::Sensor, _) => continue,
-                    // Such runs are about one axis, and have the same parameters.
+                    // Such runs have the same axes and the same parameters.
                     (Owner::Run, Some(before)) => places[before][index],
                     (owner, _) => {
                         let shared = owner == Owner::Run && never_off;
@@ -80,18 +81,18 @@ impl Layout {
     }
 }
 
-/// Runs with a model for each, and where their parameters stand.
+/// Runs, a model for each, and the layout of their parameters.
 pub(crate) struct Joined {
-    /// Each run's model, along its own axes.
+    /// The model of each run, along its own axes.
     pub(crate) models: Vec<Model>,
-    /// For each run, which of its model's parameters are free: their terms and their places there.
+    /// For each run, the free parameters of its model: term and place within the term.
     pub(crate) free: Vec<Vec<(usize, usize)>>,
-    /// Where they stand among all.
+    /// Their places in the joint parameter vector.
     pub(crate) layout: Layout,
 }
 
 impl Joined {
-    /// Of these runs of one IMU, the model being along the axes of the first.
+    /// Joins these runs of one IMU; the model is along the axes of the first.
     pub(crate) fn of(model: &Model, imu: &ImuSpec, runs: &[Run]) -> Self {
         let models: Vec<Model> = runs
             .iter()
@@ -111,7 +112,7 @@ impl Joined {
         let free = free.iter().map(|of_run| of_run.iter().map(place).collect()).collect();
         Self { models, free, layout }
     }
-    /// Refuses a model that estimates nothing, or more than can be done in reasonable time.
+    /// Refuses a model without free parameters, or with more than can be estimated in reasonable time.
     pub(crate) fn refuse_number(&self) -> Result<(), FitError> {
         let parameters = self.free.iter().map(Vec::len).max().unwrap_or_default();
         match parameters {
@@ -122,7 +123,7 @@ impl Joined {
     }
 }
 
-/// Where the attitude of a run's axis stands among all parameters, if all three of its angles are free.
+/// The places of the three attitude angles of a run's spin axis in the joint parameter vector, if all three are free.
 pub(crate) fn attitude_of(
     model: &Model,
     free: &[(usize, usize)],

@@ -1,19 +1,19 @@
 //! Estimates any list of physical effects from runs of an inertial measurement unit on a rate table.
 //!
-//! **What it does.** [`fit`] takes one [`Run`] or several of one IMU, a [`Model`](rins_terms::Model) and the strengths of the
-//! noise, and finds the parameters that the model leaves free, with their covariance: iterated least
-//! squares over an error-state filter of attitude, velocity and coloured noise, whose readings are
-//! zero velocity, the direction of the axis, and the table angle, which is never differenced. Where the noise is
-//! not known its strengths are found by restricted maximum likelihood. [`Filter`] is the same model
-//! taken sample by sample with the parameters as states: it ends where the batch does. [`Evidence`] is all that a
-//! run says of any number of parameters, [`innovations`] what a model leaves of it, and [`Identifiability`] which of them,
-//! alone or in what combination, it tells.
+//! **What it does.** [`fit`] takes one [`Run`] or several of one IMU, a [`Model`](rins_terms::Model) and the noise
+//! parameters, and estimates the free parameters of the model with their covariance. The method is iterated least squares
+//! over an error-state filter with the states attitude, velocity and colored noise. The measurements are zero velocity, the
+//! direction of the spin axis, and the table angle, which is never differenced. Unknown noise parameters are estimated by
+//! restricted maximum likelihood. [`Filter`] is the sequential solution of the same model, with the parameters as augmented
+//! states: its final estimate is that of the batch. [`Evidence`] is the information of a run on any number of parameters,
+//! [`innovations`] are the whitened innovations under a model, and [`Identifiability`] states which parameters, or which
+//! combinations of them, are observable.
 //!
-//! The reference is an encoder, a commanded rate, or, on a tilted axis, gravity turning in the plane of
-//! rotation ([`Reference`]).
+//! The reference of the table angle is an encoder, a commanded rate, a static table, or, on a tilted axis, the direction of
+//! gravity in the plane of rotation ([`Reference`]).
 //!
-//! **What it does not do.** The base does not travel: position is no state, since a fixed site shows nothing of
-//! it. Which terms to choose is the caller's business, and files are read elsewhere.
+//! **What it does not do.** The base does not travel: position is not a state, because it is unobservable at a fixed site.
+//! The caller chooses the terms of the model, and other crates read files.
 //!
 //! Numbers are in SI units and radians.
 mod layout;

@@ -1,4 +1,4 @@
-//! The most likely strengths of the noise: restricted maximum likelihood.
+//! Estimation of the noise parameters by restricted maximum likelihood.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -8,65 +8,66 @@ use crate::linear::Linear;
 use crate::noise_parameters::Noise;
 use crate::run::Reference;
 
-/// How far, in logarithms, a data sheet's white noise may be off, 1σ.
+/// 1σ of the logarithm of a white noise density in a data sheet.
 pub(crate) const WHITE: f64 = 1.0;
 
-/// The same for strengths of which nothing is known.
+/// The same for noise parameters without prior knowledge.
 const UNKNOWN: f64 = 3.0;
 
-/// The flicker, over the white noise of a second, where the search starts: about as much as shows within minutes.
+/// The initial bias instability relative to the white noise over one second: an effect visible within minutes.
 const SHOWING: f64 = 0.25;
 
-/// The same that is expected where nothing is said of it: without effect within an hour.
+/// The prior mean of this ratio if no bias instability is stated: no visible effect within an hour.
 const UNSEEN: f64 = 0.01;
 
-/// The velocity noise of a base that is not firm, where the search starts \[m/s\]: also what a velocity that is read in
-/// steps of a millimetre a second leaves.
+/// The initial velocity noise of a base that is not stationary \[m/s\]. A velocity with a resolution of 1 mm/s has about this
+/// noise too.
 const UNSTEADY: f64 = 3e-4;
 
-/// The root density with which the attitude of such a base strays, where the search starts \[rad/√s\]: one second of arc.
+/// The initial random walk density of the attitude of such a base \[rad/√s\]: one arcsecond.
 const SWAYING: f64 = ARCSEC;
 
-/// The same of a base that is firm: a second of arc in three hours.
+/// The same for a stationary base: one arcsecond in three hours.
 const FIRM: f64 = 0.01 * ARCSEC;
 
-/// How far, in logarithms, what holds a base may be off, 1σ: from rock to a boat.
+/// 1σ of the logarithm of base motion: from rock to a boat.
 const ANYTHING: f64 = 5.0;
 
-/// The least curvature that is believed.
+/// The smallest curvature that is used.
 const LEAST_CURVATURE: f64 = 0.1;
 
-/// Where a search starts beside another one, a flicker is at least so strong, as a logarithm over where it shows.
+/// The smallest initial bias instability in a search that starts at an earlier estimate, as a logarithm relative to the usual
+/// start.
 const LEAST_SHOWING: f64 = -2.0;
 
-/// A strength that a data sheet states is lost below this, as a logarithm over that: something else stands for it, and as
-/// it does not show it has no slope that would lead back.
+/// A stated noise parameter has vanished below this logarithm relative to its stated value: another noise parameter has
+/// replaced it. The likelihood then has no gradient that would lead back.
 const LOST: f64 = -1.0;
 
-/// The most steps of the search.
+/// The largest number of steps.
 const MOST_STEPS: usize = 40;
 
-/// The gain of log-likelihood below which the search ends.
+/// The increase of the log-likelihood below which the search ends.
 const LEAST_GAIN: f64 = 0.02;
 
-/// The step of one-sided differences, in logarithms: half of it is what the result is off by, so that it
-/// must be small against what thousands of innovations show, and large against rounding.
+/// The step of one-sided differences, in logarithms. The estimate is biased by half of it, so that it must be small compared
+/// with the uncertainty from thousands of innovations, and large compared with rounding.
 const DIFFERENCE: f64 = 0.004;
 
-/// One strength that is searched for.
+/// A noise parameter to be estimated.
 #[derive(Clone, Debug, PartialEq)]
 struct Unknown {
     which: Which,
-    /// Where the search starts, in SI units.
+    /// The initial value, in SI units.
     start: f64,
-    /// The logarithm of what is expected over that.
+    /// The logarithm of the prior mean relative to the initial value.
     centre: f64,
-    /// How far it may be off, as 1σ of its logarithm.
+    /// 1σ of the logarithm in the prior.
     sigma: f64,
 }
 
 impl Unknown {
-    /// Whether every data sheet and rig file states it, so that it cannot be far off.
+    /// Whether every data sheet or rig file states it, so that the prior is narrow.
     fn is_stated(&self) -> bool {
         self.sigma <= WHITE
     }
@@ -106,35 +107,35 @@ impl Which {
     }
 }
 
-/// The noise of some runs.
+/// The noise of these runs.
 fn on<'a>(noise: &'a mut [Noise], runs: &[usize]) -> impl Iterator<Item = &'a mut Noise> {
     let all = noise.iter_mut().enumerate();
     all.filter(move |(run, _)| runs.contains(run)).map(|(_, noise)| noise)
 }
 
-/// The most likely noise, and what else it might be.
+/// The estimated noise parameters and their uncertainty.
 pub(crate) struct Likely {
-    /// The noise that makes the data most likely.
+    /// The maximum of the likelihood.
     pub(crate) noise: Vec<Noise>,
-    /// Pairs of a stronger and a weaker flicker, √3 of its own σ away: the outer points of a Gauss-Hermite
-    /// quadrature, each of which counts for a sixth.
+    /// Pairs of a larger and a smaller bias instability at ±√3 σ: the outer nodes of a Gauss-Hermite quadrature, each with a
+    /// weight of one sixth.
     pub(crate) around: Vec<[Vec<Noise>; 2]>,
-    /// The inverse of about the curvature where it was found, from which another search may start.
+    /// The approximate inverse Hessian at the estimate, from which another search can start.
     pub(crate) inverse_curvature: DMatrix<f64>,
 }
 
-/// The step of second differences, in logarithms: about the σ of a flicker that shows.
+/// The step of second differences, in logarithms: about the σ of a visible bias instability.
 const CURVATURE_STEP: f64 = 0.2;
 
-/// How far at most, in logarithms, a flicker's strength is taken to be uncertain, 1σ: where it does not show at
-/// all its curvature is the prior's, and so weak a flicker does not matter.
+/// The largest 1σ of the logarithm of a bias instability. If it is unobservable, its curvature is that of the prior, and so
+/// small a bias instability has no effect.
 const MOST_UNCERTAIN: f64 = 0.6;
 
-/// The noise that makes the data most likely, the parameters integrated out.
+/// Estimates the noise parameters by restricted maximum likelihood: the parameters are integrated out.
 ///
-/// White noise of the sensors is known to a factor of e about what is expected, everything else to a factor of twenty,
-/// as a log-normal prior; a strength that the data do not show stays where it does no harm. The search starts from
-/// `first`, with the curvature of an earlier one if there was one.
+/// The priors are log-normal: white noise of the sensors is known to a factor of e about its stated value, everything else to
+/// a factor of twenty. An unobservable noise parameter stays where it has no effect. The search starts from `first`, with the
+/// inverse Hessian of an earlier search if there is one.
 pub(crate) fn likely_noise(
     linear: &[Linear],
     expected: &[Noise],
@@ -152,7 +153,7 @@ pub(crate) fn likely_noise(
         }
         noise
     };
-    // Per unit of its prior's sigma, so that the search is equally brave in all.
+    // In logarithms, so that the steps are comparable in all noise parameters.
     let cost = |x: &DVector<f64>| {
         let prior: f64 = unknown
             .iter()
@@ -168,7 +169,8 @@ pub(crate) fn likely_noise(
         None => start(&unknown, cost),
     };
     let mut found = minimum(start, inverse.cloned(), cost);
-    // Where much is missing from the model, noise that is lost has not been found by then: it would be lost again.
+    // If the model is inadequate, a parameter that has vanished was absent at the start of the search too: it would vanish
+    // again.
     let better = |start: &DVector<f64>| cost(start) < found.1;
     if let Some(start) = without_loss(&unknown, &found.0).filter(better) {
         found = minimum(start, None, cost);
@@ -198,12 +200,12 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     let mut add = |which, start: f64, expected: f64, sigma| {
         unknown.push(Unknown { which, start, centre: (expected / start).ln(), sigma });
     };
-    // No pier holds what nothing reads: what that does is no noise of the sensors.
+    // Without a measured table angle no pier holds the base: its motion is not sensor noise.
     let unread = |linear: &Linear| matches!(linear.reference, Reference::Gravity | Reference::Rest);
     let free = linear.iter().all(unread);
     let first = if free { expected } else { first };
     let (imu, sheet) = (first[0].imu, expected[0].imu);
-    // Where nothing is said of flicker, little is expected, but the search starts where it would show.
+    // If no bias instability is stated, the prior mean is small, but the search starts where it is visible.
     let flicker = |given: f64, white: f64| {
         if given > 0.0 { (given, given) } else { (SHOWING * white, UNSEEN * white) }
     };
@@ -230,7 +232,7 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
         }
         add(Which::Wobble(runs), first.wobble, expected.wobble, UNKNOWN);
     }
-    // How well a table follows its command is told by nothing but the gyro.
+    // Only the gyro measures how well a table follows its command.
     if linear.iter().any(|linear| matches!(linear.reference, Reference::Command { .. })) {
         add(Which::Sway(2), SWAYING, FIRM, ANYTHING);
     }
@@ -244,7 +246,7 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     unknown
 }
 
-/// The runs on each rig: those that were not switched off in between are on one.
+/// The runs on each rig: runs without a power cycle in between are on the same one.
 fn rigs(linear: &[Linear]) -> Vec<Vec<usize>> {
     let mut rigs: Vec<Vec<usize>> = Vec::new();
     for (run, one) in linear.iter().enumerate() {
@@ -258,9 +260,9 @@ fn rigs(linear: &[Linear]) -> Vec<Vec<usize>> {
     rigs
 }
 
-/// Where the search starts: where nothing holds the base, at the best of some bases, from rock to a boat.
+/// The start of the search: without a fixed base, the best of several levels of base motion, from rock to a boat.
 ///
-/// From the wrong one it would end where the sensors' noise stands for the base's, or the other way round.
+/// From a wrong level the search would attribute base motion to the sensors' noise, or the reverse.
 fn start(unknown: &[Unknown], cost: impl Fn(&DVector<f64>) -> f64 + Sync + Send) -> DVector<f64> {
     let steps = [0.0, 2.5, 5.0, 7.5];
     let on = |velocity: f64, sway: f64| {
@@ -283,7 +285,7 @@ fn start(unknown: &[Unknown], cost: impl Fn(&DVector<f64>) -> f64 + Sync + Send)
     bases[best].clone()
 }
 
-/// Where a search starts beside one that has found `first`. Flicker that did not show there may show now.
+/// The start of a search after one that found `first`. Bias instability that was invisible there may be visible now.
 fn near(unknown: &[Unknown], first: &[Noise]) -> DVector<f64> {
     let mut first = first.to_vec();
     let of = |unknown: &Unknown| {
@@ -294,8 +296,8 @@ fn near(unknown: &[Unknown], first: &[Noise]) -> DVector<f64> {
     DVector::from_iterator(unknown.len(), unknown.iter().map(of))
 }
 
-/// Where to search again if a strength was lost that is stated: as stated, and flicker as expected, for that may stand
-/// for white noise; all else as it was found. `None` if none was.
+/// The start of a further search if a stated noise parameter has vanished: the stated value for it, the prior mean for bias
+/// instability, which may have replaced white noise, and the estimate for everything else. `None` if none has vanished.
 fn without_loss(unknown: &[Unknown], found: &DVector<f64>) -> Option<DVector<f64>> {
     let is_lost = |(unknown, x): (&Unknown, &f64)| unknown.is_stated() && x - unknown.centre < LOST;
     unknown.iter().zip(found.iter()).any(is_lost).then(|| {
@@ -308,11 +310,11 @@ fn without_loss(unknown: &[Unknown], found: &DVector<f64>) -> Option<DVector<f64
     })
 }
 
-/// Where `cost` is least, how little, and the inverse of about the curvature there: quasi-Newton steps (BFGS), derivatives by
-/// differences.
+/// The minimum of `cost`: its place, its value and the approximate inverse Hessian there, by quasi-Newton steps (BFGS) with
+/// finite differences.
 ///
-/// Without an inverse the first step knows the curvature along every axis: strengths that thousands of figures show
-/// and such that a few do differ a thousandfold in it.
+/// Without an initial inverse Hessian the first step uses the curvature along every axis: the curvatures of noise parameters
+/// that are determined by thousands of data and by a few differ by a factor of a thousand.
 fn minimum(
     start: DVector<f64>,
     inverse: Option<DMatrix<f64>>,
@@ -342,7 +344,7 @@ fn minimum(
         if !step.iter().all(|s| s.is_finite()) {
             break;
         }
-        // Not further than a factor of five at once.
+        // At most a factor of five in one step.
         let longest = step.amax();
         if longest > 1.6 {
             step *= 1.6 / longest;

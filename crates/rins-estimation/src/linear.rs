@@ -1,4 +1,4 @@
-//! A run made linear: how each epoch's readings follow from attitude, velocity and the parameters.
+//! Linearization of a run: the dependence of each epoch's measurements on attitude, velocity and the parameters.
 
 use rins_motion::whole;
 use std::ops::Range;
@@ -15,25 +15,25 @@ use crate::path;
 use crate::run::{Reference, Run};
 use crate::step::SHOWN;
 
-/// Epochs are a thousandth of the run, but not shorter or longer than this \[s\].
+/// The duration of an epoch is a thousandth of the run, within these limits \[s\].
 const EPOCH: (f64, f64) = (SHORTEST_EPOCH, 0.5);
 
-/// No more epochs than this, however long the run is: those of a day last two seconds.
+/// The largest number of epochs, for runs of any duration: those of a run of a day last two seconds.
 const MOST_EPOCHS: f64 = 40_000.0;
 
-/// In a piece of an epoch the table turns by no more than this \[rad\].
+/// The largest rotation of the table in a piece of an epoch \[rad\].
 const TURN_OF_PIECE: f64 = 0.04;
 
-/// A turn over a sample that is none \[rad\].
+/// The rotation within a sample below which the table counts as static \[rad\].
 const LEAST_TURN: f64 = 1e-6;
 
-/// An epoch is of as many pieces at least.
+/// The smallest number of pieces of an epoch.
 const FEWEST_PIECES: usize = 4;
 
-/// How many epochs a thread makes at a time.
+/// The number of epochs that a thread constructs in one task.
 const EPOCHS_AT_A_TIME: usize = 64;
 
-/// A run, linear in the parameters that a model estimates.
+/// A run, linearized with respect to the free parameters of a model.
 #[derive(Clone, Debug)]
 pub struct Linear {
     pub(crate) epochs: Vec<Epoch>,
@@ -41,19 +41,19 @@ pub struct Linear {
     pub(crate) force: Vector3<f64>,
     /// The Earth's rate in the axis frame \[rad/s\].
     pub(crate) earth_rate: Vector3<f64>,
-    /// How many parameters are estimated.
+    /// The number of free parameters.
     pub(crate) parameters: usize,
     pub(crate) reference: Reference,
-    /// Which switching-on the run belongs to, if not to one of its own.
+    /// The power cycle that the run belongs to, or `None` if it has its own.
     pub(crate) turn_on: Option<usize>,
-    /// The way of the table about which it is linear.
+    /// The trajectory of the table at which the run is linearized.
     pub(crate) track: Track,
 }
 
-/// The surroundings with what `model` has for the errors of the axis' attitude and azimuth, and the model without those.
+/// The surroundings corrected by the errors of axis attitude and azimuth in `model`, and the model without these errors.
 ///
-/// The parameters that are not small enough for their squares to be left out are taken along exactly: what an attitude error
-/// does to the gyros is by the Earth's rate as it is, not as it was assumed.
+/// These errors are not small enough to neglect their squares and are applied exactly: an attitude error affects the gyros
+/// through the actual Earth's rate, not through the assumed one.
 pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
     let mut rest = model.clone();
     let mut nav_from_table = run.rig.nav_from_table;
@@ -75,30 +75,30 @@ pub(crate) fn with_attitude(run: &Run, model: &Model) -> (Surroundings, Model) {
     (surroundings, rest)
 }
 
-/// How finely derivatives are taken.
+/// The resolution of the derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pieces {
-    /// Sample by sample.
+    /// One derivative for each sample.
     Samples,
-    /// Over samples in which the table hardly turns, taken as one.
+    /// One derivative for several samples in which the table hardly rotates.
     Coarse,
 }
 
-/// Makes a run linear about the values that `model` has.
+/// Linearizes a run at the parameter values of `model`.
 ///
-/// `free` lists the parameters that are estimated, each as term and place within it.
+/// `free` lists the free parameters, each as term and place within it.
 pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
     linearised(run, model, free, Pieces::Samples)
 }
 
-/// The same for many parameters, to compare them: the residuals are as exact, and the derivatives are taken over
-/// pieces in which the table turns by some 2 deg at most, which puts an order `n` of its angle off by no more than
-/// `(0.02 n)²/6`.
+/// The same with coarse derivatives, for the comparison of many parameters. The residuals are as exact; the derivatives are
+/// calculated over pieces in which the table rotates by about 2 deg at most, which biases a harmonic order `n` of its angle
+/// by less than `(0.02 n)²/6`.
 pub fn linearise_coarsely(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
     linearised(run, model, free, Pieces::Coarse)
 }
 
-/// Makes a run linear as finely as is asked for.
+/// Linearizes a run with this resolution of the derivatives.
 pub(crate) fn linearised(
     run: &Run,
     model: &Model,
@@ -130,7 +130,7 @@ pub(crate) fn linearised(
     let compared = Compared::new(run, &model, free, readings.as_deref(), (&track, pieces));
     let stretches: Vec<&[Span]> = spans.chunks(EPOCHS_AT_A_TIME).collect();
     let firsts: Vec<usize> = stretches.iter().map(|spans| spans[0].samples.start).collect();
-    // A stretch begins with the piece before it, which shows what readings differed by.
+    // A group of epochs begins with the piece before it, which determines the previous error of the readings.
     let before =
         firsts.iter().map(|first| ends.partition_point(|end| end <= first).saturating_sub(1));
     let starts = track.moments_from(firsts.iter().copied()).into_iter();
@@ -161,10 +161,10 @@ pub(crate) fn linearised(
     }
 }
 
-/// The samples of all epochs: so many each, and a new one after a gap.
+/// The samples of all epochs: `block` samples each, with a new epoch after every gap.
 fn spans(run: &Run, block: usize) -> Vec<Span> {
     let recording = &run.recording;
-    // More than half a sample missing: the table's motion in between is not known.
+    // More than half a sample is missing: the motion of the table in between is unknown.
     let gap = |&sample: &usize| {
         let elapsed = recording.times[sample] - recording.times[sample - 1];
         elapsed > 1.5 * recording.increments[sample].interval
@@ -181,7 +181,7 @@ fn spans(run: &Run, block: usize) -> Vec<Span> {
     starts.windows(2).flat_map(epochs).collect()
 }
 
-/// Where pieces of so many samples end, and such of one sample around every event.
+/// The ends of pieces of `piece` samples, with a piece of one sample at every event.
 fn cut(samples: &Range<usize>, piece: usize, events: &[usize]) -> Vec<usize> {
     let end = samples.end;
     let mut ends: Vec<usize> =
@@ -195,7 +195,7 @@ fn cut(samples: &Range<usize>, piece: usize, events: &[usize]) -> Vec<usize> {
     ends
 }
 
-/// The samples in which a model's events happen.
+/// The samples in which the events of a model occur.
 fn events(model: &Model, track: &Track) -> Vec<usize> {
     let times = model.terms.iter().filter_map(|chosen| chosen.setting(SettingKind::Time));
     let sample = |time: f64| track.times().partition_point(|end| end - track.start() < time);
@@ -205,7 +205,7 @@ fn events(model: &Model, track: &Track) -> Vec<usize> {
     events
 }
 
-/// Marks the epochs that hold any of these samples.
+/// Marks the epochs that contain any of these samples as excluded.
 fn leave_out(epochs: &mut [Epoch], spans: &[Range<usize>]) {
     for epoch in epochs {
         let (first, end) = epoch.samples;
@@ -214,19 +214,19 @@ fn leave_out(epochs: &mut [Epoch], spans: &[Range<usize>]) {
 }
 
 impl Linear {
-    /// The same with the epochs that were left out playing their part.
+    /// The same with no epochs excluded.
     #[must_use]
     pub fn with_all(mut self) -> Self {
         leave_out(&mut self.epochs, &[]);
         self
     }
 
-    /// How many epochs the run has.
+    /// The number of epochs.
     pub fn epochs(&self) -> usize {
         self.epochs.len()
     }
 
-    /// The way of the table about which it is linear.
+    /// The trajectory of the table at which the run is linearized.
     pub fn track(&self) -> &Track {
         &self.track
     }
@@ -236,28 +236,28 @@ impl Linear {
         self.epochs.iter().map(|epoch| epoch.samples.0..epoch.samples.1)
     }
 
-    /// When each epoch ends \[s\].
+    /// The end of each epoch \[s\].
     pub fn ends(&self) -> Vec<f64> {
         let times = self.track.times();
         self.epochs.iter().map(|epoch| times[epoch.samples.1 - 1]).collect()
     }
 
-    /// Whether navigation starts anew at an epoch: at the start of a run, after a gap, or after what was left out.
+    /// Whether navigation is initialized at an epoch: at the start of a run, after a gap, or after an excluded epoch.
     pub(crate) fn starts_anew(&self, epoch: usize) -> bool {
         self.epochs[epoch].fresh || (epoch > 0 && self.epochs[epoch - 1].left_out)
     }
 
-    /// Whether the readings show the angle about the axis.
+    /// Whether the angle about the axis is measured.
     pub(crate) fn shows_angle(&self) -> bool {
         self.reference != Reference::Gravity
     }
 
-    /// How many figures an epoch shows.
+    /// The number of measurements in an epoch.
     pub fn shown(&self) -> usize {
         if self.shows_angle() { SHOWN } else { SHOWN - 1 }
     }
 
-    /// How far the table turns in an epoch \[rad\].
+    /// The rotation of the table in an epoch \[rad\].
     pub(crate) fn turned(&self, epoch: &Epoch) -> f64 {
         let angles = self.track.angles();
         angles[epoch.samples.1] - angles[epoch.samples.0]
@@ -273,10 +273,10 @@ impl Linear {
         self.epochs.iter().map(of).collect()
     }
 
-    /// The same with parameters more: of each of `parameters`, one that acts in the epochs of group 1 only, and so on up
-    /// to group `last`.
+    /// The same with additional parameters: for each of `parameters` one that acts only in the epochs of group 1, and so on
+    /// up to group `last`.
     ///
-    /// # Panics
+    /// If there is not one group for every epoch.
     /// If there is not a group for every epoch.
     #[must_use]
     pub fn in_groups(&self, parameters: &[usize], groups: &[usize], last: usize) -> Self {
@@ -293,13 +293,13 @@ impl Linear {
         apart
     }
 
-    /// The mean length of an epoch \[s\].
+    /// The mean duration of an epoch \[s\].
     pub fn mean_epoch(&self) -> f64 {
         let total: f64 = self.epochs.iter().map(|epoch| epoch.duration).sum();
         total / self.epochs.len() as f64
     }
 
-    /// How long the samples cover \[s\].
+    /// The total duration of the samples \[s\].
     pub(crate) fn duration(&self) -> f64 {
         self.epochs.iter().map(|epoch| epoch.duration).sum()
     }

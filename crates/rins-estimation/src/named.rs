@@ -1,4 +1,4 @@
-//! Estimates along other axes than the first run's: by the names that the sensors themselves have.
+//! Estimates along other axes than those of the first run, under the sensors' own names.
 
 use nalgebra::DMatrix;
 use rins_frames::SignedAxes;
@@ -6,19 +6,19 @@ use rins_terms::TermInstance;
 
 use crate::estimate::{Estimate, Fit};
 
-/// Where an estimate stands in the model of a run.
+/// The place of an estimate in the model of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InRun {
-    /// Which of the model's terms it is of.
+    /// The index of the term in the model.
     pub term: usize,
-    /// Which of that term's parameters it is.
+    /// The index of the parameter in that term.
     pub parameter: usize,
-    /// What the estimate is multiplied by to be the model's: 1 or -1.
+    /// The factor that converts the estimate to the model's value: 1 or -1.
     pub sign: f64,
 }
 
 impl Estimate {
-    /// The same along the sensors' own axes, if it is along those of a run with these axes; `chosen` is the term that it is of.
+    /// The same estimate along the sensors' own axes, if it is along those of a run with `axes`; `chosen` is its term.
     #[must_use]
     pub fn along_own(&self, chosen: &TermInstance, axes: &SignedAxes) -> Self {
         let mut own = self.clone();
@@ -33,7 +33,7 @@ impl Estimate {
 }
 
 impl Fit {
-    /// Where an estimate stands in the model of a run, if the run has it.
+    /// The place of an estimate in the model of a run, if the run has the parameter.
     ///
     /// # Panics
     /// If there is no such run.
@@ -47,17 +47,17 @@ impl Fit {
         Some(InRun { term, parameter, sign })
     }
 
-    /// The same with the parameters named, directed and ordered along other axes, given as they are picked from the sensors'
-    /// own: with [`SignedAxes::IDENTITY`] along the sensors' own axes.
+    /// The same fit with the parameters named, signed and ordered along other axes, which are given relative to the
+    /// sensors' own axes: [`SignedAxes::IDENTITY`] means along the sensors' own axes.
     ///
-    /// Models, and what is linear, stay along the axes of their runs.
+    /// The models and the linearized runs keep the axes of their runs.
     #[must_use]
     pub fn along(mut self, axes: SignedAxes) -> Self {
         let renamed: Vec<(String, f64, usize)> =
             self.parameters.iter().map(|estimate| self.renamed(estimate, &axes)).collect();
         let mut order: Vec<usize> = (0..self.parameters.len()).collect();
         let parameters = &self.parameters;
-        // A term's parameters stay together, and change their places among each other.
+        // The parameters of a term stay together; only their order within the term changes.
         let group = |place: &usize| (parameters[*place].run, parameters[*place].parameter.term);
         for block in order.chunk_by_mut(|a, b| group(a) == group(b)) {
             block.sort_by_key(|&place| renamed[place].2);
@@ -87,8 +87,8 @@ impl Fit {
         self
     }
 
-    /// The id of an estimate along other axes, what its value is multiplied by to be along these, and its rank among its
-    /// term's parameters there.
+    /// The id of an estimate along other axes, the factor that converts its value to them, and its rank among the
+    /// parameters of its term there.
     fn renamed(&self, estimate: &Estimate, axes: &SignedAxes) -> (String, f64, usize) {
         let mut runs = 0..self.models.len();
         let found = runs.find_map(|run| Some((run, self.in_run(estimate, run)?)));

@@ -1,32 +1,32 @@
-//! How strong the random errors are.
+//! Noise parameters: densities of the random errors.
 
 use rins_imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins_terms::{Model, Noises, catalogue};
 
-/// The random errors of one triad.
+/// The noise parameters of one triad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TriadStrengths {
-    /// The root density of white noise \[per √Hz\].
+    /// Noise density: the square root of the power spectral density of white noise \[per √Hz\].
     pub white: f64,
-    /// The flicker floor, as the bias instability `B` of IEEE Std 952: density `B²/(2πf)`.
+    /// Bias instability `B` of IEEE Std 952 (flicker noise): power spectral density `B²/(2πf)`.
     pub flicker: f64,
-    /// The density of the bias' random walk, `K` \[per √s\].
+    /// Density `K` of the random walk of the bias \[per √s\].
     pub walk: f64,
 }
 
-/// The random errors of an IMU, and of the clock that reads the encoder beside it.
+/// The noise parameters of an IMU, and the timing jitter of the encoder.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NoiseParameters {
-    /// Of the gyros \[rad/s\].
+    /// Those of the gyros \[rad/s\].
     pub gyro: TriadStrengths,
-    /// Of the accelerometers \[m/s²\].
+    /// Those of the accelerometers \[m/s²\].
     pub accel: TriadStrengths,
-    /// 1σ of the moments at which the encoder is read, about those of the samples \[s\]; zero if it is read with them.
+    /// 1σ of the times of the encoder readings relative to those of the samples \[s\]; zero if they are simultaneous.
     pub jitter: f64,
 }
 
 impl TriadStrengths {
-    /// Those of a data sheet; what it leaves out is zero.
+    /// Those of a data sheet; a value that it does not state is zero.
     pub fn of(spec: &TriadSpec) -> Self {
         Self {
             white: spec.noise_density,
@@ -37,7 +37,7 @@ impl TriadStrengths {
 }
 
 impl NoiseParameters {
-    /// Those of a data sheet; what it leaves out is zero.
+    /// Those of a data sheet; a value that it does not state is zero.
     pub fn of(imu: &ImuSpec) -> Self {
         Self {
             gyro: TriadStrengths::of(&imu.gyro),
@@ -46,7 +46,7 @@ impl NoiseParameters {
         }
     }
 
-    /// The same with what the noise among a model's terms makes of it, as it does of a simulation's.
+    /// The same with the noise terms of a model applied, as in a simulation.
     #[must_use]
     pub fn with(&self, model: &Model) -> Self {
         let noise = |triad: &TriadStrengths| NoiseModel {
@@ -71,42 +71,43 @@ impl NoiseParameters {
     }
 }
 
-/// What is known of the sensors' random errors.
+/// The prior knowledge of the sensors' noise parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoiseKnowledge {
-    /// They are this strong.
+    /// The noise parameters are known.
     Given(NoiseParameters),
-    /// These strengths are a first guess, and the most likely ones are found from the data, those of
-    /// the encoder and of the axis' wobble with them.
+    /// These are prior values; the noise parameters of the sensors, of the encoder and of the axis wobble are estimated
+    /// from the data by restricted maximum likelihood.
     Likely(NoiseParameters),
 }
 
 impl NoiseKnowledge {
-    /// The strengths that were stated, be they trusted or a first guess.
+    /// The stated noise parameters, whether fixed or prior values.
     pub const fn sheet(&self) -> NoiseParameters {
         let (Self::Given(strengths) | Self::Likely(strengths)) = self;
         *strengths
     }
 }
 
-/// All noise of a run.
+/// The noise of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Of the sensors.
+    /// That of the sensors.
     pub imu: NoiseParameters,
-    /// 1σ of the axis' direction at a reading, each of two components \[rad\].
+    /// Wobble: 1σ of the direction of the spin axis in one reading, for each of two components \[rad\].
     pub wobble: f64,
-    /// 1σ of a reading of the encoder \[rad\]; unused where there is none.
+    /// 1σ of an encoder reading \[rad\]; unused without an encoder.
     pub encoder: f64,
-    /// How far the velocity of the base may be from zero at a reading, 1σ \[m/s\].
+    /// 1σ of the velocity of the base in one reading \[m/s\]; its mean is zero.
     pub velocity: f64,
-    /// The root density with which the attitude of a base that nothing reads strays about each axis \[rad/√s\]; zero if
-    /// it is firm. About the third also that of a table from its command, beside what its rig states.
+    /// Sway: the density of the random walk of the base attitude about each axis, if no table angle is measured \[rad/√s\];
+    /// zero for a stationary base. The third component is also the deviation of the table from its command, in addition to
+    /// that of the rig.
     pub sway: [f64; 3],
 }
 
 impl Noise {
-    /// That of the sensors' strengths on a rig, whose base is firm.
+    /// The noise of these noise parameters on a rig with a stationary base.
     pub fn on(rig: &crate::run::Rig, imu: &NoiseParameters) -> Self {
         let encoder = match rig.reference {
             crate::run::Reference::Encoder { noise } => noise,
@@ -129,7 +130,7 @@ mod tests {
             TermInstance::new(&catalogue::GYRO_NOISE_LEVEL).with_values(&[0.5]),
             TermInstance::new(&catalogue::ACCEL_RATE_RANDOM_WALK).with_values(&[0.07]),
             TermInstance::new(&catalogue::TIMESTAMP_JITTER).with_values(&[1e-5]),
-            // What is a signal is none.
+            // A signal is not noise.
             TermInstance::new(&catalogue::GYRO_SCALE_ASYMMETRY).with_values(&[1.0]),
         ];
         let found = sheet.with(&Model { terms: terms.to_vec() });

@@ -1,4 +1,4 @@
-//! The filter over the epochs of a run, and the recursions that carry its columns.
+//! The filter over the epochs of a run, and the recursions of its columns.
 #![expect(
     clippy::inline_always,
     reason = "what is not inlined is compiled without the vector instructions"
@@ -14,24 +14,24 @@ use crate::step::{CARRIED_OF, FOLLOWING, NAVIGATION, SHOWN, SHOWN_OF, Step};
 
 type Square = SMatrix<f64, SHOWN, SHOWN>;
 
-/// The filter's covariance and the recursions of the columns.
+/// The covariance of the filter, and the recursions of the columns.
 ///
-/// Everything is kept in rows of whole vectors, one for each state: of the states' covariances, and of the columns.
+/// Everything is stored in rows of whole SIMD vectors, one for each state: the covariances of the states, and the columns.
 pub(crate) struct Pass {
     step: Step,
     covariance: DMatrix<f64>,
     columns: DMatrix<f64>,
-    /// The covariances of the states with what follows from them, in rows.
+    /// The covariances of the states with the linear functions of the states in an epoch, in rows.
     of_states: Vec<f64>,
-    /// `C L⁻ᵀ`, where `C` is the covariance of the next states with what is shown, in rows.
+    /// `C L⁻ᵀ`, where `C` is the covariance of the next states with the measurement, in rows.
     gain: Vec<f64>,
-    /// The same, one state after the other.
+    /// The same in the order of the states.
     gain_of_states: Vec<[f64; SHOWN]>,
     whitened: Vec<f64>,
 }
 
 impl Pass {
-    /// At the start of a run.
+    /// The filter at the start of a run.
     pub(crate) fn new(space: &Space<'_>, columns: usize) -> Self {
         let (states, columns) = (space.states(), columns.next_multiple_of(WIDEST));
         let length = states.next_multiple_of(WIDEST);
@@ -46,17 +46,18 @@ impl Pass {
         }
     }
 
-    /// What the last epoch showed of the columns, whitened: a row a figure.
+    /// The whitened measurement of every column in the last epoch: a row for each measurement.
     pub(crate) fn whitened(&self) -> &[f64] {
         &self.whitened
     }
 
-    /// The attitude that the first column has by now: a rotation vector in the axis frame \[rad\].
+    /// The current attitude in the first column: a rotation vector in the axis frame \[rad\].
     pub(crate) fn attitude(&self) -> Vector3<f64> {
         Vector3::from_fn(|axis, _| self.columns[(0, axis)])
     }
 
-    /// Goes on by one epoch, `anew` or from the one before; half the logarithm of the innovation covariance's determinant.
+    /// Processes an epoch, with new initial values if `anew`. The result is half the log-determinant of the innovation
+    /// covariance.
     pub(crate) fn step(
         &mut self,
         space: &Space<'_>,
@@ -76,7 +77,7 @@ impl Pass {
         }
     }
 
-    /// Lets time go by for what has a memory; navigation starts anew afterwards.
+    /// Propagates the colored noise over an excluded epoch; navigation starts again afterwards.
     pub(crate) fn pass_over(&mut self, space: &Space<'_>, epoch: &Epoch) {
         space.set(epoch, &mut self.step);
         let Step { decay, colour_noise, .. } = &self.step;
@@ -89,8 +90,8 @@ impl Pass {
         }
     }
 
-    /// Attitude and velocity where the epoch's own readings put them, so that the start holds nothing that the readings
-    /// do not.
+    /// Initializes attitude and velocity from the epoch's own readings, so that the initial values contain no other
+    /// information.
     fn start(&mut self, gains: &Gains) {
         let width = self.columns.nrows();
         let (attitude, rest) = self.columns.as_mut_slice().split_at_mut(3 * width);
@@ -104,7 +105,7 @@ impl Pass {
     }
 }
 
-/// One epoch, as many states or columns at once as the machine's vectors hold.
+/// The processing of one epoch, with as many states or columns in parallel as a SIMD vector holds.
 struct Onward<'a> {
     pass: &'a mut Pass,
     gains: &'a Gains,
@@ -130,11 +131,11 @@ impl WithSimd for Onward<'_> {
     }
 }
 
-/// The covariance of what follows from the states.
+/// The covariance of the linear functions of the states in an epoch.
 type Following = SMatrix<f64, FOLLOWING, FOLLOWING>;
 
 impl Pass {
-    /// The covariances of the states with what follows from them.
+    /// Calculates the covariances of the states with the linear functions of the states.
     #[inline(always)]
     fn follow_states<S: Simd>(&mut self, simd: S) {
         let rows = S::as_simd_f64s(self.covariance.as_slice()).0;
@@ -148,7 +149,7 @@ impl Pass {
         }
     }
 
-    /// The covariance of what follows from the states.
+    /// The covariance of the linear functions of the states.
     #[inline(always)]
     fn following(&self) -> Following {
         let length = self.covariance.nrows();
@@ -195,10 +196,10 @@ impl Pass {
         }
     }
 
-    /// What of the columns is shown, whitened, and what is carried on.
+    /// Calculates the whitened measurements of the columns, and propagates the columns.
     #[inline(always)]
     fn carry_columns<S: Simd>(&mut self, simd: S, gains: &Gains, factor: &Square) {
-        // Of two vectors side by side what multiplies both is read once; of the widest there may be but one.
+        // Two vectors in parallel share the loaded common factors; of the widest vectors there may be only one.
         if S::F64_LANES < WIDEST {
             self.carry_vectors::<S, 2>(simd, gains, factor);
         } else {
@@ -206,7 +207,7 @@ impl Pass {
         }
     }
 
-    /// The same, so many vectors at once.
+    /// The same for `BESIDE` vectors in parallel.
     #[inline(always)]
     fn carry_vectors<S: Simd, const BESIDE: usize>(
         &mut self,
@@ -315,7 +316,7 @@ fn whiten<S: Simd>(x: &mut [Lane<S>; SHOWN], factor: &Square) {
     }
 }
 
-/// The sum of what is seen, each part times its gain.
+/// The sum of the whitened measurements, each times its gain.
 #[inline(always)]
 fn explained<S: Simd>(seen: &[Lane<S>; SHOWN], gain: &[f64; SHOWN]) -> Lane<S> {
     let [mean_x, mean_y, mean_z, x, y, z] = *seen;
@@ -336,7 +337,7 @@ mod tests {
     use crate::noise_parameters::{Noise, NoiseParameters, TriadStrengths};
     use crate::run::{Reference, Rig, Run};
 
-    /// A minute on a tilted axis.
+    /// A run of one minute on a tilted axis.
     fn run() -> Run {
         let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
         let station = Station::with_normal_gravity(site);

@@ -1,4 +1,4 @@
-//! The way the table went, as far as it is known before anything is estimated.
+//! The trajectory of the table, as known before the estimation.
 
 use nalgebra::Vector2;
 use rayon::prelude::*;
@@ -6,23 +6,23 @@ use rins_terms::{Acting, KinematicStates, Model, Surroundings, Track};
 
 use crate::run::{Reference, Run};
 
-/// An error of the angle whose square is without effect \[rad\].
+/// The largest error of the angle whose square is negligible \[rad\].
 const SMALL_ERROR: f64 = 1e-4;
 
-/// Larger ones are taken from the way until they change by less than this \[rad\]: an angle that is late shows the rate
-/// that changes at another time, and from a wrong rate it is late by a wrong angle, ...
+/// Larger errors are subtracted until they change by less than this \[rad\]: the error due to a latency depends on the table
+/// rate, which depends on the corrected angle, ...
 const SAME_ERROR: f64 = 1e-7;
 
-/// ... and so many times at most.
+/// ... but at most this number of times.
 const MOST_PASSES: usize = 5;
 
-/// How many samples a thread looks at in one go.
+/// The number of samples that a thread processes in one task.
 const SAMPLES_AT_A_TIME: usize = 4096;
 
-/// The track about which a run is made linear, and what of the reference differs from it.
+/// The trajectory of the table at which a run is linearized.
 ///
-/// The z gyro gives its details, the reference its slow part: neither the gyro's drift nor the
-/// encoder's noise is in it.
+/// The z gyro determines its high frequencies, the reference its low frequencies. It contains neither the drift of the gyro
+/// nor the noise of the encoder.
 pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block: usize) -> Track {
     let mut track = through(run, surroundings, &[], block);
     let Reference::Encoder { .. } = run.rig.reference else { return track };
@@ -40,7 +40,7 @@ pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block:
     track
 }
 
-/// By how much the model says that the angle is read wrong, at the end of each sample \[rad\].
+/// The error of the table angle according to the model, at the end of each sample \[rad\].
 fn errors(track: &Track, model: &Model) -> Vec<f64> {
     let present = Acting::present(model, track);
     let starts = (0..track.len()).step_by(SAMPLES_AT_A_TIME);
@@ -52,7 +52,7 @@ fn errors(track: &Track, model: &Model) -> Vec<f64> {
     errors.concat()
 }
 
-/// The track if what is read is wrong by these angles, or right if there are none.
+/// The trajectory if the table angle has these errors, or none.
 fn through(run: &Run, surroundings: Surroundings, errors: &[f64], block: usize) -> Track {
     let recording = &run.recording;
     let gyro = integrated_gyro(run, &surroundings);
@@ -77,7 +77,7 @@ fn through(run: &Run, surroundings: Surroundings, errors: &[f64], block: usize) 
     )
 }
 
-/// The table angle at the end of each sample as the reference gives it \[rad\], if it does.
+/// The table angle at the end of each sample according to the reference \[rad\], if the reference is an angle.
 pub(crate) fn readings(run: &Run) -> Option<Vec<f64>> {
     let recording = &run.recording;
     match run.rig.reference {
@@ -98,7 +98,7 @@ pub(crate) fn readings(run: &Run) -> Option<Vec<f64>> {
     }
 }
 
-/// The table angle that the z gyro shows, from zero before the first sample \[rad\].
+/// The table angle from the z gyro, which is zero before the first sample \[rad\].
 fn integrated_gyro(run: &Run, surroundings: &Surroundings) -> Vec<f64> {
     let mut angle = 0.0;
     let steps = run.recording.increments.iter().map(|sample| {
@@ -108,7 +108,7 @@ fn integrated_gyro(run: &Run, surroundings: &Surroundings) -> Vec<f64> {
     std::iter::once(0.0).chain(steps).collect()
 }
 
-/// The means of blocks of `differences`, joined by straight lines; one value more, for the start.
+/// The means of blocks of `differences`, interpolated linearly; there is one more value, for the start.
 fn smoothed(differences: &[f64], block: usize) -> Vec<f64> {
     let n_blocks = (differences.len() / block).max(1);
     let bound = |index: usize| index * differences.len() / n_blocks;
@@ -123,7 +123,7 @@ fn smoothed(differences: &[f64], block: usize) -> Vec<f64> {
     interpolated(&knots, differences.len() + 1)
 }
 
-/// Straight lines through `knots` at 0, 1, ..., and on beyond the outer ones.
+/// Linear interpolation of `knots` at 0, 1, ..., with extrapolation beyond the outer knots.
 fn interpolated(knots: &[(f64, f64)], length: usize) -> Vec<f64> {
     let mut segment = 0;
     (0..length)
@@ -141,9 +141,9 @@ fn interpolated(knots: &[(f64, f64)], length: usize) -> Vec<f64> {
         .collect()
 }
 
-/// What gravity, turning in the plane of rotation, says against the gyro: one figure a revolution.
+/// The correction of the gyro angle by the direction of gravity in the plane of rotation: one value for each revolution.
 ///
-/// What is constant in the body, a bias or the pull of a lever arm, drops out over a whole one.
+/// A constant in the body, such as a bias or the centripetal acceleration of a lever arm, cancels over a whole revolution.
 fn correction_by_gravity(run: &Run, around: &Surroundings, gyro: &[f64]) -> Vec<f64> {
     let expected = around.specific_force.y.atan2(around.specific_force.x);
     let increments = &run.recording.increments;
@@ -160,7 +160,7 @@ fn correction_by_gravity(run: &Run, around: &Surroundings, gyro: &[f64]) -> Vec<
         if turned >= std::f64::consts::TAU || index + 1 == increments.len() {
             let whole = turned >= std::f64::consts::PI;
             if whole || knots.is_empty() {
-                // The angle is that by which the gyro's axes must be turned on to agree with gravity.
+                // The phase is the angle by which the gyro's axes must be rotated further to agree with gravity.
                 let mut phase = expected - sum.y.atan2(sum.x);
                 if let Some(before) = before {
                     let turns = ((phase - before) / std::f64::consts::TAU).round();

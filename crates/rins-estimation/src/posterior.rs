@@ -1,24 +1,24 @@
-//! Information and score, and the estimate that they and prior knowledge make.
+//! The information matrix and the score of data, and the posterior with priors.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-/// What data say of parameters about the values where they were made linear.
+/// The likelihood of data as a quadratic function of the parameters about the point of linearization.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
     /// The Fisher information, in inverse squares of the parameters' SI units.
     pub information: DMatrix<f64>,
-    /// The derivative of the log-likelihood.
+    /// The score: the gradient of the log-likelihood.
     pub score: DVector<f64>,
     /// The sum of the squared whitened innovations.
     pub square: f64,
-    /// How many figures the data hold.
+    /// The number of measurements.
     pub figures: usize,
-    /// Half the logarithm of the determinant of the innovations' covariances, summed up.
+    /// Half the log-determinant of the innovation covariances, summed over the epochs.
     pub log_determinant: f64,
 }
 
 impl Evidence {
-    /// Of no data on `parameters` of them.
+    /// The evidence of no data on this number of parameters.
     pub fn none(parameters: usize) -> Self {
         Self {
             information: DMatrix::zeros(parameters, parameters),
@@ -29,7 +29,7 @@ impl Evidence {
         }
     }
 
-    /// From the products of the whitened columns, that of the residuals first.
+    /// The evidence from the products of the whitened columns, with that of the residuals first.
     pub(crate) fn from_products(
         products: &DMatrix<f64>,
         figures: usize,
@@ -45,8 +45,8 @@ impl Evidence {
         }
     }
 
-    /// Adds what other data say; `places` says which parameter here each of theirs is, and `signs` what each of theirs is
-    /// multiplied by to be that: 1 or -1.
+    /// Adds the evidence of other data. `places` gives the place here of each of their parameters, and `signs` the factor
+    /// that converts each of their parameters to the one here: 1 or -1.
     pub fn add(&mut self, other: &Self, places: &[usize], signs: &[f64]) {
         for (row, &to_row) in places.iter().enumerate() {
             self.score[to_row] += signs[row] * other.score[row];
@@ -60,8 +60,8 @@ impl Evidence {
         self.log_determinant += other.log_determinant;
     }
 
-    /// What is said of the parameters `kept`, those in `others` integrated out with their priors: each one's place, `sigma`, and how
-    /// far its expected value is from where the data were made linear.
+    /// The marginal evidence on the parameters `kept`, with `others` integrated out with their priors: for each its place,
+    /// `sigma`, and the mean of its prior relative to the point of linearization.
     ///
     /// `None` if the information is not finite.
     pub(crate) fn marginal(&self, kept: &[usize], others: &[(usize, f64, f64)]) -> Option<Self> {
@@ -90,8 +90,7 @@ impl Evidence {
         })
     }
 
-    /// The estimate with these priors: each parameter's `sigma`, and how far its expected value is from
-    /// where the data were made linear.
+    /// The posterior with these priors: for each parameter its `sigma`, and the mean relative to the point of linearization.
     ///
     /// `None` if the information is not finite.
     pub fn posterior(&self, sigmas: &[f64], expected: &[f64]) -> Option<Posterior> {
@@ -105,13 +104,13 @@ impl Evidence {
         Some(Posterior { step: step.component_mul(&scale), covariance, log_likelihood, square })
     }
 
-    /// The log-likelihood of [`Posterior`], without its covariance, which takes most of the time.
+    /// The log-likelihood of [`Posterior`] without its covariance, which takes most of the time.
     pub fn log_likelihood(&self, sigmas: &[f64], expected: &[f64]) -> Option<f64> {
         self.solved(sigmas, expected).map(|solved| solved.log_likelihood)
     }
 
     fn solved(&self, sigmas: &[f64], expected: &[f64]) -> Option<Solved> {
-        // In units of the priors' sigmas, so that kinds with different units do not drown each other.
+        // In units of the priors' sigmas, which scales parameters of different units equally.
         let scale = DVector::from_column_slice(sigmas);
         let p = sigmas.len();
         let scaled = DMatrix::from_fn(p, p, |row, column| {
@@ -129,32 +128,32 @@ impl Evidence {
     }
 }
 
-/// What an estimate follows from, in units of the priors' sigmas.
+/// The solution of the normal equations, in units of the priors' sigmas.
 struct Solved {
     scale: DVector<f64>,
     factor: Cholesky<f64, Dyn>,
     step: DVector<f64>,
     square: f64,
-    /// Half the logarithm of the determinant of information and priors.
+    /// Half the log-determinant of the information with the priors.
     log_determinant: f64,
     log_likelihood: f64,
 }
 
-/// An estimate.
+/// The posterior of the parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Posterior {
-    /// From where the data were made linear to the estimate, in SI units.
+    /// The estimate relative to the point of linearization, in SI units.
     pub step: DVector<f64>,
     /// Its covariance.
     pub covariance: DMatrix<f64>,
-    /// The logarithm of the probability of the data, the parameters integrated out, but for a constant.
+    /// The log marginal likelihood (parameters integrated out), up to a constant.
     pub log_likelihood: f64,
-    /// The squares that are left: of the data's residuals, and of the estimate against its priors.
+    /// The sum of the squared whitened residuals of the data and of the priors at the estimate.
     pub square: f64,
 }
 
 impl Posterior {
-    /// The 1σ of a parameter.
+    /// The posterior 1σ of a parameter.
     pub fn sigma(&self, parameter: usize) -> f64 {
         self.covariance[(parameter, parameter)].sqrt()
     }
@@ -165,7 +164,7 @@ impl Posterior {
     }
 }
 
-/// The correlations of a covariance matrix.
+/// The correlation matrix of a covariance matrix.
 pub fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |row, column| {
         if row == column {

@@ -1,4 +1,4 @@
-//! What is foretold of epochs that played no part in an estimate, by one that knows how well it knows its parameters.
+//! One-step prediction of held-out epochs, including the uncertainty of the parameters.
 
 use std::ops::Range;
 
@@ -9,30 +9,31 @@ use crate::linear::Linear;
 use crate::noise_parameters::Noise;
 use crate::step::SHOWN;
 
-/// What an epoch shows, against what was foretold of it.
+/// The measurement of an epoch compared with its prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpochPrediction {
     /// The samples of the epoch.
     pub samples: Range<usize>,
-    /// The whitened innovation, N(0, I) if the model is right.
+    /// The whitened innovation: N(0, I) if the model is correct.
     pub innovation: SVector<f64, SHOWN>,
-    /// The logarithm of the probability density of what was shown \[nats\].
+    /// The log-density of the measurement (log score) \[nats\].
     pub log_density: f64,
 }
 
-/// What is known of parameters, and learnt of them from every epoch that is foretold.
+/// The posterior of the parameters, updated with every predicted epoch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterPosterior {
-    /// How far they are expected from where runs are linear, in SI units.
+    /// The mean of the parameters relative to the point of linearization, in SI units.
     offset: DVector<f64>,
     covariance: DMatrix<f64>,
 }
 
 impl ParameterPosterior {
-    /// Parameters that are expected so far from where runs are linear, with this covariance, both in SI units.
+    /// A distribution of the parameters with this mean relative to the point of linearization and this covariance, in SI
+    /// units.
     ///
     /// # Panics
-    /// If there are not as many of both.
+    /// If the dimensions differ.
     pub fn new(offset: DVector<f64>, covariance: DMatrix<f64>) -> Self {
         assert_eq!(
             covariance.shape(),
@@ -42,14 +43,14 @@ impl ParameterPosterior {
         Self { offset, covariance }
     }
 
-    /// How well those epochs of a linear run were foretold of which the samples are `asked` for, each from the run's noise and all
-    /// that it showed before, and from what was known of the parameters, which it then adds to; `places` says which of
-    /// these each one of the run is.
+    /// Predicts the epochs of a linearized run whose samples are `asked` for. Each prediction uses all earlier measurements
+    /// of the run and the current distribution of the parameters, which the measurement of the epoch then updates. `places`
+    /// gives the place of each of the run's parameters.
     ///
-    /// One after the other, the densities make that of them all, the parameters integrated out.
+    /// By the chain rule the sum of the log-densities is the joint log-density, with the parameters integrated out.
     ///
     /// # Errors
-    /// [`Indefinite`] if the noise makes no covariance.
+    /// [`Indefinite`] if the covariance of an innovation is not positive definite.
     ///
     /// # Panics
     /// If there is not a place for each parameter of the run.
@@ -76,8 +77,9 @@ impl ParameterPosterior {
         Ok(all)
     }
 
-    /// Takes what an epoch shows of the columns, whitened, a row a figure; the innovation, whitened with what is not
-    /// known of the parameters, and half the logarithm of the determinant that this adds.
+    /// Updates the parameters with the whitened columns of an epoch, a row for each measurement. The result is the
+    /// innovation, whitened with the uncertainty of the parameters included, and the resulting increase of half the
+    /// log-determinant.
     fn learn(&mut self, whitened: &[f64], places: &[usize]) -> Option<(SVector<f64, SHOWN>, f64)> {
         let width = whitened.len() / SHOWN;
         let mut by_parameters = DMatrix::zeros(SHOWN, self.offset.len());

@@ -1,29 +1,29 @@
-//! Estimates held against what was known of them before.
+//! The consistency of estimates with their priors.
 
 use crate::estimate::Fit;
 use crate::identifiability::{Identifiability, Observable};
 use crate::likely::WHITE;
 use crate::noise_parameters::NoiseParameters;
 
-/// What was found of a parameter or of the noise, and what was known of it before, in SI units.
+/// The departure of an estimate from its prior, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Departure {
-    /// What it is of.
+    /// The estimated quantity.
     pub of: Quantity,
-    /// The estimate; of a combination that of the combination.
+    /// The estimate of the parameter or of the combination.
     pub value: f64,
-    /// What was expected.
+    /// The mean of the prior.
     pub expected: f64,
-    /// The stated 1σ of what was expected; of noise that of its logarithm, as a part of what was expected.
+    /// The 1σ of the prior; for noise the 1σ of its logarithm times the stated value.
     pub sigma: f64,
-    /// How far the estimate is off, in standard deviations of the prior and of the data together; of noise, of its logarithm.
+    /// The departure in units of its standard deviation from prior and data; for noise, that of the logarithm.
     pub sigmas: f64,
 }
 
-/// What is held against what was known of it.
+/// A quantity that is compared with its prior.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// The parameter at this place, or the combination that it leads.
+    /// The parameter at this place, or the combination that begins with it.
     Parameter(usize),
     /// The white noise of the gyros.
     GyroNoise,
@@ -32,10 +32,10 @@ pub enum Quantity {
 }
 
 impl Fit {
-    /// What the data show, parameters and combinations, and the white noise that was found, against priors and a data sheet.
+    /// Compares observable parameters and combinations, and the estimated white noise, with their priors and a data sheet.
     ///
-    /// Under the priors `sigmas` of a parameter is normal with mean 0 and variance 1 (the squares are those of the prior
-    /// predictive check of Box, 1980). What is not observable departs from nothing.
+    /// If the priors are correct, `sigmas` of a parameter is normal with mean 0 and variance 1 (its square is the statistic
+    /// of the prior predictive check of Box, 1980). Unobservable parameters are not compared.
     pub fn prior_departures(
         &self,
         identifiability: &Identifiability,
@@ -57,7 +57,7 @@ impl Fit {
                 .map(|(c, of)| variance(c, of.parameter.sigma))
                 .fold(variance(1.0, prior(place).parameter.sigma), |sum, next| sum + next)
                 .sqrt();
-            // The data's own estimate would be off by its sigma too.
+            // The estimate from the data alone has this uncertainty.
             let data = seen.data_sigma.min(sigma);
             let sigmas = (value - expected) / sigma.hypot(data);
             Some(Departure { of: Quantity::Parameter(place), value, expected, sigma, sigmas })

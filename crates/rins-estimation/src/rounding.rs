@@ -1,8 +1,9 @@
-//! What an encoder that reads in steps leaves in the mean of an epoch.
+//! The effect of an encoder's quantization on the mean angle of an epoch.
 //!
-//! The error of a reading is a sawtooth of the angle. A table that stands, or that turns by a whole number of steps from one
-//! sample to the next, has the same error all along; at other rates it comes back in lines. It is no white noise, however
-//! strong that is made, but it is bounded: white noise can be so strong that all of it is worth no more than chance is.
+//! The error of a reading is a sawtooth function of the angle. A static table, or a table that rotates by a whole number of
+//! LSBs from sample to sample, has the same error in all readings; other rates cause spectral lines. The error is not white,
+//! but it is bounded: white noise represents it that is so large that the whole error is statistically
+//! insignificant.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,47 +14,47 @@ use rins_terms::Track;
 
 use crate::epoch::Epoch;
 
-/// Steps whose rounding adds less than this to the variance that is stated of a reading are fine.
+/// Quantization that adds less than this fraction to the stated variance of a reading is negligible.
 const FINE: f64 = 0.05;
 
-/// Where the gyro says that a table turned by no whole number of steps, rounded readings differ from it, by this part of
-/// what is expected at least; in fewer samples than so many that is not to be seen. Readings of a table that turns at a few
-/// even rates stand on a comb too, and no encoder made it.
+/// Where the table rotates by a fractional number of LSBs according to the gyro, rounded readings differ from it by at least
+/// this fraction of the expected variance; the test needs at least this number of samples. The readings of a table that
+/// rotates at a few constant rates have a regular spacing too, which is not due to an encoder.
 const LEAST_ROUNDED: f64 = 0.25;
 const FEWEST_BETWEEN: f64 = 16.0;
 
-/// By what part of it a step that is stated is off at most.
+/// The largest relative difference between the stated and the actual LSB.
 const ALIKE: f64 = 0.01;
 
-/// No whole number of steps: the variance of one that is rounded to such is at least this.
+/// The smallest rounding variance, in LSB², of a rotation that counts as a fractional number of LSBs.
 const BETWEEN: f64 = 0.1;
 
-/// Over so many samples the gyro's bias and scale are taken to be one.
+/// The number of samples over which the gyro's bias and scale error are taken as constant.
 const BLOCK: usize = 64;
 
-/// What blurs a reading more than by so many steps leaves nothing of them.
+/// The noise before rounding, in LSBs, above which the effect of quantization vanishes.
 const MOST_BLURRED: f64 = 2.0;
 
-/// So many harmonics of the sawtooth are taken: all but a fourteenth of its square.
+/// The number of harmonics of the sawtooth: they contain all but one fourteenth of its variance.
 const HARMONICS: u8 = 8;
 
-/// The squares that all rounding of a run may be worth, in whatever direction of the parameters.
+/// The largest sum of squares (chi-square) due to the rounding in a whole run, in any direction of the parameters.
 const WORTH: f64 = 2.0;
 
-/// The steps in which an encoder reads.
+/// The quantization of an encoder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AngleSteps {
-    /// How far apart its readings are at least \[rad\].
+    /// The LSB: the smallest difference between readings \[rad\].
     pub step: f64,
-    /// 1σ of what blurs a reading before it is rounded, in steps: noise rounds off what rounding does.
+    /// 1σ of the noise of a reading before it is rounded, in LSBs: noise reduces the effect of rounding.
     pub blur: f64,
 }
 
 impl AngleSteps {
-    /// The steps of an encoder, if they are coarse beside the noise that is stated of a reading \[rad\].
+    /// The quantization of an encoder, if it is large compared with the stated noise of a reading \[rad\].
     ///
-    /// A table that turns by whole numbers of steps from sample to sample does not show that its encoder rounds: then
-    /// steps that are `stated` \[rad\] are believed.
+    /// A table that rotates by a whole number of LSBs from sample to sample does not show the rounding of its encoder: then a
+    /// `stated` LSB \[rad\] is used.
     pub fn of(recording: &Recording, noise: f64, stated: Option<f64>) -> Option<Self> {
         let angles = recording.table_angle.as_deref()?;
         let is_coarse = |step: &f64| step * step / 12.0 >= FINE * noise * noise;
@@ -65,13 +66,13 @@ impl AngleSteps {
             let is_as_stated = |read: &f64| (read / stated - 1.0).abs() < ALIKE;
             Some(seen(read.filter(is_as_stated).unwrap_or(stated)))
         })?;
-        // Where a reading lies on the edge of two steps the least blur looks like much.
+        // Where a reading lies on the edge between two values, a very small noise appears large.
         let blur = seen.blur().min(noise / step);
         (blur < MOST_BLURRED).then_some(Self { step, blur })
     }
 
-    /// Tells every epoch what rounding may leave in its mean angle: as white noise, so strong that all of it is worth
-    /// [`WORTH`] squares.
+    /// Sets the variance of the mean angle due to rounding in every epoch, as white noise so large that the rounding of the
+    /// run contributes at most [`WORTH`] to the sum of squares.
     pub(crate) fn tell(&self, epochs: &mut [Epoch], track: &Track) {
         let angles = track.angles();
         let times = epochs.len() as f64 / WORTH;
@@ -81,7 +82,7 @@ impl AngleSteps {
         }
     }
 
-    /// The variance of the mean of readings at these angles, wherever the steps begin \[rad²\].
+    /// The variance of the mean of readings at these angles, with an unknown origin of the quantization grid \[rad²\].
     fn variance_of_mean(&self, angles: impl Iterator<Item = f64>) -> f64 {
         let mut sums = [Complex::ZERO; HARMONICS as usize];
         let mut count = 0.0;
@@ -103,18 +104,18 @@ impl AngleSteps {
     }
 }
 
-/// What is left of the square of a harmonic of the sawtooth if readings are blurred by so many steps.
+/// The factor by which noise of `blur` LSBs reduces the variance of a harmonic of the sawtooth.
 fn blurred(order: f64, blur: f64) -> f64 {
     (-(TAU * order * blur).powi(2)).exp()
 }
 
-/// By how much neighbouring readings differ from what the gyro about the axis says.
+/// The differences of successive readings, compared with the gyro along the axis.
 struct Seen {
-    /// Whether they do so as rounding makes them.
+    /// Whether they are those of rounded readings.
     rounded: bool,
-    /// The mean square beyond what rounding alone makes of it, in steps: of the quarter of all blocks where it is least.
+    /// The mean square in excess of rounding alone, in LSB²: the lower quartile over the blocks.
     excess: f64,
-    /// The mean cosines of the harmonics of by how much a table turns from one sample to the next, in steps.
+    /// The mean cosines of the harmonics of the rotation between samples, in LSBs.
     cosines: [f64; HARMONICS as usize],
 }
 
@@ -136,7 +137,7 @@ impl Seen {
             for (read, gyro) in block {
                 let turned = gyro + offset;
                 let beyond = turned - turned.floor();
-                // One of the two whole numbers next to it.
+                // Rounding to one of the two adjacent integers.
                 let (off, expected) = ((read - turned).powi(2), beyond * (1.0 - beyond));
                 square += off / (n - 1.0);
                 sharp += expected / n;
@@ -161,10 +162,10 @@ impl Seen {
         Self { rounded, excess, cosines: cosines.map(|cosine| cosine / (n * blocks as f64)) }
     }
 
-    /// By how many steps readings are blurred.
+    /// The noise of the readings before rounding, in LSBs.
     ///
-    /// The variance of a rounded difference whose part beyond a whole number is `u` is `u (1 - u)`; blur leaves little of the
-    /// Fourier series of that, and adds its own.
+    /// The variance of a rounded difference with the fractional part `u` is `u (1 - u)`. Noise attenuates its Fourier series
+    /// and adds its own variance.
     fn blur(&self) -> f64 {
         let expected = |blur: f64| {
             let of = |(cosine, order): (&f64, u8)| {
@@ -186,8 +187,8 @@ impl Seen {
 mod tests {
     use super::*;
 
-    /// The variance of the mean of what rounding does to readings at these angles, in steps, over all places where the
-    /// steps may begin.
+    /// The variance of the mean rounding error of readings at these angles, in LSB², over all origins of the quantization
+    /// grid.
     fn counted(angles: &[f64]) -> f64 {
         const PLACES: u32 = 20_000;
         let mean = |place: u32| {
@@ -198,7 +199,7 @@ mod tests {
         (0..PLACES).map(|place| mean(place).powi(2)).sum::<f64>() / f64::from(PLACES)
     }
 
-    /// One reading is a twelfth of a step's square off; of several, what their places in a step leave of it.
+    /// The variance of one rounding error is a twelfth of the squared LSB; that of a mean depends on the fractional parts.
     #[test]
     fn rounding_of_a_mean_has_the_variance_that_is_counted() {
         let step = 3e-6;
@@ -209,13 +210,14 @@ mod tests {
             let counted = counted(angles);
             let found = steps.variance_of_mean(angles.iter().map(|angle| angle * step));
             let share = found / (counted * step * step);
-            // Eight harmonics hold all but a fourteenth of the square of one reading, all but a fifth of what is left of three.
+            // Eight harmonics contain all but a fourteenth of the variance of one reading, and all but a fifth of that of the
+            // mean of three.
             assert!((0.79..1.001).contains(&share), "{angles:?}: {share} of {counted}");
         }
         assert!((counted(&[0.3]) * 12.0 - 1.0).abs() < 1e-3, "{}", counted(&[0.3]));
     }
 
-    /// Blur of half a step takes the sawtooth away: each harmonic by its own part, as the mean over a Gaussian has it.
+    /// Noise of half an LSB removes the sawtooth; each harmonic is attenuated by its mean over a Gaussian.
     #[test]
     fn blur_takes_harmonics_away() {
         const DRAWS: i32 = 4000;

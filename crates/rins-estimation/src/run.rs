@@ -1,4 +1,4 @@
-//! A run to be explained: a recording, and what its readings are compared with.
+//! A run for the estimation: a recording with the reference of its readings.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,61 +9,61 @@ use rins_motion::{Recording, Station};
 use crate::epoch::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
 
-/// What tells where the table is.
+/// The source of the table angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reference {
-    /// An encoder: its readings, white noise in each of this 1σ \[rad\].
+    /// An encoder with white noise in its readings.
     Encoder {
         /// 1σ of a reading \[rad\].
         noise: f64,
     },
-    /// The commanded rate, which the table follows but for a random walk of its angle.
+    /// The commanded rate, which the table follows with a random walk of its angle.
     Command {
-        /// The root density of the servo's rate error \[rad/√s\].
+        /// The density of the random walk of the servo's angle \[rad/√s\].
         noise: f64,
     },
-    /// Nothing but gravity, on an axis that is tilted: it turns in the plane of rotation.
+    /// Gravity on a tilted axis, whose direction rotates in the body.
     Gravity,
-    /// The table does not turn.
+    /// The table is static.
     Rest,
 }
 
-/// How the readings of a fixed base scatter, apart from the sensors' own noise.
+/// The site, the axis and the reference of a run, and the noise of a fixed base apart from that of the sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rig {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: Station,
     /// The surveyed attitude of the axis frame.
     pub nav_from_table: Dcm<Nav, Table>,
-    /// What tells where the table is.
+    /// The source of the table angle.
     pub reference: Reference,
-    /// 1σ of the axis' direction at a reading, each of two components \[rad\].
+    /// Wobble: 1σ of the direction of the spin axis in one reading, for each of two components \[rad\].
     pub wobble: f64,
-    /// How far the velocity of the base may be from zero, 1σ \[m/s\].
+    /// 1σ of the velocity of the base; its mean is zero \[m/s\].
     pub velocity: f64,
 }
 
-/// A recording on a rig.
+/// A recording with its rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The rig.
     pub rig: Rig,
-    /// The samples; a copy of the run shares them.
+    /// The samples; copies of the run share them.
     pub recording: Arc<Recording>,
-    /// The samples that play no part in an estimate, apart and in order.
+    /// The samples that are excluded from the estimate: disjoint spans in order.
     pub left_out: Vec<Range<usize>>,
-    /// Which of several switchings-on it belongs to, if not to one of its own.
+    /// The power cycle that the run belongs to, or `None` if it has its own.
     pub turn_on: Option<usize>,
-    /// Its axes, of which z is the axis of rotation, as they are picked from the sensors' own.
+    /// The axes of the run, whose z is the spin axis, relative to the sensors' own axes.
     pub axes: SignedAxes,
-    /// The steps of the encoder, if it is the reference and they are coarse beside its noise.
+    /// The quantization of the encoder, if it is the reference and its LSB is large compared with its noise.
     pub angle_steps: Option<AngleSteps>,
 }
 
-/// A run has so many epochs at least: with fewer, six parameters and the noise cannot be told from each other.
+/// The smallest number of epochs in a run: with fewer, six parameters and the noise are not distinguishable.
 const FEWEST_EPOCHS: f64 = 10.0;
 
-/// Why a run cannot be used.
+/// The reason why a run cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {
@@ -72,29 +72,29 @@ pub enum RunError {
         "{duration:.3} s of data are too short for an estimation: {needed:.3} s are needed at this sampling rate"
     )]
     TooShort {
-        /// How long it lasts \[s\].
+        /// The duration \[s\].
         duration: f64,
-        /// How long it must last \[s\].
+        /// The required duration \[s\].
         needed: f64,
     },
-    /// The log has no encoder, which is to be the reference.
+    /// The reference is the table angle, which the log does not have.
     #[error("the reference is the table angle, but the recording has none")]
     NoAngle,
-    /// The log has no commanded rate, which is to be the reference.
+    /// The reference is the commanded rate, which the log does not have.
     #[error("the reference is the commanded rate, but the recording has none")]
     NoRate,
-    /// Gravity has no component across the axis.
+    /// Gravity has no component perpendicular to the axis.
     #[error(
         "the spin axis is tilted by {tilt} rad, too little to determine the table angle from gravity"
     )]
     NoTilt {
-        /// The axis' angle from the vertical \[rad\].
+        /// The angle of the axis from the vertical \[rad\].
         tilt: f64,
     },
-    /// A figure of the rig is not what it must be.
+    /// A quantity of the rig is not finite and positive.
     #[error("{quantity} is {value}; it must be finite and more than zero")]
     Figure {
-        /// Which.
+        /// The quantity.
         quantity: &'static str,
         /// Its value, in SI units.
         value: f64,
@@ -102,10 +102,10 @@ pub enum RunError {
 }
 
 impl Run {
-    /// A run, if the recording has what the rig refers to.
+    /// A run with this recording and this rig, if the recording has the reference of the rig.
     ///
     /// # Errors
-    /// [`RunError`] if it is too short, lacks the reference, or a figure of the rig is impossible.
+    /// [`RunError`] if the recording is too short or lacks the reference, or a value of the rig is invalid.
     pub fn new(rig: Rig, recording: impl Into<Arc<Recording>>) -> Result<Self, RunError> {
         let recording = recording.into();
         let duration: f64 = recording.increments.iter().map(|sample| sample.interval).sum();
@@ -138,7 +138,7 @@ impl Run {
                 }
             }
             Reference::Gravity => {
-                /// Below it a milliradian of the angle is less than 17 µg.
+                /// Below this tilt, an angle of a milliradian changes the specific force by less than 17 µg.
                 const LEAST_TILT: f64 = 0.017;
                 let up = rig.nav_from_table.matrix()[(2, 2)];
                 let tilt = up.clamp(-1.0, 1.0).acos();
@@ -158,32 +158,33 @@ impl Run {
         })
     }
 
-    /// The same with these samples left out of what is estimated from: apart and in order.
+    /// The same run with these samples excluded from the estimate: disjoint spans in order.
     ///
-    /// The recording keeps them, so that time goes on: an effect that depends on it is the same. An epoch with any
-    /// sample left out is left out, and nothing is known of attitude and velocity where the next begins.
+    /// The recording keeps them, so that effects which depend on time do not change. An epoch that contains an excluded
+    /// sample is excluded, and attitude and velocity are unknown at the start of the next.
     #[must_use]
     pub fn leaving_out(mut self, spans: Vec<Range<usize>>) -> Self {
         self.left_out = spans;
         self
     }
 
-    /// The same as a part of what was recorded without switching off: all runs of the same `turn_on` have their turn-on
-    /// biases in common, and the noise of their rig.
+    /// The same run as part of one power cycle: all runs of the same `turn_on` share their turn-on biases and the noise of
+    /// their rig.
     #[must_use]
     pub fn since(mut self, turn_on: usize) -> Self {
         self.turn_on = Some(turn_on);
         self
     }
 
-    /// The same about another of the sensors' axes: axis `i` of the run is `sign[i]` times the sensors' own axis `source[i]`.
+    /// The same run about another of the sensors' axes: axis `i` of the run is `sign[i]` times the sensors' own axis
+    /// `source[i]`.
     #[must_use]
     pub fn with_axes(mut self, axes: SignedAxes) -> Self {
         self.axes = axes;
         self
     }
 
-    /// Whether the IMU was neither switched off nor mounted about another of its axes between this run and another.
+    /// Whether there was neither a power cycle nor a change of mounting of the IMU between this run and another.
     pub(crate) fn shares_turn_on(&self, other: &Self) -> bool {
         self.turn_on.is_some() && self.turn_on == other.turn_on && self.axes == other.axes
     }

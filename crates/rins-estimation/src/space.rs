@@ -1,7 +1,7 @@
-//! The states beside the parameters, and how an epoch carries and shows them.
+//! The states of the filter other than the parameters, and the linear system of an epoch.
 //!
-//! First attitude and velocity, then the angles by which a servo or a base strays, then the processes of coloured
-//! noise, three numbers each.
+//! The states are attitude and velocity, then the random-walk angles of a servo or a base, then the colored-noise processes
+//! with three states each.
 
 use nalgebra::{DMatrix, Matrix3, SMatrix};
 use rins_frames::cross_matrix;
@@ -13,13 +13,13 @@ use crate::noise_parameters::Noise;
 use crate::run::Reference;
 use crate::step::{NAVIGATION, SHOWN, Step, Weight};
 
-/// How far a first attitude may be off where its epoch's readings put it \[rad\].
+/// 1σ of the attitude at the start, relative to the readings of its epoch \[rad\].
 const START_ATTITUDE: f64 = 2e-3;
 
-/// The same about an axis whose angle only gravity shows \[rad\].
+/// The same about an axis whose angle is measured only by gravity \[rad\].
 const START_ANGLE_BY_GRAVITY: f64 = 0.2;
 
-/// The least 1σ of an epoch's mean angle where the reference is exact \[rad\].
+/// The smallest 1σ of the mean angle of an epoch if the reference is exact \[rad\].
 const EXACT: f64 = 1e-10;
 
 /// The triad that a process belongs to.
@@ -33,15 +33,16 @@ enum Of {
 pub(crate) struct Space<'a> {
     linear: &'a Linear,
     white: [f64; 2],
-    /// Angles that walk away from what the readings take for fixed: about which axis, and the root density \[rad/√s\].
+    /// Random-walk angles of the reference: axis, and density \[rad/√s\].
     astray: Vec<(usize, f64)>,
     colours: Vec<(Of, crate::colour::Process)>,
-    /// What each process does over an epoch of the usual length, which is nearly every one's \[s\].
+    /// The transition of each process over an epoch of the usual duration, which nearly all epochs have; the duration in
+    /// \[s\].
     usual: (f64, Vec<Passage>),
     force_cross: Matrix3<f64>,
     wobble: f64,
     encoder: f64,
-    /// 1σ of the moments at which the encoder is read \[s\].
+    /// 1σ of the times of the encoder readings \[s\].
     jitter: f64,
     velocity: f64,
 }
@@ -81,7 +82,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// How many states there are.
+    /// The number of states.
     pub(crate) fn states(&self) -> usize {
         self.first_colour() + 3 * self.colours.len()
     }
@@ -103,7 +104,7 @@ impl<'a> Space<'a> {
         covariance
     }
 
-    /// Nothing is known of attitude and velocity any more, but what is known of any fixed table's.
+    /// Resets the covariance of attitude and velocity to its initial value, without correlations to other states.
     pub(crate) fn forget_navigation(&self, covariance: &mut DMatrix<f64>) {
         covariance.rows_mut(0, NAVIGATION).fill(0.0);
         covariance.columns_mut(0, NAVIGATION).fill(0.0);
@@ -116,7 +117,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// A step of nothing yet, whose rows of states are this long.
+    /// An empty step with rows of states of this length.
     pub(crate) fn blank(&self, length: usize) -> Step {
         let weight = |index: usize| {
             let place = self.first_colour() + 3 * index;
@@ -147,19 +148,19 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// An epoch as a linear system.
+    /// The linear system of an epoch.
     pub(crate) fn step(&self, epoch: &Epoch) -> Step {
         let mut step = self.blank(self.states());
         self.set(epoch, &mut step);
         step
     }
 
-    /// Makes an epoch of a step that was one of this space's.
+    /// Sets a step of this space to the linear system of an epoch.
     pub(crate) fn set(&self, epoch: &Epoch, step: &mut Step) {
         let t = epoch.duration;
         let identity = Matrix3::identity();
         let turning = cross_matrix(&self.linear.earth_rate);
-        // The mean over the readings, each at the end of a sample, and the integral.
+        // The mean over the readings, each of which is at the end of a sample, and the integral.
         let middle = 0.5 * t * (1.0 + epoch.count().recip());
         let integral = identity * t - turning * (0.5 * t * t);
         step.turned = identity - turning * t;
@@ -172,11 +173,11 @@ impl<'a> Space<'a> {
             let variance = density * density * t;
             let (of_mean, with_end) = mean_of_walk(epoch.count());
             step.colour_noise[NAVIGATION + index] = variance;
-            // Readings are means over the epoch, in which it strays already.
+            // Readings are means over the epoch, during which the random walk continues.
             step.shown[(axis, axis)] += variance * of_mean;
             step.cross[(NAVIGATION + index, axis)] = -variance * with_end;
         }
-        // Durations are sums of time stamps' differences: they differ in the last digits.
+        // Durations are sums of time differences: they differ in the last digits.
         let usual = (t - self.usual.0).abs() <= 1e-9 * t;
         let mean_turn = epoch.turning.turned / t;
         let gyros = step.gyros.len();
@@ -191,7 +192,7 @@ impl<'a> Space<'a> {
             add_colour((*of, place), &mean_turn, &passage, step);
         }
         if !step.shows_angle {
-            // The row shows nothing: it is one of pure noise, of variance one.
+            // The row is not a measurement: it is pure noise of variance one.
             step.cross.column_mut(2).fill(0.0);
             step.shown.row_mut(2).fill(0.0);
             step.shown.column_mut(2).fill(0.0);
@@ -199,7 +200,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// White noise of both triads, of the readings and of the base.
+    /// Adds the white noise of both triads, of the readings and of the base.
     fn set_white(&self, epoch: &Epoch, step: &mut Step) {
         let (t, m) = (epoch.duration, epoch.count());
         let [gyro, accel] = self.white;
@@ -207,7 +208,7 @@ impl<'a> Space<'a> {
         let (of_mean, with_end) = mean_of_walk(m);
         let (mean_variance, mean_covariance) = (gyro * t * of_mean, gyro * t * with_end);
         let f = &self.force_cross;
-        // φ gains W, v gains -F × ∫W dt besides its own noise.
+        // φ increases by W; v increases by -F × ∫W dt in addition to its own noise.
         let velocity = identity * (accel * t) + f * f.transpose() * (gyro * t * t * t / 3.0);
         let across = f.transpose() * (gyro * t * t / 2.0);
         let mean_across = f.transpose() * (gyro * t * t / 3.0);
@@ -222,7 +223,7 @@ impl<'a> Space<'a> {
         let wobble = self.wobble * self.wobble / m;
         let angle = match self.linear.reference {
             Reference::Encoder { .. } => {
-                // Read too late, a table that turns is further on.
+                // A time error of a reading is an angle error in proportion to the table rate.
                 let further = self.jitter * self.linear.turned(epoch) / epoch.duration;
                 (self.encoder.powi(2) + further.powi(2)) / m + epoch.rounding
             }
@@ -245,7 +246,7 @@ impl<'a> Space<'a> {
     }
 }
 
-/// Adds what is not known where samples are missing.
+/// Adds the uncertainty due to missing samples.
 fn set_held(held: &Held, step: &mut Step) {
     for axis in 0..3 {
         step.noise[(axis, axis)] += held.angle[axis];
@@ -258,7 +259,7 @@ fn set_held(held: &Held, step: &mut Step) {
     }
 }
 
-/// A process with memory, of a triad, whose three states begin at a place.
+/// Adds the noise of a colored-noise process of a triad, whose three states begin at `place`.
 fn add_colour(
     (of, place): (Of, usize),
     mean_turn: &Matrix3<f64>,
@@ -290,8 +291,8 @@ fn add_colour(
     }
 }
 
-/// Of a random walk of `m` equal steps, its mean over the steps' ends: variance, and covariance with the end, as parts of
-/// the end's variance.
+/// The variance of the mean over the step ends of a random walk of `m` equal steps, and its covariance with the end value,
+/// both relative to the variance of the end value.
 fn mean_of_walk(m: f64) -> (f64, f64) {
     ((m + 1.0) * (2.0 * m + 1.0) / (6.0 * m * m), (m + 1.0) / (2.0 * m))
 }

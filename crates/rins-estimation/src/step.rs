@@ -1,4 +1,4 @@
-//! One epoch as a linear system: how it carries attitude, velocity and coloured noise on, and shows them.
+//! The linear system of an epoch: its transition of attitude, velocity and colored noise, and its measurement.
 #![expect(
     clippy::inline_always,
     reason = "what is not inlined is compiled without the vector instructions"
@@ -9,20 +9,21 @@ use rins_lanes::{Matrix, Real, Vector};
 
 use crate::epoch::Turning;
 
-/// Attitude and velocity.
+/// The number of navigation states: attitude and velocity.
 pub(crate) const NAVIGATION: usize = 6;
 
-/// What an epoch shows: the mean attitude and the velocity at its end.
+/// The number of measurements in an epoch: mean attitude, and velocity at its end.
 pub(crate) const SHOWN: usize = 6;
 
-/// What follows from the states within an epoch: the mean attitude, then attitude and velocity at its end.
+/// The number of linear functions of the states in an epoch: mean attitude, then attitude and velocity at its end.
 pub(crate) const FOLLOWING: usize = 9;
 
-/// Which of what follows is shown, and which is carried on.
+/// The functions that are measured, and those that are propagated.
 pub(crate) const SHOWN_OF: [usize; SHOWN] = [0, 1, 2, 6, 7, 8];
 pub(crate) const CARRIED_OF: [usize; NAVIGATION] = [3, 4, 5, 6, 7, 8];
 
-/// A process with memory: the place of its three states, and what its integral is over the epoch, and the mean of that.
+/// A colored-noise process: the place of its three states, its mean over the epoch per unit of state, and the normalized mean
+/// of its integral.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weight {
     pub(crate) place: usize,
@@ -30,43 +31,43 @@ pub(crate) struct Weight {
     pub(crate) half_mean: f64,
 }
 
-/// One epoch as a linear system: `x⁺ = Φ x + w`, `y = H x + e`.
+/// The linear system of an epoch: `x⁺ = Φ x + w`, `y = H x + e`.
 ///
-/// `Φ` has rows of navigation, and a diagonal for the other states; `w` and `e` are correlated. Rows of states are as
-/// long as those of the covariance that they are for, with zeros at their ends.
+/// `Φ` has full rows for navigation and a diagonal for the other states; `w` and `e` are correlated. Rows of states have the
+/// length of those of the covariance, with zeros as padding.
 #[derive(Clone, Debug)]
 pub(crate) struct Step {
-    /// What φ, the attitude error at the start, becomes on the way: at the end, in the mean over the readings, and in v.
+    /// Factors of φ, the attitude error at the start: at the end, in the mean over the readings, and in v.
     pub(crate) turned: Matrix3<f64>,
     pub(crate) mean_turned: Matrix3<f64>,
     pub(crate) pulled: Matrix3<f64>,
-    /// The way of the body, and what the integral's integral of a gyro's noise becomes in v.
+    /// The integrals of the body's attitude, and the factor of the twice integrated noise of a gyro in v.
     pub(crate) body: Turning,
     pub(crate) body_pulled: Matrix3<f64>,
-    /// The axes about which the states after navigation are angles by which the base strays.
+    /// The axes of the states after navigation that are random-walk angles of the base.
     pub(crate) astray: Vec<usize>,
     pub(crate) gyros: Vec<Weight>,
     pub(crate) accels: Vec<Weight>,
-    /// Whether the angle about the axis is shown.
+    /// Whether the angle about the axis is measured.
     pub(crate) shows_angle: bool,
-    /// Φ's diagonal after navigation, and the variances of that part of `w`; nothing for navigation itself.
+    /// The diagonal of Φ after navigation, and the variances of that part of `w`; unused for navigation.
     pub(crate) decay: Vec<f64>,
     pub(crate) colour_noise: Vec<f64>,
     /// The covariance of `e`.
     pub(crate) shown: SMatrix<f64, SHOWN, SHOWN>,
-    /// The covariances of all of `w` with that of navigation, and with `e`: a row of all states for each.
+    /// The covariances of `w` with its navigation part, and of `w` with `e`: a row of all states for each.
     pub(crate) noise: DMatrix<f64>,
     pub(crate) cross: DMatrix<f64>,
 }
 
-/// A matrix that is the same for all runs or columns, times a vector.
+/// The product of a matrix that is common to all lanes and a vector.
 #[inline(always)]
 fn times<T: Real>(matrix: &Matrix3<f64>, vector: Vector<T>) -> Vector<T> {
     Matrix::constant(vector[0], matrix) * vector
 }
 
 impl Step {
-    /// What follows from states: the mean attitude that is shown, the attitude and the velocity at the end.
+    /// The linear functions of the states: the measured mean attitude, and attitude and velocity at the end.
     #[inline(always)]
     pub(crate) fn follow<T: Real>(&self, state: impl Fn(usize) -> T) -> [Vector<T>; 3] {
         let at = |place| Vector([state(place), state(place + 1), state(place + 2)]);
@@ -95,7 +96,7 @@ impl Step {
         [mean, end, velocity + gained]
     }
 
-    /// The same as a matrix: a row for each of what follows.
+    /// The same as a matrix with a row for each function.
     pub(crate) fn following(&self, states: usize) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(FOLLOWING, states);
         for of in 0..states {
@@ -124,10 +125,10 @@ mod tests {
 
     use super::*;
 
-    /// The Earth turns by 7e-6 in an epoch of 0.1 s; of a velocity, what a gyro does in it is of second order.
+    /// The Earth rotates by 7e-6 in an epoch of 0.1 s; the effect of a gyro on the velocity is of second order.
     const RELATIVE: f64 = 1e-4;
 
-    /// Twenty seconds on a tilted axis.
+    /// A run of twenty seconds on a tilted axis.
     fn run() -> Run {
         let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
         let station = Station::with_normal_gravity(site);
@@ -140,8 +141,8 @@ mod tests {
         Run::new(rig, simulate(&scenario).unwrap().recording).unwrap()
     }
 
-    /// A random walk is constant over an epoch in the mean: what follows from it there is what follows from a bias, which is
-    /// a parameter, and gets there through the derivatives of the run sample by sample.
+    /// A random walk is constant over an epoch in the mean: its effect is that of a bias, which is a parameter and acts
+    /// through the derivatives of the run, sample by sample.
     #[test]
     fn a_walk_does_within_an_epoch_what_a_bias_does() {
         let run = run();

@@ -1,54 +1,55 @@
-//! How far an iteration goes, and when it has arrived.
+//! Step control and convergence of the iteration.
 
 use nalgebra::{DMatrix, DVector};
 
-/// A step below this part of every sigma ends the iteration.
+/// Convergence: the largest step in units of the posterior sigma.
 const CONVERGED: f64 = 1e-3;
 
-/// The cosine of the angle between a step and the way back beyond which it only turns back.
+/// The cosine of the angle between a step and the reversed previous step above which the iteration oscillates.
 const TURNING_BACK: f64 = 0.5;
 
-/// Where derivatives have an edge, as that of a dead zone has, no step vanishes: one that would be of so many sigmas, and that
-/// only turns back however little of it is taken, ends there.
+/// Where the likelihood is not smooth, as for a dead zone, no step vanishes. An oscillating step below this many sigmas
+/// converges by damping.
 const ON_EDGE: f64 = 0.1;
 
-/// A way of so much of every sigma makes no difference: it adds a percent to the mean square error.
+/// A remaining distance, in sigmas, that is negligible: it increases the mean square error by one percent.
 const NEGLIGIBLE: f64 = 0.1;
 
-/// By how much more of a small step is taken if it does not turn back: less than it was lessened, or it would go on for ever.
+/// The factor by which the damping of small steps is reduced without oscillation; the reduction is smaller than the preceding
+/// increase, which ensures convergence.
 const BOLDER: f64 = 1.2;
 
-/// Where there are edges all over, as several dead zones have, steps go about for ever on the rough bottom of a valley: they end
-/// there if at so many places in a row ...
+/// Where the likelihood is not smooth in many places, as for several dead zones, the steps do not converge. The iteration
+/// ends if for this number of successive iterations ...
 const ABOUT: usize = 10;
 
-/// ... the squares differ by no more than this, which nobody could tell from noise.
+/// ... the sums of squares differ by at most this, which is not significant.
 const ROUGH: f64 = 2.0;
 
-/// When an iteration ends.
+/// The criterion that ends an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Until {
-    /// The parameters no longer move by much, so that noise can be judged.
+    /// The parameters change so little that the noise can be estimated.
     NearEnough,
-    /// They do not move.
+    /// The parameters have converged.
     Converged,
 }
 
-/// How much of a step is taken: what only turns back goes half the way, for an azimuth that hardly shows would swing for ever;
-/// and less and less where steps are small, which finds an edge.
+/// Damping of the steps. Oscillating steps are halved, since a weakly observable azimuth would otherwise oscillate; small
+/// ones are halved repeatedly, which converges on a discontinuity of the gradient.
 pub(crate) struct Damping {
     /// The last step, in sigmas.
     last: Option<DVector<f64>>,
-    /// How much of it was taken.
+    /// The fraction of it that was taken.
     part: f64,
 }
 
 /// A step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stride {
-    /// The most that it is to the estimate, in sigmas.
+    /// The largest component of the full step, in sigmas.
     pub(crate) to_estimate: f64,
-    /// How much of it is taken.
+    /// The fraction of it that is taken.
     pub(crate) part: f64,
 }
 
@@ -57,7 +58,7 @@ impl Damping {
         Self { last: None, part: 1.0 }
     }
 
-    /// What is made of a step in sigmas.
+    /// The damped step for a full step in sigmas.
     pub(crate) fn stride(&mut self, step: DVector<f64>) -> Stride {
         let turns_back = self
             .last
@@ -72,40 +73,40 @@ impl Damping {
 }
 
 impl Stride {
-    /// Whether it leads nowhere any more.
+    /// Whether the iteration has converged.
     pub(crate) fn is_over(self) -> bool {
         let on_edge = self.to_estimate < ON_EDGE && self.part * self.to_estimate < CONVERGED;
         self.to_estimate < CONVERGED || on_edge
     }
 }
 
-/// Whether the last two of steps that do not vanish, in sigmas, leave so little to go that no sigma shows it: the sum of the
-/// geometric series that they begin, or of as many more as there have been.
+/// Whether the remaining distance after the last two steps, in sigmas, is negligible. It is the sum of the geometric series
+/// that they begin, limited to `steps` further steps.
 pub(crate) fn leaves_little([before, last]: [f64; 2], steps: usize) -> bool {
     let ratio = last / before;
     let series = if ratio < 1.0 { ratio / (1.0 - ratio) } else { f64::INFINITY };
     last * series.min(steps as f64) < NEGLIGIBLE
 }
 
-/// Where an iteration has been.
+/// The values of an iteration.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
-    /// The squares there of data and priors.
+    /// The sum of squares of data and priors.
     pub(crate) squares: f64,
     pub(crate) values: Vec<f64>,
 }
 
-/// The rough bottom of a valley, all of whose places are as good.
+/// A flat region of a non-smooth likelihood, in which all values are equally good.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Bottom {
-    /// The values where the squares are least.
+    /// The values with the smallest sum of squares.
     pub(crate) best: Vec<f64>,
-    /// The mean square of how far the others are from there: it is not known of the values.
+    /// The mean squared distance of the other values from them: an additional covariance of the estimate.
     pub(crate) about: DMatrix<f64>,
 }
 
 impl Bottom {
-    /// That on which the last of some places lie, if they do.
+    /// The region in which the last iterations lie, if there is one.
     pub(crate) fn of(visited: &[Place]) -> Option<Self> {
         let last = &visited[visited.len().checked_sub(ABOUT)?..];
         let most = last.iter().map(|place| place.squares).fold(f64::NEG_INFINITY, f64::max);
@@ -142,7 +143,7 @@ mod tests {
     use super::*;
     use rins_testing::assert_close;
 
-    /// Goes by damped steps, and says where they end and after how many.
+    /// Iterates damped steps; the result is the final value and the number of steps.
     fn ends(mut place: f64, step: impl Fn(f64) -> f64) -> Option<(f64, usize)> {
         let mut damping = Damping::none();
         for count in 1..=30 {
@@ -185,7 +186,7 @@ mod tests {
         Place { squares, values: vec![value, 5.0] }
     }
 
-    /// Down a slope, and then to and fro between 2 and 4 with the best at 3.
+    /// A descent, then an oscillation between 2 and 4 with the best value at 3.
     #[test]
     fn rough_bottom_ends_at_its_best_and_is_as_uncertain_as_wide() {
         let mut visited = vec![at(900.0, 40.0), at(300.0, 20.0)];

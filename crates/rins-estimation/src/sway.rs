@@ -1,27 +1,27 @@
-//! The way of a base that nothing reads: what the gyros say that it sways by, if gravity says so too.
+//! The trajectory of a base without a measured angle: the motion according to the gyros, if the accelerometers confirm it.
 
 use nalgebra::{Rotation3, Vector3};
 use rins_frames::Increments;
 
 use crate::run::{Reference, Run};
 
-/// The attitude of the body in the axis frame over a rest, as the gyros have it but for their mean.
+/// The attitude of the body in the axis frame during a static run, from the gyros without their mean.
 ///
-/// A reference that follows the base keeps errors small where it sways by more than the gyros' noise: what is linear is
-/// what differs from it. Their mean holds the Earth's rate and the biases, and is left to the model.
+/// A reference trajectory that follows the base keeps the errors small where the sway exceeds the gyros' noise: the linear
+/// states are deviations from it. The mean contains the Earth's rate and the biases, and is part of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sway {
-    /// The mean of what the gyros read \[rad/s\].
+    /// The mean reading of the gyros \[rad/s\].
     pub(crate) mean_rate: Vector3<f64>,
-    /// In the middle of each sample, and at its end.
+    /// The attitudes in the middle and at the end of each sample.
     pub(crate) attitudes: Vec<[Rotation3<f64>; 2]>,
 }
 
 impl Sway {
-    /// That of a run at rest whose base sways; of any other, none.
+    /// The sway of a static run if its base sways; `None` for any other run.
     ///
-    /// What the gyros wander by while the base stands is no attitude: only if the specific force is steadier when turned
-    /// back by it does the base sway.
+    /// The drift of the gyros on a stationary base is not an attitude: the base sways only if the specific force varies less
+    /// after a transformation with these attitudes.
     pub(crate) fn of(run: &Run) -> Option<Self> {
         if run.rig.reference != Reference::Rest {
             return None;
@@ -46,13 +46,13 @@ impl Sway {
     }
 }
 
-/// How many times less the specific force must scatter where the sway is turned back.
+/// The factor by which the variance of the specific force must decrease if the sway is real.
 const STEADIER: f64 = 4.0;
 
-/// The time over which the specific force is averaged \[s\].
+/// The averaging time of the specific force \[s\].
 const AVERAGED: f64 = 1.0;
 
-/// The variance of the specific force, averaged over a second, where each sample is turned back.
+/// The variance of the specific force, averaged over a second, after a transformation with `turned_back`.
 fn scatter(samples: &[Increments], turned_back: impl Fn(usize) -> Rotation3<f64>) -> f64 {
     let mut means = Vec::new();
     let (mut velocity, mut duration) = (Vector3::zeros(), 0.0);

@@ -1,4 +1,4 @@
-//! Parameters that the data do not show keep the values that were expected of them.
+//! Unobservable parameters keep the values of their priors.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -6,8 +6,8 @@ use crate::estimate::Fit;
 use crate::identifiability::Identifiability;
 
 impl Identifiability {
-    /// The places of the unobservable parameters: those of which the data tell less than twice what was known before, neither
-    /// alone nor in a combination.
+    /// The places of the unobservable parameters: the data reduce their uncertainty by less than a factor of two, alone and
+    /// in every combination.
     pub fn unobservable(&self) -> Vec<usize> {
         let is_unobservable = |&place: &usize| {
             !self.parameters[place].identifiable && self.parameters[place].aliases.is_empty()
@@ -17,15 +17,14 @@ impl Identifiability {
 }
 
 impl Fit {
-    /// The same with the parameters at `places` at their expected values, known to the priors' 1σ.
+    /// The same fit with the parameters at `places` at the means of their priors, with the priors' 1σ.
     ///
-    /// What the data say beyond that of a parameter that they hardly show is mostly what noise and linearisation say. The other
-    /// estimates are those that belong to these values: conditional means, with a covariance that holds the prior's
-    /// uncertainty of the parameters at `places` (consider parameters; Schmidt 1966). The models have all these values; what is linear
-    /// stays where it was.
+    /// The remaining information on a prior-dominated parameter is mostly noise and linearization error. The other estimates
+    /// become the conditional means for these values, with a covariance that includes the prior uncertainty of the parameters
+    /// at `places` (consider parameters; Schmidt 1966). The models have all these values; the linearized runs do not change.
     ///
     /// # Panics
-    /// If a place is none of a parameter.
+    /// If a place is not that of a parameter.
     #[must_use]
     pub fn with_prior_values_at(mut self, places: &[usize]) -> Self {
         if places.is_empty() {
@@ -38,10 +37,10 @@ impl Fit {
                 self.covariance[(rows[row], columns[column])]
             })
         };
-        // A covariance that was positive definite has such blocks.
+        // These blocks of a positive definite covariance are positive definite.
         let Some(own) = Cholesky::new(block(places, places)) else { return self };
         let across = block(places, &others);
-        // By how much the others move for each unit of these.
+        // The change of the other estimates per unit change of these.
         let follow = own.solve(&across).transpose();
         let moved = DVector::from_iterator(
             places.len(),
@@ -78,14 +77,14 @@ impl Fit {
         }
         self.move_by(&step);
         for &place in places {
-            // The sum of an estimate and its way back is that but for rounding.
+            // Avoids the rounding error of the sum.
             self.parameters[place].value = self.parameters[place].expected;
         }
         self.put_into_models();
         self
     }
 
-    /// Moves the estimates, and what the data say is about where they are.
+    /// Changes the estimates, and shifts the evidence to them.
     fn move_by(&mut self, step: &DVector<f64>) {
         for (place, estimate) in self.parameters.iter_mut().enumerate() {
             estimate.value += step[place];

@@ -1,7 +1,7 @@
 //! The errors of an inertial measurement unit, and their compensation.
 //!
 //! **What it does.** [`ImuError`] is the deterministic part of eq. (1): measured = true + bias +
-//! `[S, M]` true, for a triad of gyros and a triad of accelerometers, with its exact
+//! `(S + M)` true, for a triad of gyros and a triad of accelerometers, with its exact
 //! [`Compensation`]. [`ImuNoise`] is the random part: white noise, random walk, Gauss-Markov and
 //! flicker noise, and a finite resolution, from a [`Seed`] that gives the same numbers on every
 //! machine. [`AllanPlan`] estimates the noise parameters over a static interval, from the Allan deviation.

@@ -5,13 +5,13 @@ use rins_frames::{Body, InFrame};
 
 use crate::axis::Axis;
 
-/// The minimum reciprocal condition number at which `I + [S, M]` is inverted: below it, the inverse
+/// The minimum reciprocal condition number at which `I + S + M` is inverted: below it, the inverse
 /// loses more than half the digits of a double.
 const LEAST_RECIPROCAL_CONDITION: f64 = 1e-8;
 
-/// Bias, scale error and misalignment of a triad: `measured = true + bias + [S, M] true` (eq. (1)).
+/// Bias, scale error and misalignment of a triad: `measured = true + bias + (S + M) true` (eq. (1)).
 ///
-/// Rates and increments are in the body frame; `[S, M]` multiplies the *true* quantity. The
+/// Rates and increments are in the body frame; `(S + M)` multiplies the *true* quantity. The
 /// default is a triad without errors.
 ///
 /// The matrix is not a rotation: its six misalignments are independent, so that they contain both the
@@ -20,7 +20,7 @@ const LEAST_RECIPROCAL_CONDITION: f64 = 1e-8;
 pub struct TriadError {
     /// The output of each sensor for a true rate of zero: \[rad/s\] for gyros, \[m/s²\] for accelerometers.
     pub bias: Vector3<f64>,
-    /// `[S, M]`: scale errors on the diagonal, misalignments \[rad\] off the diagonal, at (row, column) as in eq. (1).
+    /// `(S + M)`: scale errors on the diagonal, misalignments \[rad\] off the diagonal, at (row, column) as in eq. (1).
     pub matrix: Matrix3<f64>,
 }
 
@@ -138,9 +138,9 @@ pub enum CompensationError {
         scale_error: f64,
     },
     /// The three sensors do not measure three independent directions.
-    #[error("the three axes read nearly the same: I + [S, M] has determinant {determinant}")]
+    #[error("the three axes read nearly the same: I + S + M has determinant {determinant}")]
     Singular {
-        /// The determinant of `I + [S, M]`; without error it is 1.
+        /// The determinant of `I + S + M`; without error it is 1.
         determinant: f64,
     },
 }
@@ -149,7 +149,7 @@ pub enum CompensationError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriadCompensation {
     bias: Vector3<f64>,
-    /// `[S, M] (I + [S, M])⁻¹`: the fraction of a reading that is error. Its subtraction preserves the last
+    /// `(S + M) (I + S + M)⁻¹`: the fraction of a reading that is error. Its subtraction preserves the last
     /// digits, which a multiplication by an inverse near the identity would round away.
     excess: Matrix3<f64>,
 }

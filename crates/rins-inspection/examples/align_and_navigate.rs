@@ -1,4 +1,4 @@
-//! Alignment on a dwell, then navigation through a turn, with a little noise on everything.
+//! Alignment in a static interval, then navigation through a rotation, with a little noise.
 //!
 //! `cargo run -p rins-inspection --example align_and_navigate`
 #![expect(clippy::print_stdout, reason = "an example prints")]

@@ -1,13 +1,13 @@
-//! What a recording of an IMU on a table is worth, before anything is estimated from it.
+//! Inspection of a recording of an IMU on a table, before any estimation.
 //!
-//! **What it does.** [`inspect`] holds a [`Recording`](rins_motion::Recording) against what is [`Expected`] of it: gaps and
-//! jitter, channels that stick, saturate or have spikes, resolution, units, axes and signs, the table's motion, its latency and the
-//! ratio of the clocks. A [`Suspicion`] is a likely mistake, with the [`Correction`]s that would explain it. [`StaticIntervals`] are
-//! the spans over which the IMU is static. [`Repeats`] are samples that a driver hands out again, and [`QuantizationGrids`] the grids of
-//! quantized readings.
+//! **What it does.** [`inspect`] compares a [`Recording`](rins_motion::Recording) with its [`Expected`] properties: gaps and
+//! jitter, channels that are stuck, saturated or have spikes, resolution, units, axes and signs, the table's motion, its
+//! latency and the ratio of the clocks. A [`Suspicion`] is a probable gross error, with the [`Correction`]s that would
+//! explain it. [`StaticIntervals`] are the spans over which the IMU is static. [`Repeats`] are samples that a driver delivers
+//! twice, and [`QuantizationGrids`] the quantization grids of the readings.
 //!
-//! **What it does not do.** Nothing is estimated but what an inspection needs, and nothing is corrected but repeated samples, which
-//! become gaps. Files are read elsewhere: every number is in SI units and radians, in the frames of `rins_frames`.
+//! **What it does not do.** It estimates only what an inspection needs, and corrects only repeated samples, which become
+//! gaps. Other crates read files: every number is in SI units and radians, in the frames of `rins_frames`.
 
 mod inspection;
 mod quantization_grid;

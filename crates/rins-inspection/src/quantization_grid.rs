@@ -1,60 +1,61 @@
-//! Readings that stand on a comb: the least bit of a sensor, or the last digit of a log.
+//! Quantization grids: the LSB of a sensor, or the last digit of a log.
 
 use rins_frames::Increments;
 
 use rins_motion::Recording;
 
-/// Readings are the same if they differ by no more than this part of the largest.
+/// Readings are equal if they differ by no more than this fraction of the largest.
 const ROUNDING: f64 = 1e-9;
 
-/// A comb is looked for in so many samples: those after them stand on the same.
+/// The number of samples in which a grid is searched for: later ones have the same grid.
 const ENOUGH: usize = 100_000;
 
-/// So many readings of a table angle tell how it is read: a table may rest for long before it turns.
+/// The number of table angle readings for this search: a table may be static for long before it rotates.
 pub const ENOUGH_ANGLES: usize = 1_000_000;
 
-/// The fewest readings that differ from the one before.
+/// The smallest number of readings that differ from the previous one.
 const FEWEST: usize = 6;
 
-/// So many of the smallest differences may be no tooth of the comb.
+/// The number of smallest differences that may be no multiple of the grid step.
 const ODD: usize = 5;
 
-/// How far a difference may be from a whole number of teeth, and how many may be further.
+/// The largest distance of a difference from a multiple of the step, in steps, and the largest fraction of exceptions.
 const OFF: f64 = 0.05;
 const MOST_OFF: f64 = 0.02;
 
-/// The least part of the readings that go on by another number of teeth than the one before, of those that go on at all.
+/// The smallest fraction of changes of the reading whose size in steps differs from that of the previous one.
 const UNEVEN: f64 = 0.2;
 
-/// The distance of the teeth is found from differences of no more than so many, one after the other: a wrong distance
-/// miscounts the many.
+/// The step is estimated from differences of at most these numbers of steps, in succession: with an inaccurate step, large
+/// differences are miscounted.
 const TEETH: [f64; 4] = [2.0, 10.0, 100.0, 1e4];
 
-/// The distance of the teeth is known no better than this part of it: to the digits of a log.
+/// The smallest relative uncertainty of the step: the digits of a log.
 const DIGITS: f64 = 1e-9;
 
-/// How far the teeth of a comb are apart on which readings stand.
+/// The quantization grid of readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuantizationGrid {
-    /// The distance.
+    /// The distance between adjacent values.
     pub step: f64,
     /// Its 1σ.
     pub sigma: f64,
-    /// The logarithm of the probability that readings off any comb lie as they do.
+    /// The logarithm of the p-value: the probability of such readings without a grid.
     pub ln_p: f64,
 }
 
-/// On which comb the readings of a sensor stand, if on any: where samples are even, its increments and its rates do.
+/// The quantization grids of a sensor, if there are any: if the sample intervals are equal, increments and rates both have
+/// one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuantizationGrids {
-    /// That of its increments \[rad or m/s\].
+    /// The grid of the increments \[rad or m/s\].
     pub increments: Option<QuantizationGrid>,
-    /// That of its mean rates or forces \[rad/s or m/s²\].
+    /// The grid of the mean rates or forces \[rad/s or m/s²\].
     pub rates: Option<QuantizationGrid>,
 }
 
 impl QuantizationGrids {
-    /// The combs of the three gyros and the three accelerometers.
+    /// The grids of the three gyros and the three accelerometers.
     pub fn of(recording: &Recording) -> [Self; 6] {
         let samples = &recording.increments[..recording.len().min(ENOUGH)];
         std::array::from_fn(|channel| {
@@ -71,10 +72,10 @@ impl QuantizationGrids {
 }
 
 impl QuantizationGrid {
-    /// The comb of the table angle, if there is one that is read.
+    /// The grid of the measured table angle, if there is one.
     ///
-    /// A table that turns evenly goes on by about as many teeth every time: what is next to each other on the comb are the
-    /// numbers of teeth.
+    /// A table with a constant rate changes by nearly the same number of steps in every sample: adjacent grid values occur
+    /// among these numbers of steps.
     pub fn of_table_angle(recording: &Recording) -> Option<Self> {
         let angles = recording.table_angle.as_deref()?;
         let angles = &angles[..angles.len().min(ENOUGH_ANGLES)];
@@ -87,7 +88,7 @@ impl QuantizationGrid {
     }
 }
 
-/// The comb on which all but a few of `readings` stand, wherever its first tooth is.
+/// The grid of all but a few of `readings`, with any origin.
 pub(crate) fn comb(readings: &[f64]) -> Option<QuantizationGrid> {
     let mut apart = distances(readings, alike(readings));
     if apart.len() < FEWEST {
@@ -101,8 +102,8 @@ pub(crate) fn comb(readings: &[f64]) -> Option<QuantizationGrid> {
     smallest.into_iter().find_map(|first| fitted(&apart, first)).filter(on_it)
 }
 
-/// Whether readings go from tooth to tooth as what is rounded does: now by one more, now by one less. What goes on by as
-/// many every time is as fine as it may be, but changes evenly: a gyro while a table speeds up.
+/// Whether the changes vary in steps like those of rounded readings. Changes of a constant number of steps are a grid too
+/// fine to be proven, as those of a gyro during an acceleration of the table.
 fn goes_unevenly(readings: &[f64], step: f64) -> bool {
     let teeth: Vec<f64> =
         readings.windows(2).map(|pair| ((pair[1] - pair[0]) / step).round()).collect();
@@ -111,8 +112,8 @@ fn goes_unevenly(readings: &[f64], step: f64) -> bool {
     uneven as f64 > UNEVEN * moved as f64
 }
 
-/// The smallest gaps between these distances, from none on, but for those between distances that are alike: a tooth, if the
-/// distances are whole numbers of it that are next to each other somewhere.
+/// The smallest differences between sorted distances, including zero, that are not equal: the step, if the distances are
+/// multiples of it and some of them differ by one step.
 fn gaps(apart: &[f64], alike: f64) -> Vec<f64> {
     if apart.len() < FEWEST {
         return Vec::new();
@@ -127,18 +128,18 @@ fn gaps(apart: &[f64], alike: f64) -> Vec<f64> {
     gaps
 }
 
-/// How far readings are apart at most that are the same.
+/// The largest difference of equal readings.
 pub(crate) fn alike(readings: &[f64]) -> f64 {
     ROUNDING * readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// How far neighbouring readings are apart, of those that are not alike.
+/// The absolute differences of successive readings that are not equal.
 fn distances(readings: &[f64], alike: f64) -> Vec<f64> {
     let apart = readings.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     apart.filter(|apart| *apart > alike).collect()
 }
 
-/// The comb whose teeth are about so far apart, if these differences are between its teeth.
+/// The grid with a step near `first`, if these differences are multiples of it.
 fn fitted(apart: &[f64], first: f64) -> Option<QuantizationGrid> {
     let off = |apart: f64, step: f64| apart / step - (apart / step).round();
     let mut step = first;
@@ -165,7 +166,7 @@ fn fitted(apart: &[f64], first: f64) -> Option<QuantizationGrid> {
     }
     let stands = apart.iter().filter(|apart| off(**apart, step).abs() < OFF).count() as f64;
     let share = stands / apart.len() as f64;
-    // Of differences off any comb a share of 2 OFF is as near to a tooth: Chernoff's bound.
+    // Without a grid a fraction of 2 OFF of the differences is as close to a multiple: Chernoff's bound.
     let by_chance = 2.0 * OFF;
     let rest =
         if share < 1.0 { (1.0 - share) * ((1.0 - share) / (1.0 - by_chance)).ln() } else { 0.0 };
@@ -181,7 +182,7 @@ fn fitted(apart: &[f64], first: f64) -> Option<QuantizationGrid> {
 mod tests {
     use super::*;
 
-    /// Readings that no comb holds: an irrational number times squares, without its whole part.
+    /// Readings without a grid: the fractional parts of an irrational number times squares.
     fn readings() -> Vec<f64> {
         let of = |k: u32| 40.0 + 3.0 * (f64::from(k * k) * 0.618_033_988_749_895).fract();
         (0..5000).map(of).collect()
@@ -191,7 +192,7 @@ mod tests {
     fn distance_of_the_teeth_is_found_to_the_digits_of_the_log() {
         for step in [0.3, 1.7] {
             let on_comb = readings().into_iter().map(|x| 0.11 + step * (x / step).round());
-            // As a log of ten digits has them.
+            // As in a log of ten digits.
             let found = comb(&on_comb.map(|x| (x * 1e8).round() / 1e8).collect::<Vec<_>>());
             let QuantizationGrid { step: found, sigma, ln_p } = found.unwrap();
             assert!((found - step).abs() < 4.0 * sigma, "{found} {sigma}");
@@ -208,7 +209,8 @@ mod tests {
         assert!((comb(&on_comb).unwrap().step - 0.5).abs() < 1e-6);
     }
 
-    /// An even table goes on by 279 or 280 teeth a sample, here of a second of arc; log and angle have their last digits.
+    /// A table with a constant rate changes by 279 or 280 steps per sample, here of one arcsecond; log and angle have their
+    /// last digits.
     #[test]
     fn angles_that_go_on_by_many_teeth_stand_on_the_finest_comb() {
         let tooth = 4.848_137e-6;
@@ -224,7 +226,7 @@ mod tests {
     fn what_is_fine_or_never_changes_stands_on_no_comb() {
         assert_eq!(comb(&readings()), None);
         assert_eq!(comb(&[1.0; 1000]), None);
-        // A table that speeds up and slows down all the time, seen by a gyro with little noise.
+        // A table that accelerates and decelerates continuously, measured by a gyro with little noise.
         let ramps = (0..5000).map(|k| 0.5 * f64::from((k % 800 - 400_i32).abs()));
         let noisy = |(ramp, noise): (f64, f64)| ramp + 0.004 * noise;
         assert_eq!(comb(&ramps.zip(readings()).map(noisy).collect::<Vec<_>>()), None);

@@ -1,4 +1,4 @@
-//! Samples that repeat the one before to the last bit, as a driver hands them out that has no new ones.
+//! Samples that are bitwise equal to the previous one, as delivered by a driver without new samples.
 
 use std::ops::Range;
 
@@ -8,25 +8,25 @@ use crate::rows::{BEYOND_CHANCE, LONGEST, MOST, alike, rows_of};
 use crate::sticking::{Sticking, at_ends, is_noisy};
 use rins_motion::Recording;
 
-/// What repeats in a recording.
+/// The repeated samples in a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repeats {
-    /// How many samples are those of the sample before.
+    /// The number of samples that equal the previous one.
     pub samples: usize,
-    /// In how many rows.
+    /// The number of spans of such samples.
     pub rows: usize,
-    /// How many of all samples would be so by chance.
+    /// The expected number of such samples by chance.
     pub by_chance: f64,
-    /// Which of gyros and accelerometers x, y and z repeat while others go on.
+    /// The channels, gyros and accelerometers x, y and z, that repeat while others change.
     pub alone: [bool; 6],
 }
 
 impl Repeats {
-    /// Takes out the samples whose six readings, or those of one channel, are those of the sample before, as if they had been
-    /// lost: the first new sample after each row covers its time.
+    /// Removes the samples in which all six readings, or those of one channel, equal those of the previous sample, as if they
+    /// were lost: the first new sample after each span covers its time.
     ///
-    /// None, and nothing is changed, if there are none, if they are not more than chance makes of coarse readings, or if
-    /// so many or so long a row of them is there that it says something else.
+    /// `None`, without any change, if there are none, if coarse readings explain their number, or if they are so many or so
+    /// long in succession that the cause is another one.
     pub fn take_out_of(recording: &mut Recording) -> Option<Self> {
         let is_together = repeats(recording);
         let together = rows_of(&is_together);
@@ -71,7 +71,7 @@ impl Repeats {
     }
 }
 
-/// Where each channel sticks for longer than a driver's hiccup lasts, alone or with all others, the longest row first.
+/// The spans in which each channel is stuck for longer than a driver's delay, alone or with all others, the longest first.
 pub(crate) fn stuck_for_long(recording: &Recording) -> [Vec<Range<usize>>; 6] {
     let together = repeats(recording);
     std::array::from_fn(|channel| {
@@ -85,7 +85,8 @@ pub(crate) fn stuck_for_long(recording: &Recording) -> [Vec<Range<usize>>; 6] {
     })
 }
 
-/// Where a channel repeats its largest or least reading for as long, the longest row first: it sticks there, or is cut off.
+/// The spans in which a channel repeats its largest or smallest reading for as long, the longest first: it is stuck or
+/// saturated there.
 pub(crate) fn stuck_at_ends(recording: &Recording, channel: usize) -> Vec<Range<usize>> {
     let readings = of_channel(recording, channel);
     let mut rows = if is_noisy(&readings) { at_ends(&readings) } else { Vec::new() };
@@ -102,7 +103,7 @@ fn of_channel(recording: &Recording, channel: usize) -> Vec<f64> {
     recording.increments.iter().map(|sample| readings(sample)[channel]).collect()
 }
 
-/// Which samples are those before them.
+/// Whether each sample equals the previous one.
 fn repeats(recording: &Recording) -> Vec<bool> {
     let is_repeat = |sample: usize| {
         sample > 0 && {
@@ -113,7 +114,8 @@ fn repeats(recording: &Recording) -> Vec<bool> {
     (0..recording.len()).map(is_repeat).collect()
 }
 
-/// How many samples would be those before them if the channels repeated each by itself as often as they do elsewhere.
+/// The expected number of samples that equal the previous one if the channels repeat independently, each as often as
+/// elsewhere.
 fn equal_by_chance(recording: &Recording, rows: &[Range<usize>]) -> f64 {
     let mut equal = [0.0; 6];
     let mut row = 0;
@@ -131,7 +133,7 @@ fn equal_by_chance(recording: &Recording, rows: &[Range<usize>]) -> f64 {
             *equal += f64::from(u8::from(same(pair, channel)));
         }
     }
-    // One more of each: that none was seen does not say that there is none.
+    // One more of each: zero occurrences do not imply a probability of zero.
     let all = f64::max(others, 1.0);
     recording.len() as f64 * equal.iter().map(|count| (count + 1.0) / (all + 1.0)).product::<f64>()
 }
@@ -156,7 +158,7 @@ mod tests {
     use super::*;
     use rins_frames::InFrame;
 
-    /// Readings of which none is that before it; `coarse` ones often are, in every channel.
+    /// Readings of which none equals the previous one; `coarse` ones often do, in every channel.
     fn recording(coarse: bool) -> Recording {
         let reading = |sample: u32, channel: u32| {
             let x = f64::from((sample * 7919 + channel * 104_729) % 1009) / 1009.0;

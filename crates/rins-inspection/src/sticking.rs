@@ -1,4 +1,4 @@
-//! A single channel that repeats its reading while the others go on.
+//! A single channel that repeats its reading while the others change.
 
 use std::ops::Range;
 
@@ -6,22 +6,22 @@ use crate::quantization_grid::comb;
 use crate::rows::{BEYOND_CHANCE, LONGEST, MOST, alike, rows_of};
 use rins_motion::median;
 
-/// Readings whose noise is less than so many teeth of their comb, or than this part of the largest, say the same for long while
-/// nothing happens.
+/// Readings whose noise is less than this number of grid steps, or than this fraction of the largest, may be constant for
+/// long in a static interval.
 const TEETH: f64 = 3.0;
 const ROUNDING: f64 = 1e-9;
 
-/// The rows in which a channel sticks, and how many samples would repeat the one before by chance.
+/// The spans in which a channel is stuck, and the expected number of repeats by chance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sticking {
-    /// Each without the reading that it repeats.
+    /// The spans without the reading that is repeated.
     pub(crate) rows: Vec<Range<usize>>,
     pub(crate) by_chance: f64,
 }
 
 impl Sticking {
-    /// Where `readings` repeat, without those samples that are `passed` over; nowhere if they are coarse or without noise, if they
-    /// repeat by chance, or if they are at the end of what the sensor reads.
+    /// The spans in which `readings` repeat, without the samples in `passed`; empty if the readings are coarse or without
+    /// noise, if chance explains the repeats, or if they are at the ends of the sensor's range.
     pub(crate) fn of(readings: &[f64], passed: &[bool]) -> Self {
         let none = Self::default();
         let ends = readings.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
@@ -38,25 +38,26 @@ impl Sticking {
         let mut rows = rows_of(&(0..readings.len()).map(sticks).collect::<Vec<bool>>());
         let total = |rows: &[Range<usize>]| rows.iter().map(Range::len).sum::<usize>() as f64;
         if total(&rows) > MOST * readings.len() as f64 {
-            // A sensor that has new readings more slowly than the log repeats most of them; for long it does so only if it sticks.
+            // A sensor slower than the log repeats most readings; it is stuck only if it does so for long.
             rows.retain(|row| row.len() > LONGEST);
         }
         let samples = total(&rows);
         if samples == 0.0 {
             return none;
         }
-        // By chance a reading is that before the last one as often. One more: that none was seen does not say that there is none.
+        // By chance a reading equals the last but one equally often. One more: zero occurrences do not imply a probability of
+        // zero.
         let alternates = |&sample: &usize| repeats(sample, 2) && !repeats(sample, 1);
         let by_chance = 1.0 + (2..readings.len()).filter(counts).filter(alternates).count() as f64;
         if samples < 1.0 + BEYOND_CHANCE * by_chance {
             return none;
         }
-        // Without noise a row of equal readings may be what there was.
+        // Without noise a span of equal readings may be real.
         if is_noisy(readings) { Self { rows, by_chance } } else { none }
     }
 }
 
-/// The rows of repeated readings that are the largest or the least of all.
+/// The spans of repeated readings that are the largest or the smallest of all.
 pub(crate) fn at_ends(readings: &[f64]) -> Vec<Range<usize>> {
     let least = readings.iter().copied().fold(f64::INFINITY, f64::min);
     let most = readings.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -68,7 +69,7 @@ pub(crate) fn at_ends(readings: &[f64]) -> Vec<Range<usize>> {
     rows_of(&(0..readings.len()).map(repeats).collect::<Vec<bool>>())
 }
 
-/// Whether readings have so much noise that equal ones are no reading of what there was.
+/// Whether readings have so much noise that equal ones are not real.
 pub(crate) fn is_noisy(readings: &[f64]) -> bool {
     let most = readings.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let step = comb(readings).map_or(0.0, |comb| comb.step);
@@ -76,20 +77,20 @@ pub(crate) fn is_noisy(readings: &[f64]) -> bool {
     noise > 0.0 && noise >= (TEETH * step).max(ROUNDING * most)
 }
 
-/// From each reading to the next.
+/// The differences of successive readings.
 pub(crate) fn steps(readings: &[f64]) -> Vec<f64> {
     readings.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
-/// The noise of readings: what their fourth differences are of, in which nothing is left of what is slow, or nothing if these are no
-/// larger than the third.
+/// The noise of readings, from their fourth differences, which contain no slow changes; zero if these are not larger than the
+/// third differences.
 fn noise(readings: &[f64]) -> f64 {
     let size = |values: &[f64]| {
         median(values.iter().map(|x| x.abs()).filter(|x| *x > 0.0)).unwrap_or_default()
     };
     let third = steps(&steps(&steps(readings)));
     let fourth = size(&steps(&third));
-    // Of white noise it has 70 times the variance.
+    // For white noise it has 70 times the variance.
     if fourth > size(&third) { fourth / 70.0_f64.sqrt() } else { 0.0 }
 }
 
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn rows_of_a_reading_that_sticks_are_found() {
         let mut readings = random(3000);
-        // A table that turns moves gravity by more than noise is.
+        // A rotating table changes the components of gravity by more than the noise.
         for (at, reading) in readings.iter_mut().enumerate() {
             *reading = 0.1 * *reading + 100.0 * (0.02 * at as f64).sin();
         }
@@ -119,8 +120,8 @@ mod tests {
         assert_eq!(sticking(&readings), [100..120, 2000..2001, 2500..2503]);
     }
 
-    /// A sensor with a new reading in every other sample repeats half of them and does not stick, until it does for long. One
-    /// that repeats a few in a hundred is as fast as its log, and sticks wherever it repeats.
+    /// A sensor with a new reading in every second sample repeats half of them and is not stuck, except if it repeats for
+    /// long. One that repeats a few percent of its readings is as fast as the log, and is stuck wherever it repeats.
     #[test]
     fn a_sensor_slower_than_its_log_sticks_only_for_long() {
         let every = |samples: usize| -> Vec<f64> {

@@ -36,8 +36,8 @@ const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
 const MEANING: &str = "\
 # Errors of an inertial measurement unit in its own body axes x, y and z, for any spin axis.
 #
-#   measured    = true + bias + [S, M] true
-#   compensated = (I + [S, M])^-1 (measured - bias)
+#   measured    = true + bias + (S + M) true
+#   compensated = (I + S + M)^-1 (measured - bias)
 #
 # S: scale errors, on the diagonal. M: misalignments, off it, named by row and column:
 # gyro.misalignment.xz is the fraction of a rate about z in gyro x.
@@ -46,7 +46,7 @@ const MEANING: &str = "\
 /// The comment above the terms.
 const TERMS: &str = "
 # Further effects. Each term adds its equation, for the true rate and force, to a reading. All of them are
-# compensated together: true = measured - (bias + [S, M] true + terms(true)), iterated to convergence.
+# compensated together: true = measured - (bias + (S + M) true + terms(true)), iterated to convergence.
 ";
 
 /// The comment above the range.

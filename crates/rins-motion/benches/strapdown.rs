@@ -1,4 +1,4 @@
-//! One strapdown step, beside the same mathematics on bare matrices and in lanes.
+//! One strapdown step, compared with the same mathematics on plain matrices, and in lanes.
 
 use std::hint::black_box;
 
@@ -11,10 +11,10 @@ use rins_motion::{
     Mechanisation, Navigator, Profile, Segment, Station, TrueMotion, VerticalChannel,
 };
 
-/// How many steps one timing covers.
+/// The number of steps in one timing.
 const STEPS: usize = 1000;
 
-/// The two must agree to this after the run \[m/s\]: rounding over a thousand steps.
+/// The tolerance of the difference after the run \[m/s\]: rounding over a thousand steps.
 const AGREEMENT: f64 = 1e-9;
 
 /// The paper's run, 20 s of it at 50 Hz, with its three gyro errors.
@@ -51,8 +51,8 @@ fn typed(mut navigator: Navigator, measured: &[Increments]) -> Vector3<f64> {
     *navigator.state().velocity.components()
 }
 
-/// The navigator's mathematics without frames, options or a state that others can correct, the
-/// Earth's figures computed in full at each step.
+/// The navigator's mathematics without frames, options or a state that others can correct, with the Earth's properties
+/// calculated at each step.
 struct Bare {
     site: Site,
     gravity_ratio: f64,
@@ -110,7 +110,7 @@ impl Bare {
     }
 }
 
-/// Rodrigues' formula for turns well below 0.01 rad.
+/// Rodrigues' formula for rotations well below 0.01 rad.
 fn small_turn(v: &Vector3<f64>) -> Matrix3<f64> {
     let square = v.norm_squared();
     let cross = v.cross_matrix();
@@ -128,7 +128,7 @@ fn bare(motion: &TrueMotion, measured: &[Increments]) -> Vector3<f64> {
     bare.v_n
 }
 
-/// The same in lanes: every run navigates the same increments.
+/// The same in lanes: every run integrates the same increments.
 struct SideBySide<'a>(&'a TrueMotion, &'a [Increments]);
 
 impl WithSimd for SideBySide<'_> {

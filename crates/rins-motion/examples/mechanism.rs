@@ -1,4 +1,4 @@
-//! Eqs. (6) to (9), printed and corrected, beside the linear model and a navigator.
+//! Eqs. (6) to (9), printed and corrected, compared with the linear model and a navigator.
 //!
 //! `cargo run -p rins-motion --example mechanism`
 #![expect(clippy::print_stdout, reason = "an example prints")]

@@ -5,22 +5,22 @@ use rins_frames::{Body, Dcm, InFrame, Nav, Rates};
 
 use crate::station::Station;
 
-/// The specific force \[m/s²\] below which there is no gravity to level by.
+/// The specific force \[m/s²\] below which leveling is impossible.
 const LEAST_GRAVITY: f64 = 1.0;
 
-/// The azimuth sigma \[rad\] above which north has not been found.
+/// The azimuth sigma \[rad\] above which north is undetermined.
 const LARGEST_AZIMUTH_SIGMA: f64 = 0.5;
 
-/// How well an IMU at rest measured its mean rates: 1σ of each axis, noise and sensor errors together.
+/// The uncertainty of the mean rates of a stationary IMU: 1σ of each axis, noise and sensor errors together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeanUncertainty {
-    /// Of each gyro's mean \[rad/s\].
+    /// 1σ of each gyro's mean \[rad/s\].
     pub angular_rate: f64,
-    /// Of each accelerometer's mean \[m/s²\].
+    /// 1σ of each accelerometer's mean \[m/s²\].
     pub specific_force: f64,
 }
 
-/// An attitude found at rest, and how well.
+/// The attitude of a stationary IMU, and its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alignment {
     /// The attitude, `C_b^n`.
@@ -29,30 +29,30 @@ pub struct Alignment {
     pub covariance: Matrix3<f64>,
 }
 
-/// What an IMU at rest says of the place where it stands, without being told.
+/// The properties of the site according to a stationary IMU, without prior knowledge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceSeen {
     /// The magnitude of the mean specific force \[m/s²\].
     pub gravity: f64,
     /// The magnitude of the mean angular rate \[rad/s\].
     pub earth_rate: f64,
-    /// The latitude between the two \[rad\].
+    /// The latitude from the angle between the two \[rad\].
     pub latitude: f64,
     /// Its 1σ \[rad\].
     pub latitude_sigma: f64,
 }
 
-/// Why no attitude could be found.
+/// The reason why the attitude cannot be determined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AlignmentError {
-    /// There is no specific force to level by.
+    /// There is no specific force for leveling.
     #[error("the mean specific force is {specific_force} m/s², too small for leveling")]
     NoGravity {
         /// Its magnitude \[m/s²\].
         specific_force: f64,
     },
-    /// The Earth's rotation is lost in the gyros' errors.
+    /// The errors of the gyros exceed the Earth's rate.
     #[error(
         "the gyros cannot determine north: the azimuth would have a sigma of {azimuth_sigma:.2} rad; \
          state the attitude, or use better gyros"
@@ -63,7 +63,7 @@ pub enum AlignmentError {
     },
 }
 
-/// What the mean rates of an IMU at rest say of the place.
+/// The properties of the site according to the mean rates of a stationary IMU.
 pub fn place_seen(mean: &Rates, sigma: &MeanUncertainty) -> PlaceSeen {
     let (f, w) = (mean.specific_force, mean.angular_rate);
     let (gravity, earth_rate) = (f.norm(), w.norm());
@@ -76,14 +76,14 @@ pub fn place_seen(mean: &Rates, sigma: &MeanUncertainty) -> PlaceSeen {
     }
 }
 
-/// The attitude of an IMU at rest: up is against gravity, and the Earth's rate has no east component.
+/// The attitude of a stationary IMU: up is opposite to gravity, and the Earth's rate has no east component.
 ///
-/// The covariance follows from `C~ f~ ∥ up` and `(C~ ω~)_E = 0`: with the error `φ` of
-/// `C~ = (I - φ×) C`, `φ_E = -δf_N/g`, `φ_N = δf_E/g` and
-/// `φ_U = (φ_N Ω sin L - δω_E) / (Ω cos L)`. A mean rate error along east cannot be told from azimuth.
+/// The covariance follows from `C~ f~ ∥ up` and `(C~ ω~)_E = 0`: with the error `φ` of `C~ = (I - φ×) C`, `φ_E = -δf_N/g`,
+/// `φ_N = δf_E/g` and `φ_U = (φ_N Ω sin L - δω_E) / (Ω cos L)`. A mean rate error along east is indistinguishable from an
+/// azimuth error.
 ///
 /// # Errors
-/// [`AlignmentError`] if there is no gravity, or if north would not be found to half a radian.
+/// [`AlignmentError`] if there is no gravity, or if the azimuth sigma exceeds half a radian.
 pub fn align(
     mean: &Rates,
     sigma: &MeanUncertainty,
@@ -106,10 +106,10 @@ pub fn align(
     Ok(Alignment { nav_from_body: from_axes(&east, &up), covariance })
 }
 
-/// The attitude of an IMU at rest whose yaw is known otherwise.
+/// The attitude of a stationary IMU with a known yaw.
 ///
 /// # Errors
-/// [`AlignmentError::NoGravity`] if there is none to level by.
+/// [`AlignmentError::NoGravity`] if there is none for leveling.
 pub fn level(mean: &Rates, yaw: f64) -> Result<Dcm<Nav, Body>, AlignmentError> {
     let f = mean.specific_force.components();
     let specific_force = f.norm();
@@ -117,7 +117,7 @@ pub fn level(mean: &Rates, yaw: f64) -> Result<Dcm<Nav, Body>, AlignmentError> {
         return Err(AlignmentError::NoGravity { specific_force });
     }
     let up = f / specific_force;
-    // Body x, projected onto the level, gives any east; turning it about up gives the yaw wanted.
+    // Body x, projected onto the level, is an arbitrary east; a rotation about up then sets the yaw.
     let seed = if up.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
     let east = (seed - up * up.dot(&seed)).normalize();
     let any = from_axes(&east, &up);
@@ -125,10 +125,10 @@ pub fn level(mean: &Rates, yaw: f64) -> Result<Dcm<Nav, Body>, AlignmentError> {
     Ok(Dcm::<Nav, Nav>::about_z(turn) * any)
 }
 
-/// What an alignment's attitude leaves of the mean rates: measured minus predicted.
+/// The residuals of the mean rates for an attitude: measured minus predicted.
 ///
-/// The gyro part is the bias found, less the share along east that the azimuth has taken; of the
-/// accelerometer part only the component along up is left.
+/// The gyro part is the estimated bias without its component along east, which the azimuth has absorbed; of the accelerometer
+/// part only the component along up remains.
 pub fn residual(mean: &Rates, nav_from_body: Dcm<Nav, Body>, station: &Station) -> Rates {
     let body_from_nav = nav_from_body.inverse();
     Rates {

@@ -1,10 +1,11 @@
-//! The way between two instants of which rates are known.
+//! Cubic interpolation of an angle between two times with known rates.
 
-/// The coefficients of the first three powers of the part of a stretch that has passed, in how far something has turned by
-/// then: `turned` by its end, and `from` and `to` over a whole stretch at the rates of its start and of its end.
+/// The coefficients of the first three powers of the elapsed fraction of an interval in the angle of rotation. The angle over
+/// the whole interval is `turned`; `from` and `to` are the angles at constant rates equal to those at its start and at its
+/// end.
 ///
 /// ```
-/// // From rest to a rate, evenly: as the square.
+/// // From rest at constant acceleration: quadratic.
 /// assert_eq!(rins_motion::cubic(0.5, 0.0, 1.0), [0.0, 0.5, 0.0]);
 /// ```
 pub const fn cubic(turned: f64, from: f64, to: f64) -> [f64; 3] {

@@ -1,17 +1,16 @@
-//! A rate table's motion, what a perfect IMU on it measures, and navigation from what one delivers.
+//! The motion of a rate table, the output of a perfect IMU on it, and inertial navigation.
 //!
-//! **What it does.** A [`Profile`] tells a single-axis table what to do; [`TrueMotion`] puts the
-//! table on the turning Earth and integrates what a perfect IMU measures there, to the last digit.
-//! [`align`] and [`Navigator`] go the other way, from the increments of a [`Recording`] to attitude, velocity and position.
-//! The [`mechanism`] module predicts what sensor errors do to all this: the paper's closed forms, with
-//! their sign corrected, and a linear model of the round Earth beside them.
+//! **What it does.** A [`Profile`] is the commanded motion of a single-axis table; [`TrueMotion`] places the table on the
+//! rotating Earth and integrates the output of a perfect IMU, exact to rounding. [`align`] and [`Navigator`] are the inverse,
+//! from the increments of a [`Recording`] to attitude, velocity and position. The [`mechanism`] module predicts the effect of
+//! sensor errors on navigation: the paper's closed forms, with their sign corrected, and a linear model of the round Earth.
 //!
-//! **What it does not do.** Sensor errors and noise are added elsewhere; the table has one axis, no
-//! wobble and no lever arm. The navigator is a strapdown navigator alone: nothing aids it, its
-//! free vertical channel diverges, and it must not come near a pole. Where a recording is static and what
-//! is wrong with it is found by `rins-inspection`. Files and units are read elsewhere: every number is in SI units and radians, in the frames of `rins_frames`.
+//! **What it does not do.** Other crates add sensor errors and noise; the table has one axis, no wobble and no lever arm. The
+//! navigator is unaided, its free vertical channel diverges, and it must not come near a pole. `rins-inspection` finds static
+//! intervals and errors in a recording. Other crates read files and units: every number is in SI units and radians, in the
+//! frames of `rins_frames`.
 //!
-//! An hour on a standing table, its IMU perfect, leads nowhere:
+//! With a perfect IMU on a stationary table the navigation errors stay zero for an hour:
 //! ```
 //! use rins_frames::units::DEG;
 //! use rins_frames::{Body, Dcm, Site, Table};

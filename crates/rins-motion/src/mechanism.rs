@@ -1,23 +1,21 @@
-//! The error mechanism: what constant sensor errors do to a navigator on a turning table.
+//! The error mechanism: the effect of constant sensor errors on inertial navigation on a rotating table.
 //!
-//! Three answers to one question, from the simplest to the nearest to the truth. All errors are
-//! *computed minus true*, the attitude error is `φ` of `C~ = (I - φ×) C`.
+//! There are three models, from the simplest to the most accurate. All errors are *computed minus true*; the attitude error
+//! is `φ` of `C~ = (I - φ×) C`.
 //!
 //! | | Earth | errors | valid |
 //! | --- | --- | --- | --- |
-//! | [`ClosedForm`] | flat, not turning | three of the spin axis, eqs. (6), (8), (9) | first order |
-//! | [`flat_navigation`] | flat, not turning | three of the spin axis | to rounding |
-//! | [`LinearModel`] | round, turning | all 24 of both triads | first order |
+//! | [`ClosedForm`] | flat, not rotating | three of the spin axis, eqs. (6), (8), (9) | first order |
+//! | [`flat_navigation`] | flat, not rotating | three of the spin axis | to rounding |
+//! | [`LinearModel`] | round, rotating | all 24 of both triads | first order |
 //!
-//! **The sign of eqs. (6), (8) and (9).** The paper (‹nie2019›) integrates `+C_b^n δω` in eq.
-//! (A.2); its own eqs. (7) and (12), and any strapdown navigator, need `-C_b^n δω`. Every term
-//! that a gyro error drives is therefore printed with the wrong sign; those of the initial errors
-//! are right. [`Sign`] chooses.
+//! **The sign of eqs. (6), (8) and (9).** The paper (‹nie2019›) integrates `+C_b^n δω` in eq. (A.2); its own eqs. (7) and
+//! (12), and any strapdown navigator, need `-C_b^n δω`. Therefore every term driven by a gyro error is printed with the wrong
+//! sign; the terms of the initial errors are correct. [`Sign`] selects the sign.
 //!
-//! **What the closed form costs.** In the paper's run (latitude 34.25°, roll 30°, pitch 20°, yaw
-//! 40°, 10 °/s, 360 s, 60″, 60″, 300 ppm) it gives (3.174, -17.872) m/s with the sign corrected;
-//! a navigator has (2.971, -17.432) m/s, so that the east velocity is 7 % off. [`cost`] tells the
-//! parts, here without minus with:
+//! **The errors of the closed form.** In the paper's run (latitude 34.25°, roll 30°, pitch 20°, yaw 40°, 10 °/s, 360 s, 60″,
+//! 60″, 300 ppm) it gives (3.174, -17.872) m/s with the sign corrected; a navigator has (2.971, -17.432) m/s, so that the
+//! east velocity is wrong by 7 %. [`cost`] calculates the contributions, here without minus with the effect:
 //!
 //! | left out | east \[m/s\] | north \[m/s\] |
 //! | --- | --: | --: |
@@ -26,12 +24,12 @@
 //! | Coriolis acceleration | 0.166 | 0.030 |
 //! | products of errors, `S_z ω t` above all | -0.103 | -0.011 |
 //!
-//! [`LinearModel`] keeps the first three, and lacks the last: it is right to 3e-4 of errors that
-//! are small, and lacks 0.101 m/s to the east of the paper's. With the second order of the flat
-//! Earth, `LinearModel` and `flat_navigation` minus `ClosedForm`, it has these to 0.1 % as well.
+//! [`LinearModel`] includes the first three and neglects the last: it is accurate to 3e-4 for small errors, but lacks 0.101
+//! m/s of the east velocity in the paper's run. With the second-order terms of the flat Earth, `LinearModel` plus
+//! `flat_navigation` minus `ClosedForm`, it is accurate to 0.1 % there too.
 //!
-//! What it does not do: rates that change, noise, and errors that are not constant in the body.
-//! A run in which the rate changes is carried piece by piece, each from the table angle reached.
+//! What it does not do: changing rates, noise, and errors that are not constant in the body. A run with several rates is
+//! propagated piece by piece, each from the table angle at the end of the previous one.
 mod budget;
 mod closed_form;
 mod errors;

@@ -1,6 +1,6 @@
-//! Medians: a few values far from the others do not move them.
+//! Medians: a robust average that a few outliers do not change.
 
-/// The median of some values, the upper one where two are in the middle; `None` if there are none.
+/// The median of some values; the upper of the two central values if their number is even; `None` if there are none.
 ///
 /// ```
 /// assert_eq!(rins_motion::median([3.0, 1.0, 1e9]), Some(3.0));

@@ -1,31 +1,30 @@
-//! Ramps between the rates of a commanded profile: what it does not tell of them, the gyro about the axis shows.
+//! Ramps between the rates of a commanded profile, from the gyro along the axis if the profile does not contain them.
 
 use std::ops::Range;
 
 use rins_frames::Increments;
 use rins_frames::units::DEG;
 
-/// Rates that differ by less than this are one \[rad/s\].
+/// The difference below which two rates are equal \[rad/s\].
 const ALIKE: f64 = 1e-7;
 
-/// So far on either side of a change a ramp is looked for at most \[s\].
+/// The longest time before and after a change in which a ramp is searched for \[s\].
 const LONGEST: f64 = 5.0;
 
-/// How far the turn over a ramp may be from the profile's for that to be right \[rad\].
+/// The largest difference between the angles of rotation over a ramp and in the profile \[rad\].
 const LARGEST_OFF: f64 = 0.5 * DEG;
 
-/// How much a gyro's rate may change for that of the table.
+/// The range of scale factors between the rates of the gyro and of the table.
 const SCALES: Range<f64> = 0.7..1.4;
 
-/// An angle that is so many times what the gyro's noise makes of it is the ramp's.
+/// The ratio to the angle noise of the gyro from which an angle is attributed to a ramp.
 const SHOWN: f64 = 6.0;
 
-/// Gives the commanded rates over the samples \[rad/s\], which change at once or otherwise than the table's, the ramps that
-/// the gyro about the axis shows, and says how many these are.
+/// Replaces the commanded rates \[rad/s\] at changes of rate by the ramps according to the gyro along the axis, and returns
+/// the number of these ramps. The commanded rates change instantly, or differently from those of the table.
 ///
-/// Over a change the table turns as far as the profile says, and no faster than it can: where the turn is another, the
-/// table moved otherwise, and nothing is changed. Bias and scale of the gyro are those between which it goes from one
-/// rate to the next.
+/// The angle of rotation over a change must equal that of the profile: otherwise the table moved differently, and nothing is
+/// changed. The bias and scale factor of the gyro are determined from its mean rates before and after the change.
 pub fn with_ramps(rates: &mut [f64], samples: &[Increments]) -> usize {
     let plateaus = plateaus(rates);
     let mut count = 0;
@@ -52,14 +51,14 @@ pub fn with_ramps(rates: &mut [f64], samples: &[Increments]) -> usize {
     count
 }
 
-/// The samples over which the rate stays the same, and that rate; between two of them it changes within a sample or at
-/// its end.
+/// The spans of samples with a constant rate, and that rate; between two of them the rate changes within a sample or at its
+/// end.
 fn plateaus(rates: &[f64]) -> Vec<(Range<usize>, f64)> {
     let mut plateaus = Vec::new();
     let mut start = 0;
     for next in 1..=rates.len() {
         if next == rates.len() || (rates[next] - rates[next - 1]).abs() > ALIKE {
-            // A sample within which the rate changes is no plateau.
+            // A sample within which the rate changes is not a plateau.
             if next - start > 2 {
                 plateaus.push((start..next, rates[start]));
             }
@@ -69,7 +68,7 @@ fn plateaus(rates: &[f64]) -> Vec<(Range<usize>, f64)> {
     plateaus
 }
 
-/// How many of these samples last no longer than `reach` \[s\].
+/// The number of these samples with a total duration of at most `reach` \[s\].
 fn stretch<'a>(samples: impl Iterator<Item = &'a Increments>, reach: f64) -> usize {
     let ends = samples.scan(0.0, |sum, sample| {
         *sum += sample.interval;
@@ -81,14 +80,14 @@ fn stretch<'a>(samples: impl Iterator<Item = &'a Increments>, reach: f64) -> usi
 /// A change from one commanded rate to the next.
 struct Ramp {
     rates: [f64; 2],
-    /// The samples in which it may be.
+    /// The samples that may contain the ramp.
     over: Range<usize>,
-    /// Those before and after, in which the table has either rate.
+    /// The samples before and after, in which the table has the first and the second rate.
     settled: [Range<usize>; 2],
 }
 
 impl Ramp {
-    /// The rates over the change as the gyro shows them, if it shows a ramp \[rad/s\].
+    /// The rates over the change according to the gyro, if there is a significant ramp \[rad/s\].
     fn shape(&self, commanded: &[f64], samples: &[Increments]) -> Option<Vec<f64>> {
         let gyro = |sample: &Increments| sample.angle.components().z / sample.interval;
         let mean = |of: &Range<usize>| {
@@ -137,8 +136,8 @@ mod tests {
     const SAMPLES: usize = 3000;
     const NOISE: f64 = 1e-5;
 
-    /// A table that goes from rest to 0.2 rad/s within `ramp` about 30 s as a sine does, seen by a noisy gyro with a bias and
-    /// a scale error.
+    /// A table that accelerates from rest to 0.2 rad/s within `ramp` around 30 s, with a sinusoidal rate, measured by a noisy
+    /// gyro with a bias and a scale error.
     fn samples(ramp: f64) -> (Vec<f64>, Vec<Increments>) {
         let rate = |time: f64| {
             let part = ((time - 30.0) / ramp).clamp(-0.5, 0.5);
@@ -158,7 +157,7 @@ mod tests {
         (true_rates, samples)
     }
 
-    /// The profile that jumps at this time.
+    /// The profile with a step at this time.
     fn jump(at: f64) -> Vec<f64> {
         let time = |sample: usize| (sample as f64 + 0.5) * INTERVAL;
         (0..SAMPLES).map(|sample| if time(sample) < at { 0.0 } else { 0.2 }).collect()
@@ -176,7 +175,7 @@ mod tests {
         assert_close!(turned(&rates), turned(&jump(30.0)), 1e-9);
     }
 
-    /// It turned for a second less than is said: that is no ramp.
+    /// The table rotated for a second less than stated: this is not a ramp.
     #[test]
     fn table_that_moved_at_another_time_stays_as_commanded() {
         let (_, samples) = samples(2.0);

@@ -1,8 +1,8 @@
-//! A run as it was recorded: increments, and what the table said of itself.
+//! A recording: the increments and the table readings of a run.
 
 use rins_frames::Increments;
 
-/// In an interval that is longer than so many mean ones there are samples missing.
+/// The interval relative to the mean one above which samples are missing.
 const LONGEST: f64 = 1.5;
 
 /// The samples of one run, in order of time, all in SI units.
@@ -12,7 +12,7 @@ const LONGEST: f64 = 1.5;
 pub struct Recording {
     /// The end of each sample's interval \[s\], strictly increasing.
     pub times: Vec<f64>,
-    /// What the IMU delivered over each interval.
+    /// The increments of the IMU over each interval.
     pub increments: Vec<Increments>,
     /// The table angle at the end of each interval, unwrapped \[rad\].
     pub table_angle: Option<Vec<f64>>,
@@ -33,13 +33,13 @@ impl Recording {
         self.times.is_empty()
     }
 
-    /// How long a sample is in the mean \[s\].
+    /// The mean interval of a sample \[s\].
     pub fn mean_interval(&self) -> f64 {
         let total: f64 = self.increments.iter().map(|sample| sample.interval).sum();
         total / self.increments.len() as f64
     }
 
-    /// The longest interval from which no sample is missing \[s\].
+    /// The longest interval without missing samples \[s\].
     pub fn longest_interval(&self) -> f64 {
         LONGEST * self.mean_interval()
     }

@@ -1,4 +1,4 @@
-//! What a stationary IMU measures on average.
+//! The mean output of a stationary IMU.
 
 use std::ops::Range;
 
@@ -7,26 +7,26 @@ use rins_frames::{InFrame, Rates};
 
 use crate::recording::Recording;
 
-/// The mean rates over a stretch of rest, and how far they scatter.
+/// The mean rates over a static interval, and their uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestMean {
     /// The means.
     pub rates: Rates,
-    /// The stretch's length \[s\].
+    /// The duration of the interval \[s\].
     pub duration: f64,
-    /// The 1σ of each gyro's mean that the scatter of its parts' means shows \[rad/s\].
+    /// The 1σ of each gyro's mean, from the scatter of partial means \[rad/s\].
     pub angular_rate_sigma: Vector3<f64>,
-    /// The same of each accelerometer's mean \[m/s²\].
+    /// The same for each accelerometer's mean \[m/s²\].
     pub specific_force_sigma: Vector3<f64>,
 }
 
 impl RestMean {
-    /// The means over samples `span` of a recording, or `None` if the span is outside or holds
-    /// fewer than two samples, which show no scatter.
+    /// The means over samples `span` of a recording, or `None` if the span is out of range or has fewer than two samples,
+    /// which do not determine the scatter.
     ///
-    /// Their sigma is that of up to 20 batch means over the root of their number, which holds for
-    /// white noise and for drifts that are short against the span; a constant bias does not show
-    /// in it. It is itself uncertain by a sixth.
+    /// Their sigma is the standard deviation of up to 20 batch means, divided by the square root of their number. It is
+    /// correct for white noise and for drifts that are short compared with the span, and does not contain constant biases.
+    /// Its relative uncertainty is one sixth.
     pub fn of(recording: &Recording, span: Range<usize>) -> Option<Self> {
         const BATCHES: usize = 20;
         let samples = recording.increments.get(span).filter(|samples| samples.len() > 1)?;

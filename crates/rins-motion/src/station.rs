@@ -1,18 +1,18 @@
-//! Where the turntable stands.
+//! The site of the table and its gravity.
 
 use rins_frames::{InFrame, Nav, Site};
 
-/// A place and the gravity there.
+/// A site and its gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
-    /// The place.
+    /// The site.
     pub site: Site,
     /// The magnitude of plumb-bob gravity \[m/s²\]; it points down.
     pub gravity: f64,
 }
 
 impl Station {
-    /// A station with the WGS84 normal gravity of its place.
+    /// A station with the WGS84 normal gravity of its site.
     pub fn with_normal_gravity(site: Site) -> Self {
         Self { site, gravity: site.normal_gravity() }
     }

@@ -23,9 +23,9 @@ pub struct NavState {
 
 /// A strapdown navigator on the WGS84 Earth.
 ///
-/// It is the [`Mechanisation`] of one run, with its frames in types.
+/// It is the [`Mechanisation`] of one run, with frames in its types.
 ///
-/// Within sight of a pole, where longitude and north lose their meaning, it must not be used.
+/// It must not be used close to a pole, where longitude and north are undefined.
 ///
 /// ```
 /// use rins_frames::units::DEG;
@@ -33,7 +33,7 @@ pub struct NavState {
 /// use rins_motion::{Navigator, Station, VerticalChannel};
 /// let site = Site { latitude: 45.0 * DEG, longitude: 0.0, height: 0.0 };
 /// let station = Station::with_normal_gravity(site);
-/// // Level, pointing north, at rest, with an east accelerometer that reads 1 mm/s² too much.
+/// // Level, pointing north, at rest, with an east accelerometer bias of 1 mm/s².
 /// let read = Rates {
 ///     angular_rate: InFrame::from_components(*site.earth_rate().components()),
 ///     specific_force: InFrame::new(1e-3, 0.0, station.gravity),
@@ -52,7 +52,7 @@ pub struct Navigator {
 }
 
 impl Navigator {
-    /// A navigator that starts at `state`, under the gravity measured at `station`.
+    /// A navigator that starts at `state`, with the gravity measured at `station`.
     pub fn new(state: NavState, station: &Station, vertical: VerticalChannel) -> Self {
         let NavState { position, velocity, nav_from_body } = &state;
         let Site { latitude, longitude, height } = *position;
@@ -66,7 +66,7 @@ impl Navigator {
         Self { state, mechanisation, force_gain: InFrame::zeros() }
     }
 
-    /// A navigator that stands still at `station` with this attitude.
+    /// A stationary navigator at `station` with this attitude.
     pub fn at_rest(
         station: &Station,
         nav_from_body: Dcm<Nav, Body>,
@@ -76,12 +76,12 @@ impl Navigator {
         Self::new(state, station, vertical)
     }
 
-    /// Position, velocity and attitude now.
+    /// The current position, velocity and attitude.
     pub const fn state(&self) -> &NavState {
         &self.state
     }
 
-    /// Position, velocity and attitude, to be corrected by a filter.
+    /// The current position, velocity and attitude, for the correction by a filter.
     pub const fn state_mut(&mut self) -> &mut NavState {
         &mut self.state
     }
@@ -91,16 +91,16 @@ impl Navigator {
         &self.force_gain
     }
 
-    /// The rate of n with respect to inertial space now, `ω_in^n` \[rad/s\].
+    /// The current rate of n with respect to inertial space, `ω_in^n` \[rad/s\].
     pub fn rate_of_nav_in_inertial(&self) -> InFrame<Nav> {
         let NavState { position, velocity, .. } = &self.state;
         position.earth_rate() + position.transport_rate(velocity)
     }
 
-    /// Carries the state over one interval.
+    /// Propagates the state over one interval.
     ///
-    /// The interval must be longer than zero; it may differ from that before. The first step
-    /// knows no increments before, and so neither coning nor sculling: start at rest.
+    /// The interval must be longer than zero; it may differ from the previous one. The first step has no previous increments
+    /// and therefore no coning and sculling corrections: start at rest.
     pub fn step(&mut self, now: &Increments) {
         let NavState { position, velocity, nav_from_body } = &self.state;
         let kernel = &mut self.mechanisation;

@@ -1,4 +1,4 @@
-//! What a perfect IMU on a tilted table measures on the rotating Earth.
+//! The output of a perfect IMU on a tilted table on the rotating Earth.
 
 use nalgebra::{ComplexField, Vector3};
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
@@ -15,16 +15,15 @@ const GAUSS: [(f64, f64); 5] = [
     (-0.906179845938664, 0.23692688505618908),
 ];
 
-/// The largest turn \[rad\] over which the quadrature is used at once: its error there,
-/// about 0.25¹¹ (5!)⁴ / (11 (10!)³), is 10⁻¹⁹.
+/// The largest angle of rotation \[rad\] of one quadrature: its error there, about 0.25¹¹ (5!)⁴ / (11 (10!)³), is 10⁻¹⁹.
 const LARGEST_TURN: f64 = 0.25;
 
-/// A table on the Earth, and the motion it makes.
+/// A table on the Earth, and its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrueMotion {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: Station,
-    /// The attitude of the axis frame, which does not move.
+    /// The attitude of the axis frame, which is constant.
     pub nav_from_table: Dcm<Nav, Table>,
     /// The table's motion.
     pub profile: Profile,
@@ -35,7 +34,7 @@ pub struct TrueMotion {
 pub struct TrueSample {
     /// The end of the interval \[s\].
     pub time: f64,
-    /// What a perfect IMU measures over it.
+    /// The output of a perfect IMU over it.
     pub increments: Increments,
     /// The table angle at its end \[rad\].
     pub angle: f64,
@@ -46,10 +45,10 @@ pub struct TrueSample {
 impl TrueMotion {
     /// The increments of a perfect IMU from time `from` to `to` \[s\], exact to rounding.
     ///
-    /// `ω_ib^b = Rz(ζ)ᵀ ω_ie^s + ζ' z` (eq. (2)) and `f^b = -Rz(ζ)ᵀ g^s` are integrated over the
-    /// true table angle ζ(t) by quadrature whose error lies below the last digit.
+    /// `ω_ib^b = Rz(ζ)ᵀ ω_ie^s + ζ' z` (eq. (2)) and `f^b = -Rz(ζ)ᵀ g^s` are integrated over the true table angle ζ(t) by
+    /// quadrature, whose error is below rounding.
     ///
-    /// `from` must not be later than `to`. Outside the profile the first or last motion goes on.
+    /// `from` must not be later than `to`. Outside the profile the first or last motion continues.
     pub fn increments(&self, from: f64, to: f64) -> Increments {
         let table_from_nav = self.nav_from_table.inverse();
         let earth_rate = table_from_nav * self.station.site.earth_rate();
@@ -73,11 +72,11 @@ impl TrueMotion {
         }
     }
 
-    /// The whole profile in intervals of `interval` \[s\]; a last part of an interval is left out.
+    /// The whole profile in intervals of `interval` \[s\]; an incomplete last interval is omitted.
     ///
-    /// An interval that is not longer than zero gives no samples.
+    /// An interval that is not positive gives no samples.
     pub fn samples(&self, interval: f64) -> impl Iterator<Item = TrueSample> {
-        // Half a nanosecond a day: a duration of n intervals must not lose its last one to rounding.
+        // Half a nanosecond per day: rounding must not remove the last of n intervals.
         let count = if interval > 0.0 {
             (self.profile.duration() / interval * (1.0 + 1e-12)).floor()
         } else {

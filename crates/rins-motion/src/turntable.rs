@@ -1,32 +1,32 @@
-//! What a single-axis table is told to do: a list of rates and durations.
+//! The commanded motion of a single-axis table: a list of rates and durations.
 
-/// A rate that is held for a while.
+/// A constant rate for a certain time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// The rate about the spin axis \[rad/s\].
     pub rate: f64,
-    /// How long \[s\]; the ramp from the rate before is part of it.
+    /// The duration \[s\], including the ramp from the previous rate.
     pub duration: f64,
 }
 
-/// The fastest rate that is taken for a table's \[rad/s\]: 16 turns in 10 ms.
+/// The largest plausible rate of a table \[rad/s\]: 16 revolutions in 10 ms.
 ///
-/// What follows from a profile takes time in proportion to its turns.
+/// The time for calculations with a profile is proportional to its revolutions.
 const FASTEST_RATE: f64 = 1e4;
 
-/// Why a list of segments is not a profile.
+/// The reason why a list of segments is not a valid profile.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileError {
     /// There is no segment.
     #[error("a table profile needs at least one segment")]
     Empty,
-    /// A rate is not finite, or no table's.
+    /// A rate is not finite, or not plausible for a table.
     #[error(
         "segment {index} has a rate of {rate} rad/s; it must be finite and at most {FASTEST_RATE} rad/s"
     )]
     Rate {
-        /// The segment's place, from 1.
+        /// The number of the segment, from 1.
         index: usize,
         /// Its rate.
         rate: f64,
@@ -34,7 +34,7 @@ pub enum ProfileError {
     /// A duration is not positive.
     #[error("segment {index} lasts {duration} s; it must be positive")]
     Duration {
-        /// The segment's place, from 1.
+        /// The number of the segment, from 1.
         index: usize,
         /// Its duration.
         duration: f64,
@@ -48,19 +48,19 @@ pub enum ProfileError {
     /// The ramp takes longer than the segment.
     #[error("segment {index} lasts {duration} s, less than the {ramp} s that its ramp takes")]
     RampTooLong {
-        /// The segment's place, from 1.
+        /// The number of the segment, from 1.
         index: usize,
         /// Its duration.
         duration: f64,
-        /// How long the ramp takes.
+        /// The duration of the ramp.
         ramp: f64,
     },
 }
 
-/// The table's commanded motion: angle and rate as functions of time.
+/// The commanded motion of the table: angle and rate as functions of time.
 ///
-/// A ramp of constant acceleration opens each segment whose rate differs from that before; the
-/// table is at rest at angle zero before the first. Without an acceleration the rate jumps.
+/// Each segment whose rate differs from the previous one begins with a ramp of constant acceleration; before the first
+/// segment the table is at rest at angle zero. Without an acceleration the rate changes instantly.
 ///
 /// ```
 /// use rins_motion::{Profile, Segment};
@@ -76,7 +76,7 @@ pub struct Profile {
     duration: f64,
 }
 
-/// A stretch of constant acceleration.
+/// An interval of constant acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
     pub(crate) start: f64,
@@ -97,11 +97,11 @@ impl Piece {
 }
 
 impl Profile {
-    /// The profile that runs through `segments`, its rate changing by at most `acceleration` \[rad/s²\].
+    /// The profile of these segments, with an acceleration of `acceleration` \[rad/s²\] between their rates.
     ///
     /// # Errors
-    /// [`ProfileError`] if there is no segment, a figure is not finite or not positive where it must
-    /// be, or a ramp does not fit into its segment.
+    /// [`ProfileError`] if there is no segment, a value is not finite or not positive where it must be, or a ramp is longer
+    /// than its segment.
     pub fn new(segments: &[Segment], acceleration: Option<f64>) -> Result<Self, ProfileError> {
         if segments.is_empty() {
             return Err(ProfileError::Empty);
@@ -139,7 +139,7 @@ impl Profile {
         Ok(Self { pieces, duration: end })
     }
 
-    /// How long the profile lasts \[s\].
+    /// The duration of the profile \[s\].
     pub fn duration(&self) -> f64 {
         self.duration
     }
@@ -154,7 +154,7 @@ impl Profile {
         self.piece_at(time).rate_at(time)
     }
 
-    /// The stretches of constant acceleration that meet `from..to`, each with the part that does.
+    /// The intervals of constant acceleration that intersect `from..to`, each with its intersection.
     pub(crate) fn pieces_within(
         &self,
         from: f64,
@@ -196,7 +196,7 @@ mod tests {
             let n = 40_000;
             let step = end / f64::from(n);
             let sum: f64 = (0..n).map(|k| profile.rate((f64::from(k) + 0.5) * step)).sum();
-            // A midpoint is exact but in the steps where a ramp begins or ends.
+            // A midpoint is exact except in the steps in which a ramp begins or ends.
             let corners = 2.0 * segments.len() as f64;
             let bound = corners * 0.1 * step * step / 8.0 + 1e-9;
             prop_assert!((sum * step - profile.angle(end)).abs() < bound);

@@ -1,6 +1,6 @@
-//! Whole numbers of samples.
+//! Integer numbers of samples.
 
-/// A ratio of positive durations or angles as a number of samples: the nearest whole number, one at least.
+/// A ratio of positive durations or angles as a number of samples: rounded to the nearest integer, at least one.
 ///
 /// ```
 /// assert_eq!(rins_motion::whole(0.1 / 0.01), 10);

@@ -68,7 +68,7 @@ pub fn render(report: &Report) -> String {
                     p {
                         "Made by rins " (version)
                         @if has_plots { ", curves drawn by uPlot 1.6.32 (MIT licence)" }
-                        ". This file is complete: it loads nothing."
+                        ". Self-contained file: no external resources."
                     }
                 } (LINE)
                 @if has_plots {

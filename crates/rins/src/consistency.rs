@@ -85,9 +85,21 @@ pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
             "The innovations are smaller than the stated noise ({figures}): the sigmas are too large rather than too small."
         ),
         Verdict::Misfit => format!(
-            "The model does not fit the data ({figures}). The sigmas do not include the errors that unmodeled effects \
-             cause in the estimates."
+            "The model does not fit the data: {} ({figures}). The sigmas do not include the errors that unmodeled effects \
+             cause in the estimates.",
+            failed_tests(consistency)
         ),
+    }
+}
+
+/// The failed consistency tests of a misfit, in words.
+fn failed_tests(consistency: &Consistency) -> &'static str {
+    let is_large =
+        consistency.nis_p < Consistency::SIGNIFICANCE && consistency.nis_mean > consistency.nis_dof;
+    match (is_large, consistency.whiteness_p < Consistency::SIGNIFICANCE) {
+        (true, true) => "the innovations are too large and not white",
+        (true, false) => "the innovations are too large",
+        (false, _) => "the innovations are not white",
     }
 }
 
@@ -139,8 +151,9 @@ pub(crate) fn consistency_section(
     let mut items = vec![
         Item::Note(tone, verdict),
         Item::Text(
-            "RMS is 1 for a right model; below 1, more noise was claimed than there is. The last column is the largest \
-             distance of the cumulative periodogram from that of white noise."
+            "The expected RMS is 1. An RMS below 1 means that the assumed noise is too large; an RMS above 1 means that it is too \
+             small or that an error is not modeled. The last column is the largest distance of the cumulative periodogram from \
+             that of white noise (Kolmogorov-Smirnov distance)."
                 .into(),
         ),
         Item::Table(Table {
@@ -156,8 +169,8 @@ pub(crate) fn consistency_section(
     items.extend(plots);
     Section {
         heading: heading.into(),
-        intro: "If it does, each whitened innovation is a draw from N(0, 1) of its own. Structure that you can see is an \
-                effect that the model does not have."
+        intro: "If the model is correct, the whitened innovations are independent and N(0, 1) distributed. Visible structure is \
+                the sign of an unmodeled effect."
             .into(),
         items,
     }

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::values::EulerDegrees;
+use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Plot, Section, Series, Style, Table};
 
 /// A reduction of the velocity error by less than this factor counts as no change.
@@ -109,19 +110,28 @@ pub(crate) fn gain_sentence(what: &str, before: &FreeNavigation, after: &FreeNav
     };
     let (before, after) = (before.velocity.norm(), after.velocity.norm());
     let navigation =
-        format!("the velocity error after {duration:.0} s of free inertial navigation");
+        format!("the velocity error of this run after {duration:.0} s of free inertial navigation");
     if after * LEAST_GAIN < before {
         // A larger ratio is meaningless, because the remaining error is due to noise.
         let ratio = (before / after.max(1e-9)).min(1e6);
         format!(
-            "Compensation of {what} reduces {navigation} from {before:.3} m/s to \
-             {after:.4} m/s, a factor of {ratio:.0}."
+            "Compensation of {what} reduces {navigation} from {} m/s to {} m/s, a factor of {} (in the data of the estimate, \
+             not an independent test).",
+            figure(before, 3),
+            figure(after, 3),
+            figure(ratio, 2)
         )
     } else if before * LEAST_GAIN < after {
-        format!("Compensation increases {navigation} from {before:.3} m/s to {after:.3} m/s.")
+        format!(
+            "Compensation increases {navigation} from {} m/s to {} m/s.",
+            figure(before, 3),
+            figure(after, 3)
+        )
     } else {
         format!(
-            "Compensation has no effect: {navigation} is {before:.3} m/s before and {after:.3} m/s after."
+            "Compensation has no effect: {navigation} is {} m/s before and {} m/s after.",
+            figure(before, 3),
+            figure(after, 3)
         )
     }
 }
@@ -147,7 +157,7 @@ pub(crate) fn navigation_section(
             .into(),
         items: vec![
             Item::Table(Table {
-                caption: "Errors at the end".into(),
+                caption: "Errors at the end of the run".into(),
                 columns: ["", "v east [m/s]", "v north [m/s]", "roll [deg]", "pitch [deg]", "yaw [deg]"]
                     .iter()
                     .enumerate()

@@ -1,4 +1,4 @@
-//! A filter of any number of constants on a table that turns to and fro, step by step.
+//! A filter with any number of constants on a table that rotates forth and back, step by step.
 
 use rins_calibration::structured::{
     Comparison, Covariance, Input, Means, NAVIGATION, States, Transition, With,
@@ -8,20 +8,20 @@ use rins_lanes::{Matrix, Vector, rotation};
 /// 200 Hz \[s\].
 const INTERVAL: f64 = 0.005;
 
-/// A turn forward in one second, and a turn back.
+/// One revolution forward in one second, and one backward.
 const PERIOD: usize = 400;
 
 /// The table's rate \[rad/s\].
 const RATE: f64 = core::f64::consts::TAU;
 
 const VELOCITY_NOISE: f64 = 1e-4;
-/// Of accelerometers \[m/s²/√Hz\] and gyros \[rad/s/√Hz\].
+/// Noise densities of accelerometers \[m/s²/√Hz\] and gyros \[rad/s/√Hz\].
 const DENSITIES: [f64; 2] = [3e-4, 6e-6];
 
-/// The first twelve constants belong to the gyros, the rest to the accelerometers.
+/// The first twelve constants are errors of the gyros, the others of the accelerometers.
 const OF_GYROS: usize = NAVIGATION + 12;
 
-/// Constants that enter the three sensors in turn.
+/// Constants that affect the three sensors in turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum InTurn {}
 
@@ -39,7 +39,7 @@ impl<const N: usize> States<N> for InTurn {
     const AXIS: Option<usize> = None;
 }
 
-/// What one step of the period depends on.
+/// The inputs of one step of the period.
 #[derive(Clone, Copy, Debug)]
 struct Step<const N: usize> {
     means: Means<f64>,
@@ -64,7 +64,7 @@ impl<const N: usize> Step<N> {
             specific_force: Vector([0.01, -0.02, 9.8]),
             nav_from_body,
         };
-        // In proportion to the rate, constant, and with the angle and its multiples.
+        // In proportion to the rate, constant, and with harmonics of the angle.
         let regressors = core::array::from_fn(|index| {
             let (first, of_rate) =
                 if index < OF_GYROS { (NAVIGATION, rate) } else { (OF_GYROS, 1.0) };
@@ -86,13 +86,13 @@ impl<const N: usize> Step<N> {
     }
 }
 
-/// The filter, and where in the period it is.
+/// The filter, and its place in the period.
 #[derive(Clone, Debug)]
 pub(crate) struct Soak<const N: usize> {
     steps: Vec<Step<N>>,
     pub(crate) covariance: Covariance<f64, N>,
     done: usize,
-    /// Innovations and corrections, summed so that none is left out.
+    /// The sum of innovations and corrections, so that the compiler cannot omit any of them.
     sum: f64,
 }
 
@@ -121,7 +121,7 @@ impl<const N: usize> Soak<N> {
         self.done += 1;
     }
 
-    /// What is wrong with the covariance, if anything.
+    /// The defect of the covariance, if there is one.
     pub(crate) fn fault(&self) -> Option<String> {
         let p = &self.covariance;
         let mut lower = [[0.0; N]; N];

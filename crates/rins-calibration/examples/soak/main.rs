@@ -1,4 +1,4 @@
-//! A day at 200 Hz: the covariance at every step, and how long the filter takes.
+//! A day at 200 Hz: the covariance at every step, and the time that the filter takes.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 mod case;

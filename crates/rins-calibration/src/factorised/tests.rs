@@ -1,4 +1,4 @@
-//! The filter's sigmas against 200 bits, whichever form runs.
+//! The filter's sigmas in both forms, compared with arithmetic of 200 bits.
 
 use nalgebra::{Matrix3, RowSVector};
 use rins_ekf::congruence;
@@ -16,17 +16,17 @@ use crate::setup::TableSpec;
 const INTERVAL: f64 = 0.1;
 const STEPS: usize = 80;
 
-/// How far a sigma may be off.
+/// The tolerance of a sigma.
 const SIX_DIGITS: f64 = 1e-6;
 
 const AXIS_SIGMA: f64 = 1e-2;
 
-/// What a run is compared with.
+/// The table measurement of a run.
 #[derive(Clone, Copy)]
 enum Table {
     Angle,
     Rate,
-    /// A rate after a rest, in which the gyros' errors along the spin axis hardly show.
+    /// A rate after a static interval, in which the gyros' errors along the spin axis are hardly observable.
     RateAfterRest,
 }
 
@@ -43,8 +43,8 @@ fn motion(table: Table) -> TrueMotion {
     }
 }
 
-/// A rig whose table is read `root` times as well as the axis is known, or has gyros that much better
-/// than their misalignments.
+/// A rig whose table readings are `root` times as precise as the prior of the axis, or whose gyros are that much more precise
+/// than the prior of their misalignments.
 fn rig(motion: &TrueMotion, root: f64) -> (Setup, Start) {
     let triad = |noise_density, misalignment_sigma| {
         TriadSpec::white(noise_density, 0.0, misalignment_sigma, misalignment_sigma)
@@ -73,7 +73,7 @@ fn worst(root: f64, table: Table) -> Result<(f64, [Form; 2]), UpdateError> {
     let motion = motion(table);
     let (setup, mut start) = rig(&motion, root);
     if let Table::Rate | Table::RateAfterRest = table {
-        // A commanded rate is as good as the gyros, and the axis well enough known.
+        // A commanded rate is as precise as the gyros, and the axis is known with sufficient precision.
         start.angle_source = AngleSource::Defined;
         start.axis_covariance *= 1e-8;
     }

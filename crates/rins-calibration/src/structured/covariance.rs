@@ -6,15 +6,15 @@ use rins_lanes::Real;
 
 /// The covariance of `N` states: nine navigation errors, then constants.
 ///
-/// Both of each symmetric pair are kept, since whole rows are worked on; the second is either a copy
-/// of the first or comes of the same operations on the same numbers.
+/// Both elements of each symmetric pair are stored, since operations process whole rows. The second is either a copy of the
+/// first or the result of the same operations on the same numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Covariance<T, const N: usize> {
     pub(super) rows: [[T; N]; N],
 }
 
 impl<T: Real, const N: usize> Covariance<T, N> {
-    /// The covariance with these elements, of which the lower triangle is asked for.
+    /// The covariance with these elements; only the lower triangle is queried.
     pub fn from_fn(like: T, mut element: impl FnMut(usize, usize) -> T) -> Self {
         let mut rows = [[like.constant(0.0); N]; N];
         for row in 0..N {
@@ -33,7 +33,7 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         self.rows[row][column]
     }
 
-    /// Copies three rows that have moved into their columns; the block where they cross has no say.
+    /// Copies three updated rows into their columns, apart from the block where these intersect.
     #[inline(always)]
     pub(super) fn mirror(&mut self, first: usize) {
         let pairs = Self::pairs(first);
@@ -44,7 +44,7 @@ impl<T: Real, const N: usize> Covariance<T, N> {
                         self.rows[other][k] = self.rows[k][other];
                     }
                 } else {
-                    // Of the row that has not moved the column is a copy already.
+                    // In a row that was not updated the fourth column already is a copy.
                     let columns: [T; 4] = array::from_fn(|k| self.rows[pairs + k][other]);
                     self.rows[other][pairs..pairs + 4].copy_from_slice(&columns);
                 }
@@ -52,7 +52,7 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         }
     }
 
-    /// Sets the block where three rows cross their columns; its lower triangle is read.
+    /// Sets the block where three rows intersect their columns; only its lower triangle is read.
     #[inline(always)]
     pub(super) fn set_crossing(&mut self, first: usize, block: &[[T; 3]; 3]) {
         let pairs = Self::pairs(first);
@@ -73,10 +73,10 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         }
     }
 
-    /// Where four columns in whole pairs begin, among them the three from `first` on.
+    /// The first of four columns in whole pairs that contain the three from `first` on.
     ///
-    /// One run's rows are read in pairs. To read a pair of which only one was written just now takes
-    /// until that has come as far as the cache, longer than to write its other one again.
+    /// The rows of one run are read in pairs. Reading a pair of which only one number was written just before waits for the
+    /// cache, which takes longer than writing the other one again.
     const fn pairs(first: usize) -> usize {
         let pairs = first / 2 * 2;
         if pairs + 4 > N { N - 4 } else { pairs }

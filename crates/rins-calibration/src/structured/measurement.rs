@@ -1,4 +1,4 @@
-//! The correction by three rows at a time.
+//! The correction by three measurement rows.
 
 use rins_lanes::{Real, Vector};
 
@@ -7,28 +7,26 @@ use super::covariance::Covariance;
 /// Three rows over all states.
 pub(super) type Rows<T, const N: usize> = [[T; N]; 3];
 
-/// What three rows say of the state.
+/// The gain of three measurement rows.
 #[derive(Debug)]
 pub(super) struct Correction<'a, T, const N: usize> {
-    /// `P Hᵀ + C` over the Cholesky factor of `S`, transposed: the part of the state's error that each
-    /// whitened innovation shows.
+    /// The transpose of `(P Hᵀ + C) L⁻ᵀ` with the Cholesky factor `L` of `S`: the correction of the states per unit of each
+    /// whitened innovation.
     shown: &'a Rows<T, N>,
     /// The Cholesky factor's subdiagonal elements: (1,0), (2,0) and (2,1).
     below: [T; 3],
-    /// The inverse of its diagonal; not a number where `S` is not positive definite.
+    /// The inverse of its diagonal; NaN if `S` is not positive definite.
     pub(super) inverse_scales: [T; 3],
 }
 
 impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
-    /// The correction where `with_state` is the covariance of the innovation with the state's error,
-    /// `(P Hᵀ + C)ᵀ`, which it makes its own, and `innovation` the innovation's: (0,0), (1,0), (1,1),
-    /// (2,0), (2,1), (2,2).
+    /// The correction for the covariance `with_state` of the innovation with the state's error, `(P Hᵀ + C)ᵀ`, which it
+    /// overwrites, and the innovation covariance `innovation`: (0,0), (1,0), (1,1), (2,0), (2,1), (2,2).
     #[inline(always)]
     pub(super) fn new(with_state: &'a mut Rows<T, N>, innovation: [T; 6]) -> Self {
         let [s00, s10, s11, s20, s21, s22] = innovation;
         let one = s00.constant(1.0);
-        // Pivots follow from each other by divisions alone, so that no square root, which takes longer,
-        // waits for another.
+        // The pivots depend on each other by divisions only, so that no square root, which takes longer, waits for another.
         let r0 = one / s00;
         let (m10, m20) = (s10 * r0, s20 * r0);
         let r1 = one / (s11 - s10 * m10);
@@ -47,7 +45,7 @@ impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
         Self { shown: with_state, below: [l10, l20, l21], inverse_scales: [i0, i1, i2] }
     }
 
-    /// The innovation over its Cholesky factor.
+    /// Whitens the innovation: `L⁻¹ x`.
     #[inline(always)]
     pub(super) fn whiten(&self, x: &Vector<T>) -> Vector<T> {
         let ([l10, l20, l21], [i0, i1, i2]) = (self.below, self.inverse_scales);
@@ -56,7 +54,7 @@ impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
         Vector([x0, x1, (x[2] - x0 * l20 - x1 * l21) * i2])
     }
 
-    /// Adds what the whitened innovation says of each state.
+    /// Adds the correction of each state by the whitened innovation.
     #[inline(always)]
     pub(super) fn add_to(&self, state: &mut [T; N], whitened: &Vector<T>) {
         for j in 0..N {
@@ -67,12 +65,12 @@ impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
         }
     }
 
-    /// Takes what is now known from the covariance.
+    /// Subtracts the information of the measurement from the covariance.
     #[inline(always)]
     pub(super) fn reduce(&self, p: &mut Covariance<T, N>) {
         let [a, b, c] = self.shown;
         if self.below[0].lanes() > 1 {
-            // Two rows at a time, so that what a column shows is read once for both.
+            // Two rows in parallel share the loaded gains of a column.
             let pairs = N / 2;
             for pair in 0..pairs {
                 let (row, next) = (2 * pair, 2 * pair + 1);
@@ -99,7 +97,7 @@ impl<'a, T: Real, const N: usize> Correction<'a, T, N> {
                 }
             }
         } else {
-            // A whole row at once is as fast as half of it, and both of a pair come out the same.
+            // A whole row at once is as fast as half of it, and both elements of a pair are identical.
             for (row, numbers) in p.rows.iter_mut().enumerate() {
                 let (x, y, z) = (a[row], b[row], c[row]);
                 for column in 0..N {

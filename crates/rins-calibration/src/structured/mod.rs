@@ -1,15 +1,13 @@
-//! The filter step with its structure written out: nine navigation errors, and constants that drive
-//! them.
+//! The filter step in structured form: nine navigation errors, and constants that drive them.
 //!
-//! Of the 15 by 15 elements of a transition some fifty are not zero or one, and of the constants'
-//! covariance a prediction changes nothing. The generic filter of `rins-ekf` says the same with dense
-//! matrices and is the reference; here only what moves is computed, over one run or several side by
-//! side. Both of a symmetric pair are the same bits.
+//! About fifty of the 15 by 15 elements of a transition are neither zero nor one, and the prediction does not change the
+//! covariance of the constants. The generic filter of `rins-ekf` with dense matrices is equivalent and is the reference; here
+//! only the elements that change are calculated, for one run or several in parallel. Both elements of a symmetric pair are
+//! identical in all bits.
 //!
-//! The form is the plain one, `P - P Hᵀ S⁻¹ H P`, in two blocks of three rows: it keeps the digits
-//! as long as what is measured is not known very much worse than it is measured. [`Covariance::ratios`]
-//! says how much; a rounding error is some 1e-16 of that. Beyond, [`crate::SpinAxisFilter`] goes on with
-//! factors of the covariance.
+//! The form is the plain one, `P - P Hᵀ S⁻¹ H P`, in two blocks of three rows. It is precise as long as the prior variance of
+//! a measurement does not greatly exceed its noise. [`Covariance::ratios`] is this ratio; the relative rounding error is
+//! about 1e-16 times the ratio. Beyond a limit [`crate::SpinAxisFilter`] continues with factors of the covariance.
 #![expect(
     clippy::needless_range_loop,
     reason = "an index counts through rows of several arrays at once"
@@ -26,12 +24,12 @@ pub use covariance::Covariance;
 pub use transition::{Input, Means, States, Transition};
 pub use update::{Comparison, UpdateResult, With};
 
-/// How many navigation errors there are: position, velocity, attitude, three each.
+/// The number of navigation errors: position, velocity, attitude, three each.
 pub const NAVIGATION: usize = 9;
 
-/// Where the position errors stand.
+/// The place of the position errors.
 const POSITION: usize = 0;
-/// Where the velocity errors stand.
+/// The place of the velocity errors.
 const VELOCITY: usize = 3;
-/// Where the attitude errors stand.
+/// The place of the attitude errors.
 const ATTITUDE: usize = 6;

@@ -1,4 +1,4 @@
-//! The same prediction with dense matrices, and the generic filter beside the structured one.
+//! The prediction with dense matrices, and a comparison of the structured with the generic filter.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use rins_ekf::Block;
@@ -10,9 +10,9 @@ use crate::layout::{ATTITUDE, POSITION, SPIN_AXIS_ERRORS, STATES, VELOCITY};
 /// A matrix over the whole state.
 type StateMatrix = SMatrix<f64, STATES, STATES>;
 
-/// The matrix `F` of eqs. (11)-(15), where the gyros turn at `spin_rate` \[rad/s\].
+/// The matrix `F` of eqs. (11)-(15) for gyros with the rate `spin_rate` \[rad/s\].
 ///
-/// Row two of (13) carries `+(ρ + 2Ω)_x δv_z`, which the paper prints with a minus.
+/// Row two of (13) contains `+(ρ + 2Ω)_x δv_z`, which the paper prints with a minus.
 fn dynamics(means: &Means<f64>, spin_rate: f64) -> StateMatrix {
     let Means { curvatures: [meridian, transverse], latitude: [sin, cos], gravity, .. } = *means;
     let velocity: Vector3<f64> = means.velocity.into();
@@ -25,7 +25,7 @@ fn dynamics(means: &Means<f64>, spin_rate: f64) -> StateMatrix {
     let force: Vector3<f64> = means.specific_force.into();
 
     let mut f = StateMatrix::zeros();
-    // (14), with the level wander-free over so short a way.
+    // (14); the wander angle is zero over such a short distance.
     let along = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, radius) / radius;
     POSITION.set(VELOCITY, &mut f, &along);
     let shrink = Matrix3::from_diagonal(&Vector3::new(-climb, -climb, 0.0));
@@ -41,7 +41,7 @@ fn dynamics(means: &Means<f64>, spin_rate: f64) -> StateMatrix {
     f
 }
 
-/// `Θ Ψ V Θ` over an interval, as [`super::Transition`] says.
+/// `Θ Ψ V Θ` over an interval, as in [`super::Transition`].
 fn transition(f: &StateMatrix, interval: f64) -> StateMatrix {
     let part = |block: Block<3>, share: f64| {
         let mut factor = StateMatrix::identity();
@@ -55,7 +55,7 @@ fn transition(f: &StateMatrix, interval: f64) -> StateMatrix {
     let half_position = part(POSITION, 0.5);
     let mut velocity = part(VELOCITY, 1.0);
     let attitude = part(ATTITUDE, 1.0);
-    // The attitude half-way: turned with the level, then by what the gyros get wrong.
+    // The attitude error at the middle: rotated with the level, then by the gyro errors.
     let half_way = (attitude - StateMatrix::identity()) * 0.5;
     let force = VELOCITY.get(ATTITUDE, &velocity);
     let force = force + force * ATTITUDE.get(ATTITUDE, &half_way);
@@ -87,11 +87,11 @@ mod tests {
 
     const INTERVAL: f64 = 0.02;
 
-    /// How far structured and generic filter may differ anywhere in a run, relative to sigmas, where
-    /// what is measured is not known much worse than it is measured.
+    /// The tolerance of the difference between structured and generic filter during a run, relative to sigmas, if the prior
+    /// variances do not greatly exceed the measurement noise.
     const AGREEMENT: f64 = 1e-12;
 
-    /// The same for the position, which nothing measures: what each of 18,000 steps rounds stays.
+    /// The same for the position, which is not measured: the rounding errors of 18,000 steps accumulate.
     const OF_POSITION: f64 = 3e-12;
 
     const RATE: f64 = 20.0 * DEG;
@@ -99,8 +99,8 @@ mod tests {
 
     type State = SVector<f64, STATES>;
 
-    /// How far the prediction may be off, relative to the error that it started from: the products
-    /// of two seconds with the Earth's rate and the curvature that the model leaves out.
+    /// The tolerance of the prediction relative to the initial error: the products of two seconds with the Earth's rate and
+    /// the curvature, which the model neglects.
     const WITHIN: f64 = 2e-3;
 
     fn motion() -> TrueMotion {
@@ -114,7 +114,7 @@ mod tests {
         }
     }
 
-    /// Small errors of each kind: a metre of way, a millimetre a second, a second of arc.
+    /// Small errors of each kind: 1 m, 1 mm/s, 1 arcsec.
     fn scale() -> State {
         let mut scale = State::repeat(5e-6);
         POSITION.set_in(&mut scale, &Vector3::new(2e-7, 2e-7, 1.0));
@@ -122,7 +122,7 @@ mod tests {
         scale
     }
 
-    /// The rotation of the level by a displacement; the geographic frame also turns about up.
+    /// The rotation of the level by a displacement; the geographic frame also rotates about up.
     fn d_theta(error: &State, latitude: f64) -> Vector3<f64> {
         let d = POSITION.of(error);
         Vector3::new(d.x, d.y, d.y * latitude.tan())
@@ -207,7 +207,7 @@ mod tests {
                 predicted = transition(&f, INTERVAL) * predicted;
             }
             let found = error_between(computed.state(), truth.state(), &gyro);
-            // In units of what each state means to the others, so that no kind drowns another.
+            // In units of comparable effect, so that no kind of state dominates.
             let relative = (found - predicted).component_div(&scale());
             assert!(
                 relative.amax() < WITHIN * (predicted.component_div(&scale()).amax()),
@@ -216,13 +216,13 @@ mod tests {
         }
     }
 
-    /// Random numbers from -1 to 1.
+    /// Random numbers between -1 and 1.
     fn numbers(seed: u128) -> impl FnMut() -> f64 {
         let mut generator = Pcg64::new(11, seed);
         move || generator.random_range(-1.0..1.0)
     }
 
-    /// How far two symmetric matrices differ, in units of the second's standard deviations.
+    /// The difference of two symmetric matrices, in units of the second's standard deviations.
     fn differences(got: &StateMatrix, want: &StateMatrix) -> StateMatrix {
         StateMatrix::from_fn(|row, column| {
             let scale = (want[(row, row)] * want[(column, column)]).sqrt();
@@ -234,7 +234,7 @@ mod tests {
         StateMatrix::from_fn(|row, column| kernel.covariance.get(row, column))
     }
 
-    /// Any motion at all, fast enough for every term to count.
+    /// A random motion, fast enough for every term to be significant.
     fn any_means(random: &mut impl FnMut() -> f64) -> Means<f64> {
         let mut vector = |scale: f64| Vector([0; 3].map(|_| scale * random()));
         let (velocity, specific_force) = (vector(300.0), vector(20.0));
@@ -283,7 +283,7 @@ mod tests {
         }
     }
 
-    /// Six minutes at 50 Hz from an axis known to `sigma` \[rad\]; the two may differ by `agreement`.
+    /// Six minutes at 50 Hz with a prior of the axis of 1σ `sigma` \[rad\]; the two filters may differ by `agreement`.
     fn run_beside_the_generic_filter(
         sigma: f64,
         agreement: f64,
@@ -371,7 +371,7 @@ mod tests {
     fn structured_steps_against_angles_are_the_generic_filters() {
         let angle = |angle: f64, _: f64| Reading::Angle([angle.sin(), angle.cos()]);
         run_beside_the_generic_filter(1e-5, AGREEMENT, angle);
-        // Two hundred times the encoder's noise: either form rounds 4e4 times as much.
+        // At two hundred times the encoder's noise both forms have 4e4 times the rounding error.
         run_beside_the_generic_filter(1e-3, 4e4 * f64::EPSILON * 20.0, angle);
     }
 

@@ -1,4 +1,4 @@
-//! The prediction: eqs. (11)-(15) over one interval, factor by sparse factor.
+//! The prediction: eqs. (11)-(15) over one interval, as a product of sparse factors.
 
 use core::marker::PhantomData;
 
@@ -9,52 +9,51 @@ use super::covariance::Covariance;
 use super::measurement::Rows;
 use super::{ATTITUDE, NAVIGATION, POSITION, VELOCITY};
 
-/// How a constant enters: through the sensor along a body axis, or not at all.
+/// The sensor that a constant affects, along a body axis, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
-    /// Into a gyro.
+    /// A gyro.
     Gyro(usize),
-    /// Into an accelerometer.
+    /// An accelerometer.
     Accel(usize),
-    /// Into no sensor: it is only measured.
+    /// No sensor: the constant affects only the measurements.
     None,
 }
 
 impl Input {
-    /// The gyro that it enters, if it is one.
+    /// The gyro that it affects, if any.
     const fn gyro(self) -> Option<usize> {
         if let Self::Gyro(axis) = self { Some(axis) } else { None }
     }
 
-    /// The accelerometer that it enters, if it is one.
+    /// The accelerometer that it affects, if any.
     const fn accel(self) -> Option<usize> {
         if let Self::Accel(axis) = self { Some(axis) } else { None }
     }
 }
 
-/// The states of a filter, known when it is compiled: nine navigation errors, then constants.
+/// The states of a filter, known at compile time: nine navigation errors, then constants.
 pub trait States<const N: usize> {
-    /// How each constant enters; what stands at the navigation errors' places is not read.
+    /// The sensor that each constant affects; the elements of the navigation errors are not used.
     const INPUTS: [Input; N];
-    /// Where the three of the axis frame's attitude error start, if they are among the constants.
+    /// The place of the axis frame's three attitude errors, if they are among the constants.
     const AXIS: Option<usize>;
 }
 
-/// What carries the errors over one interval: `Φ = Θ Ψ V Θ`.
+/// The transition of the errors over one interval: `Φ = Θ Ψ V Θ`.
 ///
-/// Half of the position's motion, then the velocity's with the attitude half-way, then the
-/// attitude's, then the other half of the position's. The product is `exp(F T)` to second order in
-/// all that moves fast; of the products of the Earth's rate and the curvature with themselves, which
-/// it leaves out, none is above 10⁻¹¹.
+/// The factors are half of the position's change, then the velocity's with the attitude at the middle, then the attitude's,
+/// then the other half of the position's. The product is `exp(F T)` to second order in all fast terms; the neglected
+/// second-order products of the Earth's rate and the curvature are below 10⁻¹¹.
 #[derive(Clone, Copy, Debug)]
 pub struct Transition<T, M, const N: usize> {
-    /// What half an interval's velocity makes of an angle \[s/m\].
+    /// The change of an angle per unit velocity in half an interval \[s/m\].
     half_angle: T,
-    /// What it makes of a height \[s\].
+    /// The change of a height per unit velocity in half an interval \[s\].
     half_rise: f64,
-    /// By how much climbing shrinks the angles in half an interval.
+    /// The relative decrease of the angles by climbing in half an interval.
     shrink: T,
-    /// Velocity by position, the three elements that are not zero: by `δθ_y`, `δθ_x` and `δh`.
+    /// Velocity by position: the three nonzero elements, by `δθ_y`, `δθ_x` and `δh`.
     weight: [T; 3],
     /// Velocity by velocity.
     coriolis: Vector<T>,
@@ -66,14 +65,14 @@ pub struct Transition<T, M, const N: usize> {
     turn_by_gyro: Matrix<T>,
     /// Velocity by the accelerometers' errors.
     push_by_accel: Matrix<T>,
-    /// What one unit of each constant puts into its sensor, as a mean rate or force.
+    /// The effect of one unit of each constant on its sensor, as a mean rate or force.
     regressors: [T; N],
     /// The variance that an interval adds to each velocity \[m²/s²\] and each attitude \[rad²\].
     noise: [f64; 2],
     constants: PhantomData<M>,
 }
 
-/// What the error dynamics depend on, as means over an interval.
+/// The means over an interval that determine the error dynamics.
 #[derive(Clone, Copy, Debug)]
 pub struct Means<T> {
     /// The interval \[s\].
@@ -93,8 +92,8 @@ pub struct Means<T> {
 }
 
 impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
-    /// The transition under these means; a unit of each constant puts that much of `regressors` into
-    /// its sensor, and accelerometers and gyros have white noise of these densities.
+    /// The transition for these means. A unit of each constant changes its sensor by `regressors`, and accelerometers and
+    /// gyros have white noise of these densities.
     #[inline(always)]
     pub fn new(
         means: &Means<T>,
@@ -131,7 +130,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         }
     }
 
-    /// Whether any constant enters an accelerometer.
+    /// Whether any constant affects an accelerometer.
     const PUSHES: bool = {
         let mut any = false;
         let mut index = NAVIGATION;
@@ -142,13 +141,13 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         any
     };
 
-    /// Carries the covariance over the interval: `Φ P Φᵀ + Q`.
+    /// Propagates the covariance over the interval: `Φ P Φᵀ + Q`.
     #[inline(always)]
     pub fn carry(&self, p: &mut Covariance<T, N>) {
         self.half_position(p);
         let mut turns = self.turns(p);
         self.velocity(p, &turns);
-        // Of all that the gyros' errors go together with, the velocities alone have moved.
+        // Of the covariances of the gyros' errors only those with the velocities have changed.
         for k in VELOCITY..VELOCITY + 3 {
             let (gyros, _) = self.sensed_by(&p.rows[k]);
             let turn = self.turn_by_gyro * gyros;
@@ -166,7 +165,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         }
     }
 
-    /// What the interval makes of one column of errors: `Φ x`.
+    /// The propagation of one column of errors: `Φ x`.
     #[inline(always)]
     pub fn times(&self, mut x: [T; N]) -> [T; N] {
         let half_way = |x: &mut [T; N]| {
@@ -190,7 +189,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         self.noise
     }
 
-    /// What half an interval makes of three position errors that have three velocity errors.
+    /// Three position errors with these velocity errors after half an interval.
     #[inline(always)]
     fn moved(&self, [x, y, up]: [T; 3], [east, north, rise]: [T; 3]) -> [T; 3] {
         [
@@ -209,7 +208,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
             p.rows[1][j] = y;
             p.rows[2][j] = up;
         }
-        // Where the rows cross their own columns, these move as well.
+        // Where the rows intersect their own columns, these change as well.
         let mut crossing = [[p.rows[0][0]; 3]; 3];
         for k in 0..3 {
             let row = &p.rows[k];
@@ -219,7 +218,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         p.mirror(POSITION);
     }
 
-    /// What the constants put into the sensors along `kind`'s axes, with every state.
+    /// The covariances with every state of the constants' effects on the sensors along `kind`'s axes.
     #[inline(always)]
     fn sensed(&self, p: &Covariance<T, N>, kind: fn(Input) -> Option<usize>) -> Rows<T, N> {
         let mut sums = [[self.half_angle.constant(0.0); N]; 3];
@@ -241,7 +240,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         sums
     }
 
-    /// The same with one state, of which `row` holds the covariances.
+    /// The same with one state, whose covariances are in `row`.
     #[inline(always)]
     fn sensed_by(&self, row: &[T; N]) -> (Vector<T>, Vector<T>) {
         let (mut gyros, mut accels) = (Vector::zeros(row[0]), Vector::zeros(row[0]));
@@ -256,22 +255,22 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         (gyros, accels)
     }
 
-    /// The velocity error after the interval, of one column of any matrix: nine navigation errors, what
-    /// the gyros' errors turn meanwhile, and what the accelerometers get wrong.
+    /// The velocity error after the interval for one column of any matrix, from nine navigation errors, the rotation by the
+    /// gyros' errors, and the accelerometers' errors.
     #[inline(always)]
     fn pushed(&self, column: [T; NAVIGATION], turn: &Vector<T>, accels: &Vector<T>) -> Vector<T> {
         let [x, y, up, east, north, rise, ..] = column;
         let attitude = Vector([column[6], column[7], column[8]]);
         let [by_y, by_x, by_height] = self.weight;
         let velocity = Vector([east, north, rise]);
-        // The attitude half-way.
+        // The attitude at the middle of the interval.
         let pushed = Vector([y * by_y, x * by_x, up * by_height])
             + self.coriolis.cross(&velocity)
             + self.force * (attitude + turn.scaled(0.5));
         velocity + if Self::PUSHES { pushed + self.push_by_accel * *accels } else { pushed }
     }
 
-    /// Carries the velocities; what the gyros' errors turn, with every state, was `turns` before.
+    /// Propagates the velocities; `turns` are the covariances of the rotation by the gyros' errors with every state before.
     #[inline(always)]
     fn velocity(&self, p: &mut Covariance<T, N>, turns: &Rows<T, N>) {
         let accels = if Self::PUSHES { self.sensed(p, Input::accel) } else { *turns };
@@ -297,7 +296,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         p.mirror(VELOCITY);
     }
 
-    /// What the gyros' errors turn over the interval, with every state.
+    /// The covariances of the rotation by the gyros' errors over the interval with every state.
     #[inline(always)]
     fn turns(&self, p: &Covariance<T, N>) -> Rows<T, N> {
         let mut turns = self.sensed(p, Input::gyro);
@@ -317,7 +316,7 @@ impl<T: Real, M: States<N>, const N: usize> Transition<T, M, N> {
         *attitude + self.nav_turn.cross(attitude) + *turn
     }
 
-    /// Carries the attitudes, likewise.
+    /// Propagates the attitudes in the same way.
     #[inline(always)]
     fn attitude(&self, p: &mut Covariance<T, N>, turns: &Rows<T, N>) {
         for j in 0..N {

@@ -1,4 +1,4 @@
-//! A sample's comparison with zero velocity and with the table, and the correction by both.
+//! The measurements of zero velocity and of the table in a sample, and the correction by both.
 
 use rins_lanes::{Matrix, Real, Vector};
 
@@ -7,45 +7,45 @@ use super::measurement::{Correction, Rows};
 use super::transition::{Input, States};
 use super::{ATTITUDE, NAVIGATION, POSITION, VELOCITY};
 
-/// Three rows beside zero velocity: `H`, their noise, and what was found.
+/// The three measurement rows of the table: `H`, noise, and measured difference.
 #[derive(Clone, Copy, Debug)]
 pub struct Comparison<T, const N: usize> {
     /// Computed minus measured.
     pub difference: Vector<T>,
-    /// By the attitude error ψ; by the position's δθ the same, its first two columns.
+    /// The derivative by the attitude error ψ; its first two columns are also that by the position's δθ.
     pub by_attitude: Matrix<T>,
-    /// By the constants.
+    /// The derivative by the constants.
     pub with: With<T, N>,
     /// The variances of the three rows.
     pub noise: [f64; 3],
-    /// The covariance of ψ's error with the rows' noise, if it is not zero.
+    /// The covariance of ψ's error with the noise of the rows, if it is not zero.
     pub cross: Option<Matrix<T>>,
 }
 
-/// What three rows are compared with, beside the attitude.
+/// The reference of the three rows apart from the attitude.
 #[derive(Clone, Copy, Debug)]
 pub enum With<T, const N: usize> {
-    /// The attitude of the axis frame: its error enters as ψ does, with the other sign.
+    /// The attitude of the axis frame: its error has the same derivative as ψ with the opposite sign.
     Axis,
-    /// The gyros' rates: a unit of each constant puts so much into its gyro.
+    /// The gyros' rates: the effect of a unit of each constant on its gyro.
     Rates([T; N]),
 }
 
-/// What an update found, and how far off it takes each state to be.
+/// The result of an update.
 #[derive(Clone, Copy, Debug)]
 pub struct UpdateResult<T, const N: usize> {
-    /// N(0, 1) and independent of each other if the model is right.
+    /// The whitened innovations: independent and N(0, 1) if the model is correct.
     pub whitened: [T; 6],
-    /// The inverse standard deviations of the innovations, each given those before it; not a number
-    /// where their covariance is not positive definite.
+    /// The inverse standard deviations of the innovations, each conditional on those before it; NaN if their covariance is
+    /// not positive definite.
     pub inverse_scales: [T; 6],
-    /// The errors of the states.
+    /// The estimated errors of the states.
     pub state: [T; N],
 }
 
 impl<T: Real, const N: usize> Covariance<T, N> {
-    /// Corrects the covariance by zero velocity, Z1, which the computed one is `velocity` off with
-    /// this noise \[m/s\], and then by three rows more.
+    /// Corrects the covariance by the zero velocity measurement, Z1, with this error `velocity` of the computed velocity and
+    /// this noise \[m/s\], and then by three further rows.
     #[inline(always)]
     pub fn update<M: States<N>>(
         &mut self,
@@ -78,8 +78,8 @@ impl<T: Real, const N: usize> Covariance<T, N> {
         UpdateResult { whitened: [a, b, c, d, e, f], inverse_scales: [i, j, k, l, m, n], state }
     }
 
-    /// The ratios of the measured combinations' variances, their states taken apart, to the noise:
-    /// of zero velocity, then of the three rows.
+    /// The ratios of the variances of the predicted measurements, with correlations between states neglected, to the noise
+    /// variances: of zero velocity, then of the three rows.
     #[inline(always)]
     pub fn ratios<M: States<N>>(
         &self,
@@ -189,7 +189,7 @@ impl<T: Real, const N: usize> Comparison<T, N> {
     fn innovation<M: States<N>>(&self, with_state: &Rows<T, N>) -> [T; 6] {
         let mut s = [[with_state[0][0]; 3]; 3];
         for k in 0..3 {
-            // The k-th column of S, which is its k-th row as well.
+            // The k-th column of S, which is also its k-th row.
             s[k] = self.rows_of::<M>(&with_state[k]).0;
         }
         if let Some(cross) = &self.cross {
@@ -207,7 +207,7 @@ impl<T: Real, const N: usize> Comparison<T, N> {
     }
 }
 
-/// Where three rows cross three columns.
+/// The block where three rows intersect three columns.
 #[inline(always)]
 fn crossing<T: Real, const N: usize>(rows: &Rows<T, N>, first: usize) -> [[T; 3]; 3] {
     let mut block = [[rows[0][0]; 3]; 3];

@@ -1,7 +1,7 @@
-//! Whether the filter's covariance is honest: NEES, NIS and whiteness over seeded runs.
+//! Consistency of the filter's covariance: NEES, NIS and whiteness over seeded runs.
 //!
-//! The data obey the 12-state model exactly: three gyro errors, white sensor noise, and the
-//! references' own noise as R claims it. Nothing is shared with the filter but the strapdown step.
+//! The data agree exactly with the 12-state model: three gyro errors, white sensor noise, and the noise of the references as
+//! in R. Only the strapdown step is common to simulation and filter.
 
 use nalgebra::{Matrix3, SVector, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -19,8 +19,8 @@ use rins_motion::{Profile, Segment, Station, TrueMotion};
 const RUNS: u64 = 120;
 const INTERVAL: f64 = 0.1;
 const AXIS_SIGMA: f64 = 0.01 * DEG;
-/// So little wobble that the runs, which have none, cannot tell: the gyros' angle random walk is
-/// 60 times that in one interval.
+/// A wobble so small that the runs, which have none, are consistent with it: the gyros' angle random walk is 60 times that in
+/// one interval.
 const NO_WOBBLE: f64 = 1e-4 * ARCSEC;
 
 fn setup() -> Setup {

@@ -1,4 +1,4 @@
-//! The gyro's noise is in the attitude that is predicted and in the rate that is compared: one shows the other.
+//! The gyro's noise is in the predicted attitude and in the measured rate: the measurement determines it.
 
 use nalgebra::{Matrix3, Vector3};
 use rand_distr::{Distribution, StandardNormal};
@@ -16,11 +16,11 @@ const DURATION: f64 = 60.0;
 const RATE: f64 = 10.0 * DEG;
 const GYRO_NOISE: f64 = 2.0 * DEG_PER_HOUR_PER_ROOT_HZ;
 
-/// The attitude error, resolved in n, after a turn on a table whose rate is known exactly, by gyros of which only the noise is
-/// not known.
+/// The attitude error, resolved in n, after a rotation on a table whose rate is known exactly, with gyros of which only the
+/// noise is unknown.
 fn attitude_error() -> Vector3<f64> {
     let known = TriadSpec::white(GYRO_NOISE, 0.0, 1e-12, 1e-12);
-    // Accelerometers so noisy that they show nothing of the attitude.
+    // Accelerometers so noisy that they hold no information on the attitude.
     let accel = TriadSpec { noise_density: 1e5 * MICRO_G, ..known };
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let angles = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
@@ -67,8 +67,8 @@ fn attitude_error() -> Vector3<f64> {
     -(filter.state().nav_from_body * turned.inverse()).rotation_vector()
 }
 
-/// Where the table turns is known, so that what the gyros read beside it is their noise, and is taken out of the attitude
-/// again: nothing is left of their random walk. Left alone it would be there once, with the wrong sign twice.
+/// The rotation of the table is known, so that the remaining gyro readings are noise, which is removed from the attitude:
+/// nothing remains of their random walk. Without the correlation it would remain once, with the wrong sign twice.
 #[test]
 fn noise_that_a_known_rate_shows_does_not_turn_the_attitude() {
     let walk = GYRO_NOISE * DURATION.sqrt();
@@ -76,6 +76,6 @@ fn noise_that_a_known_rate_shows_does_not_turn_the_attitude() {
     for axis in 0..3 {
         assert!(error[axis].abs() < 0.05 * walk, "axis {axis}: {error} of {walk:e} rad");
     }
-    // It is the noise of this run that was taken out, not none.
+    // The noise of this run was removed; it was not zero.
     assert!(walk > 10.0 * ARCSEC, "{walk:e} rad");
 }

@@ -1,4 +1,4 @@
-//! Runs side by side: each has the bits that it has alone, in lanes of any width.
+//! Runs in parallel: each is bitwise equal to the run alone, in lanes of any width.
 
 use nalgebra::Matrix3;
 use rins_calibration::{
@@ -49,7 +49,7 @@ fn start(motion: &TrueMotion) -> (Setup, Start) {
     (setup, start)
 }
 
-/// The samples of one run, each with noise of its own.
+/// The samples of one run, each run with its own noise.
 fn samples(motion: &TrueMotion, run: u64) -> Vec<Increments> {
     let mut stream = Seed { seed: 5, run }.stream(Sensor::Encoder);
     let mut noise =
@@ -149,7 +149,7 @@ fn twelve_states_are_those_of_the_filter_that_carries_the_axis_along() {
     let p = filter.covariance();
     for index in 0..3 {
         let sigma = p[(9 + index, 9 + index)].sqrt();
-        // Three states more round otherwise.
+        // The three additional states change the rounding.
         assert_close!(twelve.estimate()[index], filter.estimate()[index], 1e-9 * sigma);
     }
     let q = twelve.covariance(0);

@@ -1,4 +1,4 @@
-//! Estimates sample by sample, and navigation compensated with them.
+//! Estimates after each sample, and navigation with online compensation.
 
 use nalgebra::Vector3;
 use rins_calibration::{
@@ -12,7 +12,7 @@ use rins_simulation::{Scenario, Simulated, TableRecord, simulate};
 
 const INTERVAL: f64 = 0.02;
 const STATIC: f64 = 10.0;
-/// One and a half turns, so that what whole turns cancel does not hide a difference.
+/// One and a half revolutions, so that the cancellation over whole revolutions does not hide a difference.
 const TURN: f64 = 54.0;
 
 fn truth() -> TriadError {
@@ -126,7 +126,7 @@ fn online_compensation_loses_little_of_what_batch_compensation_gains() {
     let none = navigate_freely(&recording, &table, axis, &station, None).velocity;
     let perfect = navigate_freely(&recording, &table, axis, &station, Some(&batch)).velocity;
     let online = navigate_online(&recording, &table, axis, &station, &each).velocity;
-    // One log, so that its noise is in both and cancels.
+    // Both use one log, so that its noise cancels.
     let (gained, lost) = ((none - perfect).norm(), (online - perfect).norm());
     assert!(gained > 0.1, "{gained}");
     assert!(lost > 0.0 && lost < 0.05 * gained, "{lost} of {gained}");

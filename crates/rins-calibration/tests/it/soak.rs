@@ -6,7 +6,7 @@ mod case;
 use case::Soak;
 use rins_calibration::structured::Covariance;
 
-/// A hundred seconds; `cargo run --release --example soak` makes a day of it.
+/// A hundred seconds; `cargo run --release --example soak` runs a day.
 const STEPS: usize = 20_000;
 
 fn soak<const N: usize>() {

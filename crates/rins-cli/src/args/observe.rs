@@ -12,17 +12,18 @@ pub(crate) struct Observe {
     /// The scenario files
     #[arg(required = true, value_name = "SCENARIO")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// The model: full, paper12, baseline, all (every effect of the catalogue), or a model file; by default full, with
-    /// --separate baseline (biases, spin axis attitude, mounting, `M_xz`, `M_yz` and `S_z`)
+    /// The model: full, paper12, baseline (biases, attitude of the spin axis, mounting, `M_xz`, `M_yz` and `S_z`), all
+    /// (every effect of the catalogue), or a model file; by default baseline with --separate, and full otherwise
     #[arg(long, value_name = "MODEL")]
     pub(crate) model: Option<String>,
-    /// Compare the scenarios side by side; A+B are two runs of one schedule
+    /// Compare the scenarios side by side; join scenario files with + (A.toml+B.toml) to treat them as runs of one
+    /// schedule
     #[arg(long)]
     pub(crate) compare: bool,
-    /// Two effects to separate; the shortest schedule that separates them is proposed
+    /// Two effects to be separated; the shortest schedule that separates them is proposed
     #[arg(long, value_name = "A,B", value_parser = pair)]
     pub(crate) separate: Option<[String; 2]>,
-    /// A parameter and its required 1σ, such as gyro.scale.z=0.1ppm; the shortest schedule is proposed
+    /// A parameter and its required 1σ, such as gyro.scale.z=0.1ppm; the shortest schedule that achieves it is proposed
     #[arg(long, value_name = "ID=SIGMA", conflicts_with = "separate", value_parser = want)]
     pub(crate) want: Option<Want>,
     /// Maximum table rate; by default that of the scenario, or 10 deg/s if it is stationary

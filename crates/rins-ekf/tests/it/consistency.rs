@@ -1,4 +1,4 @@
-//! Whether the covariance is honest, and whether the whitened innovations are white.
+//! Consistency of the covariance, and whiteness of the whitened innovations.
 
 use nalgebra::SMatrix;
 use rins_ekf::{Smoother, Step};
@@ -11,11 +11,11 @@ use crate::random::{M, N, Shared, run};
 const RUNS: u64 = 400;
 const STEPS: usize = 20;
 
-/// What a filter finds over many runs, with the measurement noise it believes in scaled.
+/// The results of a filter over many runs, with its measurement noise scaled.
 struct Findings {
-    /// The normalised estimation error squared at the end of each run.
+    /// The normalized estimation error squared at the end of each run.
     nees: Vec<f64>,
-    /// The normalised innovation squared of every step.
+    /// The normalized innovation squared of every step.
     nis: Vec<f64>,
     /// Every element of every whitened innovation.
     whitened: Vec<f64>,

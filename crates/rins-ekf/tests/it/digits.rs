@@ -1,10 +1,10 @@
-//! How many digits of the sigmas survive long runs from wide priors, against 200 bits.
+//! The precision of the sigmas in long runs from wide priors, compared with arithmetic of 200 bits.
 
 use nalgebra::{RowSVector, SMatrix, SVector};
 use rins_ekf::{FactorisedFilter, Factors, Filter, Measurement, UpdateError, congruence};
 use rins_testing::LongCovariance;
 
-/// How far a sigma may be off.
+/// The tolerance of a sigma.
 const SIX_DIGITS: f64 = 1e-6;
 
 const INTERVAL: f64 = 0.1;
@@ -12,8 +12,8 @@ const INTERVAL: f64 = 0.1;
 /// Rows: three of velocity, three of rate. Sources: three of each.
 const ROWS: usize = 6;
 
-/// A vehicle's position and velocity, and constants that drive it in proportion to what turns; two of the
-/// constants always enter together, so that no measurement ever tells them apart.
+/// A vehicle's position and velocity, and constants that drive it in proportion to a rotating signal; two of the constants
+/// always act together, so that no measurement distinguishes them.
 struct Step<const N: usize> {
     transition: SMatrix<f64, N, N>,
     by: SMatrix<f64, N, ROWS>,
@@ -31,7 +31,7 @@ impl<const N: usize> Step<N> {
             matrix[(axis, 3 + axis)] = 1.0;
         }
         for constant in 6..N {
-            // The last one is a twin of that three before it, which drives the same axis.
+            // The last one is a copy of the third one before it, which drives the same axis.
             let kind = if constant == N - 1 { constant - 3 } else { constant };
             let drive = (0.3 * kind as f64 * time + kind as f64).cos();
             transition[(3 + constant % 3, constant)] = INTERVAL * drive;
@@ -57,12 +57,13 @@ impl<const N: usize> Step<N> {
     }
 }
 
-/// The variances at the start: position and velocity as they are measured, constants `ratio` times so.
+/// The initial variances: position and velocity equal to the measurement noise, constants `ratio` times that.
 fn prior<const N: usize>(ratio: f64) -> SVector<f64, N> {
     SVector::from_fn(|index, _| if index < 6 { 1.0 } else { ratio })
 }
 
-/// What sigmas are told of: each state, each row that is measured, and the twins' sum and difference.
+/// The combinations whose sigmas are compared: each state, each measured row, and the sum and difference of the equal
+/// constants.
 fn combinations<const N: usize>(step: &Step<N>) -> Vec<RowSVector<f64, N>> {
     let state = |index| RowSVector::from_fn(|_, j| if j == index { 1.0 } else { 0.0 });
     let mut all: Vec<_> = (0..N).map(state).collect();
@@ -72,8 +73,7 @@ fn combinations<const N: usize>(step: &Step<N>) -> Vec<RowSVector<f64, N>> {
     all
 }
 
-/// The largest relative error of a sigma anywhere in a run from a prior variance of `ratio` times
-/// the noise's.
+/// The largest relative error of a sigma anywhere in a run from a prior variance of `ratio` times that of the noise.
 fn worst<const N: usize, Form>(
     (start, ratio): (Form, f64),
     mut advance: impl FnMut(&mut Form, &Step<N>) -> Result<(), UpdateError>,

@@ -1,4 +1,4 @@
-//! How many digits of the sigmas survive, against the same update in exact rational numbers.
+//! The precision of the sigmas, compared with the same update in exact rational numbers.
 
 use nalgebra::{SMatrix, SVector};
 use num_rational::BigRational;
@@ -23,7 +23,7 @@ fn updated(p: &[Vec<BigRational>], row: &[f64; N]) -> Vec<Vec<BigRational>> {
     (0..N).map(|i| (0..N).map(|j| &p[i][j] - &with[i] * &with[j] / &s).collect()).collect()
 }
 
-/// Four rows that see all four states, mixed.
+/// Four rows that measure combinations of all four states.
 const ROWS: [[f64; N]; 4] = [
     [1.0, 0.5, 0.25, -0.75],
     [0.5, -1.0, 1.5, 0.25],
@@ -31,15 +31,14 @@ const ROWS: [[f64; N]; 4] = [
     [1.5, 0.25, -0.5, 1.0],
 ];
 
-/// How many rows an update takes.
+/// The number of rows in an update.
 #[derive(Clone, Copy, Debug)]
 enum Rows {
     One,
     All,
 }
 
-/// The largest relative error of a sigma, after all rows, from a prior variance of `ratio` times the
-/// measurements'.
+/// The largest relative error of a sigma after all rows, from a prior variance of `ratio` times that of the measurements.
 fn sigma_error(ratio: f64, rows: Rows) -> Result<f64, UpdateError> {
     let mut p: Vec<Vec<BigRational>> =
         (0..N).map(|i| (0..N).map(|j| exact(if i == j { ratio } else { 0.0 })).collect()).collect();

@@ -1,4 +1,4 @@
-//! The factorised filter beside the plain one, and what it refuses.
+//! The factorized filter compared with the plain one, and its refusals.
 
 use nalgebra::{Cholesky, Matrix1, Matrix2, RowVector2, SMatrix, SVector, Vector1, Vector2};
 use proptest::prelude::*;
@@ -9,7 +9,7 @@ use rins_testing::assert_close;
 
 use crate::random::{N, Random, Run, Shared, Step, run};
 
-/// What either form rounds in some steps of well-conditioned systems.
+/// The rounding error of both forms in some steps of well-conditioned systems.
 const ROUNDING: f64 = 1e-12;
 
 fn predict(filter: &mut FactorisedFilter<N>, step: &Step) {
@@ -17,7 +17,7 @@ fn predict(filter: &mut FactorisedFilter<N>, step: &Step) {
     filter.predict(&step.transition, &root, &SVector::<f64, N>::repeat(1.0));
 }
 
-/// How far the two forms differ at the end of a run, and in any innovation on the way.
+/// The largest difference of the two forms at the end of a run, and in all innovations.
 fn difference(run: &Run) -> f64 {
     let mut plain = run.start.clone();
     let mut factorised = FactorisedFilter::new(plain.state, &plain.covariance).unwrap();
@@ -71,7 +71,7 @@ fn both_forms_find_the_same_over_18000_steps() {
 
 #[test]
 fn what_noise_the_error_explains_alone_is_known_exactly() {
-    // One noise of variance 4 moved the state and is all that is measured.
+    // One noise of variance 4 drove the state and is the only quantity that is measured.
     let mut filter = FactorisedFilter::new(Vector1::new(0.0), &Matrix1::new(4.0)).unwrap();
     let difference = Measurement::new(Vector1::new(3.0), Matrix1::new(0.0), Matrix1::new(4.0))
         .correlated_with_state_error(Matrix1::new(-4.0));
@@ -91,7 +91,8 @@ fn a_state_that_is_known_stays_known() {
     assert_eq!(filter.factors().covariance(), Matrix2::new(2.0, 0.0, 0.0, 0.0));
 }
 
-/// Noise that goes together with the error of one state, beside another that is known: as the plain form has it.
+/// Noise that is correlated with the error of one state, beside another state that is known exactly: the result is that of
+/// the plain form.
 #[test]
 fn noise_that_goes_with_one_error_leaves_a_known_state_known() {
     let prior = Matrix2::new(4.0, 0.0, 0.0, 0.0);
@@ -178,7 +179,7 @@ fn a_matrix_that_has_lost_its_digits_has_no_factors() {
         of(f64::NAN, 0.0, 1.0),
         Err(CovarianceError::NotFinite { quantity: Quantity::Covariance })
     );
-    // Taken for what it is, it knows the one state with the other.
+    // With rounding allowed for, one state determines the other.
     let known = Factors::of_rounded(&Matrix2::new(1.0 + 1e-15, 1.0, 1.0, 1.0), 1e-13).unwrap();
     assert_eq!(known.covariance(), Matrix2::from_element(1.0));
     assert!(FactorisedFilter::new(Vector2::new(f64::NAN, 0.0), &Matrix2::identity()).is_err());

@@ -1,4 +1,4 @@
-//! What must hold for any system and any data.
+//! Laws that hold for any system and any data.
 
 use nalgebra::{SMatrix, SVector};
 use proptest::prelude::*;
@@ -6,14 +6,14 @@ use rins_ekf::{Filter, Measurement, congruence};
 
 use crate::random::{M, N, Random, Run, Shared, run};
 
-/// A dozen sums of products, of matrices with condition numbers of up to some thousands.
+/// A dozen sums of products of matrices with condition numbers of up to some thousands.
 const ROUNDING: f64 = 1e-11;
 
 fn distance<const K: usize>(a: &Filter<K>, b: &Filter<K>) -> f64 {
     (a.state - b.state).amax().max((a.covariance - b.covariance).amax())
 }
 
-/// The filter before the first update of a run, and the measurement that is due.
+/// The filter before the first update of a run, and the measurement for it.
 fn predicted(run: &Run) -> (Filter<N>, Measurement<M, N>) {
     let mut filter = run.start.clone();
     filter.predict(&run.steps[0].transition, &run.steps[0].total_process());

@@ -1,4 +1,4 @@
-//! The filter and the smoother against estimators written apart, their laws, and their honesty.
+//! The filter and the smoother compared with independent estimators, their laws, and their consistency.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod consistency;

@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use rins_ekf::{Filter, Measurement, congruence};
 
-/// States, measurements a step, and sources of the noise that drives both.
+/// States, measurements in a step, and noise sources that drive both.
 pub(crate) const N: usize = 4;
 pub(crate) const M: usize = 2;
 pub(crate) const SHARED: usize = 1;
@@ -48,7 +48,7 @@ pub(crate) struct Step {
 }
 
 impl Step {
-    /// The process noise that a filter without `n` in its state sees.
+    /// The total process noise for a filter without `n` in its state.
     pub(crate) fn total_process(&self) -> SMatrix<f64, N, N> {
         congruence(&self.drive, &SMatrix::identity()) + self.process
     }
@@ -86,7 +86,7 @@ pub(crate) fn run(seed: u64, n_steps: usize, shared: Shared) -> Run {
     let mut steps = Vec::new();
     let mut truth = Vec::new();
     for _ in 0..n_steps {
-        // Kept near 1 in norm, so that a long run neither grows nor dies.
+        // With a norm near 1, so that the state stays bounded in a long run.
         let transition = SMatrix::identity() * 0.9 + random.matrix::<N, N>() * 0.1;
         let feed = match shared {
             Shared::Yes => random.matrix(),

@@ -1,4 +1,4 @@
-//! What is refused, and that a refusal changes nothing.
+//! Refusals, which change nothing.
 
 use nalgebra::{Matrix1, Matrix2, RowVector2, Vector1, Vector2};
 use proptest::prelude::*;
@@ -71,7 +71,7 @@ fn overflow_is_refused() {
     let mut other = filter();
     other.state = Vector2::new(-f64::MAX, 0.0);
     assert_refused(other, &far, UpdateError::Overflow);
-    // The state says nothing of it, and its distance in sigmas is no number.
+    // The state does not affect it, and its distance in sigmas overflows.
     let mut sharp = measurement();
     sharp.matrix = RowVector2::zeros();
     sharp.noise[0] = f64::MIN_POSITIVE;
@@ -81,7 +81,7 @@ fn overflow_is_refused() {
 
 #[test]
 fn a_cross_covariance_that_cannot_be_is_refused() {
-    // Correlated beyond 1 with the noise, the first state would know more than everything.
+    // With a correlation with the noise beyond 1, the variance of the first state would be negative.
     let measurement = Measurement::new(Vector1::new(0.0), RowVector2::zeros(), Matrix1::new(1.0))
         .correlated_with_state_error(Vector2::new(3.0, 0.0));
     let why = UpdateError::NegativeVariance { index: 0, variance: -5.0 };
@@ -96,22 +96,22 @@ fn a_measurement_finer_than_the_covariance_is_refused() {
     let err = wide.update(&measurement()).unwrap_err();
     assert!(matches!(err, UpdateError::Unresolved { row: 0, ratio } if ratio > 1e14), "{err}");
     assert_eq!(wide, before);
-    // One that sees a single state resolves it, however wide it was.
+    // A measurement of a single state is resolved, however large its variance was.
     let mut direct = measurement();
     direct.matrix = RowVector2::new(1.0, 0.0);
     wide.update(&direct).unwrap();
     rins_testing::assert_close!(wide.covariance[(0, 0)], 0.25, 1e-12);
 }
 
-/// The sum of two states of such a variance, each, read with unit noise: half of the variance of each is left, so that
-/// the states taken apart still make it up to the noise that many times.
+/// The sum of two states of this variance each, measured with unit noise: half of each variance remains, so that the variance
+/// of the sum with correlations neglected is still `variance` times the noise.
 fn sum_of_wide_states(variance: f64) -> (Filter<2>, Measurement<1, 2>) {
     let filter =
         Filter { state: Vector2::zeros(), covariance: Matrix2::from_diagonal_element(variance) };
     (filter, Measurement::new(Vector1::new(1.0), RowVector2::new(1.0, 1.0), Matrix1::new(1.0)))
 }
 
-/// A matrix may lose ten digits of sixteen, factors eighteen; beyond that a measurement is refused, and says how far.
+/// A matrix may lose ten digits of sixteen, factors eighteen; beyond that a measurement is refused, with the ratio.
 #[test]
 fn a_measurement_is_resolved_as_far_as_its_form_reaches() {
     type Update = fn(f64) -> Result<(), UpdateError>;
@@ -134,7 +134,7 @@ fn a_measurement_is_resolved_as_far_as_its_form_reaches() {
     }
 }
 
-/// A reading without noise: the state that it shows is known from then on, in either form.
+/// A measurement without noise: the measured state is known exactly from then on, in both forms.
 #[test]
 fn a_perfect_reading_makes_its_state_known() {
     let prior = Matrix2::new(4.0, 0.0, 0.0, 2.0);
@@ -148,7 +148,7 @@ fn a_perfect_reading_makes_its_state_known() {
     assert_eq!((factorised.state, factorised.factors().covariance()), known);
 }
 
-/// Of the noise the lower triangle is read, so that a caller may leave the other unset.
+/// Only the lower triangle of the noise is used, so that a caller may leave the other unset.
 #[test]
 fn noise_is_read_from_its_lower_triangle() {
     let whole = Matrix2::new(2.0, 0.5, 0.5, 1.0);
@@ -161,11 +161,11 @@ fn noise_is_read_from_its_lower_triangle() {
         (filter, innovation.whitened)
     };
     assert_eq!(update(half), update(whole));
-    // A half that mattered would be seen.
+    // A different element below the diagonal would be detected.
     assert_ne!(update(Matrix2::new(2.0, 0.0, 0.0, 1.0)), update(whole));
 }
 
-/// A covariance is symmetric to the last bit or none: what is one bit off was made by a step that is wrong.
+/// A covariance is symmetric to the last bit or invalid: a difference of one bit is due to a wrong step.
 #[test]
 fn a_covariance_is_symmetric_to_the_last_bit() {
     let off = 1.0_f64.next_up() - 1.0;

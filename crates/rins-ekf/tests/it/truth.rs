@@ -1,4 +1,4 @@
-//! The filter and the smoother against least squares over the whole run at once.
+//! The filter and the smoother compared with least squares over the whole run.
 
 use nalgebra::{Cholesky, DMatrix, DVector, SMatrix};
 use proptest::prelude::*;
@@ -6,13 +6,13 @@ use rins_ekf::{Filter, Smoother, Step as Recorded};
 
 use crate::random::{M, N, Run, SHARED, Shared, run};
 
-/// What the normal equations lose: their condition number, some 1e5 here, times rounding.
+/// The rounding error of the normal equations: their condition number, about 1e5 here, times the machine precision.
 const BATCH_ROUNDING: f64 = 1e-10;
 
 /// All states and shared noises of a run, and the inverse of their normal matrix.
 ///
-/// Unknowns are the states at every time, and then the shared noises; every piece of knowledge is a
-/// row of residuals weighted by the inverse root of its covariance.
+/// The unknowns are the states at every time, then the shared noises; every measurement, transition or prior is a row of
+/// residuals weighted by the inverse root of its covariance.
 struct Batch {
     rows: Vec<(DMatrix<f64>, DVector<f64>)>,
     n_unknowns: usize,
@@ -103,7 +103,7 @@ fn filtered(run: &Run) -> Filter<N> {
     filter
 }
 
-/// The smoother's record, and whether the filter was reset to zero after each step.
+/// Whether the filter is reset to zero after each step.
 #[derive(Clone, Copy, PartialEq)]
 enum Reset {
     Never,
@@ -113,7 +113,7 @@ enum Reset {
 fn recorded(run: &Run, reset: Reset) -> (Smoother<N>, Vec<nalgebra::SVector<f64, N>>) {
     let mut filter = run.start.clone();
     let mut smoother = Smoother::new(filter.clone());
-    // What an error-state filter is about: corrected, reset, and carried along outside the filter.
+    // The reference of an error-state filter: corrected, reset, and propagated outside the filter.
     let mut about = nalgebra::SVector::<f64, N>::zeros();
     let mut corrected = Vec::new();
     for step in &run.steps {
@@ -220,7 +220,7 @@ fn agrees_with_a_dense_filter_over_18000_steps() {
         let c = dynamic(&measurement.cross.unwrap());
         x = &transition * x;
         p = &transition * p * transition.transpose() + dynamic(&step.total_process());
-        // The plain form, from the conditional mean of two correlated Gaussians.
+        // The plain form, from the conditional mean of two correlated Gaussian variables.
         let with_innovation = &p * h.transpose() + &c;
         let s = &h * &with_innovation + c.transpose() * h.transpose() + dynamic(&measurement.noise);
         let gain = &with_innovation * s.try_inverse().unwrap();

@@ -1,23 +1,23 @@
-//! What no schedule can tell apart, since it is a matter of definition.
+//! Gauges: combinations that no schedule makes observable, because they are a matter of definition.
 
 use rins_terms::{Term, catalogue};
 
-/// Parameters of which a combination is a choice of axes, of units or of an origin.
+/// A set of parameters of which one combination is a choice of axes, units or origin.
 #[derive(Clone, Copy, Debug)]
 pub struct Gauge {
-    /// What is chosen, such as "the zero of the table angle".
+    /// The choice, such as "the zero of the table angle".
     pub name: &'static str,
-    /// Why no schedule tells it, and what to do.
+    /// The reason why it is unobservable, and the remedy.
     pub why: &'static str,
-    /// Its parameters, each as its term and its name there: of each of these one at least must be free, or else the choice is
-    /// made.
+    /// The parameters of the combination, each with its term and its name there. At least one of each alternative must be
+    /// free; otherwise the choice is made.
     pub members: &'static [&'static [(&'static Term, &'static str)]],
 }
 
 const MOUNTING: &str = "a common tilt of gyros and accelerometers equals a tilt of the IMU; fix the \
                         mounting, or the misalignments xz and yz of one triad";
 
-/// All that are known, the smallest first.
+/// All known gauges, the smallest first.
 pub static GAUGES: &[Gauge] = &[
     Gauge {
         name: "the zero of the table angle",
@@ -46,7 +46,7 @@ pub static GAUGES: &[Gauge] = &[
     },
     Gauge {
         name: "the body axes about the spin axis",
-        why: "a common rotation of gyros and accelerometers about it equals other body axes; fix \
+        why: "a common rotation of both triads about it is only another choice of body axes; fix \
               accel.misalignment.xy or yx",
         members: &[
             &[(&catalogue::GYRO_MISALIGNMENT, "xy")],
@@ -88,25 +88,25 @@ impl PartialEq for Gauge {
 
 impl Eq for Gauge {}
 
-/// Whether this is the id of a member.
+/// Whether `id` is that of this member.
 fn is_id_of(id: &str, (term, name): (&Term, &str)) -> bool {
     id.strip_prefix(term.id).and_then(|rest| rest.strip_prefix('.')) == Some(name)
 }
 
 impl Gauge {
-    /// Whether a parameter takes part.
+    /// Whether a parameter is a member.
     pub fn holds(&self, id: &str) -> bool {
         self.members.iter().any(|member| member.iter().any(|one| is_id_of(id, *one)))
     }
 
-    /// Whether the choice is left open where these parameters are free.
+    /// Whether the choice is open if these parameters are free.
     pub fn is_open(&self, free: &[&str]) -> bool {
         let is_free = |one: &(&'static Term, &str)| free.iter().any(|id| is_id_of(id, *one));
         self.members.iter().all(|member| member.iter().any(is_free))
     }
 }
 
-/// The gauge that all these parameters belong to, two of them at least.
+/// The gauge that contains all these parameters, of which there are at least two.
 pub fn gauge_of(ids: &[&str]) -> Option<&'static Gauge> {
     GAUGES.iter().find(|gauge| ids.len() > 1 && ids.iter().all(|id| gauge.holds(id)))
 }

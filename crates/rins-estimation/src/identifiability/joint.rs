@@ -1,4 +1,4 @@
-//! What several runs of one IMU say together.
+//! The joint evidence of several runs of one IMU.
 
 use nalgebra::DMatrix;
 use rins_imu::ImuSpec;
@@ -17,22 +17,22 @@ use crate::run::Run;
 pub struct Joint {
     /// The unknowns: those of the IMU first, then those of each run.
     pub unknowns: Vec<Unknown>,
-    /// Of each unknown, the term of the model that it is of, and which of the term's parameters it is.
+    /// For each unknown, its term in the model and its place within the term.
     pub parameters: Vec<(usize, usize)>,
-    /// What the runs say.
+    /// The evidence of all runs.
     pub evidence: Evidence,
 }
 
-/// Why runs say nothing.
+/// The reason why the evidence of a run cannot be calculated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JointError {
-    /// The filter broke off.
+    /// The filter failed.
     #[error("run {run}: {source}")]
     Indefinite {
-        /// Which run, from one.
+        /// The number of the run, from one.
         run: usize,
-        /// Where.
+        /// The epoch.
         source: Indefinite,
     },
 }
@@ -44,19 +44,19 @@ impl Joint {
         scaled(&self.evidence.information, &sigmas)
     }
 
-    /// What they tell.
+    /// The observability of the unknowns.
     pub fn identifiability(&self) -> Identifiability {
         Identifiability::of(&self.evidence.information, self.unknowns.clone())
     }
 }
 
-/// What `runs` of one IMU say of what `model` estimates, linear about the values that it has.
+/// The joint evidence of `runs` of one IMU on the free parameters of `model`, linearized at the values of the model.
 ///
-/// What belongs to the sensors is shared; what belongs to a run is each run's own. The model, and all ids, are along the
-/// axes of the first run.
+/// Parameters of the sensors are shared; parameters of a run belong to that run. The model, and all ids, are along the axes
+/// of the first run.
 ///
 /// # Errors
-/// [`JointError`] if the noise of a run makes no covariance.
+/// [`JointError`] if an innovation covariance of a run is not positive definite.
 pub fn joint(
     runs: &[Run],
     model: &Model,

@@ -1,6 +1,6 @@
-//! What data can tell of parameters: rank, null directions, gauges, and what tells two effects apart.
+//! Observability of parameters: rank, null space, gauges, and the separability of two effects.
 //!
-//! All follows from the Fisher information of the parameters, seen in units of their priors' sigmas.
+//! Everything follows from the Fisher information of the parameters in units of their priors' sigmas.
 
 mod gauge;
 mod joint;
@@ -18,69 +18,69 @@ pub use joint::{Joint, JointError, joint};
 pub use rank::{EXACT, Rank, Unobservable};
 pub use separation::{Direction, Separation, distance, separation};
 
-/// A parameter whose value is sought.
+/// A parameter to be estimated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
     /// Its full id, such as `gyro.misalignment.xz`.
     pub id: String,
-    /// Its id in its run's model, whose z is the axis of rotation, whatever axes `id` is along.
+    /// Its id in the model of its run, whose z is the spin axis, whatever axes `id` refers to.
     pub model_id: String,
-    /// The run that it belongs to, counted from zero; none if to the IMU, or if there is one run only.
+    /// The run that it belongs to, counted from zero; `None` if it belongs to the IMU, or if there is only one run.
     pub run: Option<usize>,
-    /// The unit in which it is shown.
+    /// The unit in which it is displayed.
     pub unit: Unit,
-    /// The 1σ to which it is known beforehand, in SI units.
+    /// Its prior 1σ, in SI units.
     pub sigma: f64,
 }
 
-/// A parameter that stands in a combination with another one.
+/// A parameter in a combination with another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alias {
-    /// Which unknown.
+    /// The index of the unknown.
     pub unknown: usize,
-    /// How much of the combination's first parameter one of it amounts to, in SI units.
+    /// The coefficient of this parameter relative to the first one of the combination, in SI units.
     pub coefficient: f64,
-    /// Whether no data of this schedule, however good, would tell it from the others.
+    /// Whether it is indistinguishable from the others under this schedule for any amount of noise.
     pub exactly: bool,
 }
 
-/// What data tell of a parameter.
+/// The kind of observability of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Observable {
-    /// The parameter itself.
+    /// The parameter itself is observable.
     Alone,
-    /// Only the sum of the parameter and of its aliases, each times its coefficient.
+    /// Only the sum of the parameter and its aliases, each times its coefficient, is observable.
     Combination,
-    /// Nothing that is not part of what these unknowns stand for; of the sums that it is in, that with its aliases is
-    /// told best.
+    /// The parameter is observable only as a part of the estimates of these unknowns. Of the sums that contain it, that with
+    /// its aliases is observable best.
     Part {
         /// The unknowns.
         of: Vec<usize>,
-        /// Whether that holds exactly.
+        /// Whether its signature is exactly a sum of theirs.
         exactly: bool,
     },
-    /// Less than was known beforehand, even if all else were known.
+    /// Unobservable: the data hold less information than the prior even if everything else is known.
     Nothing,
 }
 
-/// One unknown in the light of the data.
+/// The observability of one unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterObservability {
-    /// What of it the data tell.
+    /// The kind of observability.
     pub shown: Observable,
-    /// What stands beside it in the sum that is told; none if it is told alone, or not at all.
+    /// The other parameters of the observable sum; empty if the parameter is observable alone, or not at all.
     pub aliases: Vec<Alias>,
-    /// Its 1σ, or that of the sum with its aliases, by the data alone, in SI units; infinite if they tell nothing.
+    /// The 1σ of the parameter, or of the sum with its aliases, from the data alone, in SI units; infinite if unobservable.
     pub data_sigma: f64,
-    /// The parameter's own 1σ when what is known beforehand is used too.
+    /// The posterior 1σ of the parameter itself.
     pub sigma: f64,
-    /// The gauge that it takes part in and that makes it a part of others under every schedule, if one does.
+    /// The gauge that makes the parameter indistinguishable from others under every schedule, if there is one.
     pub gauge: Option<&'static Gauge>,
-    /// Whether the data tell the parameter itself, and twice better at least than it was known beforehand.
+    /// Whether the parameter itself is observable: the data reduce its prior uncertainty by at least a factor of two.
     pub identifiable: bool,
 }
 
-/// What data tell of a list of unknowns.
+/// The observability of a list of unknowns.
 ///
 /// ```
 /// use nalgebra::DMatrix;
@@ -91,7 +91,7 @@ pub struct ParameterObservability {
 /// let information = DMatrix::from_row_slice(2, 2, &[100.0, 200.0, 200.0, 400.0]);
 /// let identifiability = Identifiability::of(&information, vec![unknown("a"), unknown("b")]);
 /// assert_eq!(identifiability.rank.rank(), 1);
-/// // They tell b + a/2 to 0.05, and neither alone.
+/// // b + a/2 is observable with 0.05 (1σ), and neither of them alone.
 /// assert_eq!(identifiability.parameters[1].shown, Observable::Combination);
 /// assert!((identifiability.parameters[1].aliases[0].coefficient - 0.5).abs() < 1e-12);
 /// assert!((identifiability.parameters[1].data_sigma - 0.05).abs() < 1e-12);
@@ -102,27 +102,27 @@ pub struct ParameterObservability {
 pub struct Identifiability {
     /// The unknowns.
     pub unknowns: Vec<Unknown>,
-    /// What is told of each.
+    /// The observability of each unknown.
     pub parameters: Vec<ParameterObservability>,
-    /// How many combinations the data tell, and which unknowns stand for them.
+    /// The rank of the information and the unknowns that represent it.
     pub rank: Rank,
 }
 
-/// The part of the largest of several shifts below which one is not mentioned.
+/// The fraction of the largest of several coefficients below which a coefficient is omitted.
 const SLIGHT: f64 = 0.1;
 
-/// How many times better a sum must be told than the parameter itself, what was known beforehand being used, for only
-/// the sum to count as identifiability.
+/// The factor by which the uncertainty of a sum must be smaller than the posterior uncertainty of the parameter itself, for
+/// only the sum to count as observable.
 const DOMINANT: f64 = 5.0;
 
-/// The part of what was known beforehand below which data must bring a parameter's sigma, for it to count as identifiability.
+/// The fraction of the prior sigma below which the posterior sigma must be, for the parameter to count as observable.
 const SEEN: f64 = 0.5;
 
 impl Identifiability {
-    /// What data with this Fisher information, in SI units, tell of `unknowns`.
+    /// The observability of `unknowns` under data with this Fisher information in SI units.
     ///
     /// # Panics
-    /// If the information is of fewer parameters.
+    /// If the information has fewer parameters.
     pub fn of(information: &DMatrix<f64>, unknowns: Vec<Unknown>) -> Self {
         let sigmas: Vec<f64> = unknowns.iter().map(|unknown| unknown.sigma).collect();
         let scaled = scaled(information, &sigmas);
@@ -145,12 +145,12 @@ impl Identifiability {
         identifiability
     }
 
-    /// The place of the unknown of this id, of the IMU or of the first run.
+    /// The place of the unknown of this id, of the IMU or of the first run that has it.
     pub fn find(&self, id: &str) -> Option<usize> {
         self.unknowns.iter().position(|unknown| unknown.id == id)
     }
 
-    /// Of an unknown that is kept: with what it is identifiability.
+    /// Sets the observability of a kept unknown: alone, or in a combination.
     fn see_kept(&mut self, place: usize) {
         let (kept, sigma) = (self.rank.kept[place], self.rank.sigmas[place]);
         let shares = self.rank.coefficients.row(place);
@@ -159,8 +159,8 @@ impl Identifiability {
         let mut beside: Vec<usize> =
             if own > DOMINANT * sigma { (0..shares.len()).collect() } else { Vec::new() };
         beside.sort_by(|&a, &b| shares[b].abs().total_cmp(&shares[a].abs()));
-        // What is lost may be anything within its prior: the least of it is left out, as long as that is less than
-        // what the data leave open.
+        // The lost unknowns may have any values within their priors. The smallest contributions are omitted as long as they
+        // are below the uncertainty from the data.
         let mut left_out = 0.0;
         while let Some(&least) = beside.last() {
             left_out = f64::hypot(left_out, shares[least]);
@@ -184,7 +184,7 @@ impl Identifiability {
         seen.aliases = aliases;
     }
 
-    /// Names what no schedule would tell, of what the data show at all.
+    /// Sets the gauges of the unknowns that are visible in the data.
     fn name_gauges(&mut self) {
         let shown = self
             .unknowns
@@ -201,20 +201,20 @@ impl Identifiability {
         }
     }
 
-    /// Of an unknown that is lost: what stands for it.
+    /// Sets the observability of a lost unknown: the unknowns that represent it.
     fn see_lost(&mut self, place: usize) {
         let Unobservable { unknown, exactly, visible } = self.rank.lost[place];
         if !visible {
             return;
         }
-        // By how many of its sigmas each of those kept is shifted.
+        // The shift of each kept unknown, in its sigmas.
         let shifts: DVector<f64> = DVector::from_iterator(
             self.rank.kept.len(),
             self.rank.coefficients.column(place).iter().zip(&self.rank.sigmas).map(|(c, s)| c / s),
         );
         let best = shifts.icamax();
         let largest = shifts[best].abs();
-        // A sum that is told hardly better than this part of it was known tells nothing of it.
+        // A sum whose uncertainty is comparable with the prior sigma holds no information on the unknown.
         if largest * SEEN < 1.0 {
             return;
         }
@@ -222,7 +222,7 @@ impl Identifiability {
             .filter(|&row| shifts[row].abs() > SLIGHT * largest)
             .map(|row| self.rank.kept[row])
             .collect();
-        // The sum in which it is told best, put so that it counts once itself.
+        // The sum in which it is observable best, normalized to its own coefficient.
         let kept = self.rank.kept[best];
         let own = self.rank.coefficients[(best, place)] * self.unknowns[kept].sigma
             / self.unknowns[unknown].sigma;
@@ -237,9 +237,9 @@ impl Identifiability {
         seen.shown = Observable::Part { of, exactly };
     }
 
-    /// Of unknowns that are not observable by themselves: the sums of several that are.
+    /// Sets the observable sums of several unknowns that are unobservable themselves.
     ///
-    /// `posterior` is the covariance with the priors, in units of their sigmas.
+    /// `posterior` is the posterior covariance in units of the priors' sigmas.
     fn see_together(&mut self, posterior: &DMatrix<f64>) {
         loop {
             let left = self.unobservable();
@@ -259,11 +259,11 @@ impl Identifiability {
             let largest = shares.amax();
             let members: Vec<usize> =
                 (0..left.len()).filter(|&row| shares[row].abs() > SLIGHT * largest).collect();
-            // An unknown that is not observable has no such variance alone.
+            // An unobservable unknown alone has no such small variance.
             if members.len() < 2 {
                 return;
             }
-            // Known beforehand to 1 in these units: the data add the rest.
+            // The prior variance is one in these units; the information of the data is the remainder.
             let data_sigma = (variance / (1.0 - variance)).max(0.0).sqrt();
             let leading = left[shares.icamax()];
             for &row in &members {
@@ -298,9 +298,9 @@ fn scaled(information: &DMatrix<f64>, sigmas: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// The covariance of the parameters, data and priors together, in units of the priors' sigmas.
+/// The posterior covariance of the parameters, in units of the priors' sigmas.
 fn with_prior(scaled: &DMatrix<f64>) -> DMatrix<f64> {
     let identity = DMatrix::identity(scaled.nrows(), scaled.ncols());
-    // Where rounding made it indefinite nothing is claimed.
+    // If it is indefinite by rounding, no information is assumed.
     Cholesky::new(scaled + &identity).map_or(identity, |factor| factor.inverse())
 }

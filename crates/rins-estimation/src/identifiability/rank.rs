@@ -1,46 +1,46 @@
-//! How many combinations of unknowns data tell, and which unknowns are lost in them.
+//! The rank of the information, and the unknowns that are lost in combinations.
 
 use nalgebra::{Cholesky, DMatrix};
 
-/// The part of an unknown's information that must be its own for it not to be the same as others: the squared sine of
-/// the angle between its signature and theirs.
+/// The smallest fraction of an unknown's information that is not shared with others, for it to count as distinguishable: the
+/// squared sine of the angle between its signature and theirs.
 ///
-/// Taking a vector that turns with the table as constant over a sample leaves some 1e-12 of it, rounding less; the
-/// closest pair that physics tells apart at all, the encoder's delay and the gyros', has 1e-10.
+/// The approximation that a vector which rotates with the table is constant over a sample causes about 1e-12, rounding less;
+/// the most similar pair that is distinguishable physically, the latencies of encoder and gyros, has 1e-10.
 pub const EXACT: f64 = 1e-11;
 
-/// Information, in units of the prior, below which the data tell less than was known beforehand.
+/// The information, in units of the prior, below which the data add less than the prior.
 const KNOWN: f64 = 1.0;
 
-/// A choice of unknowns that stand for all combinations that data tell.
+/// A choice of unknowns that represent all observable combinations.
 ///
-/// Those that are best seen are kept first, as long as the data tell more of them than was known beforehand. What
-/// the others do to the data is, but for something fainter, the sum of what those kept do, each times
-/// a coefficient. Numbers are in units of the priors' sigmas.
+/// Unknowns are kept in the order of their remaining information, as long as that exceeds the information of the prior. The
+/// signature of each other unknown is, apart from a weaker remainder, a sum of the signatures of those kept, each times a
+/// coefficient. Numbers are in units of the priors' sigmas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rank {
-    /// The unknowns that are kept, the best seen first.
+    /// The kept unknowns in the order of decreasing information.
     pub kept: Vec<usize>,
     /// The others.
     pub lost: Vec<Unobservable>,
-    /// Of each that is kept (row) how much one of each that is lost (column) amounts to.
+    /// The coefficient of each lost unknown (column) in the estimate of each kept one (row).
     pub coefficients: DMatrix<f64>,
-    /// The 1σ of each that is kept, with all that is lost at zero.
+    /// The 1σ of each kept unknown with all lost ones at zero.
     pub sigmas: Vec<f64>,
-    /// The least part of its information that one of those told has for itself, however faintly.
+    /// The smallest unshared fraction of information among the unknowns that are distinguishable, however weakly.
     pub least_told: f64,
-    /// The largest such part of those that are not told: far below the former if the rank is clear.
+    /// The largest unshared fraction among the indistinguishable ones: far below `least_told` if the rank is clear.
     pub most_null: f64,
 }
 
-/// An unknown that those kept stand for.
+/// An unknown that is represented by those kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unobservable {
-    /// Which.
+    /// The index of the unknown.
     pub unknown: usize,
-    /// Whether what it does is the sum of what others do exactly, and not only to within what the data show.
+    /// Whether its signature is exactly a sum of other signatures, and not only within the uncertainty of the data.
     pub exactly: bool,
-    /// Whether the data, all else known, would tell more of it than was known beforehand.
+    /// Whether the data would hold more information on it than its prior if everything else were known.
     pub visible: bool,
 }
 
@@ -75,15 +75,15 @@ impl Rank {
         Self { kept, lost, coefficients, sigmas, least_told: elimination.least, most_null }
     }
 
-    /// How many combinations the data tell, however faintly.
+    /// The number of observable combinations, however weakly.
     pub fn rank(&self) -> usize {
         self.kept.len() + self.lost.iter().filter(|lost| !lost.exactly).count()
     }
 }
 
-/// The kept block's inverse times the block of what is lost, and the square roots of the inverse's diagonal.
+/// The inverse of the kept block times the lost block, and the square roots of the inverse's diagonal.
 fn solved(kept: &DMatrix<f64>, lost: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
-    // Signatures of unit length: their sizes are apart by orders of magnitude.
+    // Signatures are normalized: their sizes differ by orders of magnitude.
     let size: Vec<f64> = kept.diagonal().iter().map(|x| x.sqrt()).collect();
     let unit = DMatrix::from_fn(size.len(), size.len(), |row, column| {
         kept[(row, column)] / (size[row] * size[column])
@@ -100,9 +100,9 @@ fn solved(kept: &DMatrix<f64>, lost: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) 
     (coefficients, sigmas)
 }
 
-/// Cholesky's elimination that takes what is best seen first.
+/// Cholesky elimination with pivoting by the remaining information.
 struct Elimination {
-    /// The information that is left, and that which there was.
+    /// The remaining information, and the original diagonal.
     left: DMatrix<f64>,
     whole: Vec<f64>,
     kept: Vec<usize>,
@@ -121,12 +121,12 @@ impl Elimination {
         }
     }
 
-    /// The part of an unknown's information that those kept have not.
+    /// The fraction of an unknown's information that is not shared with those kept.
     fn own(&self, place: usize) -> f64 {
         if self.whole[place] > 0.0 { self.left[(place, place)] / self.whole[place] } else { 0.0 }
     }
 
-    /// The best seen of those that have at least so much information left.
+    /// The unknown with the most information left, of those that have at least this amount.
     fn next(&self, least: f64) -> Option<usize> {
         (0..self.whole.len())
             .filter(|&place| {

@@ -74,20 +74,20 @@ pub fn separation(information: &DMatrix<f64>, first: &[usize], second: &[usize])
     Separation { directions, absorbed }
 }
 
-/// By how many sigmas an effect of the unknowns `first`, of the size `along` in units of the priors, is told from any
-/// amount of `second` and of all other unknowns of `information`.
+/// The significance in sigmas of an effect of the unknowns `first`, of the size `along` in units of the priors, if any amount
+/// of `second` and of all other unknowns of `information` may be present.
 pub fn distance(information: &DMatrix<f64>, first: &[usize], along: &DVector<f64>) -> f64 {
     let left = without_nuisances(information, first);
     (along.transpose() * left * along)[(0, 0)].max(0.0).sqrt()
 }
 
-/// The information on `wanted`, all others estimated along.
+/// The marginal information on `wanted`; all others are estimated too.
 fn without_nuisances(information: &DMatrix<f64>, wanted: &[usize]) -> DMatrix<f64> {
     let mut left = information.clone();
     let mut nuisances: Vec<usize> =
         (0..information.nrows()).filter(|place| !wanted.contains(place)).collect();
     let whole = information.diagonal();
-    // The one with the largest part of its own is taken out first.
+    // The parameter with the largest unshared fraction is eliminated first.
     loop {
         let own = |place: &usize| left[(*place, *place)] / whole[*place];
         let told = |place: &&usize| whole[**place] > 0.0 && own(place) > super::EXACT;
@@ -104,13 +104,13 @@ fn without_nuisances(information: &DMatrix<f64>, wanted: &[usize]) -> DMatrix<f6
     })
 }
 
-/// The directions of an effect that are told, each of a size that is seen by one sigma.
+/// The distinguishable directions of an effect, each with a significance of one sigma.
 struct Whitener {
     matrix: DMatrix<f64>,
 }
 
 impl Whitener {
-    /// Of the information that is left of an effect's parameters, of which there was `whole`.
+    /// Whitens the remaining information on the parameters of an effect; `whole` is the original diagonal.
     fn of(left: &DMatrix<f64>, whole: &[f64]) -> Self {
         let size = DVector::from_iterator(
             whole.len(),

@@ -1,4 +1,4 @@
-//! What schedules tell of a tilted table's IMU.
+//! Observability of the errors of an IMU on a tilted table under several schedules.
 
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
 use rins_frames::{EulerAngles, Site};
@@ -18,7 +18,7 @@ const IMU: ImuSpec = ImuSpec {
     accel: TriadSpec::white(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC),
 };
 
-/// A run at these rates [deg/s], each for so long [s], on an axis tilted by so much, turned to an azimuth [deg].
+/// A run with these rates [deg/s] and durations [s] on an axis with this tilt and azimuth [deg].
 fn run(rates: &[(f64, f64)], tilt: f64, azimuth: f64) -> Run {
     let site = Site { latitude: 45.0 * DEG, longitude: 9.0 * DEG, height: 100.0 };
     let station = Station::with_normal_gravity(site);
@@ -44,7 +44,7 @@ fn model(ids: &[&str]) -> Model {
     Model { terms: ids.iter().map(term).collect() }
 }
 
-/// What the errors of the spin axis, biases, attitude and mounting are told apart by.
+/// The observability of the spin axis errors, biases, attitude and mounting.
 fn of_baseline(rates: &[(f64, f64)]) -> Identifiability {
     let baseline = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
         .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
@@ -57,7 +57,7 @@ fn of_baseline(rates: &[(f64, f64)]) -> Identifiability {
 fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
     let identifiability = of_baseline(&[(10.0, 360.0)]);
     assert_eq!(identifiability.rank.rank() + 3, identifiability.unknowns.len());
-    // A clear case: rounding is far below what is told faintly.
+    // A clear case: rounding is far below the weakest observable combination.
     assert!(
         identifiability.rank.most_null < 1e-4 * identifiability.rank.least_told,
         "{:?}",
@@ -91,7 +91,7 @@ fn one_rate_tells_three_combinations_less_than_there_are_unknowns() {
             identifiability.parameters[lost].shown,
             Observable::Part { of: vec![kept], exactly: true }
         );
-        // The other is told in the same sum, as many times better as it counts there.
+        // The other unknown is observable in the same sum, with an uncertainty scaled by its coefficient.
         assert_eq!(identifiability.parameters[lost].aliases[0].unknown, kept);
         assert_close!(identifiability.parameters[lost].aliases[0].coefficient / rate, 1.0, 1e-6);
         assert_close!(
@@ -128,14 +128,14 @@ fn a_reversal_rates_or_dwells_tell_all_of_the_baseline() {
     }
 }
 
-/// White noise over 180 s each way leaves the mean of both, and half of their difference.
+/// White noise over 180 s in each direction determines the uncertainty of the mean of both, and of half of their difference.
 #[test]
 fn predicted_sigmas_are_those_of_means_of_white_noise() {
     let identifiability = of_baseline(&[(10.0, 180.0), (-10.0, 180.0)]);
     let mean = 0.02 * DEG_PER_HOUR / 360.0_f64.sqrt();
     let sigma = |id: &str| identifiability.parameters[identifiability.find(id).unwrap()].data_sigma;
     assert_close!(sigma("gyro.bias.x") / mean, 1.0, 0.02);
-    // An encoder of 1 arcsec blurs the ends of a run of gyro z a little.
+    // An encoder of 1 arcsec adds a little uncertainty at the ends of a run of gyro z.
     assert_close!(sigma("gyro.scale.z") * 10.0 * DEG_PER_SECOND / mean, 1.04, 0.04);
 }
 
@@ -156,8 +156,8 @@ fn gauges_stay_lost_under_a_rich_schedule() {
             .filter(|seen| seen.gauge.is_some_and(|gauge| gauge.name == name))
             .count()
     };
-    // Told or not is clear: what is not told is so to a millionth, what the Earth does to attitudes within an epoch
-    // included.
+    // The rank is clear: the unshared fractions of unobservable unknowns are below a millionth, including the effect of the
+    // Earth's rate on attitudes within an epoch.
     assert!(
         identifiability.rank.most_null < 5e-12 && identifiability.rank.least_told > 1e-9,
         "{:?}",
@@ -168,7 +168,7 @@ fn gauges_stay_lost_under_a_rich_schedule() {
     assert_eq!(named("the body axes about the spin axis"), 1);
     assert_eq!(named("the mounting of the IMU on the table about x"), 1);
     assert_eq!(named("the mounting of the IMU on the table about y"), 1);
-    // What belongs to the sensors is told, but for these.
+    // The other parameters of the sensors are observable.
     let told_well = ["gyro.scale.z", "gyro.bias.x"];
     assert!(
         told_well
@@ -187,7 +187,7 @@ fn members_of_gauges_are_parameters_of_their_terms() {
     assert!(!GAUGES.iter().any(|gauge| gauge.holds("gyro.scale.z") || gauge.holds("mounting")));
 }
 
-/// Each gauge is a direction among its own parameters of which a rich schedule tells nothing.
+/// Each gauge is a direction among its own parameters that is unobservable under a rich schedule.
 #[test]
 fn gauges_are_null_directions() {
     let rates = [(0.0, 10.0), (10.0, 40.0), (-10.0, 40.0), (20.0, 20.0)];
@@ -206,14 +206,14 @@ fn gauges_are_null_directions() {
         let size = information.diagonal().map(f64::sqrt);
         let unit = information.component_div(&(&size * size.transpose()));
         let least = SymmetricEigen::new(unit).eigenvalues.min();
-        // What a delay does is a derivative, and that of a rate is taken by differences.
+        // The effect of a latency is a derivative, and that of a rate is calculated by differences.
         let within = if gauge.name == "the origin of time" { 1e-7 } else { EXACT };
         assert!(least < within, "{}: {least}", gauge.name);
     }
 }
 
-/// The information of a schedule on the baseline, gyro z's g-sensitivity across the axis and the encoder's
-/// eccentricity, in units of the priors, and where the latter two stand.
+/// The information of a schedule on the baseline, the g-sensitivity of gyro z perpendicular to the axis and the eccentricity
+/// of the encoder, in units of the priors, and the places of the latter two.
 fn of_one_per_turn(rates: &[(f64, f64)]) -> (DMatrix<f64>, Vec<usize>, Vec<usize>) {
     let model = model(&["gyro.bias", "accel.bias", "axis.attitude", "mounting"])
         .with(TermInstance::new(&catalogue::GYRO_SCALE).estimating(&["z"]))
@@ -227,18 +227,18 @@ fn of_one_per_turn(rates: &[(f64, f64)]) -> (DMatrix<f64>, Vec<usize>, Vec<usize
 #[test]
 fn two_harmonics_that_differ_in_sign_separate_by_the_closed_form() {
     let (information, first, second) = of_one_per_turn(&[(10.0, 360.0)]);
-    // By the accelerometers alone, to which the encoder's error is one of phase.
+    // Only the accelerometers distinguish them, for which the error of the encoder is one of phase.
     let constant = separation(&information, &first, &second).kappa();
     assert!((80.0..150.0).contains(&constant), "{constant}");
     for (forward, back) in [(5.0, 5.0), (9.0, 3.0)] {
         let turns = [(10.0, 36.0 * forward), (-10.0, 36.0 * back)];
         let (information, first, second) = of_one_per_turn(&turns);
-        // s √(4 Nf Nr / (Nf + Nr)) of a signal that is seen by s √(Nf + Nr).
+        // s √(4 Nf Nr / (Nf + Nr)) for a signal with a significance of s √(Nf + Nr).
         let expected = (forward + back) / (2.0 * f64::sqrt(forward * back));
         let identifiability = separation(&information, &first, &second);
         assert_eq!((identifiability.directions.len(), identifiability.absorbed), (2, [0, 0]));
         for direction in &identifiability.directions {
-            // Bias and scale take a little of three turns.
+            // Bias and scale error absorb a little of three revolutions.
             assert_close!(direction.kappa, expected, 0.03);
             let apart = distance(&information, &first, &direction.along);
             assert_close!(apart, direction.separation, 1e-6 * direction.separation);
@@ -260,7 +260,7 @@ fn one_signature_under_two_names_is_never_told_apart() {
     };
     assert!(kappa(&[(10.0, 120.0)]).is_infinite());
     assert_close!(kappa(&[(10.0, 180.0), (-10.0, 180.0)]), 1.0, 0.1);
-    // What a bias absorbs has no direction left.
+    // An effect absorbed by a bias has no direction left.
     let (information, ..) = of_one_per_turn(&[(10.0, 60.0)]);
     let doubled = |place: usize| if place < 3 { place } else { 0 };
     let copied = DMatrix::from_fn(4, 4, |r, c| information[(doubled(r), doubled(c))]);
@@ -269,10 +269,10 @@ fn one_signature_under_two_names_is_never_told_apart() {
     assert_eq!(absorbed.absorbed, [1, 0]);
 }
 
-/// Simulated with noise, two effects differ by as much as was predicted.
+/// In simulations with noise, the separation of two effects is as predicted.
 ///
-/// What a fit without the first effect leaves, beyond a fit with both, is χ² of two degrees of freedom, its
-/// noncentrality the square of the sigmas by which they are told apart.
+/// The increase of the sum of squares of a fit without the first effect, relative to a fit with both, is χ² with two degrees
+/// of freedom; its noncentrality is the squared separation in sigmas.
 #[test]
 fn simulated_runs_tell_two_effects_apart_as_predicted() {
     const RUNS: u64 = 12;

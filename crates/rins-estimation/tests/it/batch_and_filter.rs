@@ -1,4 +1,4 @@
-//! The batch and the filter solve one model two ways.
+//! The batch and the filter are two solutions of one model.
 
 use rins_estimation::{
     Evidence, Filter, Noise, NoiseKnowledge, NoiseParameters, TriadStrengths, fit, linearise,
@@ -48,7 +48,7 @@ fn filter_ends_where_the_batch_does() {
             let ratio = filter.covariance()[(place, place)].sqrt() / sigma;
             assert!((ratio - 1.0).abs() < WITHIN_SIGMAS, "{}: sigmas in ratio {ratio}", of.id);
         }
-        // The same likelihood by two ways: squares after each step, and squares that are left.
+        // The same likelihood in two ways: the squared innovations of all steps, and the remaining sum of squares.
         assert!((squares / batch.square - 1.0).abs() < 1e-4, "{squares} against {}", batch.square);
     }
 }

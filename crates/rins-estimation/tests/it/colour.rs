@@ -1,4 +1,4 @@
-//! Noise that remembers: its strength is found, and it is charged to the sigmas.
+//! Colored noise: its parameters are estimated, and the sigmas include it.
 
 use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::units::{DEG_PER_HOUR, MICRO_G};
@@ -35,7 +35,7 @@ fn flicker_is_found_to_a_third_of_itself() {
     let white = strengths.gyro.white / imu.gyro.noise_density;
     assert!((0.85..1.15).contains(&white), "gyro white noise in ratio {white}");
     assert!(strengths.accel.flicker < 5.0 * MICRO_G, "{strengths:?}");
-    // Taken for white, the same data would promise ten times as much.
+    // With white noise alone, the same data would seem ten times as precise.
     let (naive, honest) = (fitted(&run, NoiseKnowledge::Given), found);
     let sigma = |fit: &Fit| fit.parameter("gyro.bias.x").unwrap().sigma;
     assert!(sigma(&honest) > 5.0 * sigma(&naive), "{} {}", sigma(&honest), sigma(&naive));
@@ -51,7 +51,7 @@ fn white_noise_is_not_taken_for_flicker() {
         (strengths.gyro.white, imu.gyro.noise_density),
         (strengths.accel.white, imu.accel.noise_density),
     ] {
-        // 2000 figures show it to 2 %.
+        // 2000 values determine it to 2 %.
         assert!((found / sheet - 1.0).abs() < 0.06, "{found} against {sheet}");
     }
 }

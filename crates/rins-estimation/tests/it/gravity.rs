@@ -1,4 +1,4 @@
-//! Without an encoder, gravity in the plane of rotation is the angle's reference.
+//! Without an encoder, gravity in the plane of rotation is the reference of the angle.
 
 use nalgebra::Vector3;
 use rins_estimation::{
@@ -14,7 +14,7 @@ use rins_testing::assert_close;
 
 use crate::support::{profile, scenario, tilted, white};
 
-/// A micromechanical unit.
+/// The data sheet of a MEMS unit.
 fn mems() -> ImuSpec {
     let triad = |noise, bias| TriadSpec::white(noise, bias, 5000.0 * PPM, 3000.0 * ARCSEC);
     ImuSpec {
@@ -86,7 +86,7 @@ fn a_wheel_shows_its_lever_arm_and_the_scale_of_its_gyro() {
     }
 }
 
-/// How far a table has turned where such a run begins nobody knows: its yaw is another one than the surveyed.
+/// The table angle at the start of such a run is unknown: its yaw differs from the surveyed one.
 #[test]
 fn an_axis_that_leans_as_it_was_surveyed_heads_where_it_was() {
     let recording = wheel(7);
@@ -105,13 +105,13 @@ fn an_axis_that_leans_as_it_was_surveyed_heads_where_it_was() {
     }
 }
 
-/// A wheel that is pushed and braked by hand, with its sensor far off the axis: accelerations by w² and by w' are put in by
-/// hand, and leave the axis where it is.
+/// A wheel that is pushed and braked by hand, with its sensor far off the axis: simulated accelerations by w² and by w' do
+/// not change the estimated axis.
 #[test]
 fn a_wheel_that_changes_its_rate_shows_its_axis_past_its_lever_arm() {
     const INTERVAL: f64 = 0.002;
     const SAMPLES: u32 = 20_000;
-    // Means over a sample are those at its middle but for (w T)²/24, and so are differences of rates.
+    // Means over a sample equal the values at its middle up to (w T)²/24, and so do differences of rates.
     const WITHIN: f64 = 2e-4;
     let up = Vector3::new(0.5, -0.3, (1.0 - 0.34_f64).sqrt());
     let [arm_x, arm_y] = [0.4, -0.25];

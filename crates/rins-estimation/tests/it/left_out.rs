@@ -1,4 +1,4 @@
-//! What is left out of a run plays no part, and is foretold from what is not.
+//! Samples that are excluded from a run have no influence, and are predicted from the others.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use rins_terms::Model;
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// Samples of the second turn.
+/// Samples of the second rotation.
 const SPAN: Range<usize> = 1900..2200;
 
 fn turned() -> Run {
@@ -53,7 +53,7 @@ fn what_is_left_out_may_be_anything() {
     let (honest, harmless) = (without(&run), without(&spoiled));
     let moved = apart(&honest, &harmless);
     assert!(moved < 0.02, "{moved} sigma");
-    // Where it plays a part it spoils everything.
+    // If it is not excluded it biases everything.
     let harmed = apart(&honest, &fitted(&spoiled));
     assert!(harmed > 10.0, "{harmed} sigma");
 }
@@ -69,7 +69,7 @@ fn what_is_left_out_tells_nothing() {
     }
 }
 
-/// The densities of all epochs, one after the other, are that of all data: of the batch solution, which integrates the
+/// The sum of the log-densities of all epochs is that of all data: that of the batch solution, which integrates the
 /// parameters out at once.
 #[test]
 fn what_is_foretold_is_as_likely_as_the_whole() {
@@ -88,7 +88,7 @@ fn what_is_foretold_is_as_likely_as_the_whole() {
     assert!((sum - whole).abs() < 1e-3, "{sum} and {whole}");
 }
 
-/// A parameter of which little is known is not foretold from as if it were right; once it has been shown, it is.
+/// A prediction includes the uncertainty of an inaccurate parameter; after a few epochs the parameter is known.
 #[test]
 fn what_is_not_known_is_learnt() {
     let run = turned();
@@ -111,12 +111,13 @@ fn what_is_not_known_is_learnt() {
     let density = |told: &[EpochPrediction]| told.iter().map(|one| one.log_density).sum::<f64>();
     let (sure, unsure) = (foretold(0.01 * PPM), foretold(off));
     assert!(density(&unsure) > density(&sure) + 100.0, "{} {}", density(&unsure), density(&sure));
-    // Six figures an epoch: as large as foretold, which they are far from if the parameter were known.
+    // Six measurements per epoch: the innovations agree with the prediction, which they do not if the parameter is assumed
+    // known.
     assert!((mean(&unsure) - 6.0).abs() < 1.0, "{}", mean(&unsure));
     assert!(mean(&sure) > 12.0, "{}", mean(&sure));
 }
 
-/// A wrong parameter foretells what it has not seen worse than the right one does.
+/// A wrong parameter predicts held-out data worse than the correct one.
 #[test]
 fn right_parameters_foretell_best() {
     let run = turned();
@@ -134,14 +135,14 @@ fn right_parameters_foretell_best() {
     assert!(right > wrong + 10.0, "{right} against {wrong}");
 }
 
-/// Samples that were lost while the table changed its rate, and over which the rates of the next were held.
+/// Samples are lost while the table changes its rate, and the rates of the next sample are held over the gap.
 #[test]
 fn lost_samples_put_nothing_off() {
     let run = turned();
     let whole = fitted(&run);
     let mut lossy = run.clone();
     let recording = Arc::make_mut(&mut lossy.recording);
-    // In the ramps, from the last on: what is before stays where it is.
+    // In the ramps, from the last on: earlier indices do not change.
     for first in [2286, 1290, 1280, 255] {
         let lost = first..first + 3;
         let lasting: f64 = recording.increments[lost.clone()].iter().map(|one| one.interval).sum();

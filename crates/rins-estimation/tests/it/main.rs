@@ -1,4 +1,4 @@
-//! The estimator against simulated runs, closed forms and itself.
+//! The estimator compared with simulated runs, closed forms and itself.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod batch_and_filter;

@@ -1,4 +1,4 @@
-//! One IMU mounted about several of its axes: its errors are those of its own sensors.
+//! One IMU mounted with several of its axes along the spin axis: its errors are those of its own sensors.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use rins_terms::{Model, Owner, Role, TermInstance, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// Six ways to mount it: each of its axes up, and down.
+/// Six mountings: each of its axes up, and down.
 fn mountings() -> [SignedAxes; 6] {
     let spinning = |axis: usize, sign: f64| SignedAxes {
         source: [(axis + 1) % 3, (axis + 2) % 3, axis],
@@ -43,7 +43,7 @@ fn mounted(error: &ImuError, axes: SignedAxes, stand: (f64, f64), seed: u64) -> 
     remounted(error, axes, (stand, [0.0; 2]), (&fibre(), seed))
 }
 
-/// The same where the IMU was put back turned by `askew` about x and y of the run \[rad\].
+/// The same for an IMU that was mounted again with a rotation by `askew` about x and y of the run \[rad\].
 fn remounted(
     error: &ImuError,
     axes: SignedAxes,
@@ -64,7 +64,7 @@ fn fitted_as(imu: &ImuSpec, runs: &[Run], model: &Model) -> Fit {
     fit(runs, model, imu, NoiseKnowledge::Given(NoiseParameters::of(imu)), |_| ()).unwrap()
 }
 
-/// What a parameter truly is along the axes of the first run.
+/// The true value of a parameter along the axes of the first run.
 pub(crate) fn truth(error: &ImuError, id: &str) -> Option<f64> {
     let place = |letter: char| "xyz".find(letter);
     let mut parts = id.split('.');
@@ -79,7 +79,8 @@ pub(crate) fn truth(error: &ImuError, id: &str) -> Option<f64> {
     }
 }
 
-/// A unit of a lower grade: what two errors of half a milliradian make together, which terms leave out, is below its noise.
+/// A unit of a lower grade: the second-order effect of two errors of half a milliradian, which terms neglect, is below its
+/// noise.
 fn tactical() -> ImuSpec {
     let mut imu = fibre();
     imu.gyro.noise_density *= 30.0;
@@ -87,11 +88,11 @@ fn tactical() -> ImuSpec {
     imu
 }
 
-/// How far an IMU comes back askew \[rad\], 1σ.
+/// 1σ of the mounting error \[rad\].
 const ASKEW: f64 = 100.0 * ARCSEC;
 
-/// The sum over so many IMUs, drawn anew and mounted three ways, of the squares of the errors by their covariance, 18 figures
-/// each; `askew`, each mounting is turned by some angle, which is estimated.
+/// The sum over these IMUs, random and in three mountings, of the errors squared and normalized by their covariance, 18
+/// values each; with `askew` each mounting has a random rotation, which is estimated.
 fn squares(imus: Range<u64>, askew: bool) -> f64 {
     let imu = if askew { tactical() } else { fibre() };
     let mut model = Model::full();
@@ -138,21 +139,21 @@ fn squares(imus: Range<u64>, askew: bool) -> f64 {
     imus.into_par_iter().map(one).sum()
 }
 
-/// Fails unless errors are as large as their covariances say: chi-square within four of its sigmas.
+/// Fails unless the errors agree with their covariances: chi-square within four of its sigmas.
 fn assert_as_large_as_said(imus: Range<u64>, askew: bool) {
     let dof = 18.0 * (imus.end - imus.start) as f64;
     let sum = squares(imus, askew);
     assert!((sum - dof).abs() < 4.0 * (2.0 * dof).sqrt(), "{sum} where {dof} are expected");
 }
 
-/// The textbook calibration: three mountings on a single-axis table give all scale errors and misalignments of the gyros.
-/// Over IMUs and mountings drawn anew the errors are as large as their covariance says.
+/// The textbook calibration: three mountings on a single-axis table determine all scale errors and misalignments of the
+/// gyros. For random IMUs and mountings the errors agree with their covariance.
 #[test]
 fn three_mountings_give_the_whole_matrix_of_the_gyros() {
     assert_as_large_as_said(0..12, false);
 }
 
-/// A remounting is a rotation of the run: left open, it costs what it must, and the covariance says so.
+/// A mounting error is a rotation of the run: if it is estimated, the uncertainties increase and agree with the errors.
 #[test]
 fn mountings_that_are_askew_are_estimated() {
     assert_as_large_as_said(0..12, true);
@@ -165,7 +166,7 @@ fn three_mountings_of_many_imus() {
     assert_as_large_as_said(0..240, true);
 }
 
-/// A run that is told to be about other axes is the same run: nothing but names depends on it.
+/// A run with other declared axes is the same run: only names depend on them.
 #[test]
 fn one_run_is_the_same_about_any_axis() {
     let error = drawn(77);
@@ -179,7 +180,8 @@ fn one_run_is_the_same_about_any_axis() {
     }
 }
 
-/// What only the gyro about the axis of rotation shows is each gyro's own, and a bias belongs to a mounting.
+/// Parameters that are observable only for the gyro along the spin axis belong to each gyro, and a bias belongs to a
+/// mounting.
 #[test]
 fn what_belongs_to_the_axis_of_rotation_is_another_gyros_in_another_mounting() {
     let error = drawn(3);
@@ -194,13 +196,13 @@ fn what_belongs_to_the_axis_of_rotation_is_another_gyros_in_another_mounting() {
     };
     let own = |id: &str, run| (id.to_owned(), run);
     let biases = [own("gyro.bias.z", Some(0)), own("gyro.bias.z", Some(1))];
-    // The first run is about the sensor's x, which is its z; the sensor's y is its x.
+    // The spin axis of the first run is the sensor's x, which is the run's z; the sensor's y is the run's x.
     let two = [own("gyro_scale_asymmetry.z", None), own("gyro_scale_asymmetry.x", None)];
     assert_eq!(ids(y), [two.as_slice(), &biases].concat());
     assert_eq!(ids(minus_x), [&two[..1], &biases].concat());
 }
 
-/// The model is along the first run's axes: what is expected of a sensor is expected in every run.
+/// The model is along the first run's axes: the prior of a sensor applies in every run.
 #[test]
 fn what_is_expected_goes_with_the_sensor() {
     let error = ImuError::default();
@@ -255,7 +257,7 @@ fn estimates_are_the_same_along_any_axes() {
             assert_eq!((there.sign * estimate.value).to_bits(), value.to_bits());
         }
     }
-    // There and back.
+    // Forth and back.
     let (back, first) = (own.along(fit.axes), fit.clone().along(fit.axes));
     assert_eq!(back.parameters, first.parameters);
     assert_eq!(back.covariance, first.covariance);

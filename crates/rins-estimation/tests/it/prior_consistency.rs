@@ -1,4 +1,5 @@
-//! Estimates against what was stated of them: quiet for sensors that are as stated, loud for others.
+//! Consistency of estimates with their priors: no departures for sensors that agree with the data sheet, and departures for
+//! others.
 
 use rayon::prelude::*;
 use rins_estimation::{Departure, NoiseParameters, Quantity};
@@ -30,15 +31,15 @@ fn sensors_as_their_sheet_says_depart_as_often_as_chance_has_it() {
         .map(|(_, departure)| departure.sigmas)
         .collect();
     let mean = all.iter().map(|sigmas| sigmas * sigmas).sum::<f64>() / all.len() as f64;
-    // Combinations share parts, so that not all are independent: a fifth of them is taken to be.
+    // Combinations have common parts, so that not all are independent: a fifth of them is assumed to be.
     let scatter = (2.0 / (0.2 * all.len() as f64)).sqrt();
     assert!((mean - 1.0).abs() < 4.0 * scatter, "mean square {mean} of {}", all.len());
-    // Of some thousand normal figures one is beyond four in fifteen thousand.
+    // Of fifteen thousand normal values one exceeds four; here there are some thousand.
     let far = all.iter().filter(|sigmas| sigmas.abs() > 4.0).count();
     assert!(far <= 3 && all.len() > 2000, "{far} of {}", all.len());
 }
 
-/// An error of eight stated sigmas is found where the schedule shows it, alone or in the combination that it is in.
+/// An error of eight stated sigmas is detected if the schedule makes it observable, alone or in a combination.
 #[test]
 fn errors_far_beyond_the_sheet_are_found() {
     let found: Vec<bool> = (0..IMUS)

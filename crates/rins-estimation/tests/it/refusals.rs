@@ -1,4 +1,4 @@
-//! What cannot be estimated is refused, with the figure.
+//! Impossible estimations are refused, with the value that is wrong.
 
 use rins_estimation::{FitError, NoiseKnowledge, NoiseParameters, Reference, Run, RunError, fit};
 use rins_imu::ImuError;

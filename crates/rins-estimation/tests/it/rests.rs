@@ -1,4 +1,4 @@
-//! Many rests of one IMU that was never switched off: gravity in many attitudes tells the accelerometers' errors.
+//! Many static runs of one IMU without a power cycle: gravity in many attitudes determines the accelerometers' errors.
 
 use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Observable, Reference, Run, fit};
 use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G, PPM};
@@ -8,10 +8,10 @@ use rins_terms::{Model, Owner, Role};
 
 use crate::support::{fibre, profile, run, scenario, white};
 
-/// The 1σ of an attitude of which nothing is known \[rad\].
+/// The 1σ of an unknown attitude \[rad\].
 const ANY: f64 = 1.8;
 
-/// The data sheet of an IMU that is held in a hand.
+/// The data sheet of a handheld IMU.
 fn consumer() -> ImuSpec {
     let fibre = fibre();
     let triad = |sheet: TriadSpec, noise_density, bias_sigma| TriadSpec {
@@ -27,7 +27,7 @@ fn consumer() -> ImuSpec {
     }
 }
 
-/// What is wrong with it after it was switched on.
+/// Its true errors after it was switched on.
 fn truth(bias: f64) -> ImuError {
     let mut accel = TriadError::default()
         .with_scale(Axis::X, 1500.0 * PPM)
@@ -42,7 +42,7 @@ fn truth(bias: f64) -> ImuError {
     ImuError { gyro, accel }
 }
 
-/// How it was laid down, roll and pitch \[deg\].
+/// The attitudes, roll and pitch \[deg\].
 const LAID: [(f64, f64); 14] = [
     (0.0, 0.0),
     (90.0, 3.0),
@@ -60,7 +60,7 @@ const LAID: [(f64, f64); 14] = [
     (170.0, -45.0),
 ];
 
-/// Rests of ten seconds; each is believed to stand half a degree from how it does, and its azimuth is not known.
+/// Static runs of ten seconds; the assumed attitude of each is wrong by half a degree, and its azimuth is unknown.
 fn rests(bias: f64, turn_on: usize) -> Vec<Run> {
     let imu = consumer();
     let rest = |(place, &(roll, pitch)): (usize, &(f64, f64))| {
@@ -106,7 +106,7 @@ fn gravity_in_many_attitudes_tells_the_accelerometers() {
             );
         }
     }
-    // Which way the body axes point is not told: of two axes' misalignments only what is between them.
+    // The direction of the body axes is unobservable: of the misalignments of two axes only a combination is observable.
     for (one, other, place) in [("xy", "yx", (0, 1)), ("xz", "zx", (0, 2)), ("yz", "zy", (1, 2))] {
         let of = |name| identifiability.find(&format!("accel.misalignment.{name}")).unwrap();
         let (first, second) = (of(one), of(other));
@@ -138,7 +138,7 @@ fn what_rests_do_not_show_is_said_to_be_hidden() {
     assert!(fit.parameters.iter().all(|p| p.parameter.owner != Owner::Placement));
 }
 
-/// One wobble of one rig, and biases that are one for all rests until the next switching on.
+/// One wobble for one rig, and biases that are common to all static runs until the next power cycle.
 #[test]
 fn rests_between_two_switchings_on_have_their_biases_in_common() {
     let mut runs = rests(2000.0, 0);

@@ -1,4 +1,4 @@
-//! An encoder that reads in steps.
+//! An encoder with a coarse resolution.
 
 use rins_estimation::{AngleSteps, Noise, NoiseParameters, Run, innovations, linearise};
 use rins_frames::units::ARCSEC;
@@ -7,11 +7,11 @@ use rins_terms::Model;
 
 use crate::support::{fibre, profile, run, scenario, tilted};
 
-/// Rests, rates of whole steps a sample, and such of none.
+/// Static intervals, rates of an integer number of LSBs per sample, and other rates.
 const RATES: [(f64, f64); 6] =
     [(0.0, 40.0), (10.0, 60.0), (-5.0, 60.0), (0.0, 30.0), (3.217, 60.0), (-7.77, 60.0)];
 
-/// A run without noise, whose encoder reads in steps of so many seconds of arc.
+/// A run without noise, whose encoder has a resolution of this many arcseconds.
 fn rounded(step: f64) -> Run {
     rounded_at(&RATES, step)
 }
@@ -27,7 +27,7 @@ fn rounded_at(rates: &[(f64, f64)], step: f64) -> Run {
     Run::new(run.rig, recording).unwrap()
 }
 
-/// The squares that all innovations of a run have together.
+/// The sum of squares of all innovations of a run.
 fn squares(run: &Run) -> f64 {
     let linear = linearise(run, &Model::default(), &[]);
     let noise = Noise::on(&run.rig, &NoiseParameters::of(&fibre()));
@@ -53,11 +53,11 @@ fn all_rounding_of_a_run_is_worth_no_more_than_chance_is() {
 #[test]
 fn a_table_without_noise_reads_in_no_steps() {
     assert_eq!(rounded(1e-6).angle_steps, None);
-    // Nor does one whose steps are small beside the noise of 0.5 arcsec.
+    // Nor does one whose LSB is small compared with the noise of 0.5 arcsec.
     assert_eq!(rounded(0.3).angle_steps, None);
 }
 
-/// Nothing shows that readings are rounded, but outliers would be made of it.
+/// Nothing in the data shows that readings are rounded, but they would cause outliers.
 #[test]
 fn steps_that_a_table_turns_by_in_whole_numbers_are_believed_if_they_are_stated() {
     let step = 3.6 * ARCSEC;
@@ -66,6 +66,6 @@ fn steps_that_a_table_turns_by_in_whole_numbers_are_believed_if_they_are_stated(
     let stated = |step| AngleSteps::of(&run.recording, 0.5 * ARCSEC, Some(step));
     let steps = stated(step).unwrap();
     assert!((steps.step / step - 1.0).abs() < 1e-6, "{steps:?}");
-    // Steps that are fine beside the noise are not, whoever states them.
+    // An LSB that is small compared with the noise is not used, even if it is stated.
     assert_eq!(stated(0.1 * step), None);
 }

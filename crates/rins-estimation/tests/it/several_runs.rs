@@ -1,4 +1,4 @@
-//! Runs at several tilts tell what one does not, and each keeps what is its own.
+//! Runs at several tilts make parameters observable that one does not, and each has its own parameters.
 
 use rins_estimation::{Fit, NoiseKnowledge, NoiseParameters, Run, fit};
 use rins_frames::units::{DEG_PER_HOUR, MICRO_G, PPM};
@@ -7,7 +7,7 @@ use rins_terms::{Model, Owner};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// An IMU at a turn-on: scale errors of its own, gyro x with a bias of this one.
+/// An IMU after a power cycle: constant scale errors, and a bias of gyro x of this power cycle.
 fn turn_on(bias: f64) -> ImuError {
     ImuError {
         gyro: TriadError::default()

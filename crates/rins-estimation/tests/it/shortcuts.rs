@@ -1,4 +1,4 @@
-//! Quicker ways end where the exact ones do.
+//! Faster methods have the result of the exact ones.
 
 use rins_estimation::{
     Evidence, Linear, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_near, linearise,
@@ -18,7 +18,7 @@ fn turned() -> Run {
     run(&scenario(tilted(25.0, 40.0), turns, truth, Some(white(&fibre())), 3))
 }
 
-/// Effects that act on gyros, accelerometers, the encoder and the axis, steadily, at once, and in ramps.
+/// Effects on gyros, accelerometers, the encoder and the axis: constant, as steps, and as ramps.
 fn many() -> Model {
     let mut model = Model::full();
     let terms = [
@@ -53,10 +53,10 @@ fn coarse_pieces_show_each_effect_as_well() {
             continue;
         }
         let off = (near / exact - 1.0).abs();
-        // Squares of derivatives; what is over within a sample is put off the most.
+        // Squares of derivatives; effects that last less than a sample have the largest errors.
         let bound = if parameter.id.starts_with("base_tilt_step") { 0.1 } else { 0.01 };
         assert!(off < bound, "{}: {off}", parameter.id);
-        // By how many sigmas an estimate of it alone would differ, of as many as it is from nothing.
+        // The significance in sigmas of an estimate of this parameter alone, exact and approximate.
         let estimate = |evidence: &Evidence| evidence.score[place] / of(evidence).sqrt();
         let (exact, near) = (estimate(&fine), estimate(&coarse));
         assert!(

@@ -1,4 +1,4 @@
-//! Benches, data sheets and simulated runs that the tests share.
+//! Sites, data sheets and simulated runs that are common to the tests.
 
 use rins_estimation::{Reference, Rig, Run};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};
@@ -11,7 +11,7 @@ use rins_terms::Model;
 /// One reading of the encoder, 1σ \[rad\].
 pub(crate) const ENCODER: f64 = 0.5 * ARCSEC;
 
-/// The data sheet of a navigation-grade fibre-optic unit.
+/// The data sheet of a navigation-grade fiber-optic unit.
 pub(crate) fn fibre() -> ImuSpec {
     ImuSpec {
         gyro: TriadSpec::white(
@@ -24,7 +24,7 @@ pub(crate) fn fibre() -> ImuSpec {
     }
 }
 
-/// White noise as a data sheet says.
+/// White noise of the data sheet.
 pub(crate) fn white(imu: &ImuSpec) -> ImuNoise {
     ImuNoise {
         gyro: NoiseModel::white(imu.gyro.noise_density),
@@ -36,12 +36,12 @@ pub(crate) fn station() -> Station {
     Station::with_normal_gravity(Site { latitude: 45.0 * DEG, longitude: 0.0, height: 100.0 })
 }
 
-/// An axis tilted by `tilt`, its azimuth turned by `yaw` \[deg\].
+/// An axis with the tilt `tilt` and the azimuth `yaw` \[deg\].
 pub(crate) fn tilted(tilt: f64, yaw: f64) -> Dcm<Nav, Table> {
     EulerAngles { roll: tilt * DEG, pitch: 0.0, yaw: yaw * DEG }.dcm()
 }
 
-/// Rates \[deg/s\] and how long each is held \[s\], with ramps of 5 deg/s².
+/// Rates \[deg/s\] and durations \[s\], with ramps of 5 deg/s².
 pub(crate) fn profile(segments: &[(f64, f64)]) -> Profile {
     let segments: Vec<Segment> = segments
         .iter()
@@ -50,7 +50,7 @@ pub(crate) fn profile(segments: &[(f64, f64)]) -> Profile {
     Profile::new(&segments, Some(5.0 * DEG_PER_SECOND)).unwrap()
 }
 
-/// A scenario on an encoder.
+/// A scenario with an encoder.
 pub(crate) fn scenario(
     nav_from_table: Dcm<Nav, Table>,
     profile: Profile,
@@ -59,7 +59,7 @@ pub(crate) fn scenario(
     seed: u64,
 ) -> Scenario {
     let encoder = if noise.is_some() { ENCODER } else { 0.0 };
-    // It gets warmer, and cools again: neither a ramp nor an exponential.
+    // The temperature rises and falls: neither a ramp nor an exponential.
     let swing = Temperature::Sinus { start: 20.0, amplitude: 3.0, period: 90.0 };
     Scenario {
         imu_error,
@@ -72,7 +72,7 @@ pub(crate) fn scenario(
     }
 }
 
-/// The run that a scenario makes, on a rig that is surveyed as the scenario's.
+/// The run of a scenario, on a rig with the scenario's survey.
 pub(crate) fn run(scenario: &Scenario) -> Run {
     let rig = Rig {
         station: scenario.station,

@@ -1,4 +1,4 @@
-//! A rest on a base that sways: what sways is not taken for noise of the sensors.
+//! A static run on a base that sways: the sway is not attributed to the sensors' noise.
 
 use std::sync::Arc;
 
@@ -11,20 +11,21 @@ use rins_terms::{Model, Surroundings};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// How far the base strays about each axis, as a root density \[rad/√s\].
+/// Sway of the base about each axis: density of the random walk \[rad/√s\].
 const SWAY: [f64; 3] = [30.0 * ARCSEC, 10.0 * ARCSEC, 2.0 * ARCSEC];
 
-/// What a gyro of this run has for a bias along x \[rad/s\].
+/// The bias of gyro x in this run \[rad/s\].
 const BIAS: f64 = 4.0 * DEG_PER_HOUR;
 
-/// Gyros that drift by more than gravity leaves open.
+/// Gyros whose drift exceeds the uncertainty from gravity.
 fn coarse() -> ImuSpec {
     let fine = fibre();
     let (noise_density, bias_sigma) = (1.0 * DEG_PER_HOUR, 5.0 * DEG_PER_HOUR);
     ImuSpec { gyro: TriadSpec { noise_density, bias_sigma, ..fine.gyro }, ..fine }
 }
 
-/// Five minutes of rest whose attitude walks by `SWAY`, with the noise of the data sheet; and the attitude after each sample.
+/// A static run of five minutes whose attitude is a random walk with `SWAY`, with the noise of the data sheet; and the
+/// attitude after each sample.
 fn swaying() -> (Run, Vec<Rotation3<f64>>) {
     let truth = (ImuError::default(), Model::default());
     let still = profile(&[(0.0, 300.0)]);
@@ -58,18 +59,18 @@ fn base_that_sways_is_told_from_noise() {
     let found = fit(&[run], &Model::full(), &imu, likely, |_| ()).unwrap();
     let noise = &found.noise[0];
     let white = noise.imu.gyro.white / imu.gyro.noise_density;
-    // Gravity shows level some fifty times over: that is how often the gyros' walk from it is seen.
+    // Gravity determines the level about fifty times: as often the drift of the gyros from it is measured.
     assert!((0.5..2.0).contains(&white), "gyro white noise in ratio {white}");
     for (found, true_one) in noise.sway.into_iter().zip(SWAY) {
         assert!((0.8..1.25).contains(&(found / true_one)), "{found} of {true_one}");
     }
-    // Level is told by gravity however the base sways, and so how a gyro drifts from it.
+    // Gravity determines the level for any sway of the base, and thus the drift of a gyro.
     let bias = found.parameter("gyro.bias.x").unwrap();
     assert!(bias.sigma < 0.5 * imu.gyro.bias_sigma, "{}", bias.sigma);
     assert!((bias.value - BIAS).abs() < 4.0 * bias.sigma, "{} ± {}", bias.value, bias.sigma);
 }
 
-/// The base goes some hundreds of seconds of arc, and the filter with it: gravity shows it level.
+/// The base moves by hundreds of arcseconds, and the filter follows: gravity determines its level.
 #[test]
 fn attitude_of_a_base_that_sways_is_known() {
     let imu = coarse();
@@ -78,7 +79,7 @@ fn attitude_of_a_base_that_sways_is_known() {
     let found = fit(std::slice::from_ref(&run), &Model::full(), &imu, likely, |_| ()).unwrap();
     let known = attitudes(&run, &found.linear[0], &found.noise[0]).unwrap();
     assert_eq!(known.last().unwrap().samples, truth.len());
-    // Where it is level at first nobody knows better than the accelerometers' bias: of its way there is no doubt.
+    // The initial level is known only as well as the accelerometers' bias; the motion is known better.
     let settled = &known[known.len() / 4..];
     let way = |turned: &Turned| truth[turned.samples - 1].scaled_axis();
     let off = |turned: &Turned| {

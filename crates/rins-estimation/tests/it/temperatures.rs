@@ -1,4 +1,4 @@
-//! Errors that depend on temperature are those at the model's reference temperature, whatever a run's own.
+//! Errors that depend on temperature refer to the model's reference temperature, at any temperature of a run.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
@@ -11,10 +11,10 @@ use rins_terms::{Model, Role, TermInstance, catalogue};
 use crate::mountings::{drawn, truth};
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// IMUs, each drawn from its data sheet, with runs at temperatures anywhere.
+/// The number of IMUs, each drawn from its data sheet, with runs at random temperatures.
 const IMUS: u64 = 200;
 
-/// 1σ of the coefficients: of a gyro's bias and of its scale.
+/// 1σ of the temperature coefficients of a gyro's bias and of its scale factor.
 const BIAS_PER_KELVIN: f64 = 0.02 * DEG_PER_HOUR;
 const SCALE_PER_KELVIN: f64 = 10.0 * PPM;
 
@@ -23,7 +23,7 @@ fn within(chosen: TermInstance, sigma: f64) -> TermInstance {
     TermInstance { roles, ..chosen }
 }
 
-/// What is estimated, about a reference temperature \[°C\].
+/// The model, with its reference temperature \[°C\].
 fn model(reference: f64) -> Model {
     Model::full()
         .with(within(TermInstance::new(&catalogue::GYRO_THERMAL_BIAS), BIAS_PER_KELVIN))
@@ -31,7 +31,7 @@ fn model(reference: f64) -> Model {
         .about_temperature(reference)
 }
 
-/// An IMU as it is in each of two runs, its coefficients at a reference temperature, and the runs at other temperatures.
+/// The errors of an IMU in each of two runs, its coefficients at a reference temperature, and the runs at other temperatures.
 struct Drawn {
     errors: [ImuError; 2],
     coefficients: [f64; 4],
@@ -42,7 +42,7 @@ struct Drawn {
 fn drawn_runs(seed: u64) -> Drawn {
     let mut random = Seed::new(seed ^ 0x7e_3b).stream(Sensor::Encoder);
     let first = drawn(seed);
-    // It was switched off in between.
+    // There is a power cycle in between.
     let mut second = drawn(seed + 10 * IMUS);
     (second.gyro.matrix, second.accel.matrix) = (first.gyro.matrix, first.accel.matrix);
     let errors = [first, second];
@@ -77,7 +77,7 @@ fn fitted(drawn: &Drawn, reference: f64) -> Fit {
     fit(&drawn.runs, &model(reference), &imu, known, |_| ()).unwrap()
 }
 
-/// What a parameter truly is.
+/// The true value of a parameter.
 fn true_value(drawn: &Drawn, id: &str, run: Option<usize>) -> Option<f64> {
     let thermal = ["gyro_thermal_bias.x", "gyro_thermal_bias.y", "gyro_thermal_bias.z"];
     let place = thermal.iter().position(|of| *of == id);
@@ -87,7 +87,7 @@ fn true_value(drawn: &Drawn, id: &str, run: Option<usize>) -> Option<f64> {
     }
 }
 
-/// Squares of what is off by the covariance, and how many figures; in units of the priors.
+/// The sum of squared errors normalized by the covariance, and the number of values; in units of the priors.
 fn squares(fit: &Fit, drawn: &Drawn) -> (f64, usize) {
     let of = |(place, estimate): (usize, &Estimate)| {
         let value = true_value(drawn, &estimate.parameter.id, estimate.run)?;
@@ -115,7 +115,7 @@ fn runs_at_any_temperature_are_joined_at_the_reference_temperature() {
     assert!(off.abs() < 4.0, "{sum} of {figures} figures: {off} sigma");
 }
 
-/// The same data about two reference temperatures differ by what the coefficient makes between them.
+/// Estimates from the same data at two reference temperatures differ by the coefficient times the temperature difference.
 #[test]
 fn a_scale_error_moves_with_the_reference_temperature_by_its_coefficient() {
     let drawn = drawn_runs(11);
@@ -124,7 +124,7 @@ fn a_scale_error_moves_with_the_reference_temperature_by_its_coefficient() {
     let per_kelvin = value(&cold, "gyro_thermal_scale.z");
     let moved = value(&warm, "gyro.scale.z") - value(&cold, "gyro.scale.z");
     let sigma = warm.parameter("gyro.scale.z").unwrap().sigma;
-    // Priors are of values at the reference temperature, so that these are not quite the same.
+    // The priors refer to the reference temperature, so that the estimates are not exactly equal.
     assert!((moved - 50.0 * per_kelvin).abs() < 3.0 * sigma, "{moved} {per_kelvin} {sigma}");
     assert!(per_kelvin.abs() * 50.0 > 50.0 * sigma, "{per_kelvin} {sigma}");
 }

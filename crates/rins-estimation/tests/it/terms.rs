@@ -1,4 +1,4 @@
-//! Every effect of the catalogue: made by the simulator, found by the estimator.
+//! Every effect of the catalogue: simulated, and recovered by the estimator.
 
 use rayon::prelude::*;
 use rins_estimation::{NoiseKnowledge, NoiseParameters, Run, fit, joint};
@@ -7,16 +7,16 @@ use rins_terms::{Model, Role, SettingKind, Term, TermInstance, catalogue};
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// Choices of a frame, of which no data say anything once the other choice is made.
+/// Choices of a frame, which are unobservable together with the alternative choice.
 const GAUGES: [&str; 3] = ["mounting", "encoder.zero", "wrong_gravity"];
 
-/// How large an effect is made, in sigmas of what is foreseen for its estimate.
+/// The size of a simulated effect, in sigmas of its predicted uncertainty.
 const STRENGTH: f64 = 20.0;
 
-/// How far an estimate may be off, in sigmas: of 200 numbers one is by chance once in 80 catalogues.
+/// The tolerance of an estimate, in sigmas: one of 200 values exceeds it by chance once in 80 catalogues.
 const WITHIN: f64 = 4.0;
 
-/// Two tilts and azimuths, three rates, both ways.
+/// Two tilts and azimuths, three rates in both directions.
 fn runs(effects: &Model, seed: Option<u64>) -> Vec<Run> {
     let turns =
         [(0.0, 12.0), (10.0, 40.0), (-10.0, 40.0), (30.0, 20.0), (-30.0, 20.0), (20.0, 20.0)];
@@ -29,8 +29,7 @@ fn runs(effects: &Model, seed: Option<u64>) -> Vec<Run> {
     vec![at(25.0, 0.0, 1), at(70.0, 120.0, 2)]
 }
 
-/// The 1σ that is foreseen for each parameter of a term beside the full model, or none where the data
-/// say less than what is expected anyway.
+/// The predicted 1σ of each parameter of a term in addition to the full model, or `None` if it is prior-dominated.
 fn foreseen(chosen: &TermInstance, runs: &[Run]) -> Vec<Option<f64>> {
     let imu = fibre();
     let strengths = NoiseParameters::of(&imu);
@@ -49,25 +48,25 @@ fn foreseen(chosen: &TermInstance, runs: &[Run]) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// A term as it is made here: within the run, and where its derivative is not zero.
+/// The term for the simulation: its event within the run, and at a point where its derivative is not zero.
 fn shaped(term: &'static Term) -> TermInstance {
     let imu = fibre();
     let mut chosen = TermInstance::new(term)
         .with_setting(SettingKind::Time, 70.0)
         .with_setting(SettingKind::TimeConstant, 40.0);
     for (role, parameter) in chosen.roles.iter_mut().zip(term.parameters) {
-        // Weaker than is usual: what the data do not show must not be shown by the prior.
+        // A wider prior than usual: an unobservable parameter must not seem observable because of its prior.
         *role = Role::Within(30.0 * parameter.sigma(&imu));
     }
     if term.id == "gyro_dead_zone" {
-        // No width has no derivative.
+        // The derivative for a width of zero is zero.
         let start: Vec<f64> = term.parameters.iter().map(|p| p.range(&imu).1).collect();
         chosen = chosen.with_values(&start);
     }
     chosen
 }
 
-/// What is wrong with the estimates of a term that is made `STRENGTH` sigmas strong; and how many were looked at.
+/// The errors of the estimates of a term with a size of `STRENGTH` sigmas, and the number of tested parameters.
 fn faults(term: &'static Term, seed: u64) -> (usize, Vec<String>) {
     let chosen = shaped(term);
     let foreseen = foreseen(&chosen, &runs(&Model::default(), None));
@@ -76,10 +75,10 @@ fn faults(term: &'static Term, seed: u64) -> (usize, Vec<String>) {
     for (place, sigma) in foreseen.iter().enumerate() {
         match sigma {
             Some(sigma) => {
-                // Both signs, but where the first one's derivative was taken.
+                // Both signs, except where the first derivative was calculated.
                 let sign = if place % 2 == 0 { 1.0 } else { -1.0 };
                 made.values[place] += sign * STRENGTH * sigma;
-                // Wide enough for what is made, and no wider than foreseen.
+                // Wide enough for the simulated value, and otherwise as in the prediction.
                 if let Role::Within(prior) = &mut estimated.roles[place] {
                     *prior = prior.max(5.0 * STRENGTH * sigma);
                 }
@@ -106,7 +105,7 @@ fn faults(term: &'static Term, seed: u64) -> (usize, Vec<String>) {
         let place = estimate.parameter.parameter;
         let off = (estimate.value - truth[place]) / estimate.sigma;
         let strength = (truth[place] - estimated.values[place]) / estimate.sigma;
-        // What is foreseen is for the first run's own parameters.
+        // The prediction is for the parameters of the first run.
         let weak = estimate.run != Some(1) && strength.abs() < 0.5 * STRENGTH;
         if off.abs() > WITHIN || weak {
             let id = &estimate.parameter.id;

@@ -1,4 +1,4 @@
-//! What the data do not show keeps its expected value, and the rest is honest about it.
+//! Unobservable parameters keep their prior values, and the covariance of the others is consistent.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
@@ -9,10 +9,10 @@ use rins_terms::{Model, Owner};
 use crate::mountings::{drawn, truth};
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
-/// IMUs, each drawn from its data sheet.
+/// The number of IMUs, each drawn from its data sheet.
 pub(crate) const IMUS: u64 = 200;
 
-/// One of four schedules, on an axis that is tilted by 3 to 60 deg.
+/// One of four schedules, on an axis with a tilt of 3 to 60 deg.
 pub(crate) fn turned(error: &ImuError, seed: u64) -> Run {
     let rate = 5.0 + (seed % 7) as f64 * 4.0;
     let schedule = match seed % 4 {
@@ -32,7 +32,7 @@ pub(crate) fn fitted(run: &Run) -> Fit {
     fit(std::slice::from_ref(run), &Model::full(), &imu, known, |_| ()).unwrap()
 }
 
-/// Squares of errors by their covariance, and how many figures.
+/// The sum of squared errors normalized by their covariance, and the number of values.
 fn squares(fit: &Fit, error: &ImuError) -> (f64, usize) {
     let of_sensors = |&place: &usize| fit.parameters[place].parameter.owner != Owner::Placement;
     let places: Vec<usize> = (0..fit.parameters.len()).filter(of_sensors).collect();
@@ -72,7 +72,7 @@ fn what_is_not_observable_keeps_its_expected_value_and_its_prior_sigma() {
                 assert_eq!(in_model.to_bits(), estimate.expected.to_bits(), "{estimate:?}");
             }
             for (place, seen) in identifiability.parameters.iter().enumerate() {
-                // What is observable hardly depends on what is not.
+                // Observable parameters hardly depend on unobservable ones.
                 let (before, after) =
                     (fit.sum(place, &seen.aliases), kept.sum(place, &seen.aliases));
                 if seen.identifiable {

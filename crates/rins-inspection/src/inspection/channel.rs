@@ -1,4 +1,4 @@
-//! What each channel's readings show by themselves: steps, repeats, spikes and cut-off tops.
+//! Errors of single channels: resolution, repeats, spikes and clipping.
 
 use rins_frames::Increments;
 
@@ -8,39 +8,38 @@ use crate::quantization_grid::{QuantizationGrid, alike, comb};
 use crate::sticking::steps;
 use rins_motion::{Recording, median};
 
-/// A spike is so many times the robust scatter of the differences between neighbours ...
+/// The ratio of a spike to the robust scatter of the differences between successive readings ...
 const SPIKE_RATIO: f64 = 50.0;
 
-/// ... and so many times the largest difference nearby: an impact has others beside it.
+/// ... and to the largest difference nearby: an impact has other differences beside it ...
 const SPIKE_ALONE: f64 = 10.0;
 
-/// ... unless no more than so many stand out so, and the largest of the others lead to expect more than this many of them:
-/// noise with heavy tails has one that is the largest.
+/// ... unless at most this number of readings are so large, and the tail of the others predicts more than this number of
+/// them: noise with heavy tails has a largest reading too.
 const OF_TAIL: (usize, f64) = (2, 1e-3);
 
-/// How many of the largest tell how a tail goes on.
+/// The number of largest values from which the tail is extrapolated.
 const TAIL: usize = 32;
 
-/// What stands so many times its scatter out of its neighbours is part of what another sensor shows as a spike.
+/// The ratio to its scatter from which a reading belongs to the spike of another sensor.
 const BESIDE: f64 = 6.0;
 
-/// How many samples to each side are nearby.
+/// The number of samples on each side that are nearby.
 const NEARBY: usize = 25;
 
-/// A run of equal extreme readings is a flat top if so many are expected to be found by chance.
+/// A span of equal extreme readings is clipped if the expected number of such spans by chance is below this.
 const LEAST_CHANCE: f64 = 1e-9;
 
-/// Of a sensor so coarse that it repeats more than this share of its readings, a constant rate may
-/// be one reading throughout.
+/// If a sensor is so coarse that it repeats more than this fraction of its readings, equal readings may be a constant rate.
 const MOST_REPEATS: f64 = 0.2;
 
-/// The shortest run of equal readings that is a flat top.
+/// The shortest span of equal readings that is clipped.
 const SHORTEST_TOP: usize = 5;
 
-/// A reading that is left less often may be that of a top which noise has cut into pieces.
+/// A reading with fewer changes away from it may be a clipped one that noise interrupts.
 const LEAST_LEAVINGS: usize = 20;
 
-/// The mistakes that the six channels show, one at a time. `stands` tells which samples are at rest.
+/// The errors of the six channels, one at a time. `stands` marks the samples in static intervals.
 pub(super) fn suspicions(
     recording: &Recording,
     expected: &Expected,
@@ -70,7 +69,7 @@ pub(super) fn suspicions(
     found
 }
 
-/// What a channel reads as mean rates \[rad/s\] or specific forces \[m/s²\].
+/// The readings of a channel as mean rates \[rad/s\] or specific forces \[m/s²\].
 fn readings(recording: &Recording, channel: usize) -> Vec<f64> {
     let of_sample = |sample: &Increments| {
         let rates = sample.rates();
@@ -83,17 +82,17 @@ fn readings(recording: &Recording, channel: usize) -> Vec<f64> {
     recording.increments.iter().map(of_sample).collect()
 }
 
-/// Single readings of a channel that lie far outside of what comes before and after them.
+/// Single readings of a channel far outside of the previous and the next ones.
 #[derive(Clone, Copy, Debug)]
 struct Spikes {
     count: usize,
-    /// The sample of the largest.
+    /// The sample of the largest one.
     largest: usize,
 }
 
-/// Whether the only spikes are those of gyros at the same samples, of both across the axis, or of one of them while the other
-/// shows its one too: the base tips over in an instant, and turns about the axis too if that is not upright. What spoils a line
-/// of a log, or a sensor, spoils others or one alone.
+/// Whether the only spikes are those of gyros in the same samples, of both x and y, or of one of these while the other has a
+/// smaller one too: a tilt step of the base within an epoch, which also rotates about the axis unless that is vertical. A
+/// damaged line of a log, or a faulty sensor, affects other channels or one alone.
 fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
     let Some(&(_, first)) = found.first() else { return false };
     let at_once = |&(channel, spikes): &(usize, Spikes)| {
@@ -116,12 +115,12 @@ fn is_jolt(found: &[(usize, Spikes)], channels: &[Vec<f64>]) -> bool {
         }
 }
 
-/// The robust scatter of the steps between readings; none if there is no step.
+/// The robust scatter of the differences of readings; `None` if all are equal.
 fn scatter(readings: &[f64], steps: &[f64]) -> Option<f64> {
     let alike = alike(readings);
     let sizes = || steps.iter().map(|step| step.abs());
     let usual = 1.4826 * median(sizes())?;
-    // A coarse sensor often repeats a reading; then the least step that it makes is its scatter.
+    // A coarse sensor often repeats a reading; then its smallest difference is the scatter.
     let coarse = sizes().filter(|size| *size > alike).min_by(f64::total_cmp)?;
     Some(if usual > alike { usual } else { coarse })
 }
@@ -130,12 +129,12 @@ pub(super) fn longest_repeat(readings: &[f64]) -> usize {
     runs(readings).map(|(_, length)| length).max().unwrap_or_default()
 }
 
-/// Combs whose teeth are no further apart than so many times those of the other are the same.
+/// The largest ratio of the steps of two equal grids.
 const SAME_COMB: f64 = 1.1;
 
-/// The resolution of increments: their own, or that of the rates which they were made of over intervals that are not all alike,
-/// over an interval. The coarser one, since products of two roundings stand on a comb that is far too fine, and of two that are about
-/// the same that on which readings stand more exactly.
+/// The resolution of increments: their own, or that of the rates from which they were calculated with unequal intervals,
+/// times the mean interval. It is the larger of the two, since products of two rounded numbers have a grid that is far too
+/// fine; if both are nearly equal, it is the more precise one.
 pub(super) fn resolution_of(
     increments: &[f64],
     recording: &Recording,
@@ -159,8 +158,8 @@ pub(super) fn resolution_of(
     Some(found.step)
 }
 
-/// The comb on which readings stand, if most teeth are shared by several samples: the digits of a
-/// log are no sensor's.
+/// The grid of readings, if most of its values are shared by several samples: the digits of a log are not the resolution of a
+/// sensor.
 fn resolution(readings: &[f64]) -> Option<QuantizationGrid> {
     let comb = comb(readings)?;
     let mut sorted = readings.to_vec();
@@ -169,7 +168,7 @@ fn resolution(readings: &[f64]) -> Option<QuantizationGrid> {
     (4 * teeth < readings.len()).then_some(comb)
 }
 
-/// Each run of equal readings: its start and its length.
+/// The spans of equal readings: start and length.
 fn runs(readings: &[f64]) -> impl Iterator<Item = (usize, usize)> {
     let mut start = 0;
     readings
@@ -189,12 +188,12 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
     let steps = steps(readings);
     let scatter = scatter(readings, &steps)?;
     let most = readings.iter().fold(0.0, |most: f64, reading| most.max(reading.abs()));
-    // What is left of rounding in readings without noise is no scatter.
+    // The rounding error of readings without noise is not a scatter.
     let least = (SPIKE_RATIO * scatter).max(1e-9 * most);
     let alone = |index: usize, size: f64| {
         let nearby = index.saturating_sub(NEARBY)..(index + 1 + NEARBY).min(steps.len());
         nearby.filter(|&other| other + 1 != index && other != index).all(|other| {
-            // Steps next to another spike are not the motion's.
+            // Differences next to another spike are not part of the motion.
             steps[other].abs() * SPIKE_ALONE < size || is_spike(&steps, other, least)
         })
     };
@@ -214,8 +213,7 @@ fn spikes(readings: &[f64]) -> Option<Spikes> {
     (count > 0 && !is_tail()).then_some(Spikes { count, largest: largest.1 })
 }
 
-/// How many are expected beyond `size` by the largest of those below `least`, if the tail goes on as a power
-/// (‹hill1975›).
+/// The expected number of values beyond `size`, from the largest of those below `least` and a power-law tail (‹hill1975›).
 fn expected_beyond(size: f64, mut sizes: Vec<f64>, least: f64) -> f64 {
     sizes.retain(|other| *other < least);
     sizes.sort_unstable_by(|a, b| b.total_cmp(a));
@@ -226,13 +224,13 @@ fn expected_beyond(size: f64, mut sizes: Vec<f64>, least: f64) -> f64 {
     count * (-(size / smallest).ln() / mean).exp()
 }
 
-/// How far two steps go to come back; nothing if they do not.
+/// The size of two successive steps that cancel; zero if they do not.
 fn there_and_back([there, back]: [f64; 2]) -> f64 {
     let size = there.abs().min(back.abs());
     if (there + back).abs() < 0.2 * size { size } else { 0.0 }
 }
 
-/// Whether the step is one of the two that a spike makes.
+/// Whether the step is one of the two of a spike.
 fn is_spike(steps: &[f64], index: usize, least: f64) -> bool {
     let is = |a: f64, b: f64| there_and_back([a, b]) > least;
     let before = index.checked_sub(1).is_some_and(|before| is(steps[before], steps[index]));
@@ -245,15 +243,15 @@ fn saturated(
     channel: &'static str,
     recording: &Recording,
 ) -> Option<Suspicion> {
-    // A range in round figures and its last count differ.
+    // A nominal range differs from the largest possible count.
     let beyond = |reading: &f64| reading.abs() >= range * (1.0 - 1e-3);
     let first = readings.iter().position(beyond)?;
     let count = readings.iter().filter(|reading| beyond(reading)).count();
     Some(Suspicion::Saturated { channel, count, time: recording.times[first], range })
 }
 
-/// Whether a reading is that of a constant rate between two steps of a coarse sensor, which reads the one or the other: time and
-/// again it goes to the next step and back, and hardly ever further.
+/// Whether a reading is that of a constant rate between two values of a coarse sensor: it changes repeatedly to an adjacent
+/// value and back, and hardly ever further.
 fn stands_between(readings: &[f64], extreme: f64) -> bool {
     let Some(step) = resolution(readings).map(|comb| comb.step) else { return false };
     #[expect(clippy::float_cmp, reason = "it is one of the readings")]
@@ -266,7 +264,7 @@ fn stands_between(readings: &[f64], extreme: f64) -> bool {
     all >= LEAST_LEAVINGS && 10 * to_next >= 9 * all
 }
 
-/// The largest or the least reading, repeated while moving so often as no other reading is.
+/// Clipping: the largest or the smallest reading, repeated during motion more often than any other reading.
 fn flat_top(
     readings: &[f64],
     stands: &[bool],
@@ -288,11 +286,11 @@ fn flat_top(
         }
     }
     let (start, count) = top;
-    // A channel that says little but its extremes is stuck or a perfect one.
+    // A channel with few other readings than its extremes is stuck or free of noise.
     if count < SHORTEST_TOP || others < 0.1 * readings.len() as f64 {
         return None;
     }
-    // One repeat more than was seen: that none was does not say that there can be none.
+    // One repeat more than observed: zero occurrences do not imply a probability of zero.
     let chance = (repeats + 1.0) / others;
     if chance > MOST_REPEATS {
         return None;

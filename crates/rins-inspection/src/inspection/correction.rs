@@ -1,8 +1,8 @@
-//! Single mistakes of axes, signs and attitude, and what data look like without them.
+//! Single errors of axes, signs and attitude, and their corrections.
 
 use rins_frames::{EulerAngles, SignedAxes};
 
-/// A single mistake that would explain what is seen, as what undoes it.
+/// The correction of a single error that would explain the data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Correction {
@@ -22,24 +22,24 @@ pub enum Correction {
     YawSign,
     /// The hemisphere.
     LatitudeSign,
-    /// The sense in which the table's angle is counted.
+    /// The direction of rotation in which the table angle increases.
     TableSense,
-    /// Both that and the gyros' axes.
+    /// Both the direction of rotation and the gyros' axes.
     GyroAndTableSense(SignedAxes),
 }
 
-/// How unlikely a mistake is: wrong signs, or two axes exchanged, are made most often.
+/// The cost of an error: wrong signs, or two exchanged axes, are the most frequent.
 fn cost(axes: &SignedAxes) -> usize {
     match (axes.kept(), axes.flips()) {
         (3, 0) => 0,
-        // All three: gravity was taken for specific force.
+        // All three: gravity instead of specific force.
         (3, 1 | 3) | (1, 0) => 1,
         (3, _) | (1, 1) | (0, 0) => 2,
         _ => 3,
     }
 }
 
-/// What may be otherwise than it is said to be.
+/// A hypothesis on what differs from the declared properties.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hypothesis {
     pub(super) gyro: SignedAxes,
@@ -49,17 +49,17 @@ pub(super) struct Hypothesis {
     pub(super) table_sense: f64,
 }
 
-/// How much there is that a hypothesis must explain.
+/// The amount of data that a hypothesis must explain.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Weight {
     /// Whole vectors.
     Directions,
-    /// The angle between two, or a sense of turning.
+    /// The angle between two vectors, or a direction of rotation.
     OneFigure,
 }
 
 impl Hypothesis {
-    /// Nothing but what is read.
+    /// The data as declared.
     pub(super) const AS_READ: Self = Self {
         gyro: SignedAxes::IDENTITY,
         accel: SignedAxes::IDENTITY,
@@ -68,7 +68,7 @@ impl Hypothesis {
         table_sense: 1.0,
     };
 
-    /// The same but for what `correction` undoes.
+    /// The hypothesis with this correction.
     fn corrected(self, correction: Correction) -> Self {
         let turned =
             |turn: fn(EulerAngles) -> EulerAngles| Self { angles: self.angles.map(turn), ..self };
@@ -92,8 +92,8 @@ impl Hypothesis {
         }
     }
 
-    /// The least unlikely of all single corrections with which `explains` is true; of one figure
-    /// only the commonest mistakes, as among many some explain it by chance.
+    /// The most probable single corrections for which `explains` is true. For a single number only the most frequent errors
+    /// are tried, because some of many errors would explain it by chance.
     pub(super) fn corrections(
         self,
         evidence: Weight,
@@ -115,7 +115,7 @@ impl Hypothesis {
         for correction in of_axes.chain(others) {
             let cost = match correction {
                 Gyro(axes) | Accel(axes) | Imu(axes) => cost(&axes),
-                // Two mistakes that hide each other.
+                // Two errors that hide each other.
                 GyroAndTableSense(axes) => cost(&axes) + 1,
                 _ => 1,
             };

@@ -1,16 +1,16 @@
-//! Gyros whose columns hold the accelerometers' readings, and the other way round.
+//! Exchanged columns of gyros and accelerometers.
 
 use super::suspicion::Suspicion;
 use super::whole_turns::{STANDS, WholeTurns};
 use rins_motion::Recording;
 
-/// A channel that follows the table's rate does so this closely, another one less.
+/// The smallest correlation of a channel with the table rate, and the largest one of an unrelated channel.
 const FOLLOWS: f64 = 0.95;
 const IGNORES: f64 = 0.5;
 
-/// What follows the table's turn: an accelerometer where it should be a gyro.
+/// The channel that correlates with the table's rotation: an accelerometer instead of a gyro.
 ///
-/// Correlations do not depend on units, in which exchanged columns are wrong too.
+/// Correlations do not depend on units, which are wrong too if columns are exchanged.
 pub(super) fn suspicion(recording: &Recording, table_angle: Option<&[f64]>) -> Option<Suspicion> {
     let angle = table_angle?;
     let samples = recording.increments.get(1..)?;
@@ -29,14 +29,14 @@ pub(super) fn suspicion(recording: &Recording, table_angle: Option<&[f64]>) -> O
     (accel > FOLLOWS && gyro < IGNORES).then_some(Suspicion::Triads { gyro, accel })
 }
 
-/// The same where the table's rate does not change and gives no correlation: gravity, which stands
-/// while the body turns, is what the gyros show, and the accelerometers show nothing of it.
+/// The same for a constant table rate, which has no correlation: the gyros measure a vector that is fixed while the body
+/// rotates, which is gravity, and the accelerometers do not.
 pub(super) fn in_turns(turns: &WholeTurns) -> Option<Suspicion> {
     let [accel, gyro] = turns.standing();
     (gyro > STANDS && accel < gyro / 10.0).then_some(Suspicion::TurningTriads { gyro, accel })
 }
 
-/// `None` if one of them does not change.
+/// The correlation; `None` if one of the lists is constant.
 fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
     let (mean_a, mean_b) = (mean(a), mean(b));

@@ -1,4 +1,4 @@
-//! What a recording is held against.
+//! The expected properties of a recording.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::units::ReadingUnit;
 /// The names of the six channels, in the order of every list here.
 pub const CHANNELS: [&str; 6] = ["gyro.x", "gyro.y", "gyro.z", "accel.x", "accel.y", "accel.z"];
 
-/// What was seen in a stretch of rest.
+/// The data of a static interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RestSeen {
     /// The samples.
@@ -19,36 +19,36 @@ pub struct RestSeen {
     pub mean: RestMean,
 }
 
-/// What a triad's data sheet says that its readings can be held against.
+/// The data sheet of a triad, as far as readings can be compared with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ExpectedTriad {
-    /// How far a bias may be from zero, 1σ \[rad/s\] or \[m/s²\].
+    /// 1σ of a bias \[rad/s\] or \[m/s²\].
     pub bias_sigma: Option<f64>,
-    /// The largest rate or specific force that can be read \[rad/s\] or \[m/s²\].
+    /// The largest rate or specific force that the sensor can measure \[rad/s\] or \[m/s²\].
     pub range: Option<f64>,
-    /// The unit that readings are said to be in.
+    /// The declared unit of the readings.
     pub unit: Option<ReadingUnit>,
 }
 
-/// The attitude that the spin axis is said to have.
+/// The declared attitude of the spin axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExpectedAxis {
-    /// Of the axis frame at table angle zero, `C_s^n`.
+    /// The angles of the axis frame at table angle zero, `C_s^n`.
     pub angles: EulerAngles,
     /// Their 1σ \[rad\].
     pub sigma: f64,
 }
 
-/// What is known of a run beforehand; what is not, nothing is held against.
+/// The prior knowledge of a run; properties that are `None` are not tested.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Expected {
-    /// The place and its gravity.
+    /// The site and its gravity.
     pub station: Option<Station>,
     /// The attitude of the spin axis.
     pub axis: Option<ExpectedAxis>,
-    /// By how much the table's angle or rate is late \[s\].
+    /// The latency of the table angle or rate \[s\].
     pub table_latency: f64,
-    /// The unit that the table's angle or rate is said to be in.
+    /// The declared unit of the table angle or rate.
     pub table_unit: Option<ReadingUnit>,
     /// The gyros.
     pub gyro: ExpectedTriad,

@@ -1,49 +1,50 @@
-//! How late the table's angle is, and how its count and the z gyro's compare.
+//! The latency of the table angle, and its ratio to the angle of the z gyro.
 
 use nalgebra::{Cholesky, Matrix3, Vector3};
 
 use rins_motion::Recording;
 
-/// The table's rate must change by this much \[rad/s\], rms, for a lag to show.
+/// The smallest change of the table rate \[rad/s\], rms, for which a latency is observable.
 const LEAST_CHANGE: f64 = 1e-3;
 
-/// A time stamp may mean the start, the middle or the end of a sample, and of the one before.
+/// The largest latency in samples that is a matter of convention: a time stamp may be that of the start, the middle or the
+/// end of a sample, or of the previous one.
 const MOST_SAMPLES_LATE: f64 = 2.0;
 
-/// Angles and rates are means over so long \[s\]: the noise of a rate is small beside what a table changes it by.
+/// The averaging time of angles and rates \[s\]: the noise of a rate is small compared with its changes.
 const BLOCK: f64 = 1.0;
 
-/// Of fewer means the noise does not show.
+/// The smallest number of blocks from which the noise can be estimated.
 const FEWEST_BLOCKS: usize = 12;
 
-/// The variance of the random walk over a block, as a part of that of a block's white noise: from none that shows to hardly any
-/// white noise.
+/// The range of the variance of the random walk over a block, relative to that of a block's white noise: from a negligible
+/// random walk to negligible white noise.
 const WALK: [f64; 2] = [1e-8, 1e8];
 
-/// So many values of it are tried, ...
+/// The number of grid values in this range, ...
 const TRIED: u32 = 17;
 
-/// ... and so many steps of a golden section narrow the best down.
+/// ... and the number of golden-section steps that refine the best one.
 const NARROWED: usize = 20;
 
-/// A lag is found again about the last one until it moves by less than this part of its 1σ, ...
+/// The latency is estimated again about the last estimate until it changes by less than this fraction of its 1σ, ...
 const STILL: f64 = 0.1;
 
-/// ... or until it was found so often.
+/// ... or until this number of passes.
 const MOST_PASSES: usize = 5;
 
-/// The angle of the z gyro against that of the table.
+/// The angle of the z gyro compared with that of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableLag {
-    /// By how much the table's angle is late \[s\].
+    /// The latency of the table angle \[s\].
     pub latency: f64,
-    /// Its 1σ by the scatter of the angles: white noise and a random walk \[s\].
+    /// Its 1σ from the scatter of the angles: white noise and a random walk \[s\].
     pub sigma: f64,
-    /// The gyro's turn over the table's: the gyro's scale, and how fast their clocks go.
+    /// The ratio of the gyro's to the table's angle of rotation: the gyro's scale factor times the ratio of the clocks.
     pub ratio: f64,
 }
 
-/// What a block of samples shows.
+/// The means over a block of samples.
 struct Block {
     /// The gyro's mean angle \[rad\].
     angle: f64,
@@ -51,7 +52,7 @@ struct Block {
     columns: Vector3<f64>,
 }
 
-/// A generalised least-squares fit, of angles in whose noise is so much random walk.
+/// A generalized least squares fit to angles with a given ratio of random walk to white noise.
 struct Trial {
     found: Vector3<f64>,
     sigma_of_rate: f64,
@@ -60,15 +61,15 @@ struct Trial {
 }
 
 impl TableLag {
-    /// `None` without an angle that was read, or if the table rotates at one rate only.
+    /// The latency; `None` without a measured angle, or if the table rotates at a single rate.
     ///
-    /// The gyro's angle is `ratio · (θ + latency · ω) + bias · t + start`, in means over blocks, which hold as the equation does.
-    /// Its noise is white, that of the angle, and a random walk, that of the gyro: how much there is of each is the most likely by
-    /// restricted maximum likelihood, and with it the parameters follow by generalised least squares (local level
-    /// model; ‹harvey1989›, section 4.1).
+    /// The gyro's angle is `ratio · (θ + latency · ω) + bias · t + start`, in means over blocks, for which the equation holds
+    /// too. Its noise is the sum of the angle's white noise and the gyro's random walk. Their ratio is estimated by
+    /// restricted maximum likelihood, the parameters by generalized least squares (local level model; ‹harvey1989›, section
+    /// 4.1).
     ///
-    /// The equation holds for a lag in which the rate does not change: it is asked again of the gyro's angle as late as the lag
-    /// that was found, until nothing is left (Gauss–Newton).
+    /// The equation holds for a latency in which the rate does not change: the fit is repeated with the gyro's angle delayed
+    /// by the estimated latency until the remainder vanishes (Gauss–Newton).
     pub(super) fn of(recording: &Recording) -> Option<Self> {
         let table = recording.table_angle.as_deref()?;
         let angles = gyro_angles(recording);
@@ -83,7 +84,7 @@ impl TableLag {
         Some(found)
     }
 
-    /// What is left of the lag where the gyro's angle is made so late.
+    /// The remaining latency for the gyro's angle delayed by `latency`.
     fn beyond(latency: f64, times: &[f64], angles: &[f64], table: &[f64]) -> Option<Self> {
         let blocks = blocks(latency, times, angles, table);
         if blocks.len() < FEWEST_BLOCKS {
@@ -110,14 +111,14 @@ impl TableLag {
         (lag.latency.is_finite() && lag.sigma.is_finite()).then_some(lag)
     }
 
-    /// The latency, if it is a matter of which instant of a sample a time stamp means, samples being `interval` long \[s\]: it
-    /// is told by itself, and no sign of a table that moved otherwise.
+    /// The latency, if it is a matter of the convention of time stamps for samples of duration `interval` \[s\]: it is
+    /// reported as a latency, and is not evidence of a different motion of the table.
     pub(super) fn by_convention(&self, interval: f64) -> Option<f64> {
         (self.latency.abs() <= MOST_SAMPLES_LATE * interval).then_some(self.latency)
     }
 }
 
-/// The angle \[rad\] that the z gyro has turned by at the end of each sample.
+/// The angle \[rad\] of rotation of the z gyro at the end of each sample.
 fn gyro_angles(recording: &Recording) -> Vec<f64> {
     let turned = |angle: &mut f64, by: f64| {
         *angle += by;
@@ -131,7 +132,7 @@ fn gyro_angles(recording: &Recording) -> Vec<f64> {
         .collect()
 }
 
-/// The means over blocks of samples, of the gyro's angle as it was `latency` \[s\] before.
+/// The means over blocks of samples, with the gyro's angle delayed by `latency` \[s\].
 fn blocks(latency: f64, times: &[f64], angles: &[f64], table: &[f64]) -> Vec<Block> {
     let [start, .., end] = times else {
         return Vec::new();
@@ -144,7 +145,7 @@ fn blocks(latency: f64, times: &[f64], angles: &[f64], table: &[f64]) -> Vec<Blo
         return Vec::new();
     }
     let interval = (times[count - 1] - times[0]) / (count - 1) as f64;
-    // Half-way between samples, so that the mean rate is over the same time as the mean angle.
+    // At the middle between samples, so that the mean rate refers to the same time as the mean angle.
     let between = |values: &[f64], after: usize| 0.5 * (values[after - 1] + values[after]);
     let mut blocks = Vec::new();
     let mut first = 1;
@@ -164,7 +165,7 @@ fn blocks(latency: f64, times: &[f64], angles: &[f64], table: &[f64]) -> Vec<Blo
     blocks
 }
 
-/// Values at times \[s\] that rise and lie within those of a table, by straight lines.
+/// Linear interpolation of a table of values at increasing times \[s\] within its range.
 fn interpolated(times: &[f64], values: &[f64], at: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut after = 1;
     at.map(|time| {
@@ -178,10 +179,10 @@ fn interpolated(times: &[f64], values: &[f64], at: impl Iterator<Item = f64>) ->
 }
 
 impl Trial {
-    /// With a random walk whose variance over a block is so many times that of a block's white noise.
+    /// The fit with a random walk whose variance over a block is `walk` times that of a block's white noise.
     fn of(blocks: &[Block], walk: f64) -> Option<Self> {
         let (first, rest) = blocks.split_first()?;
-        // The level is not known beforehand: it is that of the first block.
+        // The initial level is unknown: it is that of the first block.
         let (mut variance, mut level, mut levels) = (1.0 + walk, first.angle, first.columns);
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
         let (mut square, mut logarithms) = (0.0, 0.0);
@@ -198,7 +199,7 @@ impl Trial {
             levels += columns * gain;
             variance = gain + walk;
         }
-        // Of one size, so that the normal equations are no worse than they must be.
+        // Normalized, for the condition of the normal equations.
         let size = normal.diagonal().map(|own: f64| own.sqrt().max(f64::MIN_POSITIVE));
         let scaled =
             Matrix3::from_fn(|row, column| normal[(row, column)] / (size[row] * size[column]));
@@ -217,7 +218,7 @@ impl Trial {
     }
 }
 
-/// Where a function of one maximum between `low` and `high` is largest.
+/// The place of the maximum between `low` and `high` of a unimodal function.
 fn golden_section(mut low: f64, mut high: f64, of: impl Fn(f64) -> f64) -> f64 {
     let part = (5.0_f64.sqrt() - 1.0) / 2.0;
     let inside = |low: f64, high: f64| [high - part * (high - low), low + part * (high - low)];

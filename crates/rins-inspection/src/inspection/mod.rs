@@ -1,4 +1,4 @@
-//! What a recording holds, and what looks wrong with it.
+//! The inspection of a recording: its properties and its probable errors.
 
 mod channel;
 mod correction;
@@ -33,44 +33,44 @@ use crate::static_intervals::{SensorFigures, StaticIntervals, StaticOptions};
 use crate::sticking::is_noisy;
 use rins_motion::{Recording, RestMean, median};
 
-/// Rests that last this share of the longest are looked at like it.
+/// The duration relative to the longest static interval from which static intervals are used like it.
 const LONG_REST: f64 = 0.5;
 
-/// A mean rate at rest up to this many times the Earth's still shows the Earth's.
+/// The ratio of a static mean rate to the Earth's rate up to which the Earth's rate is visible.
 const EARTH_RATE_VISIBLE: f64 = 2.0;
 
-/// What a recording holds.
+/// The properties of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inspection {
-    /// How regularly samples came.
+    /// The regularity of the samples.
     pub timing: Timing,
-    /// The static intervals, and what looks like one and is none.
+    /// The static intervals, and the candidates that were rejected.
     pub static_intervals: StaticIntervals,
-    /// The means over those that are used.
+    /// The means over the static intervals that are used.
     pub rests: Vec<RestSeen>,
-    /// How many turns were made about body z, forwards and backwards added up.
+    /// The number of revolutions about body z, forward and backward added.
     pub turns: f64,
-    /// The gyro z's turn over the table's, its bias left out, if there is a table that turns.
+    /// The ratio of gyro z's to the table's angle of rotation, without the gyro's bias, if there is a rotating table.
     pub spin_ratio: Option<f64>,
-    /// How late the table's angle is, if it was read and the rate changes.
+    /// The latency of the table angle, if it is measured and the rate changes.
     pub table_lag: Option<TableLag>,
-    /// For each channel the step between neighbouring readings, if there are few of them (SI units of an increment).
+    /// For each channel the resolution, if it is observable (SI units of an increment).
     pub resolution: [Option<f64>; 6],
-    /// For each channel the longest run of equal readings.
+    /// For each channel the length of the longest span of equal readings.
     pub longest_repeat: [usize; 6],
-    /// Whether the table makes whole turns, over which directions were averaged.
+    /// Whether the table makes whole revolutions, over which directions are averaged.
     pub turns_whole: bool,
-    /// Whether the mean rate at rest is near enough to the Earth's to show it.
+    /// Whether the static mean rate is close enough to the Earth's rate to contain it.
     pub earth_rate_visible: bool,
-    /// What looks wrong.
+    /// The probable errors.
     pub suspicions: Vec<Suspicion>,
 }
 
-/// Looks through a recording, and holds what is `expected` against it.
+/// Inspects a recording, and compares it with what is `expected`.
 ///
-/// Wrong axes and signs show where the run shows them: in the specific force and the Earth's rate at
-/// rest if the axis' attitude and the table's angle are known, in the angle between the two else,
-/// and in how the specific force moves while turning about a tilted axis.
+/// Wrong axes and signs are visible where the run contains the information: in static specific force and Earth's rate if the
+/// axis' attitude and the table angle are known, otherwise in the angle between the two, and in the change of the specific
+/// force during a rotation about a tilted axis.
 ///
 /// ```
 /// use rins_frames::units::DEG;
@@ -83,7 +83,7 @@ pub struct Inspection {
 /// let body_from_nav = angles.dcm::<Nav, Body>().inverse();
 /// let rest = Rates {
 ///     angular_rate: body_from_nav * site.earth_rate(),
-///     // An accelerometer that reads gravity, which points down, for specific force.
+/// // An accelerometer that measures gravity, which points down, instead of specific force.
 ///     specific_force: body_from_nav * InFrame::new(0.0, 0.0, -station.gravity),
 /// };
 /// let recording = Recording {
@@ -110,7 +110,7 @@ pub fn inspect(recording: &Recording, expected: &Expected) -> Inspection {
     inspect_with(recording, expected, StaticIntervals::of(recording, &options))
 }
 
-/// [`inspect`] where the static intervals are found already.
+/// [`inspect`] with known static intervals.
 pub fn inspect_with(
     recording: &Recording,
     expected: &Expected,
@@ -153,7 +153,7 @@ pub fn inspect_with(
     let longest = rests.iter().max_by(|a, b| a.mean.duration.total_cmp(&b.mean.duration));
     let table_angle = table_angle(recording);
     let whole_turns = WholeTurns::of(recording, table_angle.as_deref());
-    // A table that turns slowly shows gravity as well as a rest does.
+    // A slowly rotating table determines gravity as well as a static interval does.
     let force = longest
         .map(|rest| rest.mean.rates.specific_force.norm())
         .or_else(|| whole_turns.as_ref().and_then(|turns| turns.force));
@@ -165,18 +165,18 @@ pub fn inspect_with(
     let suspect = Suspect::of(whole_turns.as_ref(), turning.as_ref());
     let spun = spin.as_ref().and_then(|spin| spin.suspicion(recording, &timing, expected, suspect));
     let exchanged = exchange::suspicion(recording, table_angle.as_deref()).or_else(|| {
-        // Of readings in right units it is nothing to ask.
+        // If the units are right, exchanged columns need not be considered.
         let turns = whole_turns.as_ref().filter(|_| gravity.is_some() && spun.is_some())?;
         exchange::in_turns(turns)
     });
     let right_units =
         gravity.is_none() && exchanged.is_none() && spin.as_ref().is_none_or(Spin::counts);
-    // What exchanged columns look like beside is nothing of its own.
-    // A table that moved otherwise than is said has not that angle either, but perhaps at rest.
+    // Other symptoms of exchanged columns are not reported separately.
+    // The angle of a table that moved differently is wrong too, but perhaps not in static intervals.
     let followed = !matches!(spun, Some(Suspicion::SpinProfile { .. }));
     let of_units = if exchanged.is_some() { [exchanged, None] } else { [gravity, spun] };
     suspicions.extend(of_units.into_iter().flatten());
-    // Directions mean something once units are right.
+    // Directions are meaningful only if the units are right.
     if right_units {
         let share = if followed { LONG_REST } else { 1.0 };
         let lasting = longest.map_or(0.0, |rest| share * rest.mean.duration);
@@ -219,7 +219,8 @@ pub fn inspect_with(
 
 /// The channels that repeat one reading throughout.
 ///
-/// A coarse sensor, or one without noise, may well do so at rest: the others of its triad tell. Three zeros are no reading.
+/// A coarse sensor, or one without noise, may do so in a static run: the other sensors of its triad decide. Three zeros are
+/// no reading.
 fn stuck_throughout(channels: &[Vec<f64>; 6], longest_repeat: [usize; 6]) -> Vec<Suspicion> {
     let is_stuck = |channel: &usize| {
         let triad = &channels[channel / 3 * 3..][..3];

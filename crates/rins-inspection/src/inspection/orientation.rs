@@ -1,4 +1,4 @@
-//! Whether axes, signs, attitude and place agree with gravity, the Earth's rate and the turns made.
+//! The consistency of axes, signs, attitude and site with gravity, the Earth's rate and rotations.
 
 use nalgebra::Vector3;
 use rins_frames::units::{DEG, DEG_PER_HOUR, STANDARD_GRAVITY};
@@ -11,36 +11,36 @@ use super::turning::Turning;
 use super::whole_turns::WholeTurns;
 use rins_motion::Station;
 
-/// The least angle by which the specific force may be off the axis' attitude \[rad\].
+/// The smallest limit of the angle between the specific force and the vertical of the axis' attitude \[rad\].
 const LEAST_LEVEL_LIMIT: f64 = 1.0 * DEG;
 
-/// The least rate by which a gyro that shows the Earth's rate may be off it \[rad/s\].
+/// The smallest limit of the difference between a gyro's mean rate and the Earth's rate \[rad/s\].
 const LEAST_RATE_LIMIT: f64 = 1.5 * DEG_PER_HOUR;
 
-/// The share of the Earth's rate to which a mean over turns must be known to tell its direction.
+/// The largest uncertainty of a mean over revolutions, relative to the Earth's rate, for which its direction is meaningful.
 const EARTH_RATE_SHOWN: f64 = 0.5;
 
-/// How many sigma are odd.
+/// The number of sigmas of a limit.
 const SIGMAS: f64 = 5.0;
 
-/// How far the gyros may be off one axis by which the table turns, as a ratio.
+/// The largest error of the gyros' rotation axis relative to the table's, as a ratio.
 const LARGEST_CROSS: f64 = 0.3;
 
-/// What bears on axes and signs.
+/// The data on axes and signs.
 pub(super) struct Evidence<'a> {
     pub(super) expected: &'a Expected,
     pub(super) station: Option<Station>,
-    /// The long rests, the longest first, and the table's angle in each.
+    /// The long static intervals, the longest first, and the table angle in each.
     pub(super) rests: Vec<(&'a RestSeen, Option<f64>)>,
     pub(super) whole_turns: Option<&'a WholeTurns>,
     /// The median interval of the samples \[s\].
     pub(super) interval: f64,
-    /// Each gyro's turn over the table's.
+    /// The ratio of each gyro's angle of rotation to the table's.
     pub(super) spin: Option<Vector3<f64>>,
     pub(super) turning: Option<Turning>,
 }
 
-/// A figure and how large it may be.
+/// A deviation and its limit.
 #[derive(Clone, Copy, Debug)]
 struct Limited {
     off: f64,
@@ -57,17 +57,17 @@ impl Limited {
     }
 }
 
-/// Which mean rates must be the Earth's.
+/// The mean rates that must equal the Earth's rate.
 #[derive(Clone, Copy, Debug)]
 enum Rates {
-    /// Those of all rests and in turns.
+    /// Those of all static intervals and of revolutions.
     All,
-    /// That of the longest rest.
+    /// That of the longest static interval.
     OfLongestRest,
 }
 
 impl Evidence<'_> {
-    /// What is wrong, each with the single corrections that put all of it right.
+    /// The errors, each with the single corrections that explain all deviations.
     pub(super) fn suspicions(&self) -> Vec<Suspicion> {
         let given = Hypothesis {
             angles: self.expected.axis.map(|axis| axis.angles),
@@ -84,8 +84,8 @@ impl Evidence<'_> {
         }
         let weight = if level.is_some() { Weight::Directions } else { Weight::OneFigure };
         let explained = |rates| given.corrections(weight, |other| self.explains(other, rates));
-        // Gyros may drift from rest to rest, and have errors that turn with the table: what no
-        // wrong axis explains is of one rest a mistake, and of all of them none.
+        // Gyros may drift between static intervals, and have errors that rotate with the table: a deviation without a
+        // correction is an error in the longest static interval, but not in the others.
         let (corrections, rate) = match explained(Rates::All) {
             none if none.is_empty() => (explained(Rates::OfLongestRest), self.firm_rate(&given)),
             corrections => (corrections, rate),
@@ -110,7 +110,7 @@ impl Evidence<'_> {
         found
     }
 
-    /// Whether all that is seen is as it should be if `hypothesis` were true.
+    /// Whether all data are within their limits if `hypothesis` is true.
     fn explains(&self, hypothesis: &Hypothesis, rates: Rates) -> bool {
         let spins = self.spin.is_none_or(|spin| {
             let turned = hypothesis.gyro.apply(&spin) * hypothesis.table_sense;
@@ -126,7 +126,7 @@ impl Evidence<'_> {
             && self.turning.as_ref().is_none_or(|turning| turning.regression(hypothesis).certain())
     }
 
-    /// The body's attitude at a table angle.
+    /// The attitude of the body at a table angle.
     fn body_from_nav(hypothesis: &Hypothesis, table_angle: Option<f64>) -> Option<Dcm<Body, Nav>> {
         let turned = Dcm::<Table, Body>::about_z(table_angle? * hypothesis.table_sense);
         let nav_from_table: Dcm<Nav, Table> = hypothesis.angles?.dcm();
@@ -137,8 +137,7 @@ impl Evidence<'_> {
         self.expected.axis.map_or(0.0, |axis| axis.sigma)
     }
 
-    /// The angle between the specific force and the vertical that the attitude has, where it is
-    /// largest for what it may be.
+    /// The angle between the specific force and the vertical of the attitude, where it is largest relative to its limit.
     fn level(&self, hypothesis: &Hypothesis) -> Option<Limited> {
         let at_rest = self.rests.iter().filter_map(|rest| self.level_at_rest(hypothesis, rest));
         at_rest.chain(self.level_in_turns(hypothesis)).reduce(Limited::worse)
@@ -174,13 +173,13 @@ impl Evidence<'_> {
         (SIGMAS * self.axis_sigma()).max(LEAST_LEVEL_LIMIT) + SIGMAS * bias
     }
 
-    /// By how much the table may have turned between its angle and the readings.
+    /// The largest rotation of the table during its latency.
     fn turned_late(&self, turns: &WholeTurns) -> f64 {
         (self.expected.table_latency.abs() + self.interval) * turns.fastest
     }
 
-    /// How far the mean rate at rest may be from the Earth's; `None` if it is farther even in its
-    /// magnitude, which no axis or sign explains.
+    /// The limit of the difference between the static mean rate and the Earth's rate; `None` if even its magnitude differs by
+    /// more, which no axes or signs explain.
     fn rate_limit(&self, rest: &RestSeen) -> Option<f64> {
         let bias = SIGMAS * self.expected.gyro.bias_sigma.unwrap_or(0.0);
         let noise = SIGMAS * rest.mean.angular_rate_sigma.norm();
@@ -189,14 +188,14 @@ impl Evidence<'_> {
         ((magnitude - EARTH_RATE).abs() < limit).then_some(limit)
     }
 
-    /// How far the mean rate is from the Earth's by the attitude: in each rest, the longest first, and
-    /// in turns.
+    /// The deviation of the mean rate from the Earth's rate at the attitude: in each static interval, the longest first, and
+    /// in revolutions.
     fn rates(&self, hypothesis: &Hypothesis) -> impl Iterator<Item = Limited> {
         let at_rest = self.rests.iter().filter_map(|rest| self.rate_at_rest(hypothesis, rest));
         at_rest.chain(self.rate_in_turns(hypothesis))
     }
 
-    /// The same in the longest rest.
+    /// The same in the longest static interval.
     fn firm_rate(&self, hypothesis: &Hypothesis) -> Option<Limited> {
         self.rests.first().and_then(|rest| self.rate_at_rest(hypothesis, rest))
     }
@@ -215,7 +214,7 @@ impl Evidence<'_> {
         })
     }
 
-    /// The same across the table's axis while it turns, where a bias averages out.
+    /// The same perpendicular to the table's axis while it rotates, where a bias averages out.
     fn rate_in_turns(&self, hypothesis: &Hypothesis) -> Option<Limited> {
         let turns = self.whole_turns?;
         let site = Site { latitude: hypothesis.latitude, ..self.station?.site };
@@ -224,12 +223,12 @@ impl Evidence<'_> {
         let (seen, sigma) = turns.rate_across(&hypothesis.gyro, hypothesis.table_sense);
         let direction = SIGMAS * self.axis_sigma() + self.turned_late(turns);
         let limit = LEAST_RATE_LIMIT + SIGMAS * sigma + direction * EARTH_RATE;
-        // Gyros that hardly show the Earth's rate tell nothing of where it points.
+        // Gyros that hardly measure the Earth's rate hold no information on its direction.
         (limit < EARTH_RATE_SHOWN * earth.norm())
             .then(|| Limited { off: (seen - earth).norm(), limit })
     }
 
-    /// The latitude that the angle between specific force and rate at rest is of.
+    /// The latitude from the angle between static specific force and rate.
     fn latitude_seen(&self, hypothesis: &Hypothesis) -> Option<f64> {
         let (rest, _) = self.rests.first()?;
         let force = hypothesis.accel.apply(rest.mean.rates.specific_force.components());
@@ -237,7 +236,7 @@ impl Evidence<'_> {
         Some(force.dot(&rate).atan2(force.cross(&rate).norm()))
     }
 
-    /// How far that is from the station's; with an attitude it is not asked.
+    /// The deviation of this latitude from the station's; `None` if the attitude is known.
     fn latitude(&self, hypothesis: &Hypothesis) -> Option<Limited> {
         let (rest, table_angle) = self.rests.first()?;
         if Self::body_from_nav(hypothesis, *table_angle).is_some() || self.station.is_none() {

@@ -1,24 +1,24 @@
-//! What is seen of a run about any axis, by the names of the sensors' own axes.
+//! The inspection of a run with any spin axis, under the names of the sensors' own axes.
 
 use rins_frames::SignedAxes;
 
 use super::{CHANNELS, Correction, Inspection, Suspicion};
 
-/// The channel of which, along the sensors' own axes, `channel` of a run with these axes reads.
+/// The channel along the sensors' own axes that `channel` of a run with these axes contains.
 fn own_place(channel: usize, axes: &SignedAxes) -> usize {
     3 * (channel / 3) + axes.source[channel % 3]
 }
 
-/// The same by name; what is no channel keeps its name.
+/// The same by name; other names do not change.
 fn own_name(name: &'static str, axes: &SignedAxes) -> &'static str {
     let channel = CHANNELS.iter().position(|channel| *channel == name);
     channel.map_or(name, |channel| CHANNELS[own_place(channel, axes)])
 }
 
 impl Inspection {
-    /// The same along the sensors' own axes, if it is of a run with these axes, whose z is the axis of rotation.
+    /// The same along the sensors' own axes, if it is that of a run with these axes, whose z is the spin axis.
     ///
-    /// Turns and what they are held against stay those of the axis of rotation, and so do the means over the static
+    /// Rotations and the data that are compared with them stay those of the spin axis, and so do the means over the static
     /// intervals.
     #[must_use]
     pub fn along_own(&self, axes: &SignedAxes) -> Self {
@@ -89,7 +89,7 @@ mod tests {
 
     use super::*;
 
-    /// Gyro x of the sensor is the axis of rotation, and so gyro z of the run.
+    /// Gyro x of the sensor is along the spin axis, and thus gyro z of the run.
     const ABOUT_X: SignedAxes = SignedAxes { source: [1, 2, 0], sign: [1.0, -1.0, -1.0] };
 
     #[test]
@@ -103,7 +103,7 @@ mod tests {
         assert_eq!(stuck, Suspicion::StuckChannel { channel: "accel.z" });
     }
 
-    /// Readings corrected along the sensors' own axes and then turned are readings turned and then corrected.
+    /// Corrected along the sensors' own axes and then transformed, or transformed and then corrected: the readings are equal.
     #[test]
     fn a_correction_is_the_same_along_any_axes() {
         let reading = Vector3::new(1.0, 2.0, 3.0);

@@ -1,4 +1,4 @@
-//! What the gyros count of the table's turn.
+//! The table's angle of rotation according to the gyros.
 
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
@@ -12,43 +12,42 @@ use super::units::{Mistake, ReadingUnit, explained, mistakes};
 use super::whole_turns::{STANDS, WholeTurns};
 use rins_motion::{Recording, median};
 
-/// A table that turns by less \[rad\] says nothing of the gyros.
+/// The angle of rotation of the table \[rad\] below which it holds no information on the gyros.
 const LEAST_TURN: f64 = DEG;
 
-/// A mean rate that no gyro has at rest \[rad/s\].
+/// A mean rate that no gyro has in a static interval \[rad/s\].
 const FAST: f64 = 0.5 * DEG;
 
-/// What of a gyro's turn that follows the table's may be left, as a share.
+/// The largest remainder of a gyro's angle after regression on the table's, relative to it.
 const UNLIKE: f64 = 0.1;
 
-/// The stretch over which turns are compared \[s\]: an encoder's noise is nothing then.
+/// The window over which angles of rotation are compared \[s\]: the noise of an encoder is negligible over it.
 const WINDOW: f64 = 1.0;
 
-/// The stretch over which a turn that the table did not make shows \[s\]: short enough that a
-/// gyro's bias does not wander.
+/// The window in which a rotation that the table did not make is visible \[s\]: short enough that a gyro's bias is constant.
 const STRETCH: f64 = 10.0;
 
-/// How far the gyro's and the table's turn may come apart over that \[rad\] ...
+/// The largest difference between the angles of gyro and table over it \[rad\] ...
 const LARGEST_APART: f64 = 0.5 * DEG;
 
-/// ... and that much more for each radian turned: a scale error that depends on the rate.
+/// ... with this addition for each radian of rotation: a scale error that depends on the rate.
 const LARGEST_NONLINEARITY: f64 = 2e-3;
 
-/// What the gyros count of the table's turn.
+/// The table's angle of rotation according to the gyros.
 pub(super) struct Spin {
-    /// The turn over the table's, of the gyro z, its bias left out.
+    /// The ratio of gyro z's to the table's angle of rotation, without the gyro's bias.
     pub(super) ratio: f64,
-    /// The same of all three gyros by regression, biases left in.
+    /// The same for all three gyros by regression, including biases.
     pub(super) all: Vector3<f64>,
-    /// The table's turn over each sample \[rad\].
+    /// The table's angle of rotation in each sample \[rad\].
     table: Vec<f64>,
-    /// The mean rate of gyro z while the table stands \[rad/s\].
+    /// The mean rate of gyro z while the table is static \[rad/s\].
     bias: f64,
-    /// By how much the table's angle is late by a convention of time stamps \[s\].
+    /// The latency of the table angle by a convention of time stamps \[s\].
     late: f64,
 }
 
-/// The angle of the table at the end of each interval \[rad\]: as read, or as commanded.
+/// The table angle at the end of each interval \[rad\]: measured, or commanded.
 pub(super) fn table_angle(recording: &Recording) -> Option<Vec<f64>> {
     recording.table_angle.clone().or_else(|| {
         let mut angle = 0.0;
@@ -61,7 +60,7 @@ pub(super) fn table_angle(recording: &Recording) -> Option<Vec<f64>> {
     })
 }
 
-/// Whether the z gyro follows a table that hardly turns, as of one whose unit is wrong.
+/// Whether the z gyro follows a table that hardly rotates, as one with a wrong unit.
 fn follows(windows: &[(f64, f64, f64)]) -> bool {
     let sum = |of: fn(&(f64, f64, f64)) -> f64| windows.iter().map(of).sum::<f64>();
     let (gyro, table) = (sum(|(gyro, _, _)| gyro * gyro), sum(|(_, turn, _)| turn * turn));
@@ -71,12 +70,12 @@ fn follows(windows: &[(f64, f64, f64)]) -> bool {
     table > 0.0 && gyro > FAST * FAST * time && left < UNLIKE * UNLIKE * gyro
 }
 
-/// The units that the table's readings may be in, with what each does to the ratio.
+/// The possible units of the table's readings, with the effect of each on the ratio.
 fn table_mistakes(recording: &Recording, expected: &Expected, timing: &Timing) -> Vec<Mistake> {
     let (all, what): (&[ReadingUnit], _) = match (&recording.table_angle, expected.table_unit) {
         (Some(_), _) => (&ReadingUnit::TABLE_ANGLE, "readings of the table's angle"),
         (None, Some(_)) => (&ReadingUnit::TABLE_RATE, "readings of the table's rate"),
-        // A commanded profile has its units in the rig file, one each.
+        // A commanded profile has its units in the rig file, one for each quantity.
         (None, None) => return Vec::new(),
     };
     let mut mistakes = mistakes(all, expected.table_unit, timing, what);
@@ -86,7 +85,7 @@ fn table_mistakes(recording: &Recording, expected: &Expected, timing: &Timing) -
     mistakes
 }
 
-/// Which of the two is wrong where gyros and table count differently.
+/// The wrong sensor if gyros and table disagree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Suspect {
     Gyro,
@@ -95,8 +94,8 @@ pub(super) enum Suspect {
 }
 
 impl Suspect {
-    /// By gravity, which stands still where the table's angle is right, and turns in the body as the
-    /// gyros say where they are.
+    /// The decision by gravity, which is fixed in the table's axes if the table angle is right, and rotates in the body
+    /// according to the gyros if these are right.
     pub(super) fn of(turns: Option<&WholeTurns>, turning: Option<&Turning>) -> Self {
         let table = turns.is_some_and(|turns| turns.standing()[0] > STANDS);
         let gyro =
@@ -110,7 +109,7 @@ impl Suspect {
 }
 
 impl Spin {
-    /// `None` without a table that turns. Its angle is `late` by a convention of time stamps \[s\].
+    /// `None` without a rotating table. Its angle has the latency `late` by a convention of time stamps \[s\].
     pub(super) fn of(
         recording: &Recording,
         table_angle: Option<&[f64]>,
@@ -119,7 +118,7 @@ impl Spin {
         let angle = table_angle?;
         let samples = recording.increments.get(1..)?;
         let table: Vec<f64> = angle.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        // A log may be wrong for some seconds, so that what most seconds say counts.
+        // A log may be wrong for some seconds, so that the majority of the windows decides.
         let (mut window, mut windows) = ((0.0, 0.0, 0.0), Vec::new());
         for (sample, turn) in samples.iter().zip(&table) {
             window.0 += sample.angle.components().z;
@@ -136,7 +135,7 @@ impl Spin {
         if most - least < LEAST_TURN && !follows(&windows) {
             return None;
         }
-        // Regression of each gyro on the table, sample by sample; a table at rest says nothing.
+        // Regression of each gyro on the table, sample by sample; a static table holds no information.
         let square: f64 = table.iter().map(|turn| turn * turn).sum();
         let mut product = Vector3::zeros();
         for (sample, turn) in samples.iter().zip(&table) {
@@ -153,7 +152,7 @@ impl Spin {
         Some(Self { ratio: ratio.unwrap_or(all.z), all, table, bias, late })
     }
 
-    /// Whether gyros and table count alike but for axes and signs.
+    /// Whether gyros and table agree except for axes and signs.
     pub(super) fn counts(&self) -> bool {
         (0.7..1.4).contains(&self.all.norm())
     }
@@ -166,7 +165,7 @@ impl Spin {
         suspect: Suspect,
     ) -> Option<Suspicion> {
         let axis = self.all.iamax();
-        // A sensor whose z axis follows the table at all does so best, whatever its unit.
+        // If the z axis of a sensor follows the table at all, it does so best, whatever its unit.
         if axis != 2 && self.all[axis].abs() > 10.0 * self.all.z.abs() {
             return Some(Suspicion::SpinAxis { channel: CHANNELS[axis], ratio: self.all[axis] });
         }
@@ -186,7 +185,7 @@ impl Spin {
         }
     }
 
-    /// Whether, with ratio and bias allowed for, both turn at the same time.
+    /// Whether both rotate at the same time, after correction for ratio and bias.
     fn profile_suspicion(&self, recording: &Recording, expected: &Expected) -> Option<Suspicion> {
         let samples = recording.increments.get(1..)?;
         let first = samples.first().zip(self.table.first());
@@ -195,7 +194,7 @@ impl Spin {
         apart.push((recording.times.first().copied()?, 0.0, 0.0));
         for (sample, turn) in samples.iter().zip(&self.table) {
             let (time, gained, turned) = *apart.last()?;
-            // An angle that is read late misses what the table gained in rate since.
+            // An angle with a latency lacks the recent change of the rate.
             let rate = turn / sample.interval;
             let turn_in_time = turn + self.late * (rate - before);
             before = rate;
@@ -204,7 +203,7 @@ impl Spin {
                 - self.bias * sample.interval;
             apart.push((time + sample.interval, gained + gain, turned + turn.abs()));
         }
-        // Each stretch: its end, how long it lasts, what was gained and what the table turned.
+        // Each window: its end, its duration, the difference of the angles and the table's angle of rotation.
         let over = |span: f64| {
             let mut end = 0;
             let mut stretches = Vec::with_capacity(apart.len());
@@ -222,7 +221,7 @@ impl Spin {
             stretches
         };
         let gains: Vec<f64> = over(WINDOW).iter().map(|stretch| stretch.2).collect();
-        // Where the table never stands the bias is what most of the difference is.
+        // If the table is never static, most of the difference is the bias.
         let usual = median(gains.iter().copied())?;
         let scatter = 1.4826 * median(gains.iter().map(|gain| (gain - usual).abs()))?;
         let rates = self.table.iter().zip(samples).map(|(turn, sample)| turn / sample.interval);

@@ -1,146 +1,146 @@
-//! Mistakes that data point to.
+//! Probable gross errors in the data.
 
 use super::correction::Correction;
 
-/// A mistake that the data point to, and the factor or sign by which they do.
+/// A probable gross error in the data, with the factor or sign that indicates it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Suspicion {
-    /// The specific force at rest is not gravity.
+    /// The static specific force differs from gravity.
     Gravity {
-        /// Its magnitude at rest \[m/s²\].
+        /// Its static magnitude \[m/s²\].
         seen: f64,
-        /// What the station has \[m/s²\].
+        /// The gravity of the station \[m/s²\].
         expected: f64,
-        /// The mistake that would explain it.
+        /// The error that would explain it.
         cause: Option<String>,
     },
-    /// The turn that the gyro counts is not the table's.
+    /// The angle of rotation of the gyro differs from that of the table.
     SpinScale {
-        /// The gyro's turn over the table's.
+        /// The ratio of the gyro's to the table's angle of rotation.
         ratio: f64,
-        /// The mistake that would explain it.
+        /// The error that would explain it.
         cause: Option<String>,
     },
-    /// The accelerometers follow the table's turn and the gyros do not: their columns are exchanged.
+    /// The accelerometers follow the table's rotation and the gyros do not: their columns are exchanged.
     Triads {
-        /// The closest that a gyro follows the table's rate, as a correlation.
+        /// The largest correlation of a gyro with the table rate.
         gyro: f64,
-        /// The same of an accelerometer.
+        /// The same for an accelerometer.
         accel: f64,
     },
-    /// While the table turns the gyros show a vector that stands, which is gravity, and the
-    /// accelerometers none: their columns are exchanged.
+    /// During a rotation the gyros measure a vector that is fixed to the table, which is gravity, and the accelerometers do
+    /// not: their columns are exchanged.
     TurningTriads {
-        /// What of the gyros' readings stands across the table's axis, as a share.
+        /// The fraction of the gyros' readings that is fixed perpendicular to the table's axis.
         gyro: f64,
-        /// The same of the accelerometers.
+        /// The same for the accelerometers.
         accel: f64,
     },
-    /// Another axis than z counts the table's turn.
+    /// Another axis than z measures the table's rotation.
     SpinAxis {
         /// The channel that follows the table.
         channel: &'static str,
-        /// Its turn over the table's.
+        /// The ratio of its angle of rotation to the table's.
         ratio: f64,
     },
-    /// The z gyro's turn leaves the table's, though both agree on the whole: the table moved
-    /// otherwise, or at another time, than is said of it.
+    /// The angle of the z gyro departs from the table's, although both agree on average: the table moved differently, or at
+    /// another time, than stated.
     SpinProfile {
-        /// By how much the one gains on the other within ten seconds \[rad\].
+        /// The change of the difference of the angles within ten seconds \[rad\].
         apart: f64,
         /// The end of those ten seconds \[s\].
         time: f64,
     },
-    /// A channel repeats one value throughout: while another of its triad is noisy, or all three zero.
+    /// A channel repeats one value throughout, while another of its triad is noisy, or all three are zero.
     StuckChannel {
         /// The channel.
         channel: &'static str,
     },
-    /// A channel that goes on otherwise repeats one reading for longer than a driver's hiccup lasts.
+    /// A channel that otherwise changes repeats one reading for longer than a delay of a driver.
     Sticks {
         /// The channel.
         channel: &'static str,
-        /// In how many rows of samples.
+        /// The number of spans of samples.
         rows: usize,
-        /// How many samples the longest of them has.
+        /// The number of samples in the longest span.
         count: usize,
-        /// The time at which that begins \[s\].
+        /// The start of the longest span \[s\].
         time: f64,
     },
-    /// Single readings lie far outside of what comes before and after them.
+    /// Single readings far outside of the previous and the next ones.
     Spike {
         /// The channel.
         channel: &'static str,
-        /// How many there are.
+        /// The number of spikes.
         count: usize,
         /// The time of the largest \[s\].
         time: f64,
         /// Its reading as a mean rate \[rad/s\] or specific force \[m/s²\].
         reading: f64,
     },
-    /// Readings are at or beyond what the sensor can read.
+    /// Readings at or beyond the range of the sensor.
     Saturated {
         /// The channel.
         channel: &'static str,
-        /// How many there are.
+        /// The number of such readings.
         count: usize,
-        /// The time of the first \[s\].
+        /// The time of the first one \[s\].
         time: f64,
         /// The sensor's range \[rad/s\] or \[m/s²\].
         range: f64,
     },
-    /// The largest or least reading is repeated in a row where no other is: cut off.
+    /// The largest or smallest reading is repeated as no other is: the readings are clipped.
     FlatTop {
         /// The channel.
         channel: &'static str,
-        /// How many times in a row.
+        /// The number of repetitions in succession.
         count: usize,
-        /// The time of the first \[s\].
+        /// The time of the first one \[s\].
         time: f64,
         /// The reading \[rad/s\] or \[m/s²\].
         reading: f64,
     },
-    /// The specific force at rest does not point where the axis' attitude has it.
+    /// The direction of the static specific force differs from the vertical of the axis' attitude.
     Level {
         /// The angle between the two \[rad\].
         off: f64,
-        /// How large it may be \[rad\].
+        /// The limit of the angle \[rad\].
         limit: f64,
-        /// The single mistakes that would explain this and all else that is seen.
+        /// The single errors that would explain this and all other deviations.
         corrections: Vec<Correction>,
     },
-    /// The mean rate at rest is as large as the Earth's but does not point along it.
+    /// The static mean rate has the magnitude of the Earth's rate but another direction.
     EarthRate {
         /// The magnitude of the difference \[rad/s\].
         off: f64,
-        /// How large it may be \[rad/s\].
+        /// The limit of the difference \[rad/s\].
         limit: f64,
-        /// The single mistakes that would explain this and all else that is seen.
+        /// The single errors that would explain this and all other deviations.
         corrections: Vec<Correction>,
     },
     /// The angle between the Earth's rate and gravity is that of another latitude.
     Latitude {
-        /// What is seen \[rad\].
+        /// The measured latitude \[rad\].
         seen: f64,
         /// The station's \[rad\].
         expected: f64,
-        /// The single mistakes that would explain this and all else that is seen.
+        /// The single errors that would explain this and all other deviations.
         corrections: Vec<Correction>,
     },
-    /// Turning does not move the specific force in the body as it must, by `f' = -ω × f`.
+    /// A rotation does not change the specific force in the body by `f' = -ω × f`.
     Handedness {
         /// The regression of the one on the other, which should be 1.
         ratio: f64,
         /// The correlation between the two, which should be near 1.
         correlation: f64,
-        /// The single mistakes that would explain this and all else that is seen.
+        /// The single errors that would explain this and all other deviations.
         corrections: Vec<Correction>,
     },
 }
 
 impl Suspicion {
-    /// The single mistakes that would explain what is seen, the most likely ones; none if there is no such one.
+    /// The single errors that would explain the data, the most probable ones; empty if there is none.
     pub fn corrections(&self) -> &[Correction] {
         match self {
             Self::Level { corrections, .. }

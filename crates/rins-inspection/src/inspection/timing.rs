@@ -1,18 +1,18 @@
-//! How regularly samples came.
+//! The regularity of the samples.
 
 use rins_motion::{Recording, median};
 
 /// An interval that is longer than the median by this factor is a gap.
 const GAP_RATIO: f64 = 1.5;
 
-/// How regularly samples came.
+/// The regularity of the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
     /// The median interval \[s\].
     pub interval: f64,
-    /// The root mean square of the intervals' distance from it, gaps left out \[s\].
+    /// The root mean square deviation of the intervals from it, without gaps \[s\].
     pub jitter: f64,
-    /// The intervals that are longer by half or more: index and length \[s\].
+    /// The intervals that are at least 50 % longer: index and duration \[s\].
     pub gaps: Vec<(usize, f64)>,
 }
 

@@ -1,4 +1,4 @@
-//! How turning moves the specific force in the body.
+//! The change of the specific force in the body by rotation.
 
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
@@ -6,34 +6,34 @@ use rins_frames::units::DEG;
 use super::correction::Hypothesis;
 use rins_motion::Recording;
 
-/// The turn over which the specific force is averaged \[rad\].
+/// The angle of rotation over which the specific force is averaged \[rad\].
 const PART: f64 = 0.2;
 
-/// A turn that takes longer \[s\] may as well be a gyro's bias.
+/// The duration of such a part \[s\] above which a gyro's bias might explain it.
 const LONGEST_PART: f64 = 60.0;
 
-/// How evenly a part must be turned: the share of its first half.
+/// The uniformity of the rotation in a part: the fraction of its first half.
 const EVEN: core::ops::Range<f64> = 0.4..0.6;
 
-/// The least turn in all \[rad\] that tells how the specific force moves.
+/// The smallest total angle of rotation \[rad\] from which the change of the specific force is determined.
 const LEAST_TURN: f64 = 90.0 * DEG;
 
-/// The least tilt of the axis turned about \[rad\]: about the vertical, nothing moves.
+/// The smallest tilt of the axis of rotation \[rad\]: about the vertical, nothing changes.
 const LEAST_TILT: f64 = 3.0 * DEG;
 
-/// From part to part of a turn: the specific force midway \[m/s²\], its change and the turn \[rad\].
+/// Two successive parts of a rotation: the specific force in the middle \[m/s²\], its change, and the rotation \[rad\].
 struct Step {
     force: Vector3<f64>,
     change: Vector3<f64>,
     turn: Vector3<f64>,
 }
 
-/// A recording's turns.
+/// The rotations in a recording.
 pub(super) struct Turning {
     steps: Vec<Step>,
 }
 
-/// How the change of the specific force goes with `-θ × f`.
+/// The regression of the change of the specific force on `-θ × f`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Regression {
     pub(super) ratio: f64,
@@ -41,19 +41,19 @@ pub(super) struct Regression {
 }
 
 impl Regression {
-    /// Whether it may be that of right axes. Of a table it is 1; where an IMU is moved about, or
-    /// turned far from its own place, other forces are mixed in, but not so as to change the sign.
+    /// Whether the axes may be right. On a table the ratio is 1; if an IMU is moved, or rotates far from its accelerometers,
+    /// other forces are added, but these do not change the sign.
     pub(super) fn plausible(&self, on_table: bool) -> bool {
         if on_table { self.certain() } else { self.correlation > -0.5 || self.ratio > -0.4 }
     }
 
-    /// Whether it is surely that of right axes.
+    /// Whether the axes are certainly right.
     pub(super) fn certain(&self) -> bool {
         self.correlation > 0.8 && (0.6..1.6).contains(&self.ratio)
     }
 }
 
-/// What was averaged over a part of a turn.
+/// The means over a part of a rotation.
 struct Part {
     force: Vector3<f64>,
     turn: Vector3<f64>,
@@ -62,7 +62,7 @@ struct Part {
 }
 
 impl Turning {
-    /// `None` if little is turned, or about the vertical only. `stands` tells which samples are at rest.
+    /// `None` if there is little rotation, or only about the vertical. `stands` marks the samples in static intervals.
     pub(super) fn of(recording: &Recording, stands: &[bool]) -> Option<Self> {
         let mut steps = Vec::new();
         let mut last: Option<Part> = None;
@@ -100,7 +100,7 @@ impl Turning {
     }
 }
 
-/// The next part of a turn at or after sample `start`, which is moved behind it.
+/// The next part of a rotation at or after sample `start`, which is moved to its end.
 fn part(recording: &Recording, stands: &[bool], start: &mut usize) -> Option<Part> {
     loop {
         while *stands.get(*start)? {
@@ -127,7 +127,7 @@ fn part(recording: &Recording, stands: &[bool], start: &mut usize) -> Option<Par
             let within = (time / 2.0 - before) / (after - before);
             let midway = by_then + (at_end - by_then) * within;
             let even = EVEN.contains(&(midway.dot(&turn) / turn.norm_squared()));
-            // A part that is one sample long may be turned by more than a small angle.
+            // A part of one sample may have a large angle of rotation.
             if even && turn.norm() < 3.0 * PART {
                 return Some(Part { force: velocity / time, turn, start: first, end: *start });
             }

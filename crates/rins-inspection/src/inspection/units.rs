@@ -1,34 +1,34 @@
-//! Units that readings may be in, and what taking one for another does to them.
+//! The possible units of readings, and the effect of confusing two of them.
 
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, STANDARD_GRAVITY};
 
 use super::timing::Timing;
 
-/// How far a ratio may be from a suspected factor: a sensor as it comes from the factory may be off
-/// by ten percent and more, a wrong unit by seven times at least.
+/// The largest relative difference of a ratio from the factor of an error: an uncalibrated sensor may have a scale error of
+/// ten percent and more, a wrong unit at least a factor of seven.
 const FACTOR_WITHIN: f64 = 0.2;
 
-/// The same of a factor that is itself within [`FACTOR_WITHIN`] of one.
+/// The same for a factor that is itself within [`FACTOR_WITHIN`] of one.
 const NARROW_FACTOR_WITHIN: f64 = 0.005;
 
-/// A factor this near to one is more likely the sensor's than a mistake's.
+/// A factor this close to one is more probably that of the sensor than that of an error.
 const NEAREST_FACTOR: f64 = 0.05;
 
-/// Factors that differ by no more than this are one.
+/// The largest difference of equal factors.
 const SAME_FACTOR: f64 = 1e-6;
 
-/// A unit that the readings of a triad or of the table may be in.
+/// A possible unit of the readings of a triad or of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReadingUnit {
-    /// How it is written.
+    /// Its symbol.
     pub symbol: &'static str,
-    /// What it is in SI units.
+    /// Its value in SI units.
     pub factor: f64,
-    /// What is read in it.
+    /// The quantity that it measures.
     pub of: ReadingOf,
 }
 
-/// What is read in a unit.
+/// The quantity that is measured in a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReadingOf {
     /// A mean rate over an interval: angular rate or specific force.
@@ -38,7 +38,7 @@ pub enum ReadingOf {
 }
 
 impl ReadingUnit {
-    /// What gyros are read in.
+    /// The units of gyros.
     pub const GYRO: [Self; 6] = [
         Self::rate("rad/s", 1.0),
         Self::rate("deg/s", DEG),
@@ -48,7 +48,7 @@ impl ReadingUnit {
         Self::increment("arcsec", ARCSEC),
     ];
 
-    /// What accelerometers are read in.
+    /// The units of accelerometers.
     pub const ACCEL: [Self; 6] = [
         Self::rate("m/s^2", 1.0),
         Self::rate("g", STANDARD_GRAVITY),
@@ -58,7 +58,7 @@ impl ReadingUnit {
         Self::increment("ug*s", MICRO_G),
     ];
 
-    /// What a table's angle is read in.
+    /// The units of a table angle.
     pub const TABLE_ANGLE: [Self; 4] = [
         Self::increment("rad", 1.0),
         Self::increment("deg", DEG),
@@ -66,7 +66,7 @@ impl ReadingUnit {
         Self::increment("gon", 0.9 * DEG),
     ];
 
-    /// What a table's rate is read in.
+    /// The units of a table rate.
     pub const TABLE_RATE: [Self; 3] =
         [Self::rate("rad/s", 1.0), Self::rate("deg/s", DEG), Self::rate("deg/h", DEG_PER_HOUR)];
 
@@ -78,7 +78,7 @@ impl ReadingUnit {
         Self { symbol, factor, of: ReadingOf::Increment }
     }
 
-    /// What one of it adds over an interval, in SI units.
+    /// The contribution of one unit over an interval, in SI units.
     fn over(&self, interval: f64) -> f64 {
         match self.of {
             ReadingOf::Rate => self.factor * interval,
@@ -87,14 +87,13 @@ impl ReadingUnit {
     }
 }
 
-/// A mistake, and the factor by which what is read is then too large.
+/// An error, and the factor by which it increases the readings.
 pub(super) struct Mistake {
     pub(super) factor: f64,
     pub(super) cause: String,
 }
 
-/// The units of `all` that were meant, each taken for what was said; for any of them where that is
-/// not known.
+/// The errors in which a unit of `all` was declared as `said`; all pairs of units if that is unknown.
 pub(super) fn mistakes(
     all: &[ReadingUnit],
     said: Option<ReadingUnit>,
@@ -112,10 +111,9 @@ pub(super) fn mistakes(
         .collect()
 }
 
-/// Whether a ratio is near one or, if not, the mistakes that make it what it is.
+/// Whether a ratio is close to one or, if not, the errors that explain it.
 ///
-/// Of the factors near the ratio the nearest counts; one that a sensor as it comes from the factory
-/// may have as well must fit closely.
+/// Of the factors close to the ratio the nearest is used; a factor that an uncalibrated sensor may have too must fit closely.
 pub(super) fn explained(ratio: f64, mistakes: &[Mistake]) -> Result<(), Option<String>> {
     let off = |factor: f64| (ratio / factor - 1.0).abs();
     let within = |mistake: &&Mistake| {

@@ -1,4 +1,4 @@
-//! Means over whole turns of the table, in which what is fixed to the body averages out.
+//! Means over whole revolutions of the table, in which vectors that are fixed to the body average out.
 
 use std::f64::consts::TAU;
 
@@ -7,30 +7,30 @@ use nalgebra::{Vector2, Vector3};
 use rins_frames::SignedAxes;
 use rins_motion::{Recording, median};
 
-/// A table that goes back by more than this \[rad\] has reversed; an encoder's noise is less.
+/// The decrease of the table angle \[rad\] from which the table has reversed; the noise of an encoder is less.
 const REVERSED: f64 = 0.1;
 
-/// The least share of gravity that stands across a tilted axis.
+/// The smallest fraction of gravity perpendicular to a tilted axis.
 pub(super) const STANDS: f64 = 0.05;
 
-/// A table that turns slower than this \[rad/s\] adds little to gravity wherever the IMU sits on it.
+/// The rate \[rad/s\] below which the centripetal acceleration is negligible at any position of the IMU on the table.
 const SLOW: f64 = 1.0;
 
-/// Readings over whole turns, each sample weighted by the angle through which it turned.
+/// Readings over whole revolutions, each sample weighted by its angle of rotation.
 ///
-/// A vector along the body's axes with a bias, or a lever arm's force, that is the same throughout
-/// has no mean along the axes of the table, at whatever rates the turn is made.
+/// A vector that is constant along the body's axes, such as a bias or the force of a lever arm, has zero mean along the axes
+/// of the table, at any rates within the revolution.
 pub(super) struct WholeTurns {
     turns: Vec<Turn>,
-    /// The fastest rate at which the table turns \[rad/s\].
+    /// The largest rate of the table \[rad/s\].
     pub(super) fastest: f64,
-    /// The white noise of a gyro's mean over all turns, 1σ \[rad/s\].
+    /// The white noise of a gyro's mean over all revolutions, 1σ \[rad/s\].
     white: f64,
-    /// The median specific force of slow samples \[m/s²\].
+    /// The median specific force of samples at slow rates \[m/s²\].
     pub(super) force: Option<f64>,
 }
 
-/// One turn's means of the specific force, of the angular rate, and of their magnitudes.
+/// The means over one revolution of the specific force, of the angular rate, and of their magnitudes.
 struct Turn {
     force: Modulated,
     rate: Modulated,
@@ -38,7 +38,7 @@ struct Turn {
     rate_norm: f64,
 }
 
-/// A vector's mean times the table angle's cosine, its sine, and alone.
+/// The means of a vector times the cosine and the sine of the table angle, and of the vector itself.
 #[derive(Clone, Copy, Default)]
 struct Modulated([Vector3<f64>; 3]);
 
@@ -49,7 +49,7 @@ impl Modulated {
         }
     }
 
-    /// The mean along the table's axes if the sensor's axes are `axes` and the table turns by `sense`.
+    /// The mean along the table's axes if the sensor's axes are `axes` and the table rotates in the direction `sense`.
     fn on_table(&self, axes: &SignedAxes, sense: f64) -> Vector3<f64> {
         let [cosine, sine, alone] = self.0.map(|mean| axes.apply(&mean));
         let sine = sine * sense;
@@ -57,7 +57,7 @@ impl Modulated {
     }
 }
 
-/// A turn that is not finished.
+/// An incomplete revolution.
 #[derive(Default)]
 struct Open {
     force: Modulated,
@@ -70,7 +70,7 @@ struct Open {
 }
 
 impl WholeTurns {
-    /// `None` if the table makes no whole turn; `angle` is the table's at each sample.
+    /// `None` if the table makes no whole revolution; `angle` is that of the table at each sample.
     pub(super) fn of(recording: &Recording, angle: Option<&[f64]>) -> Option<Self> {
         let angle = angle?;
         let samples = recording.increments.get(1..)?;
@@ -122,8 +122,8 @@ impl WholeTurns {
         Some(Self { fastest, white, force: median(forces), turns })
     }
 
-    /// What of the specific force and of the angular rate stands across the table's axis, as shares of
-    /// their magnitudes: of what turns with the body nothing.
+    /// The fractions of the specific force and of the angular rate that are fixed to the table perpendicular to its axis;
+    /// those of a vector fixed to the body are zero.
     pub(super) fn standing(&self) -> [f64; 2] {
         let share = |of: fn(&Turn) -> (Modulated, f64)| {
             let (mut standing, mut all) = (Vector2::zeros(), 0.0);
@@ -144,26 +144,26 @@ impl WholeTurns {
         sum / self.turns.len() as f64
     }
 
-    /// The mean angular rate across the table's axis \[rad/s\], and its 1σ by what is white of the
-    /// noise and by the turns' scatter; of the rate along the axis most is the table's.
+    /// The mean angular rate perpendicular to the table's axis \[rad/s\], and its 1σ from white noise and from the scatter of
+    /// the revolutions; the rate along the axis is mainly that of the table.
     pub(super) fn rate_across(&self, axes: &SignedAxes, sense: f64) -> (Vector2<f64>, f64) {
         let n = self.turns.len();
         let across = |turn: &Turn| turn.rate.on_table(axes, sense).xy();
         let mean: Vector2<f64> = self.turns.iter().map(across).sum();
         let mean = mean / n as f64;
         let square: f64 = self.turns.iter().map(|turn| (across(turn) - mean).norm_squared()).sum();
-        // One turn has none.
+        // One revolution has none.
         let scatter = (square / (n.max(2) - 1) as f64 / n as f64).sqrt();
         (mean, scatter.max(self.white))
     }
 }
 
-/// The mean of squares of two normal deviates by the lower three quarters of them: what a table's
-/// ramps add where gyros are read along wrong axes is no noise.
+/// The mean of squares of two normal deviates from the lower three quarters of them: the contribution of the table's ramps,
+/// with wrong axes of the gyros, is not noise.
 fn usual_mean(mut squares: Vec<f64>) -> f64 {
     squares.sort_by(f64::total_cmp);
     squares.truncate(squares.len() / 4 * 3);
-    // Of an exponential distribution's lower three quarters the mean is 1 - ln(4) / 3.
+    // The mean of the lower three quarters of an exponential distribution is 1 - ln(4) / 3.
     let share = 1.0 - 4.0_f64.ln() / 3.0;
     squares.iter().sum::<f64>() / squares.len().max(1) as f64 / share
 }

@@ -1,4 +1,4 @@
-//! Which mean rates are biases: a constant rate about the vertical looks like one.
+//! The distinction of a bias from a constant rate about the vertical.
 
 use nalgebra::Vector3;
 use rins_frames::EARTH_RATE;
@@ -7,21 +7,22 @@ use rins_frames::units::{DEG, STANDARD_GRAVITY};
 use super::interval::NotStatic;
 use super::options::StaticOptions;
 
-/// Directions of gravity in the body that differ by less are one attitude \[rad\].
+/// The largest difference of the directions of gravity in the body for equal attitudes \[rad\].
 const SAME_ATTITUDE: f64 = 10.0 * DEG;
 
-/// The same rate in attitudes that differ by more than this \[rad\] turns gravity in one of them, if it is a rate.
+/// If the same rate occurs in attitudes that differ by more than this \[rad\], a true rate would rotate gravity in one of
+/// them.
 const OTHER_ATTITUDE: f64 = 30.0 * DEG;
 
-/// So many pieces, the longest, are tried as those whose rate is a bias.
+/// The number of longest pieces that are tried as those whose rate is a bias.
 const MOST_TRIED: usize = 200;
 
-/// What a quiet span of constant rate reads.
+/// The means over a quiet span of constant rate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) duration: f64,
     pub(super) rate: Vector3<f64>,
-    /// How far the rate may be off by noise and sway, six sigma of the norm \[rad/s\].
+    /// The uncertainty of the rate due to noise and sway, six sigma of the norm \[rad/s\].
     pub(super) uncertainty: f64,
     /// The direction of gravity.
     pub(super) up: Vector3<f64>,
@@ -33,7 +34,7 @@ impl Piece {
         self.rate.dot(&self.up).abs()
     }
 
-    /// How far the rates of two pieces about the vertical of this one differ, and how far they may.
+    /// The difference of the rates of two pieces about the vertical of this one, and its limit.
     fn apart(&self, other: &Self, options: &StaticOptions) -> (f64, f64) {
         let turned = (self.up - other.up).norm();
         let allowed = options.largest_rate_change()
@@ -45,12 +46,12 @@ impl Piece {
     }
 }
 
-/// Why each piece turns, if it does.
+/// The reason why each piece is not static, if it is not.
 ///
-/// Gravity keeps its direction over each, so that only what turns about the vertical is in question. Biases are of the
-/// size that the data sheet says or, without one, is assumed; and they are the same in all pieces, but for their drift and
-/// their sensitivity to specific force. Where pieces differ by more, those that most attitudes and most pieces agree with
-/// are stationary, and of several such the slowest.
+/// Gravity has a constant direction over each piece, so that only a rotation about the vertical is possible. Biases have the
+/// size stated in the data sheet or, without one, an assumed size. They are equal in all pieces, apart from their drift and
+/// their sensitivity to specific force. If pieces differ by more, those that agree with the largest number of attitudes and
+/// pieces are static, and of several such groups the slowest.
 pub(super) fn turning(pieces: &[Piece], options: &StaticOptions) -> Vec<Option<NotStatic>> {
     let limit = options.largest_bias();
     let within =
@@ -79,7 +80,7 @@ pub(super) fn turning(pieces: &[Piece], options: &StaticOptions) -> Vec<Option<N
         if !(proven || within(candidate)) {
             continue;
         }
-        // A bias beyond its limit is as improbable as four sigma.
+        // A bias at its limit has the probability of a deviation of four sigma.
         let sigmas = 4.0 * candidate.about_vertical() / limit;
         let score = 2.0 * attitudes.len() as f64 + f64::from(count) - sigmas * sigmas;
         if best.is_none_or(|best| score > best.0) {

@@ -1,4 +1,4 @@
-//! A recording in short cells, from which means over any span follow.
+//! A recording in short cells, from which means over any span are calculated.
 
 use std::ops::Range;
 
@@ -7,26 +7,26 @@ use nalgebra::Vector3;
 use super::options::StaticOptions;
 use rins_motion::{Recording, median, whole};
 
-/// How long a cell is at least \[s\]; a cell holds whole samples.
+/// The smallest duration of a cell \[s\]; a cell holds whole samples.
 const CELL: f64 = 0.1;
 
-/// The scatter of samples is judged over so long at least \[s\] ...
+/// The shortest span over which the scatter of samples is calculated \[s\] ...
 const WINDOW: f64 = 0.5;
 
-/// ... and over so many samples.
+/// ... and the smallest number of samples.
 const WINDOW_SAMPLES: usize = 8;
 
-/// One lost sample leaves an interval of so many usual ones at most: no gap.
+/// The largest interval after one lost sample, in mean intervals: this is not a gap.
 const ONE_LOST: f64 = 2.5;
 
-/// What is missing for no longer than this \[s\] is no gap either: nobody moves an IMU and puts it back meanwhile.
+/// A shorter interruption \[s\] is not a gap either: an IMU cannot be moved and put back in that time.
 const SHORTEST_GAP: f64 = 0.25;
 
 /// Consecutive samples.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub(super) span: Range<usize>,
-    /// Whether nothing was measured during most of it.
+    /// Whether there are no samples during most of it.
     pub(super) gap: bool,
     rate: Vector3<f64>,
     force: Vector3<f64>,
@@ -40,15 +40,15 @@ pub(super) struct Cell {
 pub(super) struct Cells {
     #[expect(clippy::struct_field_names, reason = "they are the cells, and the rest is of them")]
     pub(super) cells: Vec<Cell>,
-    /// The time, angle and velocity gained before each cell, and after the last.
+    /// The time, and the integrated angle and velocity, before each cell and after the last.
     time: Vec<f64>,
     angle: Vec<Vector3<f64>>,
     velocity: Vec<Vector3<f64>>,
-    /// How many cells a scatter is judged over.
+    /// The number of cells over which a scatter is calculated.
     pub(super) window: usize,
     /// The usual interval of a sample \[s\].
     pub(super) interval: f64,
-    /// The LSB of each gyro \[rad/s\] and accelerometer \[m/s²\]; zero where none is seen or stated.
+    /// The LSB of each gyro \[rad/s\] and accelerometer \[m/s²\]; zero if it is neither visible nor stated.
     pub(super) gyro_step: Vector3<f64>,
     pub(super) accel_step: Vector3<f64>,
 }
@@ -132,17 +132,17 @@ impl Cells {
         self.cells.len()
     }
 
-    /// How long some cells last \[s\].
+    /// The duration of these cells \[s\].
     pub(super) fn duration(&self, cells: &Range<usize>) -> f64 {
         self.time[cells.end] - self.time[cells.start]
     }
 
-    /// The mean rate over some cells.
+    /// The mean rate over these cells.
     pub(super) fn rate(&self, cells: &Range<usize>) -> Vector3<f64> {
         (self.angle[cells.end] - self.angle[cells.start]) / self.duration(cells)
     }
 
-    /// The mean specific force over some cells.
+    /// The mean specific force over these cells.
     pub(super) fn force(&self, cells: &Range<usize>) -> Vector3<f64> {
         (self.velocity[cells.end] - self.velocity[cells.start]) / self.duration(cells)
     }
@@ -152,12 +152,12 @@ impl Cells {
         self.force(cells).try_normalize(0.0).unwrap_or_default()
     }
 
-    /// The samples of some cells.
+    /// The samples of these cells.
     pub(super) fn samples(&self, cells: &Range<usize>) -> Range<usize> {
         self.cells[cells.start].span.start..self.cells[cells.end - 1].span.end
     }
 
-    /// The root mean square of the samples' norms about the mean of some cells, of gyros and accelerometers.
+    /// The root mean square deviation of the samples from the mean over these cells, of gyros and accelerometers.
     pub(super) fn scatter(&self, cells: &Range<usize>) -> [f64; 2] {
         let cells = &self.cells[cells.clone()];
         let count: f64 = cells.iter().map(|cell| cell.span.len() as f64).sum();
@@ -174,8 +174,7 @@ impl Cells {
         [(rates / count).sqrt(), (forces / count).sqrt()]
     }
 
-    /// The largest angle and change of velocity within some cells, where `rate` and `force` are what a stationary IMU
-    /// reads there.
+    /// The largest changes of angle and velocity within these cells, if a static IMU measures `rate` and `force`.
     pub(super) fn excursion(
         &self,
         cells: &Range<usize>,
@@ -193,12 +192,12 @@ impl Cells {
     }
 }
 
-/// The step that neighbouring readings differ by where they differ least: of a coarse sensor its LSB, of a fine one far
-/// less than its noise.
+/// The smallest difference between successive readings: the LSB of a coarse sensor, and much less than the noise of a fine
+/// one.
 fn least_step(readings: impl Iterator<Item = f64>) -> f64 {
-    /// The part of all differences that are smaller: where a rounding error makes one, it is not the LSB.
+    /// The fraction of smaller differences, one in this number, which may be due to rounding errors instead of the LSB.
     const PART: usize = 20;
-    /// Enough to see a step.
+    /// Enough to determine the difference.
     const ENOUGH: usize = 100_000;
     let readings: Vec<f64> = readings.take(ENOUGH).collect();
     let largest = readings.iter().fold(0.0_f64, |most, reading| most.max(reading.abs()));
@@ -207,7 +206,7 @@ fn least_step(readings: impl Iterator<Item = f64>) -> f64 {
         .map(|pair| (pair[1] - pair[0]).abs())
         .filter(|step| *step > 1e-10 * largest)
         .collect();
-    // Readings that change a few times show what changed, not an LSB.
+    // Readings that change only a few times show a change of the input, not an LSB.
     if steps.len() < PART {
         return 0.0;
     }

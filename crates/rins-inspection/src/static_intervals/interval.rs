@@ -1,48 +1,48 @@
-//! A span that is a static interval, or why it is none.
+//! A static interval, or a candidate with the reason for its rejection.
 
 use std::fmt;
 use std::ops::Range;
 
 use rins_frames::units::{DEG, DEG_PER_SECOND};
 
-/// Why a span is not a static interval.
+/// The reason why a span is not a static interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NotStatic {
-    /// It is short.
+    /// It is too short.
     TooShort {
-        /// How long it must be \[s\].
+        /// The shortest duration \[s\].
         shortest: f64,
     },
     /// Gravity changes its direction in the body.
     GravityTurns {
-        /// How far, from one end to the other or the farthest \[rad\].
+        /// The largest change, between the ends or to any point \[rad\].
         angle: f64,
     },
-    /// The gyros turn and turn back.
+    /// The gyros measure a rotation forth and back.
     Rotates {
-        /// How far, the mean rate removed \[rad\].
+        /// The largest angle, after removal of the mean rate \[rad\].
         angle: f64,
     },
-    /// The mean rate about the vertical is no bias.
+    /// The mean rate about the vertical exceeds a bias.
     RateBeyondBias {
         /// The rate \[rad/s\].
         rate: f64,
-        /// The largest that is taken for a bias \[rad/s\].
+        /// The largest rate that may be a bias \[rad/s\].
         limit: f64,
         /// Whether the limit follows from the data sheet.
         stated: bool,
     },
-    /// The mean rate about the vertical is not that of the other static intervals.
+    /// The mean rate about the vertical differs from that of the other static intervals.
     RateDiffers {
-        /// By how much \[rad/s\].
+        /// The difference \[rad/s\].
         apart: f64,
-        /// By how much it may \[rad/s\].
+        /// The limit of the difference \[rad/s\].
         allowed: f64,
     },
-    /// The table turns.
+    /// The table rotates.
     TableTurns,
-    /// The recording holds no sample of it.
+    /// The recording has no sample in it.
     NoSamples,
 }
 
@@ -77,36 +77,35 @@ impl fmt::Display for NotStatic {
     }
 }
 
-/// A span that was taken for a static interval or looked like one.
+/// A static interval, or a span that resembles one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StaticInterval {
     /// The samples.
     pub span: Range<usize>,
-    /// When the first sample's interval starts \[s\].
+    /// The start of the first sample's interval \[s\].
     pub start: f64,
-    /// When the last one's ends \[s\].
+    /// The end of the last sample's interval \[s\].
     pub end: f64,
-    /// Why it is none, if it is none; of a stated interval, what contradicts the statement.
+    /// The reason for its rejection, if any; for a stated interval, the contradiction to the statement.
     pub why: Option<NotStatic>,
     /// Whether the user states it.
     pub stated: bool,
-    /// The samples in it during which something disturbed the IMU, or nothing was measured; the attitude is the same after
-    /// each.
+    /// The samples in it during which the IMU was disturbed, or without measurements; the attitude is the same after each.
     pub disturbances: Vec<Range<usize>>,
 }
 
 impl StaticInterval {
-    /// Whether it is used: what is found is static, and what is stated is believed.
+    /// Whether it is used: it was found to be static, or it is stated.
     pub const fn used(&self) -> bool {
         self.stated || self.why.is_none()
     }
 
-    /// How long it lasts \[s\].
+    /// The duration \[s\].
     pub fn duration(&self) -> f64 {
         self.end - self.start
     }
 
-    /// What a reader must know of it: why it is not used, or what speaks against it or disturbs it.
+    /// A remark for the user: the reason for its rejection, or a contradiction, or disturbances.
     pub fn remark(&self) -> Option<String> {
         match (&self.why, self.stated, self.disturbances.len()) {
             (Some(why), true, _) => Some(format!("stated as static, but it {why}")),

@@ -1,10 +1,10 @@
-//! When an IMU is stationary: one search for all that needs static intervals.
+//! Static intervals of an IMU: one search for everything that needs them.
 //!
-//! The search goes from the inside out. The log is cut into cells of a tenth of a second. Cells that scatter no more than
-//! the quietest parts of the log form runs; a run is split where its mean rate changes; gravity must keep its direction in
-//! the body over each part, and what only the mean rate shows, a turn about the vertical, is judged by the size of biases
-//! and by the other parts of the log. Ends are then trimmed to noise, and parts joined over disturbances that leave the
-//! attitude as it was.
+//! The log is divided into cells of a tenth of a second. Cells that scatter no more than the quietest parts of the log form
+//! runs; a run is split where its mean rate changes. Gravity must have a constant direction in the body over each part. A
+//! rotation about the vertical, which only the mean rate shows, is distinguished from a bias by the size of biases and by the
+//! other parts of the log. Finally ends are trimmed to the noise, and parts are joined over disturbances that do not change
+//! the attitude.
 
 mod bias;
 mod cells;
@@ -29,12 +29,12 @@ use rins_motion::Recording;
 /// The static intervals of a recording.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StaticIntervals {
-    /// Those that are used and those that look like one and are none, in order of time.
+    /// Those that are used and the rejected candidates, in order of time.
     pub all: Vec<StaticInterval>,
 }
 
 impl StaticIntervals {
-    /// Those that the user states or, if none is stated, those that the samples show.
+    /// Those that the user states or, if none are stated, those found in the samples.
     ///
     /// ```
     /// use rins_frames::{InFrame, Rates};
@@ -62,13 +62,13 @@ impl StaticIntervals {
         self.all.iter().filter(|interval| interval.used())
     }
 
-    /// The samples of those that are used and last as long as `shortest` \[s\].
+    /// The samples of those that are used and have at least the duration `shortest` \[s\].
     pub fn spans(&self, shortest: f64) -> Vec<Range<usize>> {
         let long = |interval: &&StaticInterval| interval.duration() >= shortest * (1.0 - 1e-9);
         self.used().filter(long).map(|interval| interval.span.clone()).collect()
     }
 
-    /// The longest that is used.
+    /// The longest one that is used.
     pub fn longest(&self) -> Option<&StaticInterval> {
         self.used().max_by(|a, b| a.duration().total_cmp(&b.duration()))
     }

@@ -1,4 +1,4 @@
-//! How noisy the quietest parts of a log are, and what of its cells is no noisier.
+//! The noise in the quietest parts of a log, and the cells with no more noise.
 
 use std::ops::Range;
 
@@ -9,31 +9,31 @@ use super::cells::Cells;
 use super::options::StaticOptions;
 use rins_motion::{median, whole};
 
-/// A window moves if its scatter is so many times that of the quietest.
+/// The scatter of a window, relative to that of the quietest, above which the IMU moves.
 const SCATTER_RATIO: f64 = 4.0;
 
-/// So many of all windows, one in this number, are taken to be quiet.
+/// The quietest fraction of all windows, one in this number, is taken as quiet.
 const QUIETEST: usize = 50;
 
-/// A scatter of a gyro below this \[rad/s\] moves nothing by an arcsecond: a base sways so.
+/// The scatter of a gyro \[rad/s\] up to which a base may sway: it changes no angle by an arcsecond.
 const LEAST_GYRO_SCATTER: f64 = 0.05 * DEG_PER_SECOND;
 
-/// The same of accelerometers \[m/s²\].
+/// The same for accelerometers \[m/s²\].
 const LEAST_ACCEL_SCATTER: f64 = 0.02;
 
-/// Gyros whose quietest scatter is so many times the data sheet's noise are never stationary ...
+/// Gyros whose quietest scatter exceeds the data sheet's noise by this factor are never static ...
 const SHEET_RATIO: f64 = 10.0;
 
-/// ... if it is more than a hand that trembles makes \[rad/s\].
+/// ... if it exceeds that of a trembling hand \[rad/s\].
 const TREMOR: f64 = 0.5 * DEG_PER_SECOND;
 
-/// The medians of at least so many differences are estimates of a sigma.
+/// The smallest number of differences whose median is an estimate of a sigma.
 const ENOUGH_DIFFERENCES: usize = 8;
 
 /// The median of the magnitude of a standard normal deviate.
 const MEDIAN_MAGNITUDE: f64 = 0.6745;
 
-/// The largest scatter of a stationary IMU.
+/// The largest scatter of a static IMU.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     pub(super) gyro: f64,
@@ -41,7 +41,7 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// Those of the quietest windows among those that `stand`.
+    /// The limits from the quietest windows among the cells in `stand`.
     pub(super) fn of(cells: &Cells, stand: &[bool], options: &StaticOptions) -> Self {
         let mut scatters: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
         let mut start = 0;
@@ -67,7 +67,7 @@ impl Limits {
         }
     }
 
-    /// Which cells lie in a window that scatters no more.
+    /// The cells in windows within these limits.
     pub(super) fn quiet(&self, cells: &Cells, stand: &[bool]) -> Vec<bool> {
         let mut quiet = vec![false; cells.len()];
         let allowed = |cell: usize| stand[cell] && !cells.cells[cell].gap;
@@ -85,7 +85,7 @@ impl Limits {
     }
 }
 
-/// One of the smallest; what is exactly zero, as of a sensor that sticks, only where most are.
+/// One of the smallest values; exact zeros, as of a stuck sensor, are used only if they are the majority.
 fn quietest(mut scatters: Vec<f64>) -> f64 {
     let count = scatters.len();
     let moving: Vec<f64> = scatters.iter().copied().filter(|scatter| *scatter > 0.0).collect();
@@ -96,22 +96,22 @@ fn quietest(mut scatters: Vec<f64>) -> f64 {
     scatters.get(scatters.len() / QUIETEST).copied().unwrap_or_default()
 }
 
-/// By how much the mean rate and specific force of neighbouring blocks differ.
+/// The differences of mean rate and specific force between successive blocks.
 type Difference = (Vector3<f64>, Vector3<f64>);
 
-/// The 1σ of differences between the means of neighbouring blocks of cells, by the blocks' length.
+/// The 1σ of differences between the means of successive blocks of cells, as a function of the blocks' length.
 #[derive(Clone, Debug)]
 pub(super) struct Noise {
-    /// How many cells a block has, from one on.
+    /// The number of cells in a block, from one on.
     pub(super) blocks: Vec<usize>,
     pub(super) gyro: Vec<Vector3<f64>>,
     pub(super) accel: Vec<Vector3<f64>>,
-    /// How long a cell is \[s\].
+    /// The duration of a cell \[s\].
     cell: f64,
 }
 
 impl Noise {
-    /// That of quiet runs of cells.
+    /// The noise of quiet runs of cells.
     pub(super) fn of(cells: &Cells, runs: &[Range<usize>]) -> Self {
         const LENGTHS: [usize; 10] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
         let duration: f64 = runs.iter().map(|run| cells.duration(run)).sum();
@@ -128,7 +128,7 @@ impl Noise {
             let mut independent = 0;
             for run in runs.iter().filter(|run| run.len() >= 2 * block) {
                 independent += run.len() / block - 1;
-                // Overlapping blocks, but not more of them than tell something.
+                // Overlapping blocks, but only as many as add information.
                 let stride = (block / 5).max(1);
                 differences.extend((run.start + block..=run.end - block).step_by(stride).map(
                     |middle| {
@@ -160,8 +160,8 @@ impl Noise {
             } else {
                 (white(&noise.gyro), white(&noise.accel))
             };
-            // Longer means scatter no more than shorter ones: what makes them is a motion, or a drift that is allowed for
-            // apart from noise.
+            // Longer means scatter no more than shorter ones: an increase would be due to a motion, or to a drift for which
+            // there is a separate allowance.
             let limited = |sigma: Vector3<f64>, shorter: &[Vector3<f64>]| {
                 shorter.last().map_or(sigma, |shorter| sigma.inf(shorter))
             };
@@ -173,7 +173,7 @@ impl Noise {
         noise
     }
 
-    /// The 1σ of a mean over so long \[s\].
+    /// The 1σ of a mean over this duration \[s\].
     pub(super) fn of_mean(&self, of: &[Vector3<f64>], duration: f64) -> Vector3<f64> {
         let wanted = whole(duration / self.cell.max(1e-9));
         let place = self.blocks.iter().rposition(|block| *block <= wanted).unwrap_or_default();
@@ -182,12 +182,12 @@ impl Noise {
         sigma * (0.5 * block as f64 / wanted as f64).sqrt()
     }
 
-    /// The 1σ of the norm of a mean rate over so long \[rad/s\].
+    /// The 1σ of the norm of a mean rate over this duration \[rad/s\].
     pub(super) fn rate(&self, duration: f64) -> f64 {
         self.of_mean(&self.gyro, duration).norm()
     }
 
-    /// The 1σ of the norm of a mean specific force over so long \[m/s²\].
+    /// The 1σ of the norm of a mean specific force over this duration \[m/s²\].
     pub(super) fn force(&self, duration: f64) -> f64 {
         self.of_mean(&self.accel, duration).norm()
     }

@@ -1,19 +1,19 @@
-//! What a search for static intervals is told beforehand.
+//! The options of the search for static intervals.
 
 use rins_frames::units::{DEG, DEG_PER_SECOND};
 
-/// What a data sheet says of a triad of sensors; what it does not say is judged by the log itself.
+/// The data sheet of a triad of sensors; values that it does not state are estimated from the log.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SensorFigures {
     /// The 1σ of a bias \[rad/s\] or \[m/s²\].
     pub bias_sigma: Option<f64>,
-    /// The root power spectral density of white noise \[rad/s/√Hz\] or \[m/s²/√Hz\].
+    /// The square root of the power spectral density of white noise \[rad/s/√Hz\] or \[m/s²/√Hz\].
     pub noise_density: Option<f64>,
     /// The LSB \[rad/s\] or \[m/s²\].
     pub resolution: Option<f64>,
 }
 
-/// What a search for static intervals is told beforehand.
+/// The options of the search for static intervals.
 ///
 /// ```
 /// use rins_inspection::{SensorFigures, StaticOptions};
@@ -27,22 +27,21 @@ pub struct StaticOptions {
     pub gyro: SensorFigures,
     /// The accelerometers' data sheet.
     pub accel: SensorFigures,
-    /// The shortest interval that is found \[s\]. By default 1 s: what is shorter than that has no noise of its own to be
-    /// judged by at 10 Hz.
+    /// The shortest static interval \[s\]. The default is 1 s: the noise of shorter ones cannot be estimated at 10 Hz.
     pub shortest: f64,
-    /// The static intervals that the user states, as times from and to \[s\]. They take the place of a search.
+    /// The static intervals that the user states, as start and end times \[s\]. They replace the search.
     pub stated: Vec<[f64; 2]>,
-    /// How far the base of a stationary IMU may tilt, to and fro or in steps \[rad\]. By default 0.5 deg, which a wooden
-    /// floor yields under a person and a parked vehicle rocks by in wind.
+    /// The largest tilt of the base of a static IMU, as sway or in steps \[rad\]. The default is 0.5 deg: a wooden floor
+    /// tilts so under a person, and a parked vehicle in wind.
     pub largest_sway: f64,
-    /// The longest disturbance that an interval is bridged over, if the attitude is the same after it \[s\]. By default
-    /// 30 s: somebody walks by, and back.
+    /// The longest disturbance within an interval, if the attitude is the same after it \[s\]. The default is 30 s: somebody
+    /// walks by, and back.
     pub longest_disturbance: f64,
-    /// The largest bias of a gyro whose data sheet states no `bias_sigma` \[rad/s\]. By default 1 deg/s, the zero-rate
+    /// The largest bias of a gyro whose data sheet states no `bias_sigma` \[rad/s\]. The default is 1 deg/s, the zero-rate
     /// output of consumer MEMS gyros after one calibration at the factory.
     pub assumed_bias: f64,
-    /// The largest sensitivity of a gyro bias to specific force \[(rad/s)/(m/s²)\]. By default 0.2 deg/s/g, twice the
-    /// 0.1 deg/s/g of the data sheets of consumer MEMS gyros. A data sheet's `bias_sigma` per g limits it further.
+    /// The largest sensitivity of a gyro bias to specific force \[(rad/s)/(m/s²)\]. The default is 0.2 deg/s/g, twice the 0.1
+    /// deg/s/g of the data sheets of consumer MEMS gyros. The data sheet's `bias_sigma` per g limits it further.
     pub g_sensitivity: f64,
 }
 
@@ -61,33 +60,33 @@ impl Default for StaticOptions {
     }
 }
 
-/// A bias is taken to be within so many of its sigmas.
+/// The largest bias, in its sigmas.
 const BIAS_SIGMAS: f64 = 4.0;
 
-/// Biases change so far during a log whatever the data sheet \[rad/s\]: warm-up and bias instability of MEMS gyros. Below
-/// it, a constant rate about the vertical is not told from a bias by its size.
+/// The change of a bias during a log for any data sheet \[rad/s\]: warm-up and bias instability of MEMS gyros. Below it, a
+/// constant rate about the vertical is not distinguishable from a bias by its size.
 const LARGEST_RATE_CHANGE: f64 = 0.05 * DEG_PER_SECOND;
 
-/// A bias changes by so much of its sigma during a log.
+/// The change of a bias during a log, in its sigmas.
 const CHANGE_OF_BIAS: f64 = 0.1;
 
 impl StaticOptions {
-    /// The mean rate about the vertical up to which it is taken for a bias \[rad/s\]: four times the data sheet's
-    /// `bias_sigma`, or what is assumed without one.
+    /// The largest mean rate about the vertical that may be a bias \[rad/s\]: four times the data sheet's `bias_sigma`, or
+    /// the assumed bias without one.
     pub fn largest_bias(&self) -> f64 {
         self.gyro
             .bias_sigma
             .map_or(self.assumed_bias, |sigma| (BIAS_SIGMAS * sigma).max(LARGEST_RATE_CHANGE))
     }
 
-    /// How far biases of one attitude may differ within a log \[rad/s\].
+    /// The largest difference of the biases at one attitude within a log \[rad/s\].
     pub(super) fn largest_rate_change(&self) -> f64 {
         self.gyro.bias_sigma.map_or(LARGEST_RATE_CHANGE, |sigma| {
             sigma.min(LARGEST_RATE_CHANGE.max(CHANGE_OF_BIAS * sigma))
         })
     }
 
-    /// How far biases may differ by a change of specific force \[(rad/s)/(m/s²)\].
+    /// The largest change of a bias with specific force \[(rad/s)/(m/s²)\].
     pub(super) fn largest_g_sensitivity(&self) -> f64 {
         let sheet = self.gyro.bias_sigma.unwrap_or(f64::INFINITY);
         self.g_sensitivity.min(sheet / rins_frames::units::STANDARD_GRAVITY)

@@ -16,49 +16,49 @@ use super::{drift, split, table};
 use crate::rows::rows_of;
 use rins_motion::{Recording, whole};
 
-/// A cell at the end of an interval that is so many sigma off its mean belongs to the motion that follows: of a thousand
-/// ends a few lose a cell by chance.
+/// A cell at the end of an interval that differs by this number of sigmas from the mean belongs to the adjacent motion: in a
+/// few of a thousand ends a cell is removed by chance.
 const END_SIGMAS: f64 = 4.0;
 
-/// An end loses so many cells at most \[s\].
+/// The largest part that is removed from an end \[s\].
 const LONGEST_END: f64 = 1.0;
 
-/// What a base does without being moved, below which the ends of intervals are not trimmed \[rad/s\].
+/// The motion of a stationary base, below which the ends of intervals are not trimmed \[rad/s\].
 const END_RATE: f64 = 0.002 * DEG_PER_SECOND;
 
-/// The same of accelerometers \[m/s²\].
+/// The same for accelerometers \[m/s²\].
 const END_FORCE: f64 = 1e-3;
 
-/// How often the noise is estimated anew from what it splits the log into.
+/// The number of times that the noise is estimated again from the parts of the log.
 const NOISE_PASSES: usize = 2;
 
-/// A disturbance changes the velocity of a stationary IMU by so much at most \[m/s\], as accelerometers read a knock whose
-/// peaks they cut off: more is a hand that slides it.
+/// The largest change of velocity of a static IMU in a disturbance \[m/s\], as measured by accelerometers that clip the peaks
+/// of a shock: a larger change is a displacement by hand.
 const LARGEST_VELOCITY: f64 = 0.2;
 
-/// The direction of gravity is judged over so much of a span, at most \[s\].
+/// The longest window over which the direction of gravity is averaged \[s\].
 const DIRECTION: f64 = 1.0;
 
-/// Of a span the direction of gravity is taken in so many windows at least.
+/// The smallest number of windows in a span for the directions of gravity.
 const FEWEST_DIRECTIONS: usize = 20;
 
-/// What is shorter than this share of the shortest interval is not reported.
+/// The duration, relative to the shortest interval, below which a candidate is not reported.
 const REPORTED: f64 = 0.5;
 
-/// What an interval is searched in.
+/// The data of a search for static intervals.
 pub(super) struct Search<'r> {
     pub(super) recording: &'r Recording,
     pub(super) options: &'r StaticOptions,
     pub(super) cells: Cells,
-    /// Which cells the table stands in, if that is known.
+    /// The cells in which the table is static, if that is known.
     pub(super) table: Option<Vec<bool>>,
     quiet: Vec<bool>,
     pub(super) noise: Noise,
 }
 
-/// A run of cells, and why it is no static interval.
+/// A run of cells, and the reason why it is not a static interval.
 struct Found {
-    /// Its parts, between which it was disturbed.
+    /// Its parts, separated by disturbances.
     parts: Vec<Range<usize>>,
     why: Option<NotStatic>,
 }
@@ -71,7 +71,7 @@ impl<'r> Search<'r> {
         let quiet = Limits::of(&cells, &stand, options).quiet(&cells, &stand);
         let mut noise = Noise::of(&cells, &rows_of(&quiet));
         if table.is_none() {
-            // What moves slowly is as quiet as what is static; it is no noise.
+            // A slow motion is as quiet as a static interval, but it is not noise.
             for _ in 0..NOISE_PASSES {
                 let parts = rows_of(&quiet)
                     .into_iter()
@@ -111,7 +111,7 @@ impl<'r> Search<'r> {
         all.iter().filter_map(|found| self.interval(found)).collect()
     }
 
-    /// The parts over which gravity keeps its direction, and those over which it does not.
+    /// The parts over which gravity has a constant direction, and those over which it has not.
     fn still(&self, run: &Range<usize>) -> Vec<Found> {
         if run.is_empty() {
             return Vec::new();
@@ -130,12 +130,12 @@ impl<'r> Search<'r> {
         let parts = drift::parts(&forces, lasting, self.options.largest_sway);
         let span = |part: &Range<usize>| {
             let end = windows[part.end - 1].end;
-            // The last window may be short and was left out.
+            // The last window may be short and was omitted.
             windows[part.start].start..if part.end == windows.len() { run.end } else { end }
         };
         let mut found: Vec<Found> =
             parts.iter().map(|part| Found { parts: vec![span(part)], why: None }).collect();
-        // What turns so slowly that its parts are still, each a little further, is no static interval either.
+        // A rotation so slow that its parts appear static, with successive attitudes, is not a static interval either.
         if found.len() > 1 {
             for one in &mut found {
                 one.why = self.drifts(&one.parts[0]);
@@ -154,7 +154,7 @@ impl<'r> Search<'r> {
         found
     }
 
-    /// Whether gravity is elsewhere at the end of a span than at its start.
+    /// Whether the direction of gravity at the end of a span differs from that at its start.
     fn drifts(&self, run: &Range<usize>) -> Option<NotStatic> {
         let quarter = (run.len() / 4).max(1);
         let (first, last) = (run.start..run.start + quarter, run.end - quarter..run.end);
@@ -164,10 +164,10 @@ impl<'r> Search<'r> {
         (angle > self.options.largest_sway + noise).then_some(NotStatic::GravityTurns { angle })
     }
 
-    /// A part less what its ends share with the motion before and after.
+    /// A part without the motion before and after that its ends contain.
     fn trimmed(&self, part: Range<usize>) -> Range<usize> {
         let cells = &self.cells;
-        // An end reaches in by a second or a quarter, and what lies behind it says what is stationary.
+        // An end is at most a second or a quarter long, and the cells behind it are the static reference.
         let second = whole(LONGEST_END * part.len() as f64 / cells.duration(&part));
         let reach = second.min(part.len() / 4);
         let behind = (3 * reach).min(part.len() - reach);
@@ -176,12 +176,12 @@ impl<'r> Search<'r> {
         }
         let off = |cell: usize, inner: &Range<usize>| self.is_off(&(cell..cell + 1), inner);
         let (mut start, mut end) = (part.start, part.end);
-        // Nothing moves before and after a log.
+        // There is no motion before and after a log.
         if part.start > 0 {
             let inner = part.start + reach..part.start + behind;
             let last = (part.start..inner.start).rev().find(|cell| off(*cell, &inner));
             start = last.map_or(start, |last| last + 1);
-            // Several cells together show a motion that begins too gently for one.
+            // The mean over several cells detects a motion that begins too slowly for a single one.
             while (start + 1..=inner.start).any(|end| self.is_off(&(start..end), &inner)) {
                 start += 1;
             }
@@ -197,7 +197,7 @@ impl<'r> Search<'r> {
         start..end
     }
 
-    /// Whether the means over some cells are not those over others that are stationary.
+    /// Whether the means over `some` cells differ from those over `stationary` ones.
     fn is_off(&self, some: &Range<usize>, stationary: &Range<usize>) -> bool {
         let cells = &self.cells;
         let rate = cells.rate(some) - cells.rate(stationary);
@@ -242,8 +242,8 @@ impl<'r> Search<'r> {
         joined
     }
 
-    /// Takes off short parts at the ends of what was joined if their means differ: a motion that begins or ends gently
-    /// looks like a disturbance and what follows it.
+    /// Removes short parts at the ends of joined parts if their means differ: a motion that begins or ends slowly resembles a
+    /// disturbance and a static part.
     fn strip(&self, found: &mut Found) {
         let cells = &self.cells;
         let Some(main) = found.parts.iter().max_by_key(|part| part.len()).cloned() else { return };
@@ -265,7 +265,7 @@ impl<'r> Search<'r> {
         }
     }
 
-    /// Whether between two spans the IMU was disturbed, and is where it was.
+    /// Whether the IMU was disturbed between two spans and is at the same attitude afterwards.
     fn is_disturbance(&self, before: &Found, after: &Found) -> bool {
         if before.why.is_some() || after.why.is_some() {
             return false;
@@ -285,7 +285,7 @@ impl<'r> Search<'r> {
         if !stands || lasting > self.options.longest_disturbance {
             return false;
         }
-        // The mean over what is near, for a bias drifts.
+        // The mean over nearby cells, because a bias drifts.
         let near = |part: &Range<usize>, at_end: bool| {
             let size = part.len().min(10 * cells.window);
             if at_end { part.end - size..part.end } else { part.start..part.start + size }
@@ -339,7 +339,7 @@ impl<'r> Search<'r> {
         let recording = self.recording;
         let first = recording.increments[span.start].interval;
         let start = recording.times[span.start] - first;
-        // Where a log starts at zero, so does the interval, whatever the rounding of its times.
+        // If a log starts at zero, so does the interval, regardless of the rounding of its times.
         let start = if start.abs() < 1e-6 * first { 0.0 } else { start };
         let end = recording.times[span.end - 1];
         StaticInterval { span, start, end, why, stated, disturbances }

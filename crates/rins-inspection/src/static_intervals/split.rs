@@ -1,4 +1,4 @@
-//! Where within a quiet run of cells the mean rate changes.
+//! The changes of the mean rate within a quiet run of cells.
 
 use std::ops::Range;
 
@@ -6,13 +6,13 @@ use super::cells::Cells;
 use super::noise::Noise;
 use super::options::StaticOptions;
 
-/// A mean that has changed by so many sigma has changed: of a million differences none does by chance.
+/// The number of sigmas from which a mean has changed: of a million differences none exceeds it by chance.
 pub(super) const SIGMAS: f64 = 6.0;
 
-/// The parts of a run of cells over which the mean rate is the same.
+/// The parts of a run of cells with a constant mean rate.
 ///
-/// The means of neighbouring blocks are compared, from one cell to half the run. They may differ by noise, by an angle
-/// that the base sways while a block lasts, and by how far a bias changes.
+/// The means of successive blocks are compared, with lengths from one cell to half the run. They may differ by noise, by the
+/// angle of the base's sway during a block, and by the change of a bias.
 pub(super) fn parts(
     cells: &Cells,
     run: Range<usize>,
@@ -33,7 +33,7 @@ pub(super) fn parts(
     parts
 }
 
-/// Where the rate changes most beyond what it may; none if it does not.
+/// The place where the rate changes most beyond its limit; `None` if it does not.
 fn change(
     cells: &Cells,
     run: &Range<usize>,
@@ -64,8 +64,8 @@ fn change(
     most.1
 }
 
-/// By how much the mean of a coarse gyro may change by rounding alone \[rad/s\]: not at all where noise carries it over
-/// its steps.
+/// The largest change of the mean of a coarse gyro due to rounding alone \[rad/s\]: zero if its noise exceeds the
+/// quantization.
 pub(super) fn coarse_step(cells: &Cells, noise: &Noise, axis: usize) -> f64 {
     let step = cells.gyro_step[axis];
     let cell = noise.gyro.first().map_or(0.0, |sigma| sigma[axis]);

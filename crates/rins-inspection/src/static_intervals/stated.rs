@@ -1,4 +1,4 @@
-//! Static intervals that the user states, and what of the samples contradicts them.
+//! Static intervals that the user states, and contradictions to them in the samples.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::search::Search;
 use super::split::SIGMAS;
 
 impl Search<'_> {
-    /// The intervals that the user states, and what contradicts them.
+    /// The intervals that the user states, and the contradictions to them.
     pub(super) fn stated(&self) -> Vec<StaticInterval> {
         let recording = self.recording;
         let slack = 0.5 * self.cells.interval;
@@ -38,7 +38,7 @@ impl Search<'_> {
         stated.collect()
     }
 
-    /// What shows that a span is not static.
+    /// The reason why a span is not static.
     fn contradiction(&self, span: &Range<usize>) -> Option<NotStatic> {
         let cells = &self.cells;
         let inside = |cell: usize| {

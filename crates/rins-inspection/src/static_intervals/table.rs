@@ -1,4 +1,4 @@
-//! When a table whose angle or rate is known stands.
+//! The static intervals of a table whose angle or rate is known.
 
 use std::ops::Range;
 
@@ -7,14 +7,14 @@ use rins_frames::units::DEG_PER_SECOND;
 use super::cells::Cells;
 use rins_motion::Recording;
 
-/// A table that turns more slowly than this \[rad/s\] stands still: 7.2″ a second, half the Earth's
-/// rate, and seven sigma of what an encoder's noise of 2″ at 50 Hz feigns over a second.
+/// The rate below which a table is static \[rad/s\]: 7.2″/s, half the Earth's rate, and seven sigma of the error of a rate
+/// over one second due to an encoder's noise of 2″ at 50 Hz.
 const SLOWEST: f64 = 0.002 * DEG_PER_SECOND;
 
-/// The slope of an angle is taken over this \[s\].
+/// The window over which the rate is calculated from an angle \[s\].
 const WINDOW: f64 = 1.0;
 
-/// Which cells the table stands in; `None` if nothing says how it turns.
+/// The cells in which the table is static; `None` if its motion is unknown.
 pub(super) fn stands(recording: &Recording, cells: &Cells) -> Option<Vec<bool>> {
     if let Some(rates) = &recording.table_rate {
         let slow =
@@ -44,9 +44,9 @@ pub(super) fn stands(recording: &Recording, cells: &Cells) -> Option<Vec<bool>> 
     Some(stands)
 }
 
-/// The mean slope of equally spaced readings: the last third's mean less the first third's.
+/// The mean slope of equally spaced readings: the mean of the last third minus that of the first third.
 ///
-/// A difference of two readings would carry the encoder's noise in full.
+/// A difference of two readings would contain the encoder's noise without averaging.
 fn slope(angle: &[f64], duration: f64) -> f64 {
     let third = (angle.len() / 3).max(1);
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;

@@ -1,4 +1,4 @@
-//! Turns to and fro, where gyros are too noisy or a log too restless for its quietest parts to show them.
+//! Rotations forth and back if gyros are too noisy, or a log has too much motion, for its quietest parts to reveal them.
 
 use std::ops::Range;
 
@@ -8,28 +8,28 @@ use super::cells::Cells;
 use super::interval::NotStatic;
 use super::options::StaticOptions;
 
-/// The probability that white noise makes a static interval look like one in which the IMU turns to and fro.
+/// The probability that white noise makes a static interval resemble a rotation forth and back.
 const BY_CHANCE: f64 = 1e-6;
 
-/// Whether over some cells the gyros, their mean removed, turn farther than a base sways or a bias drifts, and farther than
-/// white noise makes them.
+/// Whether the angles of the gyros over these cells, after removal of the mean rate, exceed the sway of a base, the drift of
+/// a bias, and the effect of white noise.
 ///
-/// How strong that is, neighbouring cells say: motion hardly makes these differ. Where a log never stands still, its
-/// quietest parts would call motion noise.
+/// The white noise is estimated from successive cells, whose differences motion hardly affects. If a log is never static, its
+/// quietest parts would treat motion as noise.
 pub(super) fn wanders(
     cells: &Cells,
     run: &Range<usize>,
     options: &StaticOptions,
 ) -> Option<NotStatic> {
     let lasting = cells.duration(run);
-    // A rate that drifts by so much over a time turns by an eighth of their product beside its mean.
+    // A bias that drifts by this rate over a duration changes the angle about its mean by an eighth of their product.
     let allowed = options.largest_sway + options.largest_rate_change() * lasting / 8.0;
     let farthest = cells.farthest(run);
     let angle = farthest.max();
     if angle <= allowed {
         return None;
     }
-    // The farthest point of a Brownian bridge (Kolmogorov).
+    // The maximum of a Brownian bridge (Kolmogorov).
     let by_chance = (-0.5 * (0.5 * BY_CHANCE).ln()).sqrt();
     let white: Vector3<f64> = cells.neighbours(run) * (lasting / (run.len() as f64).sqrt());
     (0..3)
@@ -38,7 +38,7 @@ pub(super) fn wanders(
 }
 
 impl Cells {
-    /// How far each gyro turns within some cells, its mean over them removed \[rad\].
+    /// The largest angle of each gyro within these cells, after removal of its mean rate \[rad\].
     fn farthest(&self, cells: &Range<usize>) -> Vector3<f64> {
         let rate = self.rate(cells);
         (cells.start + 1..cells.end).fold(Vector3::zeros(), |most: Vector3<f64>, end| {
@@ -47,7 +47,7 @@ impl Cells {
         })
     }
 
-    /// The 1σ of white noise by which the mean rates of neighbouring cells differ \[rad/s\].
+    /// The 1σ of white noise from the differences of successive cells' mean rates \[rad/s\].
     fn neighbours(&self, cells: &Range<usize>) -> Vector3<f64> {
         let rate = |cell: usize| self.rate(&(cell..cell + 1));
         let squares = (cells.start + 1..cells.end)

@@ -1,4 +1,4 @@
-//! Wrong axes, signs, attitudes and places are suspected, and named where one mistake explains all.
+//! Wrong axes, signs, attitudes and sites are detected, and identified if one error explains all deviations.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -12,7 +12,7 @@ use crate::run::{
     ANGLES, CHIP, NAVIGATION, PAPER_LATITUDE, assert_unsuspected, expected, record, station, usual,
 };
 
-/// The recording with its gyros and accelerometers read along other axes.
+/// The recording with the axes of its gyros and accelerometers declared differently.
 pub(crate) fn read_as(recording: &Recording, gyro: SignedAxes, accel: SignedAxes) -> Recording {
     let along = |axes: SignedAxes, vector: InFrame<Body>| {
         InFrame::from_components(axes.apply(vector.components()))
@@ -33,7 +33,7 @@ fn axes(source: [usize; 3], sign: [f64; 3]) -> SignedAxes {
     SignedAxes { source, sign }
 }
 
-/// The axes by which what `axes` has mixed up is right again.
+/// The axes that correct an error by `axes`.
 pub(crate) fn undone(axes: SignedAxes) -> SignedAxes {
     let mut inverse = axes;
     for row in 0..3 {
@@ -49,7 +49,7 @@ fn without_table(recording: Recording) -> Recording {
 
 const RIGHT: SignedAxes = SignedAxes::IDENTITY;
 
-/// The corrections that every suspicion about directions tells.
+/// The corrections of all suspicions about directions.
 pub(crate) fn corrections(recording: &Recording, expected: &Expected) -> Vec<Correction> {
     let inspection = inspect(recording, expected);
     let mut told = inspection.suspicions.iter().filter(|suspicion| {
@@ -75,7 +75,7 @@ fn right_runs_are_not_suspected() {
         assert_unsuspected(&recording, &Expected { axis: None, ..expected(grade) });
         assert_unsuspected(&without_table(recording), &expected(grade));
     }
-    // Without a data sheet a bias of a degree an hour is no wrong axis.
+    // Without a data sheet a bias of one degree per hour is not a wrong axis.
     let station = Some(station(PAPER_LATITUDE));
     let known_little = Expected { station, ..Expected::default() };
     let biased = crate::run::Grade { gyro_bias: 0.7 / 3600.0 * DEG, ..NAVIGATION };
@@ -119,9 +119,9 @@ fn wrong_attitude_and_place_are_named() {
     ] {
         assert!(corrections(&recording, &wrong).contains(&correction), "{correction:?}");
     }
-    // A yaw that is nothing's sign is suspected all the same, and nothing is made up.
+    // A wrong yaw that is no error of a sign is detected too, without a correction.
     assert_eq!(corrections(&recording, &with(EulerAngles { yaw: 1.2, ..ANGLES })), []);
-    // Half a degree is within what the attitude's sigma allows, five are not.
+    // Half a degree is within the attitude's sigma, five degrees are not.
     let off = |angle: f64| with(EulerAngles { roll: roll + angle * DEG, ..ANGLES });
     assert_unsuspected(&recording, &off(0.5));
     assert_eq!(corrections(&recording, &off(5.0)), []);
@@ -155,7 +155,7 @@ fn latitude_tells_when_the_attitude_is_not_known() {
     assert!(self::corrections(&recording, &south).contains(&Correction::LatitudeSign));
 }
 
-/// On a chip neither the Earth's rate nor a given attitude tells, but the turn itself does.
+/// With a MEMS chip neither the Earth's rate nor a given attitude decides, but the rotation itself does.
 #[test]
 fn turning_tells_the_hand_without_table_and_attitude() {
     let recording = without_table(record(usual(), CHIP, 9));
@@ -167,7 +167,7 @@ fn turning_tells_the_hand_without_table_and_attitude() {
             panic!("{found:?}");
         };
         assert!((ratio + 1.0).abs() < 0.05 && *correlation < -0.95, "{ratio} {correlation}");
-        // Either sign of x or y, either triad: all put it right.
+        // Either sign of x or y, of either triad: all of them correct it.
         assert!(corrections.len() > 1 && corrections.contains(&Correction::Accel(undone(accel))));
     }
 }

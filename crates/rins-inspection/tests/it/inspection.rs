@@ -1,4 +1,4 @@
-//! What a look through a recording finds in its channels and in the table's turn.
+//! Errors of channels and of the table's rotation that an inspection finds.
 
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -14,14 +14,14 @@ use crate::run::{
     CHIP, INTERVAL, NAVIGATION, assert_unsuspected, expected, profile, record, usual,
 };
 
-/// The one suspicion about a recording.
+/// The only suspicion about a recording.
 fn only_suspicion(recording: &Recording, expected: &Expected) -> Suspicion {
     let found = inspect(recording, expected).suspicions;
     assert_eq!(found.len(), 1, "{found:?}");
     found[0].clone()
 }
 
-/// The recording with the table's rate as `commanded` in place of its angle.
+/// The recording with the commanded rate `commanded` instead of the table angle.
 fn commanded(recording: Recording, commanded: &Profile) -> Recording {
     let rate = |time: &f64| (commanded.angle(*time) - commanded.angle(time - INTERVAL)) / INTERVAL;
     let table_rate = Some(recording.times.iter().map(rate).collect());
@@ -41,7 +41,7 @@ fn profile_that_the_table_did_not_follow_is_suspected() {
         let right = commanded(recording.clone(), &profile(&segments));
         assert_unsuspected(&right, &expected(grade));
 
-        // Without its ramps the profile turns 10 deg farther in the first two seconds.
+        // Without its ramps the profile rotates 10 deg farther in the first two seconds.
         let jumps = segments.map(|(rate, duration)| Segment { rate: rate * DEG, duration });
         let abrupt = commanded(recording.clone(), &Profile::new(&jumps, None).unwrap());
         let late = commanded(recording, &profile(&[(0.0, 22.0), (10.0, 118.0), (0.0, 20.0)]));
@@ -75,7 +75,7 @@ fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
     let known = expected(CHIP);
     for (factor, words) in [
         (1.0, None),
-        // As a sensor comes from the factory.
+        // An uncalibrated sensor.
         (1.03, None),
         (0.93, None),
         (1.0 / 0.9, Some("gon were declared as deg")),
@@ -85,7 +85,7 @@ fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
     ] {
         let turned = with_table_angle(&recording, |angle| angle * factor);
         let inspection = inspect(&turned, &Expected { axis: None, ..known });
-        // The gyro's bias is 2.4 % of its rate here, and not in the ratio.
+        // The gyro's bias is 2.4 % of its rate here, and is not part of the ratio.
         let ratio = inspection.spin_ratio.unwrap();
         assert_close!(ratio * factor, 1.0, 1e-3);
         let causes: Vec<&str> = inspection
@@ -127,11 +127,11 @@ fn spikes_are_found_in_each_channel() {
     }
 }
 
-/// Noise of Student's t with few degrees of freedom is large now and then: its largest reading is as far beyond the others as
-/// these beyond the rest. A spike stands by itself in it too.
+/// Noise with Student's t distribution and few degrees of freedom has large values: the largest reading exceeds the others as
+/// these exceed the rest of them. A single spike is detected in it too.
 #[test]
 fn largest_of_heavy_tails_is_no_spike() {
-    /// What is so many times as large as this noise's usual readings would be a spike in normal noise.
+    /// A value of this size relative to the typical noise would be a spike in normal noise.
     const LARGE: f64 = 80.0;
     let tails = StudentT::new(2.5).unwrap();
     let size = 2e-6;
@@ -153,12 +153,12 @@ fn largest_of_heavy_tails_is_no_spike() {
         let found = inspect(&recording, &expected(NAVIGATION)).suspicions;
         assert!(found.iter().any(is_spike), "{found:?}");
     }
-    // Now and then the largest is far beyond all others.
+    // In some cases the largest value greatly exceeds all others.
     assert!(large >= 4 && 4 * suspected <= large, "{suspected} of {large}");
 }
 
-/// A base that tips over within a sample turns both gyros across the axis, once, and hardly ever both as far; that about the axis
-/// too, if the axis is not upright.
+/// A tilt step of the base within a sample affects both gyros perpendicular to the axis once, rarely by equal amounts, and
+/// also the gyro along the axis unless that is vertical.
 #[test]
 fn base_that_tips_over_is_no_spike() {
     let recording = record(usual(), NAVIGATION, 4);
@@ -185,7 +185,7 @@ fn base_that_tips_over_is_no_spike() {
     }
 }
 
-/// Turned by hand, set down with a knock, and picked up again: none of it is a spike.
+/// Rotation by hand, a shock, and another rotation: none of it is a spike.
 #[test]
 fn motion_by_hand_is_no_spike() {
     let mut rng = Pcg64::seed_from_u64(5);
@@ -194,7 +194,7 @@ fn motion_by_hand_is_no_spike() {
     for index in 0..6000_u32 {
         let time = f64::from(index) * 0.01;
         let phase = time % 10.0;
-        // A turn of three seconds, then a knock that rings, then rest.
+        // A rotation of three seconds, then a shock with a decaying oscillation, then a static interval.
         let rate = if phase < 3.0 { 100.0 * DEG * (phase * 2.1).sin().powi(2) } else { 0.0 };
         let after = phase - 3.0;
         let ring =
@@ -229,7 +229,7 @@ fn saturated_gyros_are_found_by_their_range_and_without_it() {
         let cut = sample.angle.components().map(|angle| angle.min(limit * sample.interval));
         sample.angle = InFrame::from_components(cut);
     }
-    // 20 s at rest and 6 s of ramp come before.
+    // 20 s of a static interval and a ramp of 6 s come before.
     let (channel, first) = ("gyro.z", 26.0);
     match only_suspicion(&recording, &known) {
         Suspicion::FlatTop { channel: found, count, time, reading } => {
@@ -251,7 +251,7 @@ fn saturated_gyros_are_found_by_their_range_and_without_it() {
     }
 }
 
-/// A coarse sensor repeats its readings, the largest too, and is not cut off.
+/// A coarse sensor repeats its readings, including the largest, and is not clipped.
 #[test]
 fn coarse_sensors_are_not_cut_off_and_show_their_step() {
     let step = 20.0 * ARCSEC;
@@ -267,8 +267,9 @@ fn coarse_sensors_are_not_cut_off_and_show_their_step() {
     assert_eq!(inspection.resolution[3..], [None; 3]);
 }
 
-/// Rates in whole steps over intervals of stamps that are rounded to microseconds and jitter: their increments stand on a comb of the
-/// product of two roundings, which is no resolution. A reading that goes by a step or two and comes back is no spike.
+/// Rates with integer LSBs over intervals from time stamps that are rounded to microseconds and jitter: their increments have
+/// a grid of the product of two roundings, which is not the resolution. A reading that changes by one or two LSBs and back is
+/// not a spike.
 #[test]
 fn resolution_of_rates_shows_over_uneven_intervals() {
     for draw in 0..200_u64 {
@@ -302,7 +303,8 @@ fn resolution_of_rates_shows_over_uneven_intervals() {
     }
 }
 
-/// A table whose rate lies between two steps of a gyro is read as the one for long, as the other once, and is not cut off.
+/// If the rate of a table is between two values of a gyro, the gyro repeats one of them for long, with single readings of the
+/// other, and is not clipped.
 #[test]
 fn constant_rate_between_two_steps_is_not_cut_off() {
     let step = 0.3 * ARCSEC;
@@ -327,7 +329,7 @@ fn constant_rate_between_two_steps_is_not_cut_off() {
     assert!(matches!(cut, Suspicion::FlatTop { channel: "gyro.z", .. }), "{cut:?}");
 }
 
-/// Decimals with so many significant digits have no step of their own.
+/// Decimal numbers with a fixed number of significant digits have no resolution.
 #[test]
 fn rounded_decimals_are_no_resolution() {
     let mut recording = record(usual(), NAVIGATION, 8);

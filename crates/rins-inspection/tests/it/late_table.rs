@@ -1,4 +1,4 @@
-//! How late a table's angle is found to be, and whether its 1σ holds.
+//! The estimated latency of a table angle, and the consistency of its 1σ.
 
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
@@ -11,18 +11,18 @@ use rins_motion::Recording;
 
 use crate::run::{NAVIGATION, expected};
 
-/// A tenth of a second before the start and after the end, so that the late angle is known everywhere.
+/// A tenth of a second before the start and after the end, so that the delayed angle is known everywhere.
 const MARGIN: f64 = 0.1;
 
-/// What a table's rate \[rad/s\] is from each time \[s\] on, and when it ends.
+/// The rates \[rad/s\] of a table from each time \[s\] on, and its end.
 struct Rates {
     corners: Vec<(f64, f64)>,
     end: f64,
 }
 
 impl Rates {
-    /// Two to six rates of up to 150 deg/s, after five seconds at rest, one jumping to the next or by ramps of up to two
-    /// seconds.
+    /// Two to six rates of up to 150 deg/s, after a static interval of five seconds, with steps between them or ramps of up
+    /// to two seconds.
     fn drawn(rng: &mut Pcg64) -> Self {
         let (top, ramps) = (10_f64.powf(rng.random_range(0.7..2.2)) * DEG, rng.random::<bool>());
         let (mut corners, mut end, mut rate) = (vec![(-MARGIN, 0.0)], 5.0, 0.0);
@@ -40,7 +40,7 @@ impl Rates {
         Self { corners, end }
     }
 
-    /// The angle \[rad\] at times \[s\] that rise.
+    /// The angle \[rad\] at increasing times \[s\].
     fn angles(&self, times: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut reached = 0.0;
         let mut corners = self.corners.iter().copied().peekable();
@@ -57,7 +57,7 @@ impl Rates {
     }
 }
 
-/// A gyro with white noise and a bias, and an angle that is `latency` \[s\] late and read with white noise.
+/// A gyro with white noise and a bias, and an angle with a latency of `latency` \[s\] and white noise.
 fn recorded(latency: f64, rng: &mut Pcg64) -> Recording {
     let rates = Rates::drawn(rng);
     let rate = [20.0, 50.0, 100.0, 200.0, 400.0][rng.random_range(0..5)];
@@ -94,7 +94,7 @@ fn recorded(latency: f64, rng: &mut Pcg64) -> Recording {
     }
 }
 
-/// No latency is off by more than its 1σ accounts for, and their squares in it have a mean of one.
+/// The errors of the latencies are consistent with their 1σ, and the mean of their normalized squares is one.
 #[test]
 fn latency_has_its_sigma() {
     let mut rng = Pcg64::seed_from_u64(41);
@@ -110,6 +110,6 @@ fn latency_has_its_sigma() {
         })
         .collect();
     let mean = squares.iter().sum::<f64>() / 100.0;
-    // Chi-squared of 100 at 0.001 either way, and so much for sigmas that are estimates themselves.
+    // Chi-squared of 100 degrees of freedom at 0.001 in both directions, with a margin because the sigmas are estimates.
     assert!((0.61..1.6).contains(&mean), "{mean}");
 }

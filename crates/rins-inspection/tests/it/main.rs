@@ -1,4 +1,4 @@
-//! What this crate finds in recordings, against what they were made with.
+//! The findings of this crate in recordings, compared with their simulation.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod axes;

@@ -1,4 +1,4 @@
-//! Every mistake that a rig file can make of axes, units and columns is named with what undoes it.
+//! Every error of axes, units and columns in a rig file is identified with its correction.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -14,7 +14,7 @@ use crate::axes::{corrections, read_as, undone};
 use crate::run::{CHIP, INTERVAL, NAVIGATION, assert_unsuspected, expected, profile};
 use crate::run::{record, record_tilted, usual};
 
-/// All orders and signs of three axes but the right one.
+/// All orders and signs of three axes except the correct one.
 fn mistakes() -> Vec<SignedAxes> {
     let orders = [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
     let signs =
@@ -24,7 +24,7 @@ fn mistakes() -> Vec<SignedAxes> {
     all.filter(|axes| *axes != SignedAxes::IDENTITY).collect()
 }
 
-/// Fails unless each of the 141 mistakes is named, as one of at most so many.
+/// Fails unless each of the 141 errors is identified, with at most this number of alternatives.
 fn assert_all_named(recording: &Recording, most: usize) {
     let right = SignedAxes::IDENTITY;
     assert_eq!(mistakes().len(), 47);
@@ -48,7 +48,7 @@ fn every_order_and_sign_of_axes_is_named_with_its_correction() {
     assert_all_named(&record(usual(), NAVIGATION, 20), 1);
 }
 
-/// A table that turns from the first sample to the last shows what one at rest does.
+/// A table that rotates from the first sample to the last has the same information as a static one.
 #[test]
 fn every_order_and_sign_is_named_where_nothing_rests() {
     let steady = record(profile(&[(10.0, 130.0)]), NAVIGATION, 26);
@@ -57,7 +57,7 @@ fn every_order_and_sign_is_named_where_nothing_rests() {
     assert_all_named(&reversed.slice(500, reversed.len()), 1);
 }
 
-/// The recording with its readings multiplied.
+/// The recording with its readings multiplied by factors.
 fn scaled(recording: &Recording, gyro: f64, accel: f64, table: f64) -> Recording {
     let increments = recording.increments.iter().map(|sample| Increments {
         angle: sample.angle * gyro,
@@ -77,13 +77,13 @@ fn causes(recording: &Recording, expected: &Expected) -> Vec<String> {
     inspect(recording, expected).suspicions.into_iter().filter_map(cause).collect()
 }
 
-/// What one of a unit adds over an interval, in SI units.
+/// The contribution of one unit over an interval, in SI units.
 fn over(unit: ReadingUnit) -> f64 {
     if unit.of == ReadingOf::Rate { unit.factor * INTERVAL } else { unit.factor }
 }
 
-/// Fails unless each unit of a list taken for each other one is named, and nothing else is; `wrong`
-/// makes what is then read, of a factor.
+/// Fails unless every confusion of two units of a list is identified, and nothing else; `wrong` multiplies the affected
+/// readings by a factor.
 fn assert_units_named(
     units: &[ReadingUnit],
     said: impl Fn(ReadingUnit) -> Expected,
@@ -133,7 +133,7 @@ fn every_unit_taken_for_another_is_named() {
     }
 }
 
-/// Accelerometers read as gyros and gyros as accelerometers, each in the other's unit.
+/// Gyro and accelerometer columns are exchanged, each with the unit of the other.
 #[test]
 fn exchanged_triads_are_named_whatever_their_units() {
     let recording = record(usual(), NAVIGATION, 22);
@@ -152,7 +152,7 @@ fn exchanged_triads_are_named_whatever_their_units() {
     }
 }
 
-/// The same where the table turns at one rate, with which nothing then varies.
+/// The same if the table rotates at a constant rate, without correlations.
 #[test]
 fn exchanged_triads_are_named_at_one_rate() {
     let run = record(profile(&[(10.0, 130.0)]), NAVIGATION, 29);
@@ -167,7 +167,7 @@ fn exchanged_triads_are_named_at_one_rate() {
     assert!(gyro > 0.3 && accel < 0.01, "{gyro} {accel}");
 }
 
-/// Of a hundred runs without a mistake, in all attitudes and places, none is suspected.
+/// A hundred correct runs, in random attitudes and at random sites, without any suspicion.
 #[test]
 fn a_hundred_good_runs_are_not_suspected() {
     let mut rng = Pcg64::seed_from_u64(23);
@@ -190,7 +190,7 @@ fn a_late_table_is_seen_by_so_much() {
     let on_time = inspect(&recording, &expected(NAVIGATION)).table_lag.unwrap();
     assert!(on_time.latency.abs() < 20e-6 && on_time.sigma < 10e-6, "{on_time:?}");
     assert_close!(on_time.ratio, 1.0, 1e-6);
-    // The angle at each stamp is that of 1.5 ms before: 0.075 of an interval.
+    // The angle at each time stamp is that of 1.5 ms before: 0.075 of an interval.
     let mut late = recording.clone();
     let angle = late.table_angle.as_mut().unwrap();
     for index in (1..angle.len()).rev() {
@@ -198,7 +198,7 @@ fn a_late_table_is_seen_by_so_much() {
     }
     let lag = inspect(&late, &expected(NAVIGATION)).table_lag.unwrap();
     assert_close!(lag.latency - on_time.latency, 0.0015, 10e-6);
-    // Of a table that turns at one rate nothing is late.
+    // For a table with a constant rate no latency is observable.
     let steady = record(profile(&[(10.0, 60.0)]), NAVIGATION, 25);
     let from = steady.slice(500, steady.len());
     assert_eq!(inspect(&from, &expected(NAVIGATION)).table_lag, None);

@@ -1,4 +1,4 @@
-//! When the IMU stands still, and what it measures on average then.
+//! Static intervals of the IMU, and its mean output in them.
 
 use std::ops::Range;
 
@@ -14,21 +14,21 @@ use rins_testing::assert_close;
 
 use crate::run::{PAPER_LATITUDE, station};
 
-/// The static intervals that last so long \[s\].
+/// The static intervals of at least this duration \[s\].
 fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
     StaticIntervals::of(recording, &StaticOptions::default()).spans(shortest)
 }
 
 const INTERVAL: f64 = 0.02;
 
-/// Samples a second.
+/// Samples per second.
 const SECOND: usize = 50;
 
 /// White noise densities of a navigation-grade IMU \[rad/s/√Hz\], \[m/s²/√Hz\].
 const GYRO_NOISE: f64 = 0.02 * DEG_PER_HOUR;
 const ACCEL_NOISE: f64 = 30.0 * MICRO_G;
 
-/// At rest for a minute, turning for one, at rest for another.
+/// Static for a minute, rotating for one, static for another.
 fn dwell_turn_dwell(rate: f64) -> TrueMotion {
     let segments =
         [(0.0, 60.0), (rate, 60.0), (0.0, 60.0)].map(|(rate, duration)| Segment { rate, duration });
@@ -62,7 +62,7 @@ fn recorded(motion: &TrueMotion, noise: f64, seed: u64) -> Recording {
     Recording { times, increments, ..Recording::default() }
 }
 
-/// The same with the table's angle, read with white noise \[rad\].
+/// The same with the table angle, with white noise \[rad\].
 fn with_encoder(recording: Recording, motion: &TrueMotion, noise: f64) -> Recording {
     let mut rng = Pcg64::seed_from_u64(77);
     let read = |time: &f64| {
@@ -73,7 +73,7 @@ fn with_encoder(recording: Recording, motion: &TrueMotion, noise: f64) -> Record
     Recording { table_angle, ..recording }
 }
 
-/// The spans are the two dwells, to a second at each end.
+/// Checks that the spans are the two static intervals, to a second at each end.
 fn assert_two_dwells(spans: &[Range<usize>]) {
     let wanted = [0..60 * SECOND, 120 * SECOND..180 * SECOND];
     assert_eq!(spans.len(), 2, "{spans:?}");
@@ -94,7 +94,7 @@ fn dwells_are_found_by_the_table() {
 
 #[test]
 fn slow_turn_that_only_the_table_knows_is_no_rest() {
-    // The IMU alone takes a hundredth of a degree a second for a gyro bias.
+    // The IMU alone cannot distinguish a hundredth of a degree per second from a gyro bias.
     let motion = dwell_turn_dwell(0.01 * DEG_PER_SECOND);
     let recording = with_encoder(recorded(&motion, 1.0, 2), &motion, ARCSEC);
     assert_two_dwells(&rest_spans(&recording, 30.0));
@@ -133,7 +133,7 @@ fn knock_that_leaves_the_imu_elsewhere_ends_a_rest() {
     };
     let apart = [0..1500, 1510..3000];
     assert_eq!(rest_spans(&knocked(1.0 * DEG), 10.0)[..2], apart);
-    // A footstep beside the table does not, whether the table is watched or not; it is reported.
+    // A footstep beside the table does not, with or without a measured table angle; it is reported.
     assert_eq!(rest_spans(&knocked(0.0), 10.0)[0], 0..3000);
     let watched = with_encoder(knocked(0.0), &motion, ARCSEC);
     assert_eq!(rest_spans(&watched, 10.0)[0], 0..3000);
@@ -162,8 +162,8 @@ fn turning_table_is_never_at_rest() {
     assert!(rest_spans(&with_encoder(recording, &motion, ARCSEC), 2.0).is_empty());
 }
 
-/// Over many dwells, the means scatter as white noise does, `density / √duration`, and the
-/// sigma that each shows of itself is that on average.
+/// Over many static intervals, the means scatter as white noise does, `density / √duration`, and the sigma of each agrees
+/// with that on average.
 #[test]
 fn sigma_of_a_mean_is_that_of_white_noise() {
     const DWELLS: u32 = 300;

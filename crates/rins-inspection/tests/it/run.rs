@@ -1,4 +1,4 @@
-//! A run as it would be recorded: the paper's table, with noise, biases and an encoder.
+//! A realistic run: the paper's table, with noise, biases and an encoder.
 
 use nalgebra::Vector3;
 use rand::SeedableRng;
@@ -9,7 +9,7 @@ use rins_frames::{Dcm, EulerAngles, InFrame, Increments, Nav, Site, Table};
 use rins_inspection::{Expected, ExpectedAxis, ExpectedTriad, Inspection, inspect};
 use rins_motion::{Profile, Recording, Segment, Station, TrueMotion};
 
-/// The latitude of Xi'an, where the paper's table stands.
+/// The latitude of Xi'an, the site of the paper's table.
 pub(crate) const PAPER_LATITUDE: f64 = 34.25 * DEG;
 
 pub(crate) fn station(latitude: f64) -> Station {
@@ -18,7 +18,7 @@ pub(crate) fn station(latitude: f64) -> Station {
 
 pub(crate) const INTERVAL: f64 = 0.02;
 
-/// Table 4's attitude.
+/// The attitude in Table 4.
 pub(crate) const ANGLES: EulerAngles =
     EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
 
@@ -38,7 +38,7 @@ pub(crate) const NAVIGATION: Grade = Grade {
     accel_bias: 100.0 * MICRO_G,
 };
 
-/// A gyro that shows no Earth rate, on a chip.
+/// A MEMS gyro that cannot measure the Earth's rate.
 pub(crate) const CHIP: Grade = Grade {
     gyro_noise: 0.005 * DEG_PER_SECOND,
     accel_noise: 100.0 * MICRO_G,
@@ -55,17 +55,17 @@ pub(crate) fn profile(segments: &[(f64, f64)]) -> Profile {
     Profile::new(&segments, Some(5.0 * DEG_PER_SECOND)).unwrap()
 }
 
-/// A minute at rest, then forwards and back.
+/// A static minute, then forward and backward.
 pub(crate) fn usual() -> Profile {
     profile(&[(0.0, 60.0), (10.0, 80.0), (-20.0, 60.0), (0.0, 20.0)])
 }
 
-/// What an IMU records, with the table's angle.
+/// The recording of an IMU, with the table angle.
 pub(crate) fn record(profile: Profile, grade: Grade, seed: u64) -> Recording {
     record_tilted(ANGLES.dcm(), profile, grade, seed)
 }
 
-/// The same about any axis.
+/// The same for any axis.
 pub(crate) fn record_tilted(
     nav_from_table: Dcm<Nav, Table>,
     profile: Profile,
@@ -99,7 +99,7 @@ pub(crate) fn record_tilted(
     recording
 }
 
-/// What is known of such a run beforehand.
+/// The prior knowledge of such a run.
 pub(crate) fn expected(grade: Grade) -> Expected {
     let triad = |bias: f64| ExpectedTriad { bias_sigma: Some(2.0 * bias), range: None, unit: None };
     Expected {
@@ -112,7 +112,7 @@ pub(crate) fn expected(grade: Grade) -> Expected {
     }
 }
 
-/// Fails if anything is suspected.
+/// Fails if there is any suspicion.
 pub(crate) fn assert_unsuspected(recording: &Recording, expected: &Expected) -> Inspection {
     let inspection = inspect(recording, expected);
     assert!(inspection.suspicions.is_empty(), "{:?}", inspection.suspicions);

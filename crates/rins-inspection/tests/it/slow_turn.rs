@@ -1,4 +1,4 @@
-//! Turns too slow for the gyros to tell from a bias end a rest; a base that sways does not.
+//! Rotations that are too slow to be distinguished from a gyro bias end a static interval; the sway of a base does not.
 
 use std::ops::Range;
 
@@ -9,12 +9,12 @@ use rins_motion::Recording;
 
 use crate::run::{CHIP, Grade, NAVIGATION, profile, record};
 
-/// The static intervals that last so long \[s\].
+/// The static intervals of at least this duration \[s\].
 fn rest_spans(recording: &Recording, shortest: f64) -> Vec<Range<usize>> {
     StaticIntervals::of(recording, &StaticOptions::default()).spans(shortest)
 }
 
-/// A recording of these segments without a word of the table.
+/// A recording of these segments without table readings.
 fn unattended(segments: &[(f64, f64)]) -> Recording {
     Recording { table_angle: None, ..record(profile(segments), NAVIGATION, 1) }
 }
@@ -37,7 +37,7 @@ fn slow_turn_after_a_rest_ends_it() {
     }
 }
 
-/// 0.3 deg in half a minute is less than a base may sway, but goes on and on.
+/// 0.3 deg in half a minute is less than the sway of a base, but continues steadily.
 #[test]
 fn short_steady_turn_is_no_rest() {
     assert_eq!(rest_spans(&unattended(&[(0.02, 30.0)]), 1.0), []);
@@ -45,7 +45,7 @@ fn short_steady_turn_is_no_rest() {
 
 #[test]
 fn noisy_sensors_rest_as_well() {
-    // The means of a second scatter by 0.05 deg/s, which of a good gyro would be a turn.
+    // The means over a second scatter by 0.05 deg/s, which would be a rotation for a good gyro.
     let coarse = Grade { gyro_noise: 0.03 * DEG_PER_SECOND, ..CHIP };
     for (grade, seed) in [(CHIP, 2), (coarse, 3)] {
         let recording = record(profile(&[(0.0, 300.0)]), grade, seed);
@@ -55,7 +55,7 @@ fn noisy_sensors_rest_as_well() {
     }
 }
 
-/// A floor that gives way by 0.2 deg in three seconds, and back, under a stander-by.
+/// A floor that tilts by 0.2 deg in three seconds, and back, due to a bystander.
 #[test]
 fn swaying_base_stays_at_rest() {
     let mut recording = unattended(&[(0.0, 600.0)]);

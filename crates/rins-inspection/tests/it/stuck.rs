@@ -1,4 +1,4 @@
-//! Channels that stick, for a while or throughout.
+//! Channels that are stuck, for some time or throughout.
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -34,8 +34,8 @@ fn channel_that_sticks_for_long_is_suspected() {
     }
 }
 
-/// Whatever share of a log it is, from less than a percent to all but the first ninth: one channel, or all six, at the reading before or
-/// at zero.
+/// For any fraction of a log, from less than a percent to all but the first ninth: one channel, or all six, at the previous
+/// reading or at zero.
 #[test]
 fn channels_that_stick_for_any_share_of_a_log_are_suspected() {
     let mut missed = Vec::new();
@@ -72,7 +72,7 @@ fn channels_that_stick_for_any_share_of_a_log_are_suspected() {
     assert!(missed.is_empty(), "{} of 200: {missed:?}", missed.len());
 }
 
-/// A channel that never moves beside noisy ones is stuck; one of a coarse triad, or without noise, may be at rest.
+/// A channel that never changes beside noisy ones is stuck; one of a coarse triad, or without noise, may be static.
 #[test]
 fn channel_that_never_moves_is_told_by_the_others_of_its_triad() {
     let stuck = |recording: &Recording| {

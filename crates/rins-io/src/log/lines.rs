@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use super::container::Container;
 use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
 use crate::source::{self, Source};
@@ -19,14 +20,20 @@ pub(crate) struct Lines<R> {
     number: u64,
     unfinished: Option<u64>,
     comment: Option<String>,
-    /// Whether lines that begin with `#` or `%` are comments.
+    /// Whether lines that begin with `#`, `%` or `//` are comments.
     commented: bool,
 }
 
 impl Lines<BufReader<Source>> {
     pub(crate) fn open(path: &Path) -> Result<Self, IoError> {
-        let file = source::open(path).map_err(IoError::file("read", path))?;
-        Ok(Self::new(BufReader::with_capacity(1 << 16, file), path))
+        let failed = || IoError::file("read", path);
+        let file = source::open(path).map_err(failed())?;
+        let mut reader = BufReader::with_capacity(1 << 16, file);
+        let beginning = reader.fill_buf().map_err(failed())?;
+        if let Some(Container { name, remedy }) = Container::of(beginning) {
+            return Err(LogError::of(path, LogProblem::Container { name, remedy }));
+        }
+        Ok(Self::new(reader, path))
     }
 
     /// The lines of a log whose messages begin with a character that elsewhere marks a comment.
@@ -55,7 +62,8 @@ impl<R: BufRead> Lines<R> {
         while self.fill()? {
             let text = self.text()?;
             let trimmed = text.trim();
-            let comment = trimmed.strip_prefix(['#', '%']).filter(|_| self.commented);
+            let mark = trimmed.strip_prefix(['#', '%']).or_else(|| trimmed.strip_prefix("//"));
+            let comment = mark.filter(|_| self.commented);
             if self.unfinished.is_some() {
                 self.unfinished =
                     self.unfinished.filter(|_| comment.is_none() && !trimmed.is_empty());

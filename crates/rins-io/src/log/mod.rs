@@ -2,6 +2,7 @@
 
 mod assemble;
 mod clock;
+mod container;
 mod even;
 mod fields;
 mod files;

@@ -21,6 +21,14 @@ pub enum LogProblem {
         /// The number of samples.
         samples: usize,
     },
+    /// The log is a file of another format.
+    #[error("this is {name}, which is not read: {remedy}")]
+    Container {
+        /// The format's name, with its article.
+        name: &'static str,
+        /// How to read or to convert it.
+        remedy: &'static str,
+    },
     /// The log is not UTF-8 text.
     #[error("not UTF-8 text; is it binary or UTF-16?")]
     NotText,

@@ -95,7 +95,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("\"0 rad/s\"", "\"0 rad\"", "c.toml:5: [gyro] bias[2]: \"0 rad\" is an angle, expected an angular rate such as \"0.05 deg/h\""),
     ("yz = \"1 mrad\", ", "", "c.toml:7: [gyro] misalignment.yz: missing, expected an angle such as \"60 arcsec\""),
     ("\"1 mrad\"", "1e-3", "c.toml:7: [gyro] misalignment.yz: 1e-3 is a bare number, expected an angle such as \"60 arcsec\""),
-    ("\"100 ppm\"", "\"-1 1\"", "c.toml: [gyro]: the three axes read nearly the same: I + [S, M] has determinant 0"),
+    ("\"100 ppm\"", "\"-1 1\"", "c.toml: [gyro]: the three axes read nearly the same: I + S + M has determinant 0"),
     ("\"0 g\"", "\"0 gee\"", "c.toml:10: [accel] bias[2]: \"0 gee\": unknown unit \"gee\""),
     ("schema = 1", "schema = 1\nsigma = 3", "c.toml:3: sigma: 3 is a bare number, expected a table with the keys gyro, accel"),
     ("schema = 1", "schema = 1\nnotes = \"none\"", "c.toml:3: notes: \"none\" is a text, expected a list of texts"),
@@ -133,8 +133,8 @@ fn a_file_says_what_its_numbers_mean() {
     let path = folder.path().join("calibration.toml");
     Calibration::of(ImuError::default()).write(&path, Overwrite::Refuse).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
-    assert!(text.contains("measured    = true + bias + [S, M] true"));
-    assert!(text.contains("compensated = (I + [S, M])^-1 (measured - bias)"));
+    assert!(text.contains("measured    = true + bias + (S + M) true"));
+    assert!(text.contains("compensated = (I + S + M)^-1 (measured - bias)"));
     assert_eq!(Calibration::read(&path).unwrap().error, ImuError::default());
 }
 

@@ -86,7 +86,11 @@ fn files_that_hold_no_log_are_refused() {
             b"t,gx\n\xff\xfe,3\n",
             "run.csv:2: not UTF-8 text; is it binary or UTF-16?",
         ),
-        ("UTF-16", b"\xff\xfet\0,\0", binary),
+        (
+            "UTF-16",
+            b"\xff\xfet\0,\0",
+            "run.csv: this is UTF-16 text, which is not read: save it as UTF-8",
+        ),
         ("a program", elf, binary),
         ("a long line", long.as_bytes(), "run.csv:1: a line of more than 1048576 bytes"),
         ("many columns", wide.as_bytes(), "run.csv:1: more than 4096 columns"),

@@ -19,6 +19,7 @@ mod log_refusals;
 mod logs;
 mod model;
 mod output;
+mod preamble;
 mod rig;
 mod round_trip;
 mod scenario;

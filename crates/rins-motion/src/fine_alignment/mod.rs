@@ -1,4 +1,4 @@
-//! Fine alignment: attitude and gyro bias from a rest whose base may sway.
+//! Fine alignment: attitude and gyro bias from a static interval with a base that may sway.
 
 mod noise;
 
@@ -22,94 +22,95 @@ const VELOCITY: Block<2> = Block::first();
 const ATTITUDE: Block<3> = VELOCITY.then();
 /// The gyro bias in b, true minus compensated \[rad/s\].
 const GYRO_BIAS: Block<3> = ATTITUDE.then();
-/// `φ` at the start of the rest, in n \[rad\].
+/// `φ` at the start of the static interval, in n \[rad\].
 const START: Block<3> = GYRO_BIAS.then();
 const STATES: usize = START.end();
 
-/// The error of the coarse attitude about east and north, 1σ \[rad\]: the base sways by some tenths
-/// of a degree over the rest that the coarse attitude is the mean of.
+/// The error of the coarse attitude about east and north, 1σ \[rad\]: the base sways by a few tenths of a degree during the
+/// static interval, of which the coarse attitude is the mean.
 const COARSE_TILT_SIGMA: f64 = 0.01;
 
 /// The same about up \[rad\].
 const COARSE_AZIMUTH_SIGMA: f64 = 0.2;
 
-/// The least that a base's heading may differ at the end of a rest from its start, 1σ \[rad\].
+/// The smallest 1σ of the change of the base's heading over a static interval \[rad\].
 const FIRM: f64 = ARCSEC;
 
-/// A bias of so many sigmas of what the data sheet says is none that it knows of: the sheet is then not relied on.
+/// The ratio of a bias to its data sheet sigma above which the data sheet is not used.
 const BEYOND_THE_SHEET: f64 = 4.0;
 
-/// How often the pass is repeated from what it found, before the last time.
+/// The number of repetitions of the pass from its own estimate, before the last one.
 const RELINEARISATIONS: usize = 1;
 
-/// A gyro bias before anything is known of it, 1σ \[rad/s\]; the azimuth that it could feign is wider.
+/// The 1σ of a gyro bias without prior knowledge \[rad/s\]; the equivalent azimuth error is larger.
 const WIDE_BIAS_SIGMA: f64 = 2.0 * DEG_PER_HOUR;
 
-/// What a data sheet says of the gyros.
+/// The data sheet of the gyros.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroFigures {
     /// The 1σ of a bias \[rad/s\].
     pub bias_sigma: f64,
-    /// The root power spectral density of white noise \[rad/s/√Hz\].
+    /// The square root of the power spectral density of white noise \[rad/s/√Hz\].
     pub noise_density: f64,
 }
 
-/// What a fine alignment found.
+/// The result of a fine alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FineAlignment {
-    /// The attitude at the start of the rest, `C_b^n`.
+    /// The attitude at the start of the static interval, `C_b^n`.
     pub nav_from_body: Dcm<Nav, Body>,
     /// The covariance of its error `φ`, resolved in n \[rad²\].
     pub covariance: Matrix3<f64>,
-    /// The gyro bias \[rad/s\], less what of it lies along east: that is in the azimuth.
+    /// The gyro bias \[rad/s\] without its component along east, which is part of the azimuth.
     pub gyro_bias: InFrame<Body>,
     /// The 1σ of each component of the bias \[rad/s\].
     pub gyro_bias_sigma: Vector3<f64>,
-    /// The same before the rest: a component of which the rest says no more is assumed to be about zero.
+    /// The prior 1σ of these components: a component on which the static interval has no information is assumed to be about
+    /// zero.
     pub gyro_bias_assumed: Vector3<f64>,
-    /// The Earth's rate as these gyros see it, the sway of the base taken out \[rad/s\].
+    /// The Earth's rate measured by these gyros, after removal of the sway of the base \[rad/s\].
     pub earth_rate_seen: InFrame<Body>,
     /// The 1σ of that rate's magnitude \[rad/s\].
     pub earth_rate_sigma: f64,
-    /// The 1σ of the latitude that lies between that rate and gravity, tilt aside \[rad\].
+    /// The 1σ of the latitude from the angle between that rate and gravity, without that of the tilt \[rad\].
     pub latitude_sigma: f64,
-    /// The gyros' noise density, at the upper end of what is likely \[rad/s/√Hz\].
+    /// The noise density of the gyros, at the upper end of its uncertainty \[rad/s/√Hz\].
     pub gyro_noise_density: f64,
-    /// The mean normalised innovation squared of the zero-velocity updates; 2 for a right model.
+    /// The mean normalized innovation squared of the zero-velocity updates; 2 if the model is correct.
     pub nis_mean: f64,
 }
 
-/// Why no fine alignment was found.
+/// The reason why the fine alignment failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FineAlignmentError {
     /// The coarse alignment failed.
     #[error(transparent)]
     Coarse(#[from] AlignmentError),
-    /// The span holds too little to align on.
+    /// The span is too short for an alignment.
     #[error(
         "{duration:.2} s are too short for an alignment: two seconds are needed, and at least four samples"
     )]
     TooShort {
-        /// How long it is \[s\].
+        /// The duration \[s\].
         duration: f64,
     },
-    /// The filter broke off.
+    /// The filter failed.
     #[error("the alignment filter failed")]
     Update(#[from] UpdateError),
 }
 
-/// Aligns on the samples `span` of a recording, over which the IMU stood on a base that does not leave its place.
+/// Fine alignment on the samples `span` of a recording, during which the base of the IMU has a fixed position.
 ///
-/// The rest is navigated from the coarse attitude and held to zero velocity by a filter of
-/// velocity, attitude, gyro bias and the attitude at the start. The gyros carry the attitude through
-/// the base's sway, which a mean over the rest would take for a part of the Earth's rate.
+/// The static interval is integrated from the coarse attitude, with zero-velocity updates of a filter whose states are
+/// velocity, attitude, gyro bias and the attitude at the start. The gyros track the sway of the base, which would bias a mean
+/// over the interval as part of the Earth's rate.
 ///
-/// Azimuth and the bias along east cannot be told apart at rest. The filter is told that the bias
-/// along east is zero to within the gyros' figure or, where there is none, within the bias found
-/// along north and up. Gravity shows no bias along up: it is that under which the base's heading is the same at the end as at the
-/// start, to within as much as the base tilts. A bias along north or up far beyond the figure is believed, and the figure is not.
-/// A noise that is not known is the one under which the rest is most probable.
+/// Azimuth and the bias along east are indistinguishable in a static interval. The prior of the bias along east is zero with
+/// the sigma of the gyros' data sheet or, if there is none, with the estimated biases along north and up. Gravity holds no
+/// information on the bias along up: the heading of the base at the end equals that at the start, with an uncertainty equal
+/// to the tilt of the base. If the bias along north or up greatly exceeds its data sheet sigma, the estimate is used instead.
+/// Unknown noise is estimated by maximum likelihood.
 ///
 /// # Errors
 /// [`FineAlignmentError`] if the coarse alignment fails or the span is too short.
@@ -148,9 +149,9 @@ pub fn align_finely(
         pass.hold_heading()?;
         Ok((pass, score))
     };
-    // The first pass finds how large a bias is; what it leaves open between azimuth and the bias
-    // along east is settled afterwards. The next ones start from there, so that little is left to
-    // move: an azimuth that turns by a tenth of a radian is no small error.
+    // The first pass estimates the size of the bias; the split between azimuth and the bias along east is determined
+    // afterwards. The following passes start there with small remaining corrections: a correction of the azimuth by 0.1 rad
+    // is not a small error.
     let bias_elsewhere = gyro.map_or(WIDE_BIAS_SIGMA, |gyro| gyro.bias_sigma);
     let first = Prior {
         nav_from_body: coarse.nav_from_body,
@@ -176,7 +177,7 @@ pub fn align_finely(
     Ok(FineAlignment { nis_mean: score.nis, ..pass.found(station) })
 }
 
-/// What a pass over the rest starts from.
+/// The initial values of a pass over the static interval.
 #[derive(Clone, Copy, Debug)]
 struct Prior {
     nav_from_body: Dcm<Nav, Body>,
@@ -186,7 +187,7 @@ struct Prior {
     bias_elsewhere: f64,
 }
 
-/// What a pass over the rest says of the noise that it was run with.
+/// The likelihood of the noise in a pass over the static interval.
 #[derive(Clone, Copy, Debug, Default)]
 struct Score {
     nis: f64,
@@ -199,12 +200,12 @@ struct Pass {
     bias: Vector3<f64>,
     filter: Filter<STATES>,
     noise: Noise,
-    /// The 1σ of the bias along the body's axes before the rest \[rad/s\].
+    /// The prior 1σ of the bias along the body's axes \[rad/s\].
     assumed: Vector3<f64>,
-    /// By how much the azimuth was corrected since the start \[rad\].
+    /// The sum of the azimuth corrections since the start \[rad\].
     azimuth_corrected: f64,
-    /// The sum of the squares of how far the base was tilted from where it started after each second, about east and north together,
-    /// and how many seconds those are.
+    /// The sum of the squared tilts of the base relative to the start after each second, about east and north together, and
+    /// the number of seconds.
     tilts: (f64, f64),
 }
 
@@ -239,7 +240,7 @@ impl Pass {
         }
     }
 
-    /// Navigates a second and holds its end to zero velocity.
+    /// Integrates one second, and applies a zero-velocity update at its end.
     fn second(
         &mut self,
         recording: &Recording,
@@ -272,7 +273,8 @@ impl Pass {
         (self.navigator.state().nav_from_body * self.start.inverse()).rotation_vector()
     }
 
-    /// Holds the heading at the end to that at the start, to within how far the base tilts in between.
+    /// Applies the measurement that the heading at the end equals that at the start, with an uncertainty equal to the tilt in
+    /// between.
     fn hold_heading(&mut self) -> Result<(), UpdateError> {
         let (squares, seconds) = self.tilts;
         let variance = squares / (2.0 * seconds) + FIRM * FIRM;
@@ -285,7 +287,7 @@ impl Pass {
         Ok(())
     }
 
-    /// The biases along north and up that are no less than so many times what is said of them \[rad/s\]; zero of one that is not.
+    /// The biases along north and up that exceed this multiple of their sigma `said` \[rad/s\]; zero for others.
     fn beyond_the_sheet(&self, said: f64) -> [f64; 2] {
         let c_nb = self.start.matrix();
         let of_bias =
@@ -302,14 +304,14 @@ impl Pass {
         let nav_rate = self.navigator.rate_of_nav_in_inertial();
         let c_nb = *self.navigator.state().nav_from_body.matrix();
         let mut f = SMatrix::<f64, STATES, STATES>::zeros();
-        // What of the force is horizontal is there by a tilt that the filter has still to find. Were it in the derivatives, a wrong
-        // azimuth would turn it, and would seem to show in the velocity.
+        // A horizontal component of the force is due to a tilt that the filter has not estimated yet. In the derivatives a
+        // wrong azimuth would rotate it, which would seem to be observable in the velocity.
         let upward = Vector3::new(0.0, 0.0, force.z);
         let by_attitude = rins_frames::cross_matrix(&upward).fixed_rows::<2>(0).into_owned();
         VELOCITY.set(ATTITUDE, &mut f, &by_attitude);
         ATTITUDE.set(ATTITUDE, &mut f, &-nav_rate.cross_matrix());
-        // With the azimuth before its corrections, so that what a rest does not show keeps its direction: otherwise each
-        // correction would seem to show a part of it (first-estimates Jacobian; ‹huang2010›).
+        // With the azimuth before its corrections, so that the unobservable direction stays constant: otherwise each
+        // correction would seem to hold information on it (first-estimates Jacobian; ‹huang2010›).
         let before =
             Dcm::<Nav, Nav>::from_rotation_vector(&Vector3::new(0.0, 0.0, -self.azimuth_corrected));
         ATTITUDE.set(GYRO_BIAS, &mut f, &-(before.matrix() * c_nb));
@@ -335,7 +337,7 @@ impl Pass {
         self.filter.state = SVector::zeros();
     }
 
-    /// Settles what a rest leaves open between azimuth and the bias along east.
+    /// Determines the split between azimuth and the bias along east, which a static interval does not.
     fn settle_bias_along_east(&mut self, sigma: f64) -> Result<(), UpdateError> {
         let east = self.start.matrix().row(0).into_owned();
         let mut h = RowSVector::<f64, STATES>::zeros();

@@ -1,4 +1,5 @@
-//! How noisy a rest is: a first guess from its seconds, and what makes the innovations most probable.
+//! The noise in a static interval: an initial estimate from its seconds, and the maximum likelihood estimate from the
+//! innovations.
 
 use std::ops::Range;
 
@@ -13,17 +14,17 @@ use crate::rest::RestMean;
 /// The time between two zero-velocity updates \[s\].
 const UPDATE_INTERVAL: f64 = 1.0;
 
-/// The velocity that a base at rest may have, 1σ \[m/s\], to start from: a person who walks by shakes it.
+/// The initial 1σ of the velocity of a stationary base \[m/s\]: a person who walks by shakes it.
 const ZERO_VELOCITY_SIGMA: f64 = 1e-3;
 
-/// White noise: of the gyros and the accelerometers, as densities \[per √Hz\], and of the base's velocity \[m/s\].
+/// White noise: noise densities of gyros and accelerometers \[per √Hz\], and the velocity noise of the base \[m/s\].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise(pub(super) [f64; 3]);
 
-/// The noise of maximum likelihood, to within a tenth, by a search along each coordinate in turn;
-/// of the gyros the upper end of what is as likely.
+/// The maximum likelihood estimate of the noise, to ten percent, by a search along each coordinate in turn; for the gyros the
+/// upper end of its uncertainty.
 ///
-/// The scatter of a rest does not tell sensor noise from sway; the innovations do.
+/// The scatter in a static interval does not distinguish sensor noise from sway; the innovations do.
 pub(super) fn most_likely(
     guess: Noise,
     gyro: Option<f64>,
@@ -49,7 +50,7 @@ pub(super) fn most_likely(
                     }
                 }
             }
-            // Less than this is worth no further round.
+            // Smaller increases do not justify another round.
             if most - before < 0.1 {
                 break;
             }
@@ -58,8 +59,8 @@ pub(super) fn most_likely(
     if gyro.is_some() {
         return Ok(best);
     }
-    // Zero-velocity updates say little of so small a noise as a gyro's: of all densities that are
-    // within a sigma of the most likely, the largest keeps the covariance honest.
+    // Zero-velocity updates hold little information on a noise as small as that of a gyro: the largest density within one
+    // sigma of the maximum keeps the covariance consistent.
     for _ in 0..ROUNDS {
         let mut larger = best;
         larger.0[0] *= FACTORS[2];
@@ -94,10 +95,11 @@ pub(super) fn seconds(recording: &Recording, span: Range<usize>) -> Vec<Second> 
     seconds
 }
 
-/// A first guess of the noise: what the means over so many seconds show.
+/// An initial estimate of the noise from the means over several seconds.
 ///
-/// The median of the differences of neighbours, so that a footstep does not count. Over ten seconds
-/// the rounding of increments, which does not accumulate, has averaged out; of less than twenty, halves are compared.
+/// It is the median of the differences of successive means, so that a footstep has no effect. Over ten seconds the rounding
+/// of increments, which does not accumulate, averages out; if the interval is shorter than twenty seconds, halves are
+/// compared.
 pub(super) fn scatter(seconds: &[Second]) -> Option<Noise> {
     const MOST: usize = 10;
     let together = MOST.min(seconds.len() / 2).max(1);

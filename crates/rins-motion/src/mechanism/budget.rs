@@ -1,4 +1,4 @@
-//! What each approximation behind eqs. (6) to (9) costs.
+//! The effect of each approximation of eqs. (6) to (9).
 
 use super::closed_form::{ClosedForm, Sign};
 use super::errors::{ConstantTurn, NavErrors, SensorErrors, SpinAxisErrors};
@@ -6,16 +6,16 @@ use super::flat::flat_navigation;
 use super::linear::{LinearModel, Term, Terms};
 use crate::strapdown::VerticalChannel;
 
-/// What eqs. (6) to (9) leave out.
+/// The effects that eqs. (6) to (9) neglect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Neglected {
-    /// The Earth's rate, in the turn of the level and in what the gyros measure (eq. (3)).
+    /// The Earth's rate, in the rotation of the level and in the output of the gyros (eq. (3)).
     EarthRate,
     /// The transport rate, and with it the Schuler loop.
     TransportRate,
     /// The Coriolis acceleration (eq. (7)).
     Coriolis,
-    /// All products of errors: above all that of `S_z ω t` with itself and with the misalignments.
+    /// All products of errors: mainly those of `S_z ω t` with itself and with the misalignments.
     SecondOrder,
 }
 
@@ -25,11 +25,11 @@ impl Neglected {
         [Self::EarthRate, Self::TransportRate, Self::Coriolis, Self::SecondOrder];
 }
 
-/// How far the errors after `time` \[s\] are off for leaving this out alone: without it, minus with it.
+/// The effect of neglecting this alone on the errors after `time` \[s\]: without it, minus with it.
 ///
-/// The first three are measured by [`LinearModel`] against the whole of it, the fourth on a flat
-/// Earth that does not turn. Their sum is not quite what leaving out all of them costs, since
-/// each also changes what the others act on. The vertical channel is held.
+/// The first three are differences of [`LinearModel`] from the full model; the fourth refers to a flat Earth that does not
+/// rotate. Their sum is not exactly the effect of neglecting all of them, because they interact. The vertical channel is
+/// held.
 pub fn cost(
     neglected: Neglected,
     turn: &ConstantTurn,

@@ -4,19 +4,18 @@ use rins_frames::{InFrame, Nav, Table};
 
 use super::errors::{ConstantTurn, SpinAxisErrors};
 
-/// The sign with which a gyro error drives the attitude error.
+/// The sign of a gyro error in the attitude error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// As eqs. (6), (8) and (9) are printed: `φ' = +C_b^n δω`, which no navigator does.
+    /// The sign as printed in eqs. (6), (8) and (9): `φ' = +C_b^n δω`, which is wrong for every navigator.
     Printed,
-    /// As eq. (12) and a strapdown navigator have it: `φ' = -C_b^n δω`.
+    /// The sign of eq. (12) and of a strapdown navigator: `φ' = -C_b^n δω`.
     Strapdown,
 }
 
-/// The errors of a navigator on a flat Earth that does not turn, to first order.
+/// The errors of a navigator on a flat Earth that does not rotate, to first order.
 ///
-/// The three errors of the spin axis act on a table that turns at a constant rate; the
-/// accelerometers have none.
+/// The three errors of the spin axis act on a table with a constant rate; the accelerometers have no errors.
 ///
 /// ```
 /// use rins_frames::units::{ARCSEC, DEG, DEG_PER_SECOND, PPM};
@@ -46,7 +45,7 @@ pub struct ClosedForm {
     pub turn: ConstantTurn,
     /// The gyro errors.
     pub errors: SpinAxisErrors,
-    /// Printed, or right.
+    /// The sign, printed or correct.
     pub sign: Sign,
     /// `φ(0)` \[rad\].
     pub initial_attitude: InFrame<Nav>,
@@ -57,14 +56,14 @@ pub struct ClosedForm {
 /// A velocity error in the two brackets of eqs. (8) and (9) \[m/s\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityError {
-    /// The first bracket: what turns with the table, and the initial error.
+    /// The first bracket: the part that rotates with the table, and the initial error.
     pub bounded: InFrame<Nav>,
-    /// The second bracket: what grows with time and with its square.
+    /// The second bracket: the part that grows with time and with its square.
     pub diverging: InFrame<Nav>,
 }
 
 impl VelocityError {
-    /// Both together.
+    /// The sum of both.
     pub fn total(&self) -> InFrame<Nav> {
         self.bounded + self.diverging
     }
@@ -79,7 +78,7 @@ impl ClosedForm {
 
     /// The attitude error `φ(t)` after `time` \[s\], eq. (6) \[rad\].
     ///
-    /// With [`Sign::Strapdown`], the printed accumulated part with its sign turned.
+    /// With [`Sign::Strapdown`], the printed accumulated part with its sign reversed.
     pub fn attitude_error(&self, time: f64) -> InFrame<Nav> {
         let SpinAxisErrors { misalignment_xz: m_xz, misalignment_yz: m_yz, scale_z } = self.errors;
         let turned = self.turn.rate * time;
@@ -92,18 +91,18 @@ impl ClosedForm {
         self.initial_attitude + self.turn.nav_from_table * accumulated * self.factor()
     }
 
-    /// The velocity error after `time` \[s\], eqs. (8) and (9); of the vertical, only the initial one.
+    /// The velocity error after `time` \[s\], eqs. (8) and (9); the vertical component is only the initial one.
     ///
-    /// The bounded term in `C_s^n(1, 1)` is positive in the printed sign, as eq. (9) has it: with a
-    /// minus there, a reading of eq. (A.7), the form would not be the integral of eq. (7).
+    /// The bounded term in `C_s^n(1, 1)` is positive with the printed sign, as in eq. (9): with a minus there, as one could
+    /// read eq. (A.7), the form would not be the integral of eq. (7).
     pub fn velocity_error(&self, time: f64) -> VelocityError {
         let SpinAxisErrors { misalignment_xz: m_xz, misalignment_yz: m_yz, scale_z } = self.errors;
         let (gravity, rate) = (self.turn.station.gravity, self.turn.rate);
         let turned = rate * time;
-        // sin ωt / ω and (1 - cos ωt) / ω, which stay finite on a table that stands.
+        // sin ωt / ω and (1 - cos ωt) / ω, which stay finite on a stationary table.
         let (sine, versine) =
             if turned == 0.0 { (time, 0.0) } else { (turned.sin() / rate, versine(turned) / rate) };
-        // The integrals over time of the two level components of eq. (6) in s, by their growth.
+        // The integrals over time of the two level components of eq. (6) in s, separated by their growth.
         let bounded: InFrame<Table> =
             InFrame::new(m_xz * versine + m_yz * sine, m_yz * versine - m_xz * sine, 0.0);
         let diverging: InFrame<Table> =

@@ -1,4 +1,4 @@
-//! What goes into the error mechanism and what comes out: sensor errors, navigation errors.
+//! The inputs and outputs of the error mechanism: sensor errors, navigation errors.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -8,13 +8,13 @@ use rins_frames::{Body, Dcm, EulerAngles, InFrame, Increments, Nav, Rates, Table
 use crate::station::Station;
 use crate::strapdown::NavState;
 
-/// A table that turns at a constant rate, from table angle zero.
+/// A table with a constant rate, from table angle zero.
 ///
-/// For a turn that starts at another angle `ζ`, the axis frame is that of the start:
+/// For a rotation that starts at another angle `ζ`, the axis frame is that of the start:
 /// `nav_from_table * Dcm::<Table, Table>::about_z(ζ)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantTurn {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: Station,
     /// The attitude of the axis frame, `C_s^n`.
     pub nav_from_table: Dcm<Nav, Table>,
@@ -29,19 +29,19 @@ impl ConstantTurn {
     }
 }
 
-/// The gyro errors that the table's turn makes large: the last column of the matrix in eq. (1).
+/// The gyro errors that the table rate amplifies: the last column of the matrix in eq. (1).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpinAxisErrors {
-    /// `M_xz`: the spin as the x gyro sees it \[rad\].
+    /// `M_xz`: the fraction of the spin rate that the x gyro measures \[rad\].
     pub misalignment_xz: f64,
-    /// `M_yz`: the spin as the y gyro sees it \[rad\].
+    /// `M_yz`: the fraction of the spin rate that the y gyro measures \[rad\].
     pub misalignment_yz: f64,
     /// `S_z`: the scale error of the z gyro.
     pub scale_z: f64,
 }
 
 impl SpinAxisErrors {
-    /// The three as the vector that eq. (3) multiplies by the rate.
+    /// The three as the vector that is multiplied by the rate in eq. (3).
     pub(super) fn vector(&self) -> Vector3<f64> {
         Vector3::new(self.misalignment_xz, self.misalignment_yz, self.scale_z)
     }
@@ -52,7 +52,7 @@ impl SpinAxisErrors {
 pub struct SensorErrors {
     /// The gyros' biases \[rad/s\].
     pub gyro_bias: InFrame<Body>,
-    /// The gyros' scale errors and misalignments, `[S, M]`.
+    /// The gyros' scale errors and misalignments, `(S + M)`.
     pub gyro_matrix: Matrix3<f64>,
     /// The accelerometers' biases \[m/s²\].
     pub accel_bias: InFrame<Body>,
@@ -61,7 +61,7 @@ pub struct SensorErrors {
 }
 
 impl SensorErrors {
-    /// Sensors without error.
+    /// Sensors without errors.
     pub fn none() -> Self {
         Self {
             gyro_bias: InFrame::zeros(),
@@ -71,7 +71,7 @@ impl SensorErrors {
         }
     }
 
-    /// What these sensors add to the true rates.
+    /// The errors of these sensors at the true rates.
     pub fn of(&self, truth: &Rates) -> Rates {
         let by = |matrix: &Matrix3<f64>, rate: &InFrame<Body>| {
             InFrame::from_components(matrix * rate.components())
@@ -82,7 +82,7 @@ impl SensorErrors {
         }
     }
 
-    /// What these sensors deliver over an interval.
+    /// The output of these sensors over an interval.
     pub fn measured(&self, truth: &Increments) -> Increments {
         let error = self.of(&truth.rates()).over(truth.interval);
         Increments {
@@ -108,11 +108,11 @@ pub struct NavErrors {
     pub attitude: InFrame<Nav>,
     /// `δv^n` \[m/s\].
     pub velocity: InFrame<Nav>,
-    /// Of latitude \[rad\].
+    /// The error of latitude \[rad\].
     pub latitude: f64,
-    /// Of longitude \[rad\].
+    /// The error of longitude \[rad\].
     pub longitude: f64,
-    /// Of height \[m\].
+    /// The error of height \[m\].
     pub height: f64,
 }
 
@@ -130,7 +130,7 @@ impl NavErrors {
 
     /// The errors of a computed state.
     ///
-    /// The attitude error is the whole rotation vector, of which `φ` is the first order.
+    /// The attitude error is the full rotation vector, whose first-order term is `φ`.
     pub fn between(computed: &NavState, truth: &NavState) -> Self {
         Self {
             attitude: attitude_error(computed.nav_from_body, truth.nav_from_body),
@@ -141,7 +141,7 @@ impl NavErrors {
         }
     }
 
-    /// What the attitude error makes of roll, pitch and yaw: computed minus true \[rad\].
+    /// The errors of roll, pitch and yaw due to the attitude error: computed minus true \[rad\].
     pub fn of_euler_angles(&self, nav_from_body: Dcm<Nav, Body>) -> EulerAngles {
         let error = -*self.attitude.components();
         let computed =

@@ -1,4 +1,4 @@
-//! A navigator on a flat Earth that does not turn, without linearisation.
+//! A navigator on a flat Earth that does not rotate, without linearization.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_frames::{Body, Dcm, InFrame, Nav, cross_matrix};
@@ -7,10 +7,9 @@ use super::errors::{ConstantTurn, NavErrors, SpinAxisErrors, attitude_error};
 
 /// The errors of attitude and velocity after `time` \[s\], exact for errors of any size.
 ///
-/// The gyros report the constant rate `ω (z + m)`, with `m` the spin axis' errors, so that
-/// `C~ = exp(-φ(0)×) C_s^n exp(ω t (z + m)×)`; the accelerometers report `Rz(ωt)ᵀ f^s`. Velocity
-/// is the integral of products of the two rotations' sines and cosines, here in closed form. The
-/// vertical error is that of a channel that is held. Position is left out.
+/// The gyros measure the constant rate `ω (z + m)`, with the spin axis errors `m`, so that `C~ = exp(-φ(0)×) C_s^n exp(ω t (z
+/// + m)×)`; the accelerometers measure `Rz(ωt)ᵀ f^s`. The velocity is the integral of products of the two rotations' sines
+/// and cosines, here in closed form. The vertical channel is held. Position is not calculated.
 pub fn flat_navigation(
     turn: &ConstantTurn,
     errors: &SpinAxisErrors,

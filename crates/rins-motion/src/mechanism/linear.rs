@@ -1,4 +1,4 @@
-//! The linear error model on the round, turning Earth, propagated exactly in time.
+//! The linear error model on the round, rotating Earth, propagated exactly in time.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use rins_frames::{Body, Dcm, InFrame, Rates, Site, Table};
@@ -15,39 +15,39 @@ const LATITUDE: usize = 6;
 const LONGITUDE: usize = 7;
 const HEIGHT: usize = 8;
 
-/// 1, cos ζ, sin ζ, cos 2ζ, sin 2ζ: no product of two turns by the table angle has more.
+/// 1, cos ζ, sin ζ, cos 2ζ, sin 2ζ: a product of two rotations by the table angle has no higher harmonics.
 const HARMONICS: usize = 5;
 
 const AUGMENTED: usize = STATES + HARMONICS;
 
 type State = SVector<f64, STATES>;
 
-/// Parts of the model that can be left out, to see what each is worth.
+/// The optional parts of the model, whose effects can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Terms {
-    /// The Earth's rate: in the turn of the level, and as what the gyros' matrix errors multiply.
+    /// The Earth's rate: in the rotation of the level, and in the output of the gyros.
     pub earth_rate: Term,
-    /// The level's turn with the velocity over the Earth, which closes the Schuler loop.
+    /// The rotation of the level due to the velocity over the Earth, which closes the Schuler loop.
     pub transport_rate: Term,
     /// The Coriolis acceleration.
     pub coriolis: Term,
 }
 
-/// Whether a part of the model takes part.
+/// Whether the model includes a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Term {
-    /// It does.
+    /// It is included.
     Kept,
-    /// It does not.
+    /// It is neglected.
     Neglected,
 }
 
 impl Terms {
-    /// The whole model.
+    /// The full model.
     pub const ALL: Self =
         Self { earth_rate: Term::Kept, transport_rate: Term::Kept, coriolis: Term::Kept };
 
-    /// A flat Earth that does not turn: the model of eqs. (6) to (9).
+    /// A flat Earth that does not rotate: the model of eqs. (6) to (9).
     pub const NONE: Self = Self {
         earth_rate: Term::Neglected,
         transport_rate: Term::Neglected,
@@ -55,15 +55,13 @@ impl Terms {
     };
 }
 
-/// The linear errors of a navigator on a table that turns at a constant rate.
+/// The linear errors of a navigator on a table with a constant rate.
 ///
-/// `φ' = -ω_in × φ + δω_in - C_b^n δω_ib^b` and
-/// `δv' = f^n × φ + C_b^n δf^b - 2 ω_ie × δv + δg` about a true state at rest, with
-/// constant biases and matrix errors of both triads (eqs. (1), (7), (12), (13); (13) with the sign
-/// `+(ρ + 2Ω)_x δv_z` of its vertical coupling). In n all coefficients are constant, and what
-/// constant sensor errors drive holds only the harmonics 0, 1 and 2 of the table angle. With
-/// these as further states the model does not depend on time, and one matrix exponential carries
-/// it over any time exactly.
+/// The equations are `φ' = -ω_in × φ + δω_in - C_b^n δω_ib^b` and `δv' = f^n × φ + C_b^n δf^b - 2 ω_ie × δv + δg` about a
+/// true state at rest, with constant biases and matrix errors of both triads (eqs. (1), (7), (12), (13); (13) with the sign
+/// `+(ρ + 2Ω)_x δv_z` of its vertical coupling). In n all coefficients are constant, and constant sensor errors cause only
+/// the harmonics 0, 1 and 2 of the table angle. With these as additional states the model is time-invariant, and one matrix
+/// exponential propagates it exactly over any time.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearModel {
     turn: ConstantTurn,
@@ -72,17 +70,17 @@ pub struct LinearModel {
 }
 
 impl LinearModel {
-    /// The whole model.
+    /// The full model.
     pub fn new(turn: ConstantTurn, vertical: VerticalChannel) -> Self {
         Self::with_terms(turn, vertical, Terms::ALL)
     }
 
-    /// The model of which only some terms are kept.
+    /// The model with a selection of its parts.
     pub fn with_terms(turn: ConstantTurn, vertical: VerticalChannel, terms: Terms) -> Self {
         Self { turn, vertical, terms }
     }
 
-    /// The errors after `time` \[s\], from those at the start and those of the sensors.
+    /// The errors after `time` \[s\] for these initial errors and sensor errors.
     pub fn propagate(&self, initial: &NavErrors, sensors: &SensorErrors, time: f64) -> NavErrors {
         let mut rates = SMatrix::<f64, AUGMENTED, AUGMENTED>::zeros();
         rates.fixed_view_mut::<STATES, STATES>(0, 0).copy_from(&self.dynamics());
@@ -105,10 +103,10 @@ impl LinearModel {
         from_state(&end.fixed_rows::<STATES>(0).into_owned())
     }
 
-    /// Units of the states in which all rates are about as large: the Earth's radius, and the velocity that g gives
-    /// over the time in which a Schuler pendulum turns by a radian.
+    /// Units of the states in which all rates have similar magnitude: the Earth's radius, and the velocity that g causes in
+    /// the time in which a Schuler pendulum turns by one radian.
     ///
-    /// In metres an exponential loses eight digits of an attitude beside a height.
+    /// In meters a matrix exponential loses eight digits of an attitude relative to a height.
     fn units(&self) -> SVector<f64, AUGMENTED> {
         let site = self.turn.station.site;
         let radius = site.meridian_radius();
@@ -118,7 +116,7 @@ impl LinearModel {
         units
     }
 
-    /// How the errors change by themselves.
+    /// The dynamics of the errors without sensor errors.
     fn dynamics(&self) -> SMatrix<f64, STATES, STATES> {
         let site = &self.turn.station.site;
         let (sin, cos) = site.latitude.sin_cos();
@@ -144,7 +142,7 @@ impl LinearModel {
             add(ATTITUDE, VELOCITY, &transport_rate);
         }
         if self.terms.earth_rate == Term::Kept {
-            // ω_ie = Ω (0, cos L, sin L) of the latitude that was computed.
+            // ω_ie = Ω (0, cos L, sin L) at the computed latitude.
             f[(ATTITUDE + 1, LATITUDE)] = -earth_rate.components().z;
             f[(ATTITUDE + 2, LATITUDE)] = earth_rate.components().y;
         }
@@ -161,10 +159,10 @@ impl LinearModel {
         f
     }
 
-    /// What the sensors' errors add to the rates, by harmonics of the table angle.
+    /// The contributions of the sensor errors to the rates, by harmonics of the table angle.
     ///
-    /// A trigonometric polynomial of second degree is known from five values: here from angles
-    /// evenly apart, where the harmonics are orthogonal.
+    /// A trigonometric polynomial of second degree is determined by five values: here at equidistant angles, where the
+    /// harmonics are orthogonal.
     fn driven(&self, sensors: &SensorErrors) -> SMatrix<f64, STATES, HARMONICS> {
         const NODES: usize = 5;
         let mut by_harmonic = SMatrix::<f64, STATES, HARMONICS>::zeros();
@@ -177,7 +175,7 @@ impl LinearModel {
         by_harmonic
     }
 
-    /// What the sensors' errors add to the rates at one table angle.
+    /// The contributions of the sensor errors to the rates at one table angle.
     fn driven_at(&self, sensors: &SensorErrors, angle: f64) -> State {
         let table_from_body = Dcm::<Table, Body>::about_z(angle);
         let nav_from_body = self.turn.nav_from_table * table_from_body;
@@ -230,9 +228,9 @@ fn from_state(state: &State) -> NavErrors {
     }
 }
 
-/// The slopes of normal gravity with latitude \[m/s²/rad\] and with height \[1/s²\].
+/// The derivatives of normal gravity by latitude \[m/s²/rad\] and by height \[1/s²\].
 fn gravity_slopes(site: &Site) -> (f64, f64) {
-    // Central differences: what they leave is of third order, 1e-10 of the slope, and rounding.
+    // Central differences: their error is of third order, 1e-10 of the derivative, and rounding.
     const LATITUDE_STEP: f64 = 1e-5;
     const HEIGHT_STEP: f64 = 60.0;
     let gravity = |north: f64, up: f64| {

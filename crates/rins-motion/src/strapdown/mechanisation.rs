@@ -1,4 +1,4 @@
-//! The mechanisation: what increments do to position, velocity and attitude.
+//! The mechanization: integration of increments to position, velocity and attitude.
 
 use rins_lanes::{Matrix, Real, Vector, rotation};
 
@@ -8,24 +8,22 @@ use crate::station::Station;
 /// Whether height and vertical velocity are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VerticalChannel {
-    /// They are; the channel then diverges, as `2 g/R` makes it.
+    /// They are integrated; the channel then diverges with `2 g/R`.
     Free,
-    /// They stay as they were at the start.
+    /// They keep their initial values.
     Held,
 }
 
-/// Strapdown navigation of one run, or of several side by side, without frames in types.
+/// Strapdown navigation of one run, or of several in parallel, without frames in types.
 ///
-/// Per interval it takes one angle and one velocity increment. Coning and sculling are compensated
-/// with the increments before (‹savage1998a›, ‹savage1998b›: the one-sample form with the
-/// previous sample), the rotation of the body over the interval in closed form, and that of the
-/// local level and Coriolis acceleration at its middle.
+/// Each interval has one angle increment and one velocity increment. Coning and sculling are compensated with the previous
+/// increments (‹savage1998a›, ‹savage1998b›: the one-sample form with the previous sample), the rotation of the body over the
+/// interval in closed form, and that of the local level and the Coriolis acceleration at its middle.
 ///
-/// What coning leaves: a cone of half-angle `a`, turned through `λ` per interval `T`, drifts by
-/// `a² (λ - sin λ - sin λ (1 - cos λ) / 3) / 2T ≈ a² λ⁵ / 60T`; sculling likewise by
-/// `a A λ⁴ / 60`, with `A` the amplitude of the specific force.
+/// Residual coning error: a cone of half-angle `a` with a phase advance `λ` per interval `T` drifts by `a² (λ - sin λ - sin λ
+/// (1 - cos λ) / 3) / 2T ≈ a² λ⁵ / 60T`; sculling similarly by `a A λ⁴ / 60`, with the amplitude `A` of the specific force.
 ///
-/// Positions that a filter has corrected are taken up as they are.
+/// The position may be corrected by a filter between steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Mechanisation<T> {
     /// Latitude, longitude \[rad\] and height \[m\].
@@ -37,15 +35,15 @@ pub struct Mechanisation<T> {
     /// The specific force over the last interval, integrated and resolved in n: `∫ f^n dt` \[m/s\].
     pub force_gain: Vector<T>,
     vertical: VerticalChannel,
-    /// Measured over normal gravity at the station: the anomaly goes along.
+    /// Measured divided by normal gravity at the station: the anomaly is constant.
     gravity_ratio: f64,
     vicinity: Vicinity<T>,
     before: Option<Before<T>>,
-    /// The last interval's mean acceleration over the Earth \[m/s²\], for the half-way velocity.
+    /// The mean acceleration over the Earth in the last interval \[m/s²\], for the velocity at the middle.
     acceleration: Vector<T>,
 }
 
-/// The increments of the interval before.
+/// The increments of the previous interval.
 #[derive(Clone, Copy, Debug)]
 struct Before<T> {
     angle: Vector<T>,
@@ -54,7 +52,7 @@ struct Before<T> {
 }
 
 impl<T: Real> Mechanisation<T> {
-    /// Navigation from this place, velocity and attitude, under the gravity measured at `station`.
+    /// Navigation from this position, velocity and attitude, with the gravity measured at `station`.
     pub fn new(
         place: [T; 3],
         velocity: Vector<T>,
@@ -76,8 +74,8 @@ impl<T: Real> Mechanisation<T> {
         }
     }
 
-    /// Carries place, velocity and attitude over one interval \[s\] of angle \[rad\] and velocity
-    /// \[m/s\] increments; returns the Earth's figures where it began.
+    /// Propagates position, velocity and attitude over one interval \[s\] with angle \[rad\] and velocity \[m/s\] increments;
+    /// returns the Earth's properties at its start.
     #[inline(always)]
     pub fn step(&mut self, angle: &Vector<T>, gained: &Vector<T>, interval: f64) -> Figures<T> {
         let like = angle[0];
@@ -89,7 +87,7 @@ impl<T: Real> Mechanisation<T> {
         let transport_rate =
             Vector([-(v[1] * earth.meridian_curvature), east_rate, east_rate * earth.tan_latitude]);
 
-        // Velocity: the gain in the body frame at the start, seen from the level half-way.
+        // Velocity: the increment in the body frame at the start, resolved in the level at the middle.
         let nav_turn = (earth_rate + transport_rate).scaled(interval);
         let gain_start = self.nav_from_body * self.velocity_gain(angle, gained, interval);
         let gain = gain_start - nav_turn.cross(&gain_start).scaled(0.5);
@@ -122,7 +120,7 @@ impl<T: Real> Mechanisation<T> {
         earth
     }
 
-    /// The body's turn as a rotation vector \[rad\]: the angle increment and coning.
+    /// The rotation vector of the body \[rad\]: the angle increment and coning.
     #[inline(always)]
     fn rotation_vector(&self, angle: &Vector<T>, interval: f64) -> Vector<T> {
         match &self.before {
@@ -131,10 +129,10 @@ impl<T: Real> Mechanisation<T> {
         }
     }
 
-    /// The velocity gained, resolved in the body frame at the interval's start \[m/s\].
+    /// The velocity increment, resolved in the body frame at the interval's start \[m/s\].
     ///
-    /// Rotation is compensated in closed form for a constant rate and force, and sculling to second
-    /// order with the increments before (‹savage1998b›).
+    /// Rotation is compensated in closed form for a constant rate and force, and sculling to second order with the previous
+    /// increments (‹savage1998b›).
     #[inline(always)]
     fn velocity_gain(&self, angle: &Vector<T>, gained: &Vector<T>, interval: f64) -> Vector<T> {
         let (first, second) = rotation::mean_weights(angle.dot(angle));
@@ -151,8 +149,7 @@ impl<T: Real> Mechanisation<T> {
 }
 
 impl<T> Before<T> {
-    /// The weight of the products with these increments in the coning and sculling of an interval
-    /// \[s\] after them.
+    /// The weight of the products with these increments in the coning and sculling of the following interval \[s\].
     ///
     /// For a rate and a force that change linearly over both intervals `T₋₁` and `T`, coning is
     /// `T² / (6 T₋₁ (T₋₁ + T)) Δθ₋₁ × Δθ`, and sculling has the same weight: 1/12 for equal intervals.

@@ -1,18 +1,18 @@
-//! The Earth around a navigator that hardly moves: computed once, carried along to first order.
+//! The Earth's properties around an almost stationary navigator: calculated once, then extrapolated to first order.
 
 use nalgebra::ComplexField;
 use rins_frames::{EARTH_RATE, Site};
 use rins_lanes::{Real, Vector};
 
-/// How far in latitude \[rad\] the figures are carried: six metres.
+/// The largest difference of latitude \[rad\] of the extrapolation: six meters.
 const REACH_IN_LATITUDE: f64 = 1e-6;
 
-/// How far in height \[m\] they are carried.
+/// The largest difference of height \[m\] of the extrapolation.
 ///
-/// Over this reach the terms of second order are some 10⁻¹² of the figures, `(6 m / R)²`.
+/// Within this range the second-order terms are about 10⁻¹² relative to the values, `(6 m / R)²`.
 const REACH_IN_HEIGHT: f64 = 6.0;
 
-/// The Earth's figures at one place.
+/// The Earth's properties at one position.
 #[derive(Clone, Copy, Debug)]
 pub struct Figures<T> {
     /// The sine and cosine of the latitude.
@@ -36,7 +36,7 @@ impl<T: Real> Figures<T> {
     }
 }
 
-/// The figures at a centre, and their slopes there.
+/// The properties at a center, and their derivatives there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vicinity<T> {
     latitude: T,
@@ -48,7 +48,7 @@ pub(super) struct Vicinity<T> {
     gravity: Slopes<T>,
 }
 
-/// A figure's value, and its slopes by latitude \[1/rad\] and height \[1/m\].
+/// A value, and its derivatives by latitude \[1/rad\] and height \[1/m\].
 type Slopes<T> = [T; 3];
 
 impl Vicinity<f64> {
@@ -76,7 +76,7 @@ impl Vicinity<f64> {
 }
 
 impl<T: Real> Vicinity<T> {
-    /// The vicinities of these places.
+    /// The vicinities of these positions.
     pub(super) fn of(latitude: T, height: T) -> Self {
         Self::each(latitude, |run| Vicinity::around(latitude.lane(run), height.lane(run)))
     }
@@ -111,7 +111,7 @@ impl<T: Real> Vicinity<T> {
         }
     }
 
-    /// The figures at a place, about which a new vicinity is laid if it is out of reach.
+    /// The properties at a position; a position out of range becomes the center of a new vicinity.
     #[inline(always)]
     pub(super) fn at(&mut self, latitude: T, height: T) -> Figures<T> {
         let (north, up) = (latitude - self.latitude, height - self.height);
@@ -120,7 +120,7 @@ impl<T: Real> Vicinity<T> {
             self.follow(latitude, height);
         }
         let (north, up) = (latitude - self.latitude, height - self.height);
-        // Terms of third order are below 10⁻¹⁸ here.
+        // Third-order terms are below 10⁻¹⁸ here.
         let bend = -(north * north * 0.5) + 1.0;
         let sin = self.sin * bend + self.cos * north;
         let cos = self.cos * bend - self.sin * north;
@@ -136,7 +136,7 @@ impl<T: Real> Vicinity<T> {
         }
     }
 
-    /// Lays new vicinities for those runs that are out of reach of theirs.
+    /// Calculates new vicinities for the runs that are out of range of theirs.
     #[cold]
     fn follow(&mut self, latitude: T, height: T) {
         let old = *self;
@@ -161,7 +161,7 @@ mod tests {
     use rins_frames::InFrame;
     use rins_testing::any_latitude;
 
-    /// `(6 m / R)²` times the largest second derivative, and rounding in the slopes.
+    /// `(6 m / R)²` times the largest second derivative, and rounding of the derivatives.
     const RELATIVE: f64 = 2e-11;
 
     fn closely(got: f64, want: f64) -> Result<(), TestCaseError> {
@@ -191,7 +191,7 @@ mod tests {
             closely(east * figures.tan_latitude, w_en.components().z)?;
         }
 
-        /// A step in latitude alone or in height alone leaves the vicinity, and one back into it does too.
+        /// A step in latitude alone or in height alone leaves the vicinity, and a step back into it does too.
         #[test]
         fn figures_follow_a_place_that_goes_far_one_way(
             latitude in any_latitude(),

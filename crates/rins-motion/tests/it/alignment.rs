@@ -1,4 +1,4 @@
-//! Static alignment: exact on perfect means, and honest about its covariance on noisy ones.
+//! Static alignment: exact for perfect means, and with a consistent covariance for noisy ones.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -12,10 +12,10 @@ use rins_testing::{any_euler_angles, any_latitude, assert_close};
 
 use crate::support::{any_attitude, at_angle_zero, attitude_apart, station};
 
-/// Rounding, which the short horizontal part of the Earth's rate magnifies near a pole.
+/// Rounding, which increases near a pole with the small horizontal component of the Earth's rate.
 const ROUNDING: f64 = 1e-12;
 
-/// A navigation-grade IMU's means over some minutes.
+/// The means of a navigation-grade IMU over some minutes.
 const SIGMA: MeanUncertainty =
     MeanUncertainty { angular_rate: 0.005 * DEG_PER_HOUR, specific_force: 20.0 * MICRO_G };
 
@@ -40,7 +40,7 @@ fn with_noise(rates: &Rates, sigma: &MeanUncertainty, rng: &mut Pcg64) -> Rates 
     }
 }
 
-/// Whether a mean of χ² values lies within four sigma of what it should be.
+/// Whether a mean of χ² values is within four sigma of its expectation.
 fn is_chi_squared(mean: f64, dof: f64, draws: u32) -> bool {
     (mean - dof).abs() < 4.0 * (2.0 * dof / f64::from(draws)).sqrt()
 }
@@ -95,7 +95,7 @@ proptest! {
     }
 }
 
-/// The mean of `φᵀ P⁻¹ φ`, with P for sensors whose sigma is `claimed` times the true one.
+/// The mean of `φᵀ P⁻¹ φ`, with P for sensors whose stated sigma is `claimed` times the true one.
 fn mean_chi_square(claimed: f64) -> f64 {
     let mut rng = Pcg64::seed_from_u64(9);
     let station = station(48.0 * DEG);
@@ -131,7 +131,7 @@ fn covariance_of_a_wrong_sigma_is_found_out() {
     }
 }
 
-/// The tilt that a horizontal accelerometer error feigns, and the azimuth that an east gyro's does.
+/// The apparent tilt due to a horizontal accelerometer error, and the apparent azimuth due to an error of an east gyro.
 #[test]
 fn single_errors_do_what_the_covariance_says() {
     let station = station(45.0 * DEG);
@@ -157,10 +157,10 @@ fn single_errors_do_what_the_covariance_says() {
     assert_close!(by_east_accel.z, by_east_accel.y, 1e-9);
 }
 
-/// The covariance is what single errors of each sensor do, one after another: their squares and their products.
+/// The covariance is the sum of the effects of single errors of each sensor: their squares and their products.
 #[test]
 fn covariance_is_made_of_what_single_errors_do() {
-    // Of an error of a hundredth of a degree, whose square is lost beside it.
+    // For an error of a hundredth of a degree, whose square is negligible.
     const WITHIN: f64 = 1e-3;
     let level = at_angle_zero(Dcm::identity());
     for latitude in [-50.0, 20.0, 60.0] {
@@ -173,7 +173,7 @@ fn covariance_is_made_of_what_single_errors_do() {
                 error[axis] = SIGMA.angular_rate;
                 rates.angular_rate += InFrame::from_components(error);
             } else {
-                // So large that it does as much to the azimuth as a gyro does.
+                // So large that its effect on the azimuth equals that of a gyro.
                 error[axis - 3] = 20.0 * SIGMA.specific_force;
                 rates.specific_force += InFrame::from_components(error);
             }
@@ -188,7 +188,7 @@ fn covariance_is_made_of_what_single_errors_do() {
             let off = (found - want).abs();
             assert!(off < WITHIN * sum.trace(), "at {latitude} deg:{covariance}{sum}");
         }
-        // The azimuth leans with the tilt about north: a product of another sign would be seen.
+        // The azimuth is correlated with the tilt about north: a product with the wrong sign would be detected.
         assert!(sum[(1, 2)].abs() > 10.0 * WITHIN * sum.trace(), "{sum}");
     }
 }
@@ -209,10 +209,10 @@ fn mean_square_of_latitude(sigma: &MeanUncertainty, claimed: f64) -> f64 {
     sum / f64::from(DRAWS)
 }
 
-/// Whether gyros or accelerometers are worse, or both alike.
+/// If gyros or accelerometers are less accurate, or both equally accurate.
 #[test]
 fn latitude_seen_has_its_sigma() {
-    // So many that gyros of SIGMA are no worse than the accelerometers.
+    // So that the gyros of SIGMA are as accurate as the accelerometers.
     let poor = MeanUncertainty { specific_force: 17.0 * SIGMA.specific_force, ..SIGMA };
     let poorer = MeanUncertainty { specific_force: 100.0 * SIGMA.specific_force, ..SIGMA };
     for sigma in [SIGMA, poor, poorer] {
@@ -239,7 +239,7 @@ fn north_is_not_found_near_a_pole_or_by_poor_gyros() {
     let here = station(34.0 * DEG);
     let found = align(&rates_at_rest(&here, level), &poor, &here);
     let message = found.unwrap_err().to_string();
-    // 10 °/h against the Earth's horizontal 12.5 °/h.
+    // 10 °/h compared with the horizontal component of the Earth's rate, 12.5 °/h.
     assert!(message.contains("sigma of 0.80 rad"), "{message}");
 
     let unknown = MeanUncertainty { angular_rate: f64::NAN, ..SIGMA };

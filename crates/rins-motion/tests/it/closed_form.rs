@@ -1,4 +1,4 @@
-//! Eqs. (6), (8) and (9), against a strapdown run on a flat Earth that does not turn.
+//! Eqs. (6), (8) and (9), compared with a strapdown run on a flat Earth that does not rotate.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -13,10 +13,10 @@ use crate::support::{
     paper_turn, scaled,
 };
 
-/// How far the initial attitude may be off \[rad\].
+/// The largest initial attitude error \[rad\].
 const INITIAL_ERROR: f64 = 1e-3;
 
-/// What Simpson's rule and some thousand products leave of an angle \[rad\].
+/// The error of an angle due to Simpson's rule and some thousand products \[rad\].
 const ROUNDING: f64 = 1e-11;
 
 fn closed_form(turn: &ConstantTurn, errors: &SpinAxisErrors, initial: &NavErrors) -> ClosedForm {
@@ -35,7 +35,7 @@ fn tilted(attitude: Vector3<f64>, velocity: Vector3<f64>) -> NavErrors {
     }
 }
 
-/// A strapdown run on a flat Earth: matrices multiplied step by step, velocity by Simpson's rule.
+/// A strapdown run on a flat Earth: matrix products step by step, velocity by Simpson's rule.
 fn flat_run(
     turn: &ConstantTurn,
     errors: &SpinAxisErrors,
@@ -85,18 +85,18 @@ proptest! {
         kick in any_vector(1.0),
         time in 1.0..100.0_f64,
     ) {
-        // Errors a hundred times too large, since this form is not a linear one.
+        // Errors a hundred times larger, since this form is not linear.
         let errors = scaled(&errors, 100.0);
         let initial = tilted(tilt * 100.0, kick);
         let form = flat_navigation(&turn, &errors, &initial, time);
         let (attitude, velocity) = flat_run(&turn, &errors, &initial, time);
-        // Simpson's rule leaves (m ω h)⁴ / 2880 of g t, or 1e-9.
+        // The error of Simpson's rule is (m ω h)⁴ / 2880 of g t, or 1e-9.
         prop_assert!((attitude - form.attitude.components()).norm() < 1e-11);
         let off = (velocity - form.velocity.components()).norm();
         prop_assert!(off < 1e-8, "off by {off:e} m/s");
     }
 
-    /// With all errors halved, what a closed form of first order leaves is a quarter.
+    /// If all errors are halved, the remaining error of a first-order closed form is a quarter.
     #[test]
     fn closed_form_is_the_first_order_of_a_strapdown_run(
         turn in any_turn(),
@@ -108,7 +108,7 @@ proptest! {
         let turned = (turn.rate * time).abs();
         let misaligned = errors.misalignment_xz.hypot(errors.misalignment_yz);
         let size = 2.0 * misaligned + errors.scale_z.abs() * turned + tilt.norm();
-        // Misalignment also lengthens the rate that the gyros report, by its half square.
+        // Misalignment also increases the rate that the gyros measure, by half its square.
         let second = size * size + misaligned * misaligned * turned;
         let third = size * second;
         let left = |factor: f64| {
@@ -147,7 +147,7 @@ proptest! {
             sign: sign.0,
             ..closed_form(&turn, &errors, &tilted(tilt, kick))
         };
-        // A step at which the third derivative's share and rounding are both below 1e-10 rad/s.
+        // At this step the contribution of the third derivative and rounding are both below 1e-10 rad/s.
         let h = 1e-3;
         let by_difference = |of: &dyn Fn(f64) -> InFrame<Nav>| {
             (of(time + h) - of(time - h)) * (0.5 / h)
@@ -180,7 +180,7 @@ proptest! {
         prop_assert!(form.attitude_error(time).norm() < 1e-15);
         prop_assert!(form.velocity_error(time).bounded.norm() < 1e-13);
 
-        // The scale error's turn about the spin axis tilts the level by the axis' own tilt.
+        // The rotation about the spin axis due to the scale error tilts the level by the tilt of the axis.
         let scaled = SpinAxisErrors { scale_z: errors.scale_z, ..SpinAxisErrors::default() };
         let form = ClosedForm::new(turn, scaled, Sign::Strapdown);
         let level = form.attitude_error(time).components().xy().norm();
@@ -189,7 +189,7 @@ proptest! {
         prop_assert!((level - axis * whole).abs() < 1e-12);
     }
 
-    /// Halfway through a turn misalignment has levelled off nothing: 2 M across the spin.
+    /// After half a revolution misalignment has not averaged out: its effect is 2 M perpendicular to the spin axis.
     #[test]
     fn half_a_turn_shows_misalignment_twice(turn in any_turn(), errors in any_spin_axis_errors()) {
         let misaligned = SpinAxisErrors { scale_z: 0.0, ..errors };
@@ -199,7 +199,7 @@ proptest! {
         prop_assert!((shown - twice).abs() < 1e-15);
     }
 
-    /// The bounded brackets stay within what the amplitudes allow, whatever the time.
+    /// The bounded brackets stay within their amplitudes at any time.
     #[test]
     fn bounded_terms_are_bounded(
         turn in any_turn(),
@@ -213,8 +213,8 @@ proptest! {
     }
 }
 
-/// The north velocity error of eq. (9) as it is printed, letter by letter, and with the sign of
-/// its bounded `C_s^n(1, 1)` term as a factor.
+/// The north velocity error of eq. (9) as printed, literally, and with the sign of its bounded `C_s^n(1, 1)` term as a
+/// factor.
 fn equation_9(turn: &ConstantTurn, errors: &SpinAxisErrors, time: f64, sign: f64) -> f64 {
     let c = turn.nav_from_table.matrix();
     let (g, omega) = (turn.station.gravity, turn.rate);
@@ -227,8 +227,8 @@ fn equation_9(turn: &ConstantTurn, errors: &SpinAxisErrors, time: f64, sign: f64
             + c[(0, 2)] * g / 2.0 * s_z * omega * time * time)
 }
 
-/// The printed eq. (9) is the integral of the printed eq. (6) with the sign it has there; with the
-/// other sign of that one term, it is not. A quarter turn shows it, whole turns do not.
+/// The printed eq. (9) is the integral of the printed eq. (6) with the sign of that term as printed; with the other sign it
+/// is not. The difference is visible after a quarter revolution, but not after whole revolutions.
 #[test]
 fn bounded_c11_term_of_equation_9_is_positive() {
     let (turn, errors) = (paper_turn(), paper_errors());
@@ -239,7 +239,7 @@ fn bounded_c11_term_of_equation_9_is_positive() {
     let by_midpoints: f64 = (0..steps)
         .map(|k| form.acceleration_error((f64::from(k) + 0.5) * h).components().y * h)
         .sum();
-    // The midpoint rule errs by h² / 24 of the slope's growth.
+    // The error of the midpoint rule is h² / 24 times the change of the slope.
     let within = 1e-9;
     assert!((equation_9(&turn, &errors, time, 1.0) - by_midpoints).abs() < within);
     assert!((form.velocity_error(time).total().components().y - by_midpoints).abs() < within);
@@ -249,8 +249,8 @@ fn bounded_c11_term_of_equation_9_is_positive() {
     assert!((whole(1.0) - whole(-1.0)).abs() < 1e-9);
 }
 
-/// Over two seconds the Earth's rate and the Schuler loop hardly matter: the navigator itself
-/// then shows what the flat run, and the corrected sign, are worth.
+/// Over two seconds the Earth's rate and the Schuler loop are negligible: the navigator itself then verifies the flat run and
+/// the corrected sign.
 #[test]
 fn navigator_agrees_with_the_flat_run_over_a_short_time() {
     const TIME: f64 = 2.0;
@@ -265,7 +265,7 @@ fn navigator_agrees_with_the_flat_run_over_a_short_time() {
     truth.nav_from_body = turn.nav_from_body(TIME);
     let navigated = NavErrors::between(navigator.state(), &truth);
     let (attitude, velocity) = flat_run(&turn, &errors, &NavErrors::none(), TIME);
-    // Earth's rate over the table's is 4e-4, and its angle over two seconds is 1.5e-4.
+    // The ratio of the Earth's rate to the table's is 4e-4, and its angle over two seconds is 1.5e-4.
     let off = (navigated.attitude.components() - attitude).norm();
     assert!(off < 6e-4 * attitude.norm(), "{off:e} of {:e}", attitude.norm());
     let off = (navigated.velocity.components() - velocity).norm();

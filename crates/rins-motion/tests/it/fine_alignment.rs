@@ -1,4 +1,4 @@
-//! Fine alignment on a base that sways: honest over many runs, and better than the mean of the rest.
+//! Fine alignment on a base that sways: consistent over many runs, and more accurate than the mean over the static interval.
 
 use nalgebra::Vector3;
 use rand_distr::{Distribution, StandardNormal};
@@ -29,8 +29,8 @@ impl Draws {
     }
 }
 
-/// How the base stands against its first attitude: a tenth of a degree there and back, as where
-/// somebody steps onto a platform.
+/// The rotation of the base relative to its initial attitude: a tenth of a degree forth and back, as if somebody steps onto a
+/// platform.
 fn sway(time: f64) -> Vector3<f64> {
     let step = |from: f64, to: f64| ((time - from) / (to - from)).clamp(0.0, 1.0);
     let tilt = step(60.0, 62.0) - step(200.0, 205.0);
@@ -55,7 +55,7 @@ fn start(draws: &mut Draws) -> Dcm<Nav, Body> {
     EulerAngles { roll: 0.3 * angles.x, pitch: 0.3 * angles.y, yaw: angles.z }.dcm()
 }
 
-/// What an IMU records over a rest on a base that stands against its first attitude as `sway` says.
+/// The recording of an IMU over a static interval on a base with the rotation `sway` relative to its initial attitude.
 fn recorded(
     draws: &mut Draws,
     start: Dcm<Nav, Body>,
@@ -69,7 +69,7 @@ fn recorded(
     let mut recording = Recording::default();
     for sample in 0..SAMPLES {
         let (from, to) = (sample as f64 * INTERVAL, (sample + 1) as f64 * INTERVAL);
-        // The body turns with the Earth and with the sway.
+        // The body rotates with the Earth and with the sway.
         let turn = attitude(from).inverse()
             * Dcm::<Nav, Nav>::from_rotation_vector(&earth_turn)
             * attitude(to);
@@ -106,12 +106,12 @@ fn covariance_is_honest_and_the_bias_found_is_the_true_one() {
     let bound = 2.576 * (6.0 / f64::from(RUNS)).sqrt();
     assert!((nees - 3.0).abs() < bound, "mean NEES {nees}, not 3 ± {bound}");
     assert!((nees_if_halved - 3.0).abs() > bound, "half the sigma would have passed");
-    // Of 150 deviates one beyond 4.5 has a probability of 0.001.
+    // Of 150 normal values one exceeds 4.5 with a probability of 0.001.
     assert!(off < 4.5, "a bias is {off} sigma off");
 }
 
-/// Gyros that are off along up by ten to five hundred times what the data sheet says, on a firm base and, by a hundred times and more,
-/// on one that turns about up as it tilts. Gravity does not show it, the base's heading does.
+/// Gyros with a bias along up of ten to five hundred times the data sheet's sigma, on a stationary base and, from a hundred
+/// times on, on one that rotates about up as much as it tilts. Gravity holds no information on it, the base's heading does.
 #[test]
 fn bias_along_up_beyond_the_data_sheet_is_found() {
     const RUNS: u32 = 200;
@@ -125,7 +125,7 @@ fn bias_along_up_beyond_the_data_sheet_is_found() {
         let beyond = BIAS * least * (500.0 / least).powf(part);
         let off = draws.vector(BIAS);
         let bias = off + (start.inverse() * InFrame::new(0.0, 0.0, beyond)).components();
-        // A slow swing about three axes, as far about each.
+        // A slow oscillation about three axes with equal amplitudes.
         let (size, phase) = (sways as f64 * 0.02 * DEG, draws.vector(3.0));
         let swing = |time: f64| {
             Vector3::from_fn(|axis, _| {
@@ -143,13 +143,14 @@ fn bias_along_up_beyond_the_data_sheet_is_found() {
         let phi = -(found.nav_from_body * run.start.inverse()).rotation_vector();
         yaw += phi.z * phi.z / found.covariance[(2, 2)] / f64::from(RUNS);
     }
-    // Components are correlated, so that only their mean is known; a heading that is held to less than it is known to is no harm.
+    // Components are correlated, so that only their mean is known; an uncertainty of the heading that is too large is
+    // acceptable.
     assert!(nees.iter().all(|mean| (0.5..3.9).contains(mean)), "{nees:?}");
     assert!((yaw - 1.0).abs() < 2.576 * (2.0 / f64::from(RUNS)).sqrt(), "{yaw}");
 }
 
-/// Gyros that are off along north by ten to two hundred times what the data sheet says, so that nothing is known of the bias along
-/// east but that it may be as large: the azimuth is known no better than that.
+/// Gyros with a bias along north of ten to two hundred times the data sheet's sigma, so that the bias along east may be as
+/// large: this limits the accuracy of the azimuth.
 #[test]
 fn bias_along_north_beyond_the_data_sheet_leaves_the_azimuth_open() {
     const RUNS: u32 = 200;
@@ -170,7 +171,7 @@ fn bias_along_north_beyond_the_data_sheet_leaves_the_azimuth_open() {
         let open = beyond / (EARTH_RATE * station().site.latitude.cos());
         assert!(found.covariance[(2, 2)].sqrt() > 0.4 * open, "{seed}: {open} rad");
     }
-    // The bias along east is that of the sheet here, far within what is allowed it.
+    // The actual bias along east agrees with the data sheet and is much smaller than its prior sigma.
     assert!(yaw < 1.0, "{yaw}");
 }
 

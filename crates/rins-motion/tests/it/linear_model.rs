@@ -1,4 +1,4 @@
-//! The linear model on the round, turning Earth, against whole runs of the navigator.
+//! The linear model on the round, rotating Earth, compared with whole runs of the navigator.
 
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
@@ -17,11 +17,11 @@ use crate::support::{
 
 const DURATION: f64 = 360.0;
 
-/// The model is exact in time; the navigator takes intervals of 0.02 s, and turns in them.
+/// The model is exact in time; the navigator has intervals of 0.02 s, and rotations within them.
 const AGREEMENT: f64 = 3e-4;
 
-/// Computed states after a run on perfect and on erroneous increments; their difference leaves
-/// out what the navigator's finite interval costs.
+/// Computed states after a run on perfect and on erroneous increments; their difference does not contain the error of the
+/// navigator's finite interval.
 fn navigated(
     turn: &ConstantTurn,
     vertical: VerticalChannel,
@@ -50,9 +50,9 @@ fn navigated(
     NavErrors::between(erroneous.state(), perfect.state())
 }
 
-/// The relative distance of two sets of errors, each kind against its own size.
+/// The relative difference of two sets of errors, each kind relative to its own size.
 ///
-/// Below the floors lies what the runs' rounding leaves of a difference of two of them.
+/// Below the floors the difference of two runs is due to rounding.
 fn apart(got: &NavErrors, want: &NavErrors) -> f64 {
     const ATTITUDE_FLOOR: f64 = 1e-9;
     const VELOCITY_FLOOR: f64 = 1e-6;
@@ -73,7 +73,7 @@ fn scaled_sensors(sensors: &SensorErrors, factor: f64) -> SensorErrors {
     }
 }
 
-/// All 24 errors, of the size of a navigation-grade IMU's.
+/// All 24 errors, of the size of those of a navigation-grade IMU.
 fn any_sensors() -> impl Strategy<Value = SensorErrors> {
     let matrix = |size| {
         [any_vector(size), any_vector(size), any_vector(size)]
@@ -112,7 +112,7 @@ fn any_vertical() -> impl Strategy<Value = VerticalChannel> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// All errors at once, made a thousand times smaller so that only the first order is seen.
+    /// All errors together, a thousand times smaller, so that only the first order is visible.
     #[test]
     fn small_errors_of_a_navigator_are_those_of_the_model(
         turn in (-1.2..1.2_f64, any_attitude(), any_rate()).prop_map(
@@ -134,7 +134,7 @@ proptest! {
         prop_assert!(off < AGREEMENT, "{off:e} apart: {model:?} for {run:?}");
     }
 
-    /// The model without its three terms is the closed form, by another way.
+    /// The model without its three terms is another form of the closed form.
     #[test]
     fn model_of_a_flat_earth_is_the_closed_form(
         turn in any_turn(),
@@ -162,7 +162,7 @@ proptest! {
         prop_assert!(off < 1e-9, "{off:e} m/s");
     }
 
-    /// Two parts of a run, the second from the table angle that the first has reached.
+    /// Two parts of a run, the second from the table angle at the end of the first.
     #[test]
     fn parts_of_a_run_make_the_run(
         turn in any_turn(),
@@ -184,10 +184,10 @@ proptest! {
     }
 }
 
-/// Each sensor error and each initial error alone, so that none hides behind a larger one.
+/// Each sensor error and each initial error alone, so that none is hidden by a larger one.
 #[test]
 fn each_error_alone_is_that_of_a_navigator() {
-    // Not whole turns, after which most of these leave next to nothing to compare.
+    // Not whole revolutions, after which most of these errors have almost no effect.
     const DURATION: f64 = 355.0;
     let turn = paper_turn();
     let mut cases: Vec<(String, NavErrors, SensorErrors)> = Vec::new();
@@ -204,7 +204,7 @@ fn each_error_alone_is_that_of_a_navigator() {
         cases.push((format!("attitude {axis}"), tilt, none.1));
         cases.push((format!("velocity {axis}"), kick, none.1));
         for column in 0..3 {
-            // The first two columns only see the Earth's rate: theirs must be larger to be seen.
+            // The first two columns are multiplied only by the Earth's rate: they must be larger to be visible.
             let size = if column == 2 { 1e-7 } else { 5e-4 };
             let matrix = Matrix3::from_fn(|i, j| if (i, j) == (axis, column) { 1.0 } else { 0.0 });
             let gyro = SensorErrors { gyro_matrix: matrix * size, ..none.1 };
@@ -234,7 +234,7 @@ fn paper_run(factor: f64) -> (NavErrors, NavErrors) {
     (navigated(&turn, VerticalChannel::Held, &none, &sensors, DURATION), model)
 }
 
-/// The figures were had from a numerical model that shares no code with this one.
+/// The reference values are from a numerical model that has no code in common with this one.
 #[test]
 fn navigator_has_the_reference_velocities_and_angles() {
     let (run, _) = paper_run(1.0);
@@ -255,8 +255,8 @@ fn model_holds_to_a_thousandth_where_errors_are_small() {
     assert!(v.0.components().x.abs() < 1e-3 * v.1.components().x.abs());
 }
 
-/// At the paper's size of errors the model lacks their second order, (0.101, 0.010) m/s: a
-/// quarter of it at half the size, and all but a fiftieth of it what a flat Earth shows.
+/// For errors of the paper's size the model lacks their second order, (0.101, 0.010) m/s: a quarter of it at half the size,
+/// and all but a fiftieth of it equals that of a flat Earth.
 #[test]
 fn what_the_model_lacks_is_of_second_order() {
     let lacks = |factor| {
@@ -273,8 +273,8 @@ fn what_the_model_lacks_is_of_second_order() {
     assert!(not_flat < 0.021 * whole.norm(), "{not_flat:e}");
 }
 
-/// With the flat Earth's second order added, the model has the navigator's velocity to 0.1 %
-/// at the paper's own size of errors.
+/// With the second order of the flat Earth added, the model has the navigator's velocity to 0.1 % for errors of the paper's
+/// size.
 #[test]
 fn model_and_flat_second_order_make_the_reference_run() {
     let (run, model) = paper_run(1.0);
@@ -286,7 +286,7 @@ fn model_and_flat_second_order_make_the_reference_run() {
     }
 }
 
-/// The table in the module's documentation.
+/// The table in the documentation of the module.
 #[test]
 fn each_approximation_costs_what_the_documentation_says() {
     let (turn, errors) = (paper_turn(), paper_errors());
@@ -306,7 +306,7 @@ fn each_approximation_costs_what_the_documentation_says() {
     let form = ClosedForm::new(turn, errors, Sign::Strapdown).velocity_error(DURATION).total();
     assert_close!(form.components().x, 3.174, 5.1e-4);
     assert_close!(form.components().y, -17.872, 5.1e-4);
-    // 0.203 and -0.440 m/s, of which the costs taken one by one leave 0.008.
+    // 0.203 and -0.440 m/s; the sum of the single effects differs by 0.008.
     let (run, _) = paper_run(1.0);
     let off = form - run.velocity;
     assert_close!(off.components().x / run.velocity.components().x, 0.068, 5.1e-4);
@@ -317,13 +317,13 @@ fn each_approximation_costs_what_the_documentation_says() {
 fn errors_of_euler_angles_are_the_errors_of_their_rotation() {
     let turn = paper_turn();
     let truth = turn.nav_from_body(0.0);
-    // About the vertical, only yaw; the computed attitude turns against φ.
+    // About the vertical, only yaw; the computed attitude is rotated opposite to φ.
     let about_up = NavErrors { attitude: InFrame::new(0.0, 0.0, 1e-3), ..NavErrors::none() };
     let angles = about_up.of_euler_angles(truth);
     assert_close!(angles.yaw, -1e-3, 1e-12);
     assert_close!(angles.roll, 1e-300, 1e-12);
     assert_close!(angles.pitch, 1e-300, 1e-12);
-    // Across ±π the error stays small.
+    // The error stays small across ±π.
     let back = Dcm::<Nav, Body>::about_z(179.99 * DEG);
     let over = NavErrors { attitude: InFrame::new(0.0, 0.0, -1e-3), ..NavErrors::none() };
     assert_close!(over.of_euler_angles(back).yaw, 1e-3, 1e-12);

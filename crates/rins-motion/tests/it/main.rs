@@ -1,4 +1,4 @@
-//! What this crate computes, against what was written apart from it.
+//! The results of this crate compared with independent calculations.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod alignment;

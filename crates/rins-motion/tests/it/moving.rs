@@ -1,4 +1,4 @@
-//! The navigator on a vehicle that turns and moves in all axes, against the motion itself.
+//! The navigator on a vehicle that rotates and moves in all axes, compared with the true motion.
 
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
@@ -9,12 +9,12 @@ use crate::support::{Motion, attitude_apart, station};
 
 /// The frequency of the heave and sway \[rad/s\].
 const SWAY: f64 = 0.7;
-/// The frequency of the attitude's swing \[rad/s\].
+/// The frequency of the attitude oscillation \[rad/s\].
 const SWING: f64 = 1.9;
 /// The amplitudes of velocity \[m/s\].
 const SPEED: Vector3<f64> = Vector3::new(12.0, -8.0, 2.0);
 
-/// A boat: it sways with a slow sine, heels and yaws with a faster one.
+/// A boat: its velocity oscillates slowly, its heel and yaw faster.
 struct Boat {
     start: Site,
 }
@@ -40,7 +40,7 @@ impl Motion for Boat {
 
     fn turn_rate(&self, time: f64) -> Vector3<f64> {
         let (angles, slopes) = Self::angles(time);
-        // C = Rz(yaw) Rx(pitch) Ry(roll): each rate about its own axis, seen from the body.
+        // C = Rz(yaw) Rx(pitch) Ry(roll): each rate is about its own axis, resolved in the body.
         let roll = Dcm::<Body, Body>::about_y(angles.roll).inverse();
         let pitch = roll * Dcm::<Body, Body>::about_x(angles.pitch).inverse();
         let rate = InFrame::new(0.0, slopes.roll, 0.0)
@@ -57,7 +57,7 @@ impl Motion for Boat {
         SPEED * (SWAY * (SWAY * time).cos())
     }
 
-    /// The radii of the start serve throughout: they change by 1e-8 over the few metres.
+    /// The radii at the start are used throughout: they change by 1e-8 over the few meters.
     fn site(&self, time: f64) -> Site {
         let Site { latitude, longitude, height } = self.start;
         let away = SPEED * ((1.0 - (SWAY * time).cos()) / SWAY);

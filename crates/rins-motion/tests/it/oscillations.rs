@@ -1,4 +1,4 @@
-//! Coning and sculling: what the algorithm leaves of them, against its expansion.
+//! Coning and sculling: the residual errors of the algorithm, compared with their expansion.
 
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
@@ -8,19 +8,18 @@ use rins_testing::assert_close;
 
 use crate::support::{Motion, attitude_apart, station};
 
-/// The share of the theoretical residual to which it must be met: terms of fourth order in the
-/// half-angle are 3e-4 of it for 2°.
+/// The tolerance relative to the theoretical residual: terms of fourth order in the half-angle are 3e-4 of it for 2°.
 const SHARE: f64 = 1e-3;
 
 const PLACE: Site = Site { latitude: 20.0 * DEG, longitude: 0.0, height: 0.0 };
 
-/// What one interval's turn of the oscillation, `λ` \[rad\], leaves: of twice the area that the
-/// arc encloses, `λ - sin λ`, the products of neighbouring chords give `sin λ (1 - cos λ) / 3`.
+/// The residual for a phase advance `λ` \[rad\] of the oscillation in one interval: of twice the area enclosed by the arc, `λ
+/// - sin λ`, the products of successive chords contribute `sin λ (1 - cos λ) / 3`.
 fn left_over(lambda: f64) -> f64 {
     lambda - lambda.sin() - lambda.sin() * (1.0 - lambda.cos()) / 3.0
 }
 
-/// The body's z axis goes round a cone, without turning about itself on the whole.
+/// The body's z axis moves along a cone, without a net rotation of the body about it.
 struct Coning {
     half_angle: f64,
     /// \[rad/s\].
@@ -52,7 +51,7 @@ impl Motion for Coning {
     }
 }
 
-/// A level body that turns to and fro about z, and feels a force along x in step with that.
+/// A level body that oscillates about z, with a force along x of the same frequency and phase.
 struct Sculling {
     amplitude: f64,
     /// \[m/s²\].
@@ -139,14 +138,14 @@ fn coning_drifts_as_its_expansion_predicts() {
         let drift = drift_about_z(&motion, std::iter::repeat_n(interval, 2000));
         let theory = -half_angle.sin().powi(2) * left_over(lambda) / (2.0 * interval);
         assert_close!(drift, theory, SHARE * theory.abs());
-        // The leading term, as the navigator's documentation has it, to a tenth of λ².
+        // The leading term, as in the navigator's documentation, to a tenth of λ².
         let leading = -half_angle.powi(2) * lambda.powi(5) / (60.0 * interval);
         assert_close!(leading, theory, 0.15 * lambda.powi(2) * theory.abs());
     }
 }
 
-/// With intervals `λ₁, λ₂` in turn the chords enclose `sin λ₁/2 sin λ₂/2 sin (λ₁ + λ₂)/2`, which
-/// the weights that hold for a linear rate make up to all but the same order.
+/// With alternating intervals `λ₁, λ₂` the chords enclose `sin λ₁/2 sin λ₂/2 sin (λ₁ + λ₂)/2`, which the weights for a linear
+/// rate compensate up to the same order.
 #[test]
 fn coning_under_jitter_drifts_as_its_expansion_predicts() {
     let (half_angle, interval, frequency) = (1.0 * DEG, 0.01, 30.0);

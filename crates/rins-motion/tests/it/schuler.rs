@@ -1,4 +1,4 @@
-//! The navigator's own dynamics: the Schuler oscillation and the vertical channel.
+//! The dynamics of the navigator: the Schuler oscillation and the vertical channel.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ fn rates_at_rest(station: &Station) -> Rates {
     }
 }
 
-/// The velocity after each second of perfect increments, from a start that is not.
+/// The velocity after each second of perfect increments, from an initial state with errors.
 fn velocities(
     station: &Station,
     tilt: Vector3<f64>,
@@ -37,7 +37,7 @@ fn velocities(
     })
 }
 
-/// When a series of values, one each interval from the first, changes its sign \[s\].
+/// The times of the sign changes of a series of values, one for each interval from the first \[s\].
 fn crossings(values: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
     values
         .scan((0.0, f64::NAN), |(time, before), value| {
@@ -50,8 +50,8 @@ fn crossings(values: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
         .flatten()
 }
 
-/// On the equator the east channel turns about the Earth's axis, so that neither the Earth's rate
-/// nor Coriolis acceleration reaches it: its period is `2π √(R_N / g)`, 84.4 minutes.
+/// On the equator the east channel rotates about the Earth's axis, so that neither the Earth's rate nor Coriolis acceleration
+/// affects it: its period is `2π √(R_N / g)`, 84.4 minutes.
 #[test]
 fn schuler_period_is_that_of_the_radius_across_the_meridian() {
     let station = station(0.0);
@@ -70,17 +70,17 @@ fn schuler_period_is_that_of_the_radius_across_the_meridian() {
     let least = velocities(&station, tilt, InFrame::zeros())
         .take(5400)
         .fold(0.0, |least: f64, v| least.min(v.x));
-    // φ about north reads -g φ to the east, and swings to v = φ √(g R).
+    // φ about north causes an acceleration of -g φ to the east, and an oscillation of amplitude v = φ √(g R).
     assert_close!(least, -amplitude, 1e-4 * amplitude);
 }
 
-/// At latitude L the oscillation's plane turns by `-Ω sin L`, as that of Foucault's pendulum.
+/// At latitude L the plane of the oscillation rotates by `-Ω sin L`, as that of Foucault's pendulum.
 #[test]
 fn schuler_oscillation_turns_as_a_foucault_pendulum() {
     let station = station(50.0 * DEG);
     let radius = (station.site.transverse_radius() * station.site.meridian_radius()).sqrt();
     let period = TAU * (radius / station.gravity).sqrt();
-    // Fastest again after about one period: the velocity there shows the plane.
+    // The speed has its maximum again after about one period: the direction of the velocity there is the plane.
     let fastest = velocities(&station, Vector3::zeros(), InFrame::new(0.0, 1.0, 0.0))
         .enumerate()
         .filter(|(second, _)| (*second as f64 - period).abs() < 0.1 * period)
@@ -94,8 +94,8 @@ fn schuler_oscillation_turns_as_a_foucault_pendulum() {
     assert_close!(turned, theory, 0.004 * theory.abs());
 }
 
-/// `δh'' = κ δh` with `κ` the slope of gravity, which is `2 g / R` to one per cent. Near the pole
-/// Coriolis acceleration hardly touches it.
+/// `δh'' = κ δh` with the gradient `κ` of gravity, which is `2 g / R` to one percent. Near the pole the Coriolis acceleration
+/// is negligible.
 #[test]
 fn free_vertical_channel_diverges_with_the_slope_of_gravity() {
     const DURATION: f64 = 1800.0;
@@ -119,6 +119,6 @@ fn free_vertical_channel_diverges_with_the_slope_of_gravity() {
     assert_close!(slope / by_radius, 1.0, 0.01);
     let grown = (slope.sqrt() * DURATION).cosh();
     assert_close!(grown, 11.7, 0.2);
-    // The slope over 100 m differs from that at the ellipsoid by 2e-5, and Coriolis takes 2e-4.
+    // The gradient over 100 m differs from that at the ellipsoid by 2e-5, and the Coriolis effect is 2e-4.
     assert_close!(height, grown, 3e-4 * grown);
 }

@@ -1,4 +1,4 @@
-//! The navigator on perfect increments: it must stay where it is.
+//! The navigator with perfect increments: its position must not change.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -29,16 +29,16 @@ proptest! {
         }
         let NavState { velocity, nav_from_body, .. } = *navigator.state();
         let turned = attitude_apart(nav_from_body, attitude).norm();
-        // Near a pole rounding turns the meridian that a level is taken from.
+        // Near a pole rounding rotates the meridian that defines the level.
         prop_assert!(turned < 1e-9 / latitude.cos().sqrt(), "turned by {turned:e} rad");
         prop_assert!(velocity.norm() < 1e-6, "{:e} m/s", velocity.norm());
     }
 }
 
-/// On a table that turns by `θ` an interval, what is fixed in s turns by `-θ` in b. With that put
-/// into the navigator's own formulas and expanded, the level part `e` of the Earth's rate leaves a
-/// drift of `e θ³ / 24`, and the level part `f` of the specific force an acceleration of
-/// `f θ⁴ / 240`, after a first step that lacks `f T θ² / 12` for want of one before.
+/// On a table that rotates by `θ` per interval, vectors fixed in s rotate by `-θ` in b. The expansion of the navigator's
+/// formulas for them results in a drift of `e θ³ / 24`, with the level component `e` of the Earth's rate, and in an
+/// acceleration of `f θ⁴ / 240`, with the level component `f` of the specific force, after a first step with an error of `f T
+/// θ² / 12` because it has no previous increments.
 #[test]
 fn turning_table_leaves_what_the_expansion_predicts() {
     const DURATION: f64 = 360.0;
@@ -73,7 +73,7 @@ fn turning_table_leaves_what_the_expansion_predicts() {
 
 #[test]
 fn measured_gravity_leaves_the_navigator_at_rest() {
-    // A tenth of a per cent is more than any anomaly on Earth.
+    // A tenth of a percent is more than any gravity anomaly on the Earth.
     let normal = station(40.0 * DEG);
     let station = Station { gravity: normal.gravity * 1.001, ..normal };
     let rates = Rates {
@@ -88,11 +88,11 @@ fn measured_gravity_leaves_the_navigator_at_rest() {
     assert!(navigator.state().velocity.norm() < 1e-9);
 }
 
-/// What rounding takes from an attitude's rows, in length and in right angles, each sample gives back.
+/// Each sample corrects rounding errors of the length and the orthogonality of an attitude's rows.
 #[test]
 fn an_attitude_that_is_not_quite_a_rotation_becomes_one() {
     const OFF: f64 = 1e-7;
-    // One step leaves the square of what was off, which is up to three times that.
+    // One step leaves the square of the deviation, which is up to three times its element.
     const LEFT: f64 = 20.0 * OFF * OFF;
     let station = station(40.0 * DEG);
     let defect = nalgebra::Matrix3::from_fn(|row, column| OFF * (1.0 + row as f64 - column as f64));
@@ -149,7 +149,7 @@ fn force_gain_is_the_reaction_to_gravity_at_rest() {
     for sample in constant_motion(&turn, 1.0).samples(0.02) {
         navigator.step(&sample.increments);
         let reaction = Vector3::new(0.0, 0.0, turn.station.gravity * 0.02);
-        // The first step knows no sculling: (ωT)² / 12 of the level part is missing.
+        // The first step has no sculling correction: (ωT)² / 12 of the level component is missing.
         assert!((navigator.force_gain().components() - reaction).norm() < 3e-7);
     }
     let w_in = navigator.rate_of_nav_in_inertial();

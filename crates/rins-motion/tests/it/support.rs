@@ -1,4 +1,4 @@
-//! What the tests share: places, tables, and a motion whose increments are had by quadrature.
+//! Code that is common to the tests: sites, tables, and a motion with increments by quadrature.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use rins_motion::mechanism::{ConstantTurn, SpinAxisErrors};
 use rins_motion::{Profile, Segment, Station, TrueMotion};
 use rins_testing::any_euler_angles;
 
-/// The latitude of Xi'an, where the paper's table stands.
+/// The latitude of Xi'an, the site of the paper's table.
 pub(crate) const PAPER_LATITUDE: f64 = 34.25 * DEG;
 
 pub(crate) fn station(latitude: f64) -> Station {
@@ -46,7 +46,7 @@ pub(crate) fn any_attitude() -> impl Strategy<Value = Dcm<Nav, Table>> {
     any_euler_angles().prop_map(|[roll, pitch, yaw]| EulerAngles { roll, pitch, yaw }.dcm())
 }
 
-/// Any table rate from 1 to 60 °/s, either way \[rad/s\].
+/// Any table rate from 1 to 60 °/s, in both directions \[rad/s\].
 pub(crate) fn any_rate() -> impl Strategy<Value = f64> {
     (1.0..60.0_f64, prop::bool::ANY)
         .prop_map(|(rate, back)| if back { -rate } else { rate } * DEG_PER_SECOND)
@@ -60,7 +60,7 @@ pub(crate) fn any_turn() -> impl Strategy<Value = ConstantTurn> {
     })
 }
 
-/// Any errors of up to five minutes of arc and 500 ppm.
+/// Any errors of up to five arcminutes and 500 ppm.
 pub(crate) fn any_spin_axis_errors() -> impl Strategy<Value = SpinAxisErrors> {
     [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64].prop_map(|[xz, yz, z]| SpinAxisErrors {
         misalignment_xz: xz * 300.0 * ARCSEC,
@@ -74,7 +74,7 @@ pub(crate) fn any_vector(largest: f64) -> impl Strategy<Value = Vector3<f64>> {
     [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64].prop_map(move |v| Vector3::from(v) * largest)
 }
 
-/// The true motion of a table that turns at a constant rate for `duration` \[s\].
+/// The true motion of a table with a constant rate over `duration` \[s\].
 pub(crate) fn constant_motion(turn: &ConstantTurn, duration: f64) -> TrueMotion {
     TrueMotion {
         station: turn.station,
@@ -83,27 +83,27 @@ pub(crate) fn constant_motion(turn: &ConstantTurn, duration: f64) -> TrueMotion 
     }
 }
 
-/// The body frame where the axis frame is, at table angle zero.
+/// The attitude of the body at table angle zero.
 pub(crate) fn at_angle_zero(nav_from_table: Dcm<Nav, Table>) -> Dcm<Nav, Body> {
     nav_from_table * Dcm::<Table, Body>::identity()
 }
 
-/// A motion given by its attitude, velocity and place, with their rates.
+/// A motion given by its attitude, velocity and position, with their rates.
 pub(crate) trait Motion {
     /// `C_b^n`.
     fn nav_from_body(&self, time: f64) -> Dcm<Nav, Body>;
     /// `ω_nb^b` \[rad/s\].
     fn turn_rate(&self, time: f64) -> Vector3<f64>;
-    /// Over the Earth \[m/s\].
+    /// The velocity over the Earth \[m/s\].
     fn velocity(&self, time: f64) -> Vector3<f64>;
     /// The rate of the velocity's components in n \[m/s²\].
     fn acceleration(&self, time: f64) -> Vector3<f64>;
-    /// The place.
+    /// The position.
     fn site(&self, time: f64) -> Site;
 
-    /// What a perfect IMU measures from `from` to `to`, by Simpson's rule.
+    /// The output of a perfect IMU from `from` to `to`, by Simpson's rule.
     fn increments(&self, from: f64, to: f64) -> Increments {
-        // With a twentieth of a radian a panel, Simpson's error is below 1e-9 of the signal.
+        // With a twentieth of a radian per panel, the error of Simpson's rule is below 1e-9 of the signal.
         const PANELS: u32 = 32;
         let step = (to - from) / f64::from(PANELS);
         let (mut angle, mut velocity) = (Vector3::zeros(), Vector3::zeros());
@@ -139,7 +139,7 @@ pub(crate) trait Motion {
     }
 }
 
-/// The rotation vector between two attitudes \[rad\], resolved in n: computed against true.
+/// The rotation vector between two attitudes \[rad\], resolved in n: computed relative to true.
 pub(crate) fn attitude_apart(computed: Dcm<Nav, Body>, truth: Dcm<Nav, Body>) -> Vector3<f64> {
     let apart: Dcm<Nav, Nav> = computed * truth.inverse();
     apart.rotation_vector()

@@ -1,4 +1,4 @@
-//! The increments of a perfect IMU, against a Runge-Kutta integration of its rates.
+//! The increments of a perfect IMU, compared with a Runge-Kutta integration of its rates.
 
 use nalgebra::{Rotation3, SVector, Vector3};
 use proptest::prelude::*;
@@ -9,17 +9,17 @@ use rins_testing::{any_latitude, assert_close};
 
 use crate::support::{any_attitude, station};
 
-/// The table's acceleration in these profiles \[rad/s²\].
+/// The angular acceleration of the table in these profiles \[rad/s²\].
 const ACCELERATION: f64 = 0.1;
 
-/// Over 90 s of steps of 5 ms Runge-Kutta rounds the table angle to some 1e-11 rad, and what that
-/// does to the integral of gravity is a thousand times as much \[m/s\].
+/// Over 90 s with steps of 5 ms the rounding error of the table angle in the Runge-Kutta method is about 1e-11 rad, and its
+/// effect on the integral of gravity is a thousand times as large \[m/s\].
 const RUNGE_KUTTA: f64 = 1e-8;
 
 /// The rounding of sums of some thousand m/s.
 const ROUNDING: f64 = 2e-10;
 
-/// Rates that reverse, each held long enough for its ramp.
+/// Rates that reverse, each longer than its ramp.
 fn any_segments() -> impl Strategy<Value = Vec<Segment>> {
     let segment = (-1.0..1.0_f64, 21.0..30.0_f64);
     prop::collection::vec(segment.prop_map(|(rate, duration)| Segment { rate, duration }), 2..4)

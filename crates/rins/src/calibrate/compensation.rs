@@ -14,7 +14,7 @@ pub(crate) const STEPS: [&str; 5] = [
      the catalogue). A value in the file has the sign with which the error enters the reading.",
     "4. Subtract the sum from the measured values: this is the next estimate. Misalignment indices are row, column: \
      gyro.misalignment.xz times the rate about z is subtracted from gyro x.",
-    "5. Repeat from step 3 until convergence (about three iterations). For increments, multiply by the interval. Noise is not \
+    "5. Repeat from step 3 until convergence (about three iterations). If the log contains increments, multiply the compensated readings by the interval. Noise is not \
      compensated.",
 ];
 

@@ -1,6 +1,6 @@
 //! The compensation equation and its steps, and the error budget of free inertial navigation.
 
-use rins_frames::units::{ARCSEC, DEG};
+use rins_frames::units::ARCSEC;
 use rins_terms::Model;
 
 use rins_design::Budget;
@@ -39,8 +39,8 @@ pub(super) fn compensation_section(model: &Model) -> Section {
     }));
     Section {
         heading: "How to compensate".into(),
-        intro: "calibration.toml holds the numbers; rins navigate --calibration and rins apply perform these steps. Errors are \
-                measured minus true. S is the diagonal matrix of scale errors; M holds the misalignments off its diagonal."
+        intro: "calibration.toml contains the errors; rins navigate --calibration and rins apply perform these steps. Errors are \
+                measured minus true. S is the diagonal matrix of scale errors; M contains the misalignments as off-diagonal elements."
             .into(),
         items,
     }
@@ -56,7 +56,7 @@ pub(super) fn budget_section(heading: &str, ids: &[&str], budget: &Budget) -> Se
             vec![
                 Cell::text(*id),
                 shown(one.by_value.velocity.norm()),
-                shown(one.by_value.attitude.norm() / DEG),
+                Cell::Number { value: one.by_value.attitude.norm() / ARCSEC, decimals: 3 },
                 shown(one.by_sigma.velocity.norm()),
                 Cell::Number { value: one.by_sigma.attitude.norm() / ARCSEC, decimals: 3 },
             ]
@@ -72,17 +72,17 @@ pub(super) fn budget_section(heading: &str, ids: &[&str], budget: &Budget) -> Se
     Section {
         heading: heading.into(),
         intro: format!(
-            "The effect of each error on free inertial navigation over the first {:.0} s of this run, from standstill: of the \
-             uncompensated error, and of its 1σ after compensation. Parameters that are observable only in a combination have \
-             large marginal sigmas; because of their correlations their joint effect is small (last row).",
+            "Velocity and attitude errors after {:.0} s of free inertial navigation, caused by each estimated error if it is not \
+             compensated, and by an error of 1σ (marginal) that remains after compensation. Parameters that are observable only in \
+             a combination have large marginal sigmas. The last row takes their correlations into account.",
             budget.after
         ),
         items: vec![Item::Table(Table {
-            caption: "Drift of velocity and attitude".into(),
+            caption: "Velocity and attitude errors".into(),
             columns: vec![
                 Column::id("parameter"),
                 Column::number("uncompensated [m/s]"),
-                Column::number("uncompensated [deg]"),
+                Column::number("uncompensated [arcsec]"),
                 Column::number("compensated, 1σ [m/s]"),
                 Column::number("compensated, 1σ [arcsec]"),
             ],

@@ -45,12 +45,15 @@ fn strengths(certificate: &Certificate) -> Vec<Vec<Cell>> {
     let imu = certificate.fit.noise[0].imu;
     let sheet = &certificate.runs[0].prepared.imu;
     let row = |name: String, found: f64, given: Option<f64>, factor: f64, unit: &str| {
-        vec![
-            Cell::text(name),
-            Cell::text(figure(found / factor, 4)),
-            Cell::text(given.map_or_else(|| "–".into(), |given| figure(given / factor, 4))),
-            Cell::text(unit),
-        ]
+        // What is neither stated nor found is not in the noise model.
+        (found > 0.0 || given.is_some()).then(|| {
+            vec![
+                Cell::text(name),
+                Cell::text(figure(found / factor, 3)),
+                Cell::text(given.map_or_else(|| "–".into(), |given| figure(given / factor, 3))),
+                Cell::text(unit),
+            ]
+        })
     };
     let mut rows = Vec::new();
     let triads = [
@@ -59,14 +62,14 @@ fn strengths(certificate: &Certificate) -> Vec<Vec<Cell>> {
     ];
     for (name, found, spec, factor, unit) in triads {
         let given = Some(spec.noise_density);
-        rows.push(row(
+        rows.extend(row(
             format!("{name}, white"),
             found.white,
             given,
             factor,
             &format!("{unit}/√Hz"),
         ));
-        rows.push(row(
+        rows.extend(row(
             format!("{name}, bias instability"),
             found.flicker,
             spec.bias_instability,
@@ -74,7 +77,7 @@ fn strengths(certificate: &Certificate) -> Vec<Vec<Cell>> {
             unit,
         ));
         let walk_unit = format!("{unit}/√h");
-        rows.push(row(
+        rows.extend(row(
             format!("{name}, random walk"),
             found.walk,
             spec.random_walk,
@@ -85,26 +88,32 @@ fn strengths(certificate: &Certificate) -> Vec<Vec<Cell>> {
     for (run, noise) in certificate.runs.iter().zip(&certificate.fit.noise) {
         let rig = &run.prepared.run.rig;
         let name = |what: &str| format!("{what}, {}", run.prepared.name);
-        rows.push(row(
-            name("wobble of the axis"),
+        rows.extend(row(
+            name("axis direction noise, 1σ per epoch"),
             noise.wobble,
             Some(rig.wobble),
             ARCSEC,
             "arcsec",
         ));
         if let Reference::Encoder { noise: given } = rig.reference {
-            rows.push(row(name("encoder"), noise.encoder, Some(given), ARCSEC, "arcsec"));
+            rows.extend(row(
+                name("encoder noise, 1σ per reading"),
+                noise.encoder,
+                Some(given),
+                ARCSEC,
+                "arcsec",
+            ));
         }
         if noise.imu.jitter > 0.0 {
-            let moments = name("moments at which the encoder is read");
-            rows.push(row(moments, noise.imu.jitter, None, 1e-6, "µs"));
+            let moments = name("time jitter of the encoder readings, 1σ");
+            rows.extend(row(moments, noise.imu.jitter, None, 1e-6, "µs"));
         }
-        let velocity = name("velocity of the base");
-        rows.push(row(velocity, noise.velocity, Some(rig.velocity), 1e-3, "mm/s"));
+        let velocity = name("base velocity noise, 1σ");
+        rows.extend(row(velocity, noise.velocity, Some(rig.velocity), 1e-3, "mm/s"));
         for (axis, sway) in ["x", "y", "z"].into_iter().zip(noise.sway) {
             if sway > 0.0 {
-                let sways = name(&format!("sway of the base about {axis}"));
-                rows.push(row(sways, sway, None, ARCSEC, "arcsec/√s"));
+                let sways = name(&format!("base attitude random walk about {axis}"));
+                rows.extend(row(sways, sway, None, ARCSEC, "arcsec/√s"));
             }
         }
     }
@@ -122,7 +131,7 @@ pub(super) fn noise_section(certificate: &Certificate) -> Section {
     });
     let intro = match certificate.noise {
         NoiseChoice::Likely => {
-            "Restricted maximum likelihood estimates of the noise parameters; initial values from the data sheet."
+            "Restricted maximum likelihood estimates of the noise parameters. The initial values are those of the rig file."
         }
         NoiseChoice::Given => "The noise parameters of the data sheet.",
     };
@@ -135,7 +144,7 @@ pub(super) fn noise_section(certificate: &Certificate) -> Section {
                 columns: vec![
                     Column::text("noise"),
                     Column::number("estimate"),
-                    Column::number("data sheet"),
+                    Column::number("initial value"),
                     Column::text("unit"),
                 ],
                 rows: strengths(certificate),

@@ -3,10 +3,11 @@
 use std::fmt::Write as _;
 
 use rins_calibration::MEASUREMENTS;
-use rins_estimation::correlation;
+use rins_estimation::{Estimate, correlation};
 use rins_frames::units::DEG;
-use rins_report::number::figure;
+use rins_report::number::estimate as written;
 use rins_report::{Cell, Column, Item, Matrix, Report, Section, Table, Tone};
+use rins_terms::catalogue;
 
 use super::certificate::{Certificate, CertifiedRun};
 use super::compensation_guide::{budget_section, compensation_section};
@@ -19,8 +20,8 @@ use crate::table::aligned;
 
 /// What the rows of an innovation are.
 const CHANNELS: [&str; MEASUREMENTS] = [
-    "direction of the axis, x",
-    "direction of the axis, y",
+    "tilt of the spin axis about x of the axis frame",
+    "tilt of the spin axis about y of the axis frame",
     "table angle",
     "velocity along x of the axis frame",
     "velocity along y of the axis frame",
@@ -41,11 +42,12 @@ pub(super) fn certificate_text(certificate: &Certificate) -> String {
     ];
     for (place, estimate) in certificate.fit.parameters.iter().enumerate() {
         let unit = estimate.parameter.unit;
+        let (value, sigma) = written(estimate.value / unit.factor, estimate.sigma / unit.factor);
         rows.push(vec![
             estimate.parameter.id.clone(),
             run_name(estimate.run),
-            figure(estimate.value / unit.factor, 4),
-            figure(estimate.sigma / unit.factor, 4),
+            value,
+            sigma,
             unit.symbol.into(),
             observability(&certificate.identifiability, place, Some(certificate.value(place))),
         ]);
@@ -164,26 +166,27 @@ fn parameters_section(certificate: &Certificate) -> Section {
         Column::number("run"),
         Column::number("estimate"),
         Column::text("unit"),
-        Column::text("relative to prior (±3σ)"),
+        Column::text("relative to prior (±3 prior σ)"),
         Column::text("class"),
         Column::text("observability"),
     ];
     if !several {
         columns.remove(1);
     }
+    let decimals = attitude_decimals(certificate);
     let axes = certificate.runs.iter().map(|run| {
         let angles = run.nav_from_table.euler_angles();
         let mut row = vec![Cell::text(&run.prepared.name)];
         row.extend(
             [angles.roll, angles.pitch, angles.yaw]
-                .map(|angle| Cell::Number { value: angle / DEG, decimals: 5 }),
+                .map(|angle| Cell::Number { value: angle / DEG, decimals }),
         );
         row
     });
     let mut items = vec![
         Item::Table(Table { caption: "Estimates, 1σ".into(), columns, rows: rows.collect() }),
         Item::Table(Table {
-            caption: "Attitude of the axis frame".into(),
+            caption: "Attitude of the axis frame (uncertainty: axis.attitude)".into(),
             columns: vec![
                 Column::text("run"),
                 Column::number("roll [deg]"),
@@ -197,13 +200,23 @@ fn parameters_section(certificate: &Certificate) -> Section {
     items.splice(1..1, gauges.map(|sentence| Item::Note(Tone::Neutral, sentence)));
     Section {
         heading: "Parameters".into(),
-        intro: "Values follow eq. (1) and the terms' equations: measured = true + bias + [S, M] true + terms. For a \
-                parameter that is observable only in a combination the table has its marginal estimate and sigma, with the prior; \
-                the last column has those of the combination. An unobservable parameter keeps its prior mean. A parameter of one \
-                run only has the number of the run."
+        intro: "The errors are those of measured = true + bias + (S + M) true + terms. Estimates and sigmas are marginal and \
+                include the prior. The bar shows the estimate minus the prior mean; its whisker is 1σ of the estimate. For a \
+                parameter that is observable only in a combination, the last column has the estimate and sigma of the \
+                combination. An unobservable or prior-dominated parameter keeps its prior mean. Parameters specific to one run have \
+                the number of the run."
             .into(),
         items,
     }
+}
+
+/// The decimals of an attitude in degrees: down to the second digit of the smallest sigma of `axis.attitude`.
+fn attitude_decimals(certificate: &Certificate) -> usize {
+    let is_attitude =
+        |estimate: &&Estimate| estimate.parameter.id.starts_with(catalogue::AXIS_ATTITUDE.id);
+    let sigmas = certificate.fit.parameters.iter().filter(is_attitude);
+    let least = sigmas.map(|estimate| estimate.sigma / DEG).fold(f64::INFINITY, f64::min);
+    (0..5).find(|&decimals| 10.0_f64.powi(-decimals) < least).map_or(5, |place| place as usize + 1)
 }
 
 fn correlation_section(certificate: &Certificate) -> Section {

@@ -74,7 +74,7 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
         Err(error) => return format!("The predictive gain could not be measured: {error}."),
     };
     let scored = format!(
-        "the log score {} by {} nats (95 % interval: {} to {} nats)",
+        "the log score {} by {} nats (95 % interval {} to {} nats)",
         if gain.rise() < 0.0 { "changes" } else { "rises" },
         figure(gain.rise(), 3),
         figure(gain.interval.0, 3),
@@ -82,9 +82,12 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
     );
     let over = format!("On {}", held_out(measured, gain));
     let drift = gain.drifts.last().map_or_else(String::new, |drift| {
-        let further =
-            if drifts_further(gain) { "; compensated navigation drifts further: " } else { "; " };
-        format!("{further}{}", drifting(drift))
+        let further = if drifts_further(gain) {
+            ". Compensated navigation drifts further: after"
+        } else {
+            ". After"
+        };
+        format!("{further} {}", drifting(drift))
     });
     match gain.verdict {
         GainVerdict::Improved => {
@@ -104,13 +107,15 @@ fn drifts_further(gain: &Gain) -> bool {
 
 /// What was held out.
 fn held_out(measured: &Measured, gain: &Gain) -> String {
-    let size = format!("{} blocks: revolutions or parts of a static interval", gain.blocks);
+    let size = format!("{} blocks, each one revolution or part of a static interval", gain.blocks);
     match &measured.on {
         On::Ends => {
-            format!("held-out data (the last 30 % of every segment of constant rate: {size})")
+            format!("held-out data (the last 30 % of each segment of constant rate; {size})")
         }
-        On::Fastest => format!("held-out data (the segments at the table's fastest rate: {size})"),
-        On::Run(rig) => format!("held-out data (the last 30 % of every segment of {rig}: {size})"),
+        On::Fastest => {
+            format!("held-out data (the segments at the fastest rate of the table; {size})")
+        }
+        On::Run(rig) => format!("held-out data (the last 30 % of each segment of {rig}; {size})"),
     }
 }
 
@@ -118,7 +123,7 @@ fn drifting(drift: &Drift) -> String {
     let [before, after] = drift.attitude.map(|angle| figure(angle / DEG, 3));
     let [without, with] = drift.velocity.map(|velocity| figure(velocity, 3));
     format!(
-        "after {:.0} s of free inertial navigation the velocity error is {with} m/s (given model: {without} m/s), the \
+        "{:.0} s of free inertial navigation the velocity error is {with} m/s (given model: {without} m/s), the \
          attitude error {after} deg (given model: {before} deg)",
         drift.after
     )
@@ -132,7 +137,7 @@ mod tests {
 
     /// A gain of 30 nats after which the attitude is so many times as far off.
     fn measured(times: f64) -> Measured {
-        let foresight = |log_score| PredictiveScore { log_score, nis_mean: 6.0, nis_dof: 6 };
+        let score = |log_score| PredictiveScore { log_score, nis_mean: 6.0, nis_dof: 6 };
         let drift = Drift {
             after: 60.0,
             windows: 3,
@@ -143,8 +148,8 @@ mod tests {
             spans: vec![vec![0..3000]],
             samples: 3000,
             blocks: 6,
-            before: foresight(100.0),
-            after: foresight(130.0),
+            before: score(100.0),
+            after: score(130.0),
             interval: (12.0, 47.0),
             drifts: vec![drift],
             verdict: GainVerdict::Improved,
@@ -157,7 +162,7 @@ mod tests {
         let better = gain_sentence(&measured(0.5));
         assert!(better.contains("predicts better") && !better.contains("further"), "{better}");
         let further = gain_sentence(&measured(9.0));
-        assert!(further.contains("; compensated navigation drifts further: after 60 s"));
+        assert!(further.contains(". Compensated navigation drifts further: after 60 s"));
         assert!(
             further.contains("the attitude error 0.0900 deg (given model: 0.0100 deg)"),
             "{further}"

@@ -42,11 +42,11 @@ pub(super) fn overlay_sections(found: &DiagnosisOutcome) -> Vec<Section> {
     sections.collect()
 }
 
-const INTRO: &str = "Measured readings less those simulated with the given and with the extended model, along the trajectory of the \
-                     table: over time, and over table angle while the table turns. Each point is a mean. The residuals of an adequate \
-                     model are noise around zero or around a constant offset in body axes. Last, the amplitude at each harmonic order \
-                     of the table angle: order 0 is constant in the body frame, order -1 in the axis frame, and a difference \
-                     between x and y is at +1.";
+const INTRO: &str = "Residuals: measured minus computed readings for the given and for the extended model, against time and, while the \
+                     table rotates, against table angle. Each point is a mean. The residuals of an adequate model are noise around \
+                     zero or around a constant offset in body axes. The last plots show the amplitude spectrum of the complex signal \
+                     x + iy against harmonic order of the table angle. Order 0 is constant in the body frame, order −1 is constant in \
+                     the axis frame, and unequal scale factors of x and y appear at order +1.";
 
 fn plots(times: &[f64], overlays: &[Overlay; 2]) -> Vec<Item> {
     let from = times.first().copied().unwrap_or_default();

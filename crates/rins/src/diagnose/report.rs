@@ -6,7 +6,7 @@ use super::found::{DiagnosisOutcome, Named};
 use super::gain::gain_section;
 use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
-use super::words::{alternatives, next_steps, probability, summary};
+use super::words::{alternatives, probability, separating_tests, summary};
 use crate::settings::settings_in_words;
 use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};
@@ -16,11 +16,18 @@ pub(super) fn diagnosis_report(found: &DiagnosisOutcome) -> Report {
     let certificate = &found.certificate;
     let samples: usize = certificate.runs.iter().map(|run| run.prepared.samples()).sum();
     let mut summary = summary(found);
-    summary.extend(next_steps(found));
+    summary.extend(separating_tests(found));
+    if !found.causes.is_empty() {
+        summary.push(
+            "model.toml, in the folder of this report, has the extended model, for rins calibrate --model; calibration.toml has its \
+             estimates, for rins navigate and rins apply."
+                .into(),
+        );
+    }
     Report {
         title: found.title(),
         subtitle: format!(
-            "rins diagnose, model {}: {samples} samples, {:.1} s",
+            "rins diagnose, model {}: {samples} samples, computation time {:.1} s",
             certificate.model, found.seconds
         ),
         summary,
@@ -49,7 +56,7 @@ fn causes(found: &DiagnosisOutcome) -> Section {
                 Column::number("significance [σ]"),
                 Column::number("p"),
                 Column::text("not distinguished from"),
-                Column::text("plausible magnitude"),
+                Column::text("magnitude"),
             ],
             rows,
         })]
@@ -57,7 +64,7 @@ fn causes(found: &DiagnosisOutcome) -> Section {
     Section {
         heading: "Causes".into(),
         intro: "Each effect was estimated with all the others and with the model. p is family-wise over the catalogue: the \
-                probability of evidence as strong in a run without any of its effects."
+                probability that, in a run without unmodeled effects, any effect of the catalogue shows evidence as strong."
             .into(),
         items,
     }
@@ -71,35 +78,38 @@ fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
     } else {
         format!("{}, {settings}", cause.term.name)
     };
-    let first = |place: usize, cell: Cell| if place == 0 { cell } else { Cell::Empty };
-    cause
-        .parameters
-        .iter()
-        .enumerate()
-        .map(|(place, estimate)| {
-            let unit = estimate.parameter.unit;
-            vec![
-                first(place, Cell::text(&name)),
-                Cell::text(&estimate.parameter.id),
-                Cell::Estimate {
-                    value: estimate.value / unit.factor,
-                    sigma: estimate.sigma / unit.factor,
-                },
-                Cell::text(unit.symbol),
-                first(place, Cell::Number { value: named.sigmas, decimals: 1 }),
-                first(place, Cell::text(probability(cause.ln_p))),
-                first(place, Cell::text(alternatives(named))),
-                first(
-                    place,
-                    if named.plausible {
-                        Cell::badge(Tone::Good, "typical")
-                    } else {
-                        Cell::badge(Tone::Warning, "too large")
-                    },
-                ),
-            ]
-        })
-        .collect()
+    let joint = vec![
+        Cell::Number { value: named.sigmas, decimals: 1 },
+        Cell::text(probability(cause.ln_p)),
+        Cell::text(alternatives(named)),
+        if named.plausible {
+            Cell::badge(Tone::Good, "typical")
+        } else {
+            Cell::badge(Tone::Warning, "too large")
+        },
+    ];
+    let figures = |estimate: &rins_estimation::Estimate| {
+        let unit = estimate.parameter.unit;
+        vec![
+            Cell::text(&estimate.parameter.id),
+            Cell::Estimate {
+                value: estimate.value / unit.factor,
+                sigma: estimate.sigma / unit.factor,
+            },
+            Cell::text(unit.symbol),
+        ]
+    };
+    let empty = |cells: usize| vec![Cell::Empty; cells];
+    match &cause.parameters[..] {
+        [only] => vec![[vec![Cell::text(name)], figures(only), joint].concat()],
+        // The significance is that of all parameters together.
+        several => {
+            let all = vec![Cell::text(name), Cell::text(cause.term.id)];
+            std::iter::once([all, empty(2), joint].concat())
+                .chain(several.iter().map(|one| [empty(1), figures(one), empty(4)].concat()))
+                .collect()
+        }
+    }
 }
 
 fn unexplained(found: &DiagnosisOutcome) -> Section {
@@ -138,7 +148,7 @@ fn unexplained(found: &DiagnosisOutcome) -> Section {
     Section {
         heading: "Unexplained residual structure".into(),
         intro: "The innovations of the extended model, searched for spectral lines, harmonic orders of the table angle, drifts, unequal \
-                spread and outliers; and each cause, compared between parts of the run."
+                variance and outliers; and each cause, compared between parts of the run."
             .into(),
         items,
     }
@@ -156,28 +166,29 @@ fn shifts(found: &DiagnosisOutcome) -> Section {
             estimate(&shift.before),
             estimate(&shift.after),
             Cell::text(unit.symbol),
-            Cell::Number { value: shift.sigmas(), decimals: 1 },
+            Cell::Number { value: -shift.sigmas(), decimals: 1 },
         ]
     });
     let items = if found.shifts.is_empty() {
         vec![Item::Note(Tone::Neutral, "No estimate changes by so much.".into())]
     } else {
         vec![Item::Table(Table {
-            caption: "Estimates without and with the causes".into(),
+            caption: "Estimates without and with the identified effects".into(),
             columns: vec![
                 Column::id("parameter"),
                 Column::number("without"),
                 Column::number("with"),
                 Column::text("unit"),
-                Column::number("change [σ]"),
+                Column::number("bias without [σ]"),
             ],
             rows: rows.collect(),
         })]
     };
     Section {
         heading: "Effect on the estimates".into(),
-        intro: "Estimates whose change exceeds both 1σ of the estimate without the causes and 3σ of the change that is expected if the \
-                causes are absent (Hausman 1978)."
+        intro: "Estimates that are biased without the identified effects. Listed if the change exceeds 1σ of the estimate without \
+                the effects, and three times the standard uncertainty of the change (Hausman 1978). Without the effects the sigmas \
+                are often larger, because the estimated noise then contains the effects."
             .into(),
         items,
     }
@@ -211,7 +222,7 @@ fn limits(found: &DiagnosisOutcome) -> Section {
     Section {
         heading: "Minimum detectable effects".into(),
         intro: "For each parameter of each effect that the model does not have: the amplitude that this run detects with 95 % power, \
-                at p < 0.01, if no other unmodeled effect is present. Smaller effects may be present and not be named."
+                at p < 0.01, if no other unmodeled effect is present. Smaller effects may be present and remain undetected."
             .into(),
         items: [power(&found.limits), vec![Item::Table(Table {
             caption: "Minimum detectable amplitudes".into(),
@@ -248,8 +259,9 @@ fn power(limits: &[Limit]) -> Vec<Item> {
         x_label: "True amplitude [σ]".into(),
         y_label: "Detected [%]".into(),
         series: vec![curve(fewest), curve(most)],
-        caption: "The detection threshold is lowest for effects without a search and highest for effects that are searched over many event \
-                  times, harmonic orders or parameters; all others are between. The σ of each is in the table."
+        caption: "The curves show the effects with the lowest and the highest detection threshold; those of all others lie between. The \
+                  threshold rises with the number of event times, harmonic orders or parameters that are searched. The σ of each \
+                  effect is in the table."
             .into(),
         ..Plot::default()
     })]
@@ -262,13 +274,14 @@ fn untestable(found: &DiagnosisOutcome) -> Section {
         .map(|one| vec![Cell::text(one.term.id), Cell::text(one.term.name), Cell::text(&one.why)]);
     Section {
         heading: "Not testable".into(),
-        intro: "Effects that this run cannot show at any amplitude of their typical range.".into(),
+        intro: "Effects that this run cannot detect at any amplitude of their typical range."
+            .into(),
         items: vec![Item::Table(Table {
             caption: "Not testable".into(),
             columns: vec![
                 Column::id("effect"),
                 Column::text("description"),
-                Column::text("reason"),
+                Column::text("reason or remedy"),
             ],
             rows: rows.collect(),
         })],

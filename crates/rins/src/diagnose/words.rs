@@ -108,7 +108,7 @@ fn headline(found: &DiagnosisOutcome) -> String {
         .iter()
         .map(|named| {
             format!(
-                "{} ({}), {}, {:.0}σ, p = {}",
+                "{} ({}), {}, significance {:.0}σ, p = {}",
                 named.cause.term.name,
                 named.cause.term.cause,
                 amplitude(found, named),
@@ -172,7 +172,7 @@ fn amplitude(found: &DiagnosisOutcome, named: &Named) -> String {
                 .in_samples(own)
                 .map_or_else(String::new, |count| format!(" ({} samples)", figure(count, 3)));
             let symbol = symbol(unit);
-            format!("{name} = {value} ± {sigma} {symbol}{samples}").trim_end().to_owned()
+            format!("{name} = {value} ± {sigma} {symbol}{samples}").trim_end().to_owned() + " (1σ)"
         })
         .collect();
     let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
@@ -224,7 +224,10 @@ fn odds_in_words(odds: f64) -> String {
 /// What the causes did to the estimates as long as they were not in the model.
 fn damage(found: &DiagnosisOutcome) -> String {
     if found.shifts.is_empty() {
-        return "It biases no estimate of the model by more than its sigma.".into();
+        return format!(
+            "Without {} in the model no estimate is biased by more than its sigma.",
+            these_effects(found)
+        );
     }
     let told: Vec<String> = found
         .shifts
@@ -235,7 +238,7 @@ fn damage(found: &DiagnosisOutcome) -> String {
             format!(
                 "{} by {} {} ({:.1}σ)",
                 shift.before.parameter.id,
-                figure((shift.before.value - shift.after.value) / unit.factor, 3),
+                figure((shift.before.value - shift.after.value) / unit.factor, 3).replace('-', "−"),
                 unit.symbol,
                 shift.sigmas().abs()
             )
@@ -243,12 +246,20 @@ fn damage(found: &DiagnosisOutcome) -> String {
         .collect();
     let more = found.shifts.len() - told.len();
     let more = if more == 0 { String::new() } else { format!(", and {more} more") };
-    format!("Without it in the model the estimates are biased: {}{more}.", told.join(", "))
+    format!(
+        "Without {} in the model the estimates are biased: {}{more}.",
+        these_effects(found),
+        told.join(", ")
+    )
 }
 
-/// What to do next.
-pub(super) fn next_steps(found: &DiagnosisOutcome) -> Vec<String> {
-    let mut steps: Vec<String> = found
+fn these_effects(found: &DiagnosisOutcome) -> &'static str {
+    if found.causes.len() == 1 { "this effect" } else { "these effects" }
+}
+
+/// For each effect that is not distinguished from others, the test that does.
+pub(super) fn separating_tests(found: &DiagnosisOutcome) -> Vec<String> {
+    found
         .causes
         .iter()
         .filter(|named| !named.cause.rivals.is_empty())
@@ -258,15 +269,7 @@ pub(super) fn next_steps(found: &DiagnosisOutcome) -> Vec<String> {
                 named.cause.term.name, named.cause.term.told_apart_by
             )
         })
-        .collect();
-    if !found.causes.is_empty() {
-        steps.push(
-            "With -o DIR the extended model is in DIR/model.toml, for rins calibrate --model, and its estimates are in \
-             DIR/calibration.toml, for rins navigate and rins apply."
-                .into(),
-        );
-    }
-    steps
+        .collect()
 }
 
 /// A probability, from its logarithm, which may be of any size.

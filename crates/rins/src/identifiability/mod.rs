@@ -1,4 +1,4 @@
-//! What data tell of parameters, in words.
+//! The observability of parameters, in words.
 
 mod result;
 
@@ -12,10 +12,10 @@ pub use self::result::{
 use rins_report::number::{estimate, figure};
 use rins_report::{Cell, Tone};
 
-/// How many of those that are unobservable are named in a sentence.
+/// The most parameters that a sentence names.
 const MOST_NAMED: usize = 12;
 
-/// What stands beside a parameter in a combination.
+/// A further parameter of a combination.
 pub(crate) struct Summand<'a> {
     /// How much one of its unit counts, in the parameter's unit.
     pub(crate) coefficient: f64,
@@ -33,7 +33,7 @@ pub(crate) fn sum_in_words<'a>(
 ) -> String {
     let mut sum = name.to_owned();
     for other in others {
-        let sign = if other.coefficient < 0.0 { '-' } else { '+' };
+        let sign = if other.coefficient < 0.0 { '−' } else { '+' };
         let size = figure(other.coefficient.abs(), 3);
         // Writing to a string cannot fail.
         let _ = write!(sum, " {sign} ");
@@ -54,6 +54,12 @@ fn ratio(unit: &str, other: &str) -> String {
 
 /// The observability of a parameter that the data show by itself.
 pub(crate) const OBSERVABLE: &str = "observable";
+
+/// The observability of a parameter of which the data reduce the sigma by less than a factor of two.
+const PRIOR_DOMINATED: &str = "prior-dominated";
+
+/// The observability of a parameter that does not affect the data.
+const UNOBSERVABLE: &str = "unobservable";
 
 /// The observability of a parameter that only this combination shows, and what the combination was found to be.
 pub(crate) fn only_in(combination: &str, found: Option<(f64, f64, &str)>) -> String {
@@ -87,8 +93,8 @@ pub(crate) fn observability(
     let (unknown, seen) = (&identifiability.unknowns[place], &identifiability.parameters[place]);
     match seen.shown {
         _ if seen.identifiable => OBSERVABLE.into(),
-        Observable::Alone => "prior-dominated".into(),
-        Observable::Nothing => "unobservable (prior-dominated)".into(),
+        Observable::Alone => PRIOR_DOMINATED.into(),
+        Observable::Nothing => UNOBSERVABLE.into(),
         Observable::Combination | Observable::Part { .. } => {
             let summand = |alias: &Alias| Summand {
                 coefficient: coefficient(identifiability, place, alias),
@@ -100,7 +106,7 @@ pub(crate) fn observability(
             let unit = unknown.unit;
             let found =
                 found.map(|(value, sigma)| (value / unit.factor, sigma / unit.factor, unit.symbol));
-            let gauge = seen.gauge.map(|gauge| format!("; gauge freedom: {}", gauge.name));
+            let gauge = seen.gauge.map(|gauge| format!("; choice of reference: {}", gauge.name));
             only_in(&sum, found) + &gauge.unwrap_or_default()
         }
     }
@@ -117,11 +123,14 @@ pub(crate) fn badge(identifiability: &Identifiability, place: usize) -> Cell {
     let seen = &identifiability.parameters[place];
     match seen.shown {
         _ if seen.identifiable => Cell::badge(Tone::Good, OBSERVABLE),
-        Observable::Part { .. } if seen.gauge.is_some() => Cell::badge(Tone::Neutral, "gauge"),
+        Observable::Part { .. } if seen.gauge.is_some() => {
+            Cell::badge(Tone::Neutral, "choice of reference")
+        }
         Observable::Combination | Observable::Part { .. } => {
             Cell::badge(Tone::Warning, "combination")
         }
-        Observable::Alone | Observable::Nothing => Cell::badge(Tone::Neutral, "unobservable"),
+        Observable::Alone => Cell::badge(Tone::Neutral, PRIOR_DOMINATED),
+        Observable::Nothing => Cell::badge(Tone::Neutral, UNOBSERVABLE),
     }
 }
 
@@ -144,7 +153,7 @@ impl Sorted {
     }
 }
 
-/// How many are told how, in a sentence or two.
+/// How many parameters are observable, in combinations, or not.
 pub(crate) fn rank_sentence(identifiability: &Identifiability) -> String {
     let Sorted { observable, in_combination, unobservable } = Sorted::of(identifiability);
     let (n, rank) = (identifiability.unknowns.len(), identifiability.rank.rank());
@@ -153,17 +162,20 @@ pub(crate) fn rank_sentence(identifiability: &Identifiability) -> String {
         observable.len(),
         in_combination.len()
     );
-    if !unobservable.is_empty() {
-        let mut names: Vec<String> = unobservable
-            .iter()
-            .take(MOST_NAMED)
-            .map(|&place| name(identifiability, place))
-            .collect();
-        if unobservable.len() > MOST_NAMED {
-            names.push(format!("{} others", unobservable.len() - MOST_NAMED));
+    let (prior_dominated, unobservable): (Vec<usize>, Vec<usize>) = unobservable
+        .iter()
+        .partition(|&&place| identifiability.parameters[place].shown == Observable::Alone);
+    for (places, status) in [(prior_dominated, PRIOR_DOMINATED), (unobservable, UNOBSERVABLE)] {
+        if places.is_empty() {
+            continue;
         }
-        let verb = if unobservable.len() == 1 { "is" } else { "are" };
-        let _ = write!(text, "; {} {verb} unobservable", list(&names));
+        let mut names: Vec<String> =
+            places.iter().take(MOST_NAMED).map(|&place| name(identifiability, place)).collect();
+        if places.len() > MOST_NAMED {
+            names.push(format!("{} others", places.len() - MOST_NAMED));
+        }
+        let verb = if places.len() == 1 { "is" } else { "are" };
+        let _ = write!(text, "; {} {verb} {status}", list(&names));
     }
     let lost = match n - rank {
         0 => "there is no null space".to_string(),
@@ -192,10 +204,13 @@ fn gauges(identifiability: &Identifiability) -> Vec<&'static Gauge> {
     met
 }
 
-/// What no schedule tells, a sentence for each gauge met.
+/// The choices of reference among the parameters, a sentence for each.
 pub(crate) fn gauge_sentences(identifiability: &Identifiability) -> Vec<String> {
     let sentence = |gauge: &Gauge| {
-        format!("Gauge freedom (unobservable under every schedule): {}: {}.", gauge.name, gauge.why)
+        format!(
+            "Choice of reference, unobservable under every schedule: {}; {}.",
+            gauge.name, gauge.why
+        )
     };
     gauges(identifiability).into_iter().map(sentence).collect()
 }

@@ -9,7 +9,7 @@ use rins_frames::{EARTH_RATE, InFrame, Increments};
 use rins_inspection::{SensorFigures, StaticOptions};
 use rins_motion::Recording;
 
-/// Nobody walks by for so long after an interval begins and before it ends \[s\].
+/// There are no disturbances for this time after the start of an interval and before its end \[s\].
 const CALM: f64 = 1.5;
 
 const RATES: [f64; 8] = [10.0, 20.0, 50.0, 100.0, 200.0, 400.0, 1000.0, 2000.0];
@@ -18,7 +18,7 @@ const GRADES: [&str; 5] = ["consumer", "industrial", "tactical", "fog", "rlg"];
 
 const MOTIONS: [&str; 3] = ["hand", "table", "rocked"];
 
-/// What sensors of a grade get wrong; the figures of each draw lie about these.
+/// The typical errors of the sensors of a grade; those of a log are drawn around them.
 struct Grade {
     /// Densities of white noise \[rad/s/√Hz\], \[m/s²/√Hz\].
     noise: [f64; 2],
@@ -82,7 +82,7 @@ fn grade(name: &str, rng: &mut Pcg64) -> Grade {
             noise: [log_draw(rng, 0.0008, 0.004) * angle_random_walk, 8.0 * MICRO_G],
             bias_sigma: [log_draw(rng, 0.003, 0.02) * DEG_PER_HOUR, 0.05 * mg],
             g_sensitivity: 0.0,
-            // Counts of angle and velocity; they are divided by the interval below.
+            // LSBs of angle and velocity increments; they are divided by the interval below.
             lsb: [draw(rng, 0.1, 1.2) * ARCSEC, 1e-4],
         },
     }
@@ -92,16 +92,16 @@ fn grade(name: &str, rng: &mut Pcg64) -> Grade {
 struct Move {
     duration: f64,
     axis: Vector3<f64>,
-    /// Whether its axis is the vertical, wherever that is in the body.
+    /// Whether its axis is the vertical, in any attitude of the body.
     vertical: bool,
-    /// The turn \[rad\].
+    /// The angle of rotation \[rad\].
     angle: f64,
-    /// The time of a table's ramps; none of a hand.
+    /// The duration of a table's ramps; `None` for a motion by hand.
     ramp: Option<f64>,
     back: bool,
     /// Amplitude \[rad/s\], frequency \[Hz\], direction.
     tremor: (f64, f64, Vector3<f64>),
-    /// What a hand accelerates it by \[m/s²\].
+    /// The acceleration by a hand \[m/s²\].
     push: Vector3<f64>,
 }
 
@@ -154,7 +154,7 @@ impl Move {
         }
     }
 
-    /// The rate about the axis, and the tremor.
+    /// The rate about the axis, and that of the tremor.
     fn rate(&self, time: f64) -> Vector3<f64> {
         let smooth = |time: f64, duration: f64| {
             let s = time / duration;
@@ -180,7 +180,7 @@ impl Move {
         self.axis * rate + along * (amplitude * self.envelope(time) * phase.sin())
     }
 
-    /// How firmly a hand holds it: from the first tenth of a second on.
+    /// The strength of the hand's motion: full from the first tenth of a second on.
     fn envelope(&self, time: f64) -> f64 {
         (time / 0.1).min((self.duration - time) / 0.1).clamp(0.0, 1.0)
     }
@@ -190,7 +190,7 @@ impl Move {
     }
 }
 
-/// A log, what it is, and when it is static \[s\].
+/// A log, its description, and its static intervals \[s\].
 pub(super) struct Log {
     pub(super) grade: &'static str,
     pub(super) rate: f64,
@@ -200,7 +200,7 @@ pub(super) struct Log {
     pub(super) stationary: Vec<[f64; 2]>,
 }
 
-/// A footstep: when, along what, how strong \[rad/s\], \[m/s²\], at what frequency \[Hz\].
+/// A footstep: time, direction, amplitudes \[rad/s\], \[m/s²\], and frequency \[Hz\].
 struct Footstep {
     time: f64,
     along: Vector3<f64>,
@@ -243,7 +243,7 @@ pub(super) fn log(seed: u64) -> Log {
     let has_sheet = rng.random::<f64>() < 0.67;
     let mut bias = Vector3::from_fn(|_, _| normal(&mut rng).clamp(-2.5, 2.5)) * grade.bias_sigma[0];
     if !has_sheet {
-        // No more than what is assumed where nothing is stated.
+        // Not more than the assumed limit for a data sheet without a bias.
         let most = StaticOptions::default().assumed_bias * 0.9;
         bias *= (most / bias.norm()).min(1.0);
     }
@@ -252,7 +252,7 @@ pub(super) fn log(seed: u64) -> Log {
     let sensitivity =
         nalgebra::Matrix3::from_fn(|_, _| normal(&mut rng) / 3.0_f64.sqrt()) * grade.g_sensitivity;
 
-    // When it rests and moves.
+    // The static intervals and the motions.
     let count = 2 + pick(6, &mut rng);
     let mut attitude = UnitQuaternion::from_axis_angle(
         &Unit::new_normalize(direction(&mut rng)),
@@ -272,7 +272,7 @@ pub(super) fn log(seed: u64) -> Log {
     let mut begun = 0.0;
     for place in 0..count {
         let lasting = log_draw(&mut rng, 2.0, longest);
-        // A disturbance at an end is not told from the motion that begins or ends there.
+        // A disturbance at an end is not distinguishable from the motion that begins or ends there.
         if walks && lasting > 2.0 * CALM {
             for _ in 0..=whole(lasting / 8.0) {
                 footsteps.push(Footstep {
@@ -337,7 +337,7 @@ pub(super) fn log(seed: u64) -> Log {
         angle += Vector3::from_fn(|_, _| normal(&mut rng)) * (grade.noise[0] * root);
         velocity += Vector3::from_fn(|_, _| normal(&mut rng)) * (grade.noise[1] * root);
         if loses.is_some_and(|mean| rng.random::<f64>() < interval / mean) && time > 1.0 {
-            // The sample is lost: rates go on with the next one, held over both intervals.
+            // The sample is lost: the rates of the next one are held over both intervals.
             angle = Vector3::zeros();
             velocity = Vector3::zeros();
             continue;

@@ -1,5 +1,5 @@
-//! Static intervals over a population of logs: grades from MEMS to laser gyros, 10 Hz to 2 kHz, intervals of 2 to 60 s,
-//! moved between them by hand, by a table, or rocked there and back.
+//! Static intervals in a population of logs: grades from MEMS to laser gyros, 10 Hz to 2 kHz, intervals of 2 to 60 s, with
+//! motions by hand or by a table, or oscillations between them.
 
 mod logs;
 
@@ -10,13 +10,13 @@ use rins_inspection::StaticIntervals;
 
 use self::logs::{Log, log};
 
-/// How far the ends of an interval may be off \[s\].
+/// The tolerance of the ends of an interval \[s\].
 const WITHIN: f64 = 0.3;
 
-/// The shortest interval that is asked for \[s\]: one of two seconds less what its ends may lose.
+/// The shortest interval of the search \[s\]: two seconds minus the tolerances of its ends.
 const SHORTEST: f64 = 2.0 - 2.0 * WITHIN;
 
-/// How a search did.
+/// The result of a search.
 #[derive(Clone, Copy, Debug, Default)]
 struct Score {
     intervals: usize,
@@ -102,7 +102,7 @@ fn static_intervals_of_any_log_are_found() {
     assert!(all.missed + all.ends_off <= all.intervals / 50, "{all:?}");
 }
 
-/// The whole population, with its rates by grade, sampling rate and motion.
+/// The whole population, with its detection rates by grade, sampling rate and motion.
 #[test]
 #[ignore = "500 logs take long in a debug build: run with --ignored --nocapture for the table of rates"]
 fn static_intervals_of_five_hundred_logs_are_found() {
@@ -130,7 +130,8 @@ fn static_intervals_of_five_hundred_logs_are_found() {
         println!("{key:>12}: {score:?}");
     }
     let all = by["all"];
-    // Where a rocking begins gently behind strong noise, half a percent reach into it a little farther than they may.
+    // If an oscillation begins slowly in strong noise, half a percent of the intervals include slightly more of it than the
+    // tolerance.
     assert!(all.moving * 200 <= all.found, "{all:?}");
     assert!((all.missed + all.ends_off) * 50 <= all.intervals, "{all:?}");
 }

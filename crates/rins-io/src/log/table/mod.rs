@@ -2,6 +2,7 @@
 
 mod columns;
 mod doubles;
+mod head;
 mod mat;
 mod novatel;
 mod parquet;
@@ -14,9 +15,9 @@ use std::path::Path;
 pub(crate) use self::columns::MOST_COLUMNS;
 pub(super) use self::columns::{Columns, MOST_ROWS, Wanted};
 use self::text::Header;
+pub(crate) use head::Head;
+pub use head::{LogHead, peek};
 pub(super) use rows::RowLines;
-pub(crate) use text::Head;
-pub use text::{LogHead, peek};
 pub(crate) use typed::most_rows;
 
 use super::problem::LogProblem;

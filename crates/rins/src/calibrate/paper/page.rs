@@ -128,7 +128,7 @@ fn parameters_section(calibration: &Calibration) -> Section {
         });
     Section {
         heading: "Parameters".into(),
-        intro: "Values follow eq. (1): measured = true + bias + [S, M] true. To compensate, solve it for the true rate; \
+        intro: "The errors are those of measured = true + bias + (S + M) true. To compensate, solve it for the true rate; \
                 calibration.toml does so."
             .into(),
         items: vec![

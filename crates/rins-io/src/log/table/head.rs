@@ -1,0 +1,220 @@
+//! The first lines of a text log: its preamble, delimiter and column names.
+
+use std::io::BufRead;
+use std::path::Path;
+
+use super::columns::{MOST_COLUMNS, listed, place};
+use crate::error::{IoError, LogError};
+use crate::log::fields::{Delimiter, Fields};
+use crate::log::lines::Lines;
+use crate::log::problem::LogProblem;
+
+/// The most lines of a preamble.
+const LONGEST_PREAMBLE: usize = 200;
+
+/// The number of consecutive rows of numbers that end a preamble.
+const ROWS: usize = 3;
+
+/// The fewest columns of a log with a preamble.
+const FEWEST_COLUMNS: usize = 3;
+
+/// What the first lines of a text log tell, before anybody has said what its columns are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogHead {
+    /// What stands between two fields.
+    pub delimiter: Delimiter,
+    /// The columns' names, where there are any.
+    pub names: Option<Vec<String>>,
+    /// The fields of the first rows, at most two.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Looks at the first lines of the text log at `path`.
+///
+/// # Errors
+/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is empty or not text.
+pub fn peek(path: &Path) -> Result<LogHead, IoError> {
+    let Head { delimiter, names, rows, .. } = Head::read(&mut Lines::open(path)?)?;
+    let fields = |(_, row): &(u64, String)| Fields::of(row, delimiter).map(String::from).collect();
+    Ok(LogHead { delimiter, names, rows: rows.iter().take(2).map(fields).collect() })
+}
+
+/// A line with its number.
+type Line = (u64, String);
+
+fn fields(text: &str, delimiter: Delimiter) -> Vec<String> {
+    Fields::of(text, delimiter).map(String::from).collect()
+}
+
+/// Whether a field is not a number.
+fn is_word(field: &String) -> bool {
+    field.parse::<f64>().is_err()
+}
+
+/// Whether at least half of the fields are not numbers, as in a line of names.
+fn is_words(fields: &[String]) -> bool {
+    fields.iter().filter(|field| is_word(field)).count() * 2 >= fields.len()
+}
+
+/// Whether these are the units below the names of so many columns; a number that is miswritten is none.
+fn is_units(fields: &[String], count: usize) -> bool {
+    let is_unit = |field: &String| {
+        is_word(field) && !field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l))
+    };
+    fields.len() == count && fields.iter().all(|field| field.is_empty() || is_unit(field))
+}
+
+/// The number of lines before the header of a log, or before its first row where it has no header; none if the log has no
+/// preamble.
+///
+/// A preamble is what precedes the header: the rows below have the number of fields of the header, and the lines above have not.
+/// Lines that are read are added to `begun`.
+fn preamble<R: BufRead>(
+    begun: &mut Vec<Line>,
+    stated: Option<Delimiter>,
+    lines: &mut Lines<R>,
+) -> Result<Option<usize>, IoError> {
+    let sniffed =
+        |first: &str, second: &str| stated.unwrap_or_else(|| Delimiter::sniff(first, Some(second)));
+    let [(_, first), (_, second)] = &begun[..] else { return Ok(None) };
+    let delimiter = sniffed(first, second);
+    let (names, row) = (fields(first, delimiter), fields(second, delimiter));
+    let has_count = |count: usize| {
+        row.len() == count || row.len() == count + 1 && row.last().is_some_and(String::is_empty)
+    };
+    if has_count(names.len()) && !is_words(&row) {
+        return Ok(None);
+    }
+    while begun.len() < LONGEST_PREAMBLE {
+        let Some(line) = lines.next()?.map(|(line, text)| (line, text.to_string())) else {
+            return Ok(None);
+        };
+        begun.push(line);
+        let Some(start) = begun.len().checked_sub(ROWS) else { continue };
+        let delimiter = sniffed(&begun[start].1, &begun[start + 1].1);
+        let split: Vec<Vec<String>> =
+            begun.iter().map(|(_, text)| fields(text, delimiter)).collect();
+        let count = split[start].len();
+        let are_rows =
+            split[start..].iter().all(|fields| fields.len() == count && !is_words(fields));
+        if !are_rows || count < FEWEST_COLUMNS {
+            continue;
+        }
+        // Loggers that end each row with a delimiter do not always end the header with one.
+        let ends_empty = split[start..].iter().all(|row| row.last().is_some_and(String::is_empty));
+        let is_header = |place: usize| {
+            let names = &split[place];
+            is_words(names) && (names.len() == count || ends_empty && names.len() + 1 == count)
+        };
+        let header =
+            [1, 2].into_iter().filter_map(|above| start.checked_sub(above)).find(|&place| {
+                is_header(place)
+                    && (place + 1 == start || is_units(&split[place + 1], split[place].len()))
+                    && !place.checked_sub(1).is_some_and(|above| {
+                        is_header(above) && is_units(&split[place], split[above].len())
+                    })
+            });
+        return Ok(match header {
+            Some(header) => Some(header),
+            // Without a header all lines above the rows are words.
+            None if split[..start].iter().all(|fields| is_words(fields)) => Some(start),
+            None => None,
+        });
+    }
+    Ok(None)
+}
+
+/// What the first lines tell.
+pub(crate) struct Head {
+    pub(crate) delimiter: Delimiter,
+    /// The columns' names, where there are any.
+    pub(crate) names: Option<Vec<String>>,
+    /// The number of columns.
+    pub(crate) count: usize,
+    /// The line of the names, or the first of the numbers.
+    pub(super) line: u64,
+    /// The rows of numbers that have been read.
+    pub(crate) rows: Vec<(u64, String)>,
+}
+
+impl Head {
+    pub(crate) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
+        let owned = |(line, text): (u64, &str)| (line, text.to_string());
+        let empty = |lines: &Lines<R>| LogError::of(lines.path(), lines.emptiness());
+        let mut opening = lines.next()?.map(owned).ok_or_else(|| empty(lines))?;
+        let stated = Delimiter::stated(&opening.1);
+        if stated.is_some() {
+            opening = lines.next()?.map(owned).ok_or_else(|| empty(lines))?;
+        }
+        let comment = lines.comment().map(str::to_string);
+        let mut begun = vec![opening];
+        begun.extend(lines.next()?.map(owned));
+        if let Some(begins) = preamble(&mut begun, stated, lines)? {
+            begun.drain(..begins);
+        }
+        Self::of(begun, stated, comment, lines)
+    }
+
+    /// The head of a log without a preamble that begins with these lines.
+    fn of<R: BufRead>(
+        begun: Vec<Line>,
+        stated: Option<Delimiter>,
+        comment: Option<String>,
+        lines: &mut Lines<R>,
+    ) -> Result<Self, IoError> {
+        let mut begun = begun.into_iter();
+        let (line, first) = begun.next().expect("the first line is there");
+        let mut rest: Vec<Line> = begun.collect();
+        let delimiter = stated
+            .unwrap_or_else(|| Delimiter::sniff(&first, rest.first().map(|(_, text)| &text[..])));
+        let fields = |text: &str| fields(text, delimiter);
+        let opening = fields(&first);
+        let count = opening.len();
+        if count > MOST_COLUMNS {
+            let problem = LogProblem::ManyColumns { most: MOST_COLUMNS };
+            return Err(LogError::at(lines.path(), line, problem));
+        }
+        if is_words(&opening) {
+            if rest.first().is_some_and(|(_, text)| is_units(&fields(text), count)) {
+                rest.remove(0);
+                if rest.is_empty() {
+                    rest.extend(lines.next()?.map(|(line, text)| (line, text.to_string())));
+                }
+            }
+            return Ok(Self { delimiter, names: Some(opening), count, line, rows: rest });
+        }
+        // Array libraries write the names into a comment.
+        let names = comment.map(|text| fields(&text));
+        let names = names.filter(|names| names.len() == count && names.iter().all(is_word));
+        rest.insert(0, (line, first));
+        Ok(Self { delimiter, names, count, line, rows: rest })
+    }
+
+    /// The first name of a line of names that is no comment.
+    pub(super) fn header(&self) -> Option<&str> {
+        let above = self.rows.first().is_none_or(|(line, _)| *line > self.line);
+        self.names.as_ref().filter(|_| above)?.first().map(String::as_str)
+    }
+
+    /// The place from zero of the column called `name`.
+    pub(super) fn place(&self, name: &str, path: &Path) -> Result<usize, IoError> {
+        let names = self.names.as_deref().unwrap_or_default();
+        let by_number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let found = match (place(name, names), by_number) {
+            (Err(LogProblem::NoColumn { .. }), Some(place)) if place < self.count => Ok(place),
+            (Err(LogProblem::NoColumn { column, suggestion, .. }), _) => {
+                Err(LogProblem::NoColumn { column, suggestion, present: self.present() })
+            }
+            (found, _) => found,
+        };
+        found.map_err(|problem| LogError::at(path, self.line, problem))
+    }
+
+    /// The columns that there are, in words.
+    fn present(&self) -> String {
+        match &self.names {
+            Some(names) => listed(names),
+            None => format!("\"1\" to \"{}\", as the log has no header", self.count),
+        }
+    }
+}
