@@ -1,4 +1,4 @@
-//! Which tests can run here: what they want is looked for when they are built, and they are ignored, visibly, without it.
+//! Detects at build time which tests can run here: tests without their requirements are ignored, visibly.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -18,7 +18,7 @@ fn told(name: &str, is_there: bool) {
     }
 }
 
-/// Whether this user may mount something that only a process of it sees.
+/// Whether this user may mount a file system that only a process of its own sees.
 fn may_mount() -> bool {
     let tried =
         Command::new("unshare").args(["-rm", "mount", "-t", "tmpfs", "tmpfs", "/mnt"]).output();

@@ -1,4 +1,4 @@
-//! Tests of the workspace as a whole: how they find the `rins` command and measured data.
+//! Common functions of the workspace tests: location of the `rins` command and of measured data.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 use std::time::SystemTime;
 
-/// The `rins` command, built with the profile of the tests unless it is younger than all that it is made of.
+/// The `rins` command, built with the profile of the tests unless it is newer than all its sources.
 ///
 /// # Panics
 /// If it cannot be built.
@@ -17,7 +17,7 @@ pub fn rins() -> Command {
         let folder = test.ancestors().nth(2).expect("a test lies in <target>/<profile>/deps");
         let binary = folder.join(format!("rins{}", std::env::consts::EXE_SUFFIX));
         if is_current(&binary) {
-            // Building one package anew, with no features but its own, takes as long as building the workspace did.
+            // Building one package again, with the features of that package only, would take as long as building the workspace.
             return binary;
         }
         let mut build = Command::new(env!("CARGO"));
@@ -31,7 +31,7 @@ pub fn rins() -> Command {
     Command::new(binary)
 }
 
-/// Whether a program is younger than every file of the workspace's crates.
+/// Whether a program is newer than every file of the workspace's crates.
 fn is_current(binary: &Path) -> bool {
     let Some(built) = modified(binary) else { return false };
     let root = workspace();
@@ -63,20 +63,20 @@ pub fn run<S: AsRef<std::ffi::OsStr>>(arguments: impl IntoIterator<Item = S>) ->
     rins().args(arguments).output().expect("rins starts")
 }
 
-/// The workspace's root.
+/// The root of the workspace.
 ///
 /// # Panics
-/// Never, as long as this package lies in it.
+/// Never, as long as this package is in the workspace.
 pub fn workspace() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package lies in the workspace")
 }
 
-/// A file or folder of the measured and sample data that are kept outside of the repository, in the folder that `RINS_DATA` names.
+/// A file or folder of the measured and sample data that are stored outside the repository, in the folder `RINS_DATA`.
 ///
-/// Tests that want one are ignored where there was no such folder when they were built.
+/// Tests that need one are ignored if the folder did not exist when they were built.
 ///
 /// # Panics
-/// If it is not there.
+/// If it does not exist.
 pub fn outside_data(name: &str) -> PathBuf {
     let folder = std::env::var_os("RINS_DATA").expect("RINS_DATA names the folder of the data");
     let path = PathBuf::from(folder).join(name);

@@ -1,4 +1,4 @@
-//! Blind trials of the diagnosis: the program and the trials are built, run, and made a page of the book.
+//! Blind trials of the diagnosis: builds the programs, runs the trials, and writes the page of the book.
 
 use std::env;
 use std::fs;
@@ -9,28 +9,28 @@ use clap::Args;
 
 use crate::Result;
 
-/// Which trials are run.
+/// The options of the trials.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// How many trials
+    /// Number of trials
     #[arg(long, default_value_t = 1500)]
     trials: usize,
-    /// The seed that all of them follow from
+    /// Seed of all trials
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// How many run at once
+    /// Number of trials that run in parallel
     #[arg(long, default_value_t = 2)]
     threads: usize,
-    /// Go on with the trials that the folder's journal does not hold
+    /// Run only the trials that are not in the journal of the folder
     #[arg(long)]
     resume: bool,
-    /// Run the frozen trials alone, and no campaign: each has to come out as before
+    /// Run the frozen trials only, whose results must be unchanged
     #[arg(long, conflicts_with_all = ["resume", "card"])]
     frozen: bool,
-    /// Run nothing: write the page from the folder's journal
+    /// Run no trials: write the page from the journal of the folder
     #[arg(long, conflicts_with = "resume")]
     card: bool,
-    /// The folder of the journal
+    /// Folder of the journal
     #[arg(short, long, default_value = "target/blind")]
     output: PathBuf,
 }
@@ -59,7 +59,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     trials(root, &["card", &path, &root.join("docs/src/blind.md").display().to_string()])
 }
 
-/// The few frozen trials end before an optimised build would.
+/// The few frozen trials take less time than an optimized build.
 const TRIALS: &[&str] = &["run", "--package", "rins-trials", "--bin", "trials"];
 
 fn trials(root: &Path, arguments: &[&str]) -> Result<()> {
@@ -80,13 +80,13 @@ fn cargo(root: &Path, words: &[&str], arguments: &[&str]) -> Result<()> {
     }
 }
 
-/// The `rins` command as it was built in this folder of the target's.
+/// The `rins` command in this profile's folder of the target folder.
 fn program(root: &Path, profile: &str) -> String {
     let name = format!("rins{}", env::consts::EXE_SUFFIX);
     target(root).join(profile).join(name).display().to_string()
 }
 
-/// Where cargo builds.
+/// The target folder of cargo.
 fn target(root: &Path) -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }

@@ -1,4 +1,4 @@
-//! Everything that CI runs after the tests, one step after another.
+//! All steps of CI after the tests, in sequence.
 
 use std::env;
 use std::fmt;
@@ -12,12 +12,12 @@ use clap::Args;
 use crate::Result;
 use crate::manifest::{Manifest, crate_folders, examples};
 
-/// Which steps to run, and whether to run them at all.
+/// The options of the steps.
 #[derive(Args)]
 pub(crate) struct Options {
     /// Run only the steps with these names
     steps: Vec<String>,
-    /// Name the steps and their commands, and run none
+    /// List the steps and their commands, and run none
     #[arg(long)]
     list: bool,
 }
@@ -25,7 +25,7 @@ pub(crate) struct Options {
 /// A name, an environment variable with its value, and a command.
 type Row = (&'static str, Option<(&'static str, &'static str)>, &'static str);
 
-/// The steps that are the same whatever crates there are; what only looks at the sources comes first.
+/// The fixed steps, which do not depend on the list of crates; steps that only read the sources come first.
 const STEPS: &[Row] = &[
     ("tidy", None, "cargo xtask tidy"),
     ("deny", None, "cargo deny --log-level error check bans licenses sources"),
@@ -43,27 +43,27 @@ const STEPS: &[Row] = &[
     ("book", None, "cargo xtask doc"),
     ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
     ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),
-    // The readers are as bounded when they are slower.
+    // The bounds of the readers do not depend on their speed.
     ("fuzz", Some(("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")), "cargo xtask fuzz --seconds 3"),
-    // Benchmarks are compiled by `lint`; those whose instructions are counted are built and run.
+    // `lint` compiles the benchmarks; those with instruction counts are built and run.
     ("instructions", None, "cargo xtask bench --instructions"),
-    // As the tests have built them: with one package's features alone all that they need would be built anew.
+    // With the features of the tests: with those of a single package, all dependencies would be built again.
     ("programs", None, "cargo build --quiet --workspace --bins --examples"),
 ];
 
-/// Programs that the step `programs` has built: what runs them otherwise builds more.
+/// Programs that the step `programs` has built; running them by cargo would build more.
 const PROGRAMS: &[(&str, &[&str])] = &[
     ("verify", &["reproduction", "verify"]),
     ("reproduce", &["reproduction", "reproduce", "--check"]),
     ("demo", &["rins", "demo", "-o", "target/ci/demo"]),
-    // Diagnoses of whole runs, which the tests would take minutes for.
+    // Diagnoses of complete runs, which would take minutes in the tests.
     ("frozen-trials", &["trials", "frozen", RINS]),
 ];
 
-/// The command `rins`, where a program wants its path.
+/// The placeholder for the path of the command `rins`.
 const RINS: &str = "RINS";
 
-/// What the examples are given that want a file or a folder: mostly what the step `demo` wrote.
+/// The arguments of examples that need a file or a folder, mostly output of the step `demo`.
 const ARGUMENTS: &[(&str, &str)] = &[
     ("apply", "target/ci/demo/calibration.toml"),
     ("calibrate", "target/ci/demo/rig.toml"),
@@ -73,16 +73,16 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("schemas", "target/ci/schema"),
 ];
 
-/// A step with a command of cargo's that has to be installed.
+/// The step with a cargo command that must be installed.
 const INSTALLED: &str = "deny";
 
-/// What the steps write goes into this folder, made anew: the demo replaces nothing.
+/// The output folder of the steps, created anew: the demo replaces no files.
 const SCRATCH: &str = "target/ci";
 
-/// Packages outside `crates/`, which are never published.
+/// Packages outside `crates/`, which are not published.
 const UNPUBLISHED: [&str; 2] = ["rins-tests", "xtask"];
 
-/// A command that has to succeed; no word of it holds a blank.
+/// A command that must succeed; its words contain no blanks.
 #[derive(Debug)]
 struct Step {
     name: String,
@@ -90,7 +90,7 @@ struct Step {
     command: String,
 }
 
-/// The command as one would type it.
+/// The command line.
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((key, value)) = self.environment {
@@ -103,7 +103,7 @@ impl fmt::Display for Step {
 impl Step {
     fn run(&self, root: &Path) -> Result<()> {
         println!("== {}: {self}", self.name);
-        // CI installs it, and fails without.
+        // CI installs it, and fails without it.
         if self.name == INSTALLED && !is_installed(INSTALLED) && env::var_os("CI").is_none() {
             println!("== {}: skipped, as cargo install cargo-{INSTALLED} has not run", self.name);
             return Ok(());
@@ -130,13 +130,13 @@ impl Step {
     }
 }
 
-/// Whether `cargo` knows this command.
+/// Whether `cargo` has this command.
 fn is_installed(command: &str) -> bool {
     let asked = Command::new("cargo").args([command, "--version"]).output();
     asked.is_ok_and(|output| output.status.success())
 }
 
-/// Runs the chosen steps up to the first that fails.
+/// Runs the selected steps up to the first failure.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     let steps = chosen(steps(root)?, &options.steps)?;
     if options.list {
@@ -158,7 +158,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// All steps, in the order in which they run.
+/// All steps, in their order.
 fn steps(root: &Path) -> Result<Vec<Step>> {
     let fixed = STEPS.iter().map(|&(name, environment, command)| Step {
         name: name.into(),
@@ -190,8 +190,8 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
             unpublished.push(name);
         }
     }
-    // Cargo takes a package of this name and version for one it has unpacked or built before, from another commit too: it keeps
-    // them by the folder that they were packed in.
+    // Cargo identifies an unpacked or built package by name, version and folder: a new folder prevents the use of one from another
+    // commit.
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH)?.as_millis();
     let mut command = format!(
         "cargo package --quiet --workspace --allow-dirty --target-dir {SCRATCH}/package-{now}"
@@ -205,7 +205,7 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
     Ok(steps)
 }
 
-/// The steps with these names, or all where none is named.
+/// The steps with these names, or all if there are none.
 fn chosen(steps: Vec<Step>, names: &[String]) -> Result<Vec<Step>> {
     if let Some(unknown) = names.iter().find(|name| !steps.iter().any(|step| step.name == **name)) {
         return Err(format!("no step is called {unknown}: see cargo xtask ci --list").into());
@@ -258,7 +258,7 @@ mod tests {
         assert_eq!(names.len(), count);
     }
 
-    /// The other examples are given nothing, and have to run all the same.
+    /// The other examples have no arguments, and must run without them.
     #[test]
     fn examples_that_want_an_argument_are_given_one() {
         let root = crate::root();

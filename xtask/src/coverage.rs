@@ -1,4 +1,4 @@
-//! How honest the estimator's intervals are, over seeds.
+//! Coverage of the estimator's intervals, over seeds.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use clap::Args;
 use crate::Result;
 use crate::reproduce::program;
 
-/// How many runs to simulate.
+/// The options of the simulation.
 #[derive(Args)]
 pub(crate) struct Options {
     /// Runs of each schedule and each noise
@@ -15,7 +15,7 @@ pub(crate) struct Options {
     runs: u32,
 }
 
-/// Prints coverage, NEES and variance against the bound; fails if they are not those of an honest estimator.
+/// Prints coverage, NEES and variance relative to the bound; fails if they are not those of a consistent estimator.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     program(root, &["coverage", &options.runs.to_string()])
 }

@@ -1,4 +1,4 @@
-//! The book, built by a program of its own so that its dependencies do not slow every other command.
+//! The book, built by a separate program so that its dependencies do not slow down the other commands.
 
 use std::path::Path;
 use std::process::Command;

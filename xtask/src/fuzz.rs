@@ -1,4 +1,4 @@
-//! Fuzzing of everything that reads a file, for some seconds or for hours.
+//! Fuzzing of all readers of files, for seconds or hours.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,21 +8,21 @@ use clap::Args;
 
 use crate::Result;
 
-/// What to fuzz, and for how long.
+/// The options of fuzzing.
 #[derive(Args)]
 pub(crate) struct Options {
     /// Fuzz these targets only
     targets: Vec<String>,
-    /// How many seconds each target is fuzzed
+    /// Duration for each target in seconds
     #[arg(long, default_value_t = 5)]
     seconds: u32,
-    /// Name the targets, and fuzz none
+    /// List the targets, and fuzz none
     #[arg(long)]
     list: bool,
 }
 
-/// What `cargo fuzz build --sanitizer none` asks of the compiler: coverage that libFuzzer is led by.
-/// Without `unsafe` code there is nothing for a sanitizer to find.
+/// The compiler options of `cargo fuzz build --sanitizer none`: coverage that guides libFuzzer.
+/// Without `unsafe` code a sanitizer has nothing to find.
 const COVERAGE: &str = "--cfg fuzzing -Cpasses=sancov-module \
     -Cllvm-args=-sanitizer-coverage-level=4 \
     -Cllvm-args=-sanitizer-coverage-inline-8bit-counters \
@@ -30,10 +30,10 @@ const COVERAGE: &str = "--cfg fuzzing -Cpasses=sancov-module \
     -Cllvm-args=-sanitizer-coverage-trace-compares \
     -Cllvm-args=-simplifycfg-branch-fold-threshold=0";
 
-/// What no target may exceed for one input: seconds, megabytes of one allocation and of all.
+/// The limits of every target for one input: seconds, megabytes of one allocation and of all.
 const BOUNDS: [&str; 3] = ["-timeout=5", "-malloc_limit_mb=512", "-rss_limit_mb=2048"];
 
-/// Builds the targets and runs them one after another, up to the first that finds something.
+/// Builds the targets and runs them in sequence, up to the first finding.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     let all = targets(root)?;
     if options.list {
@@ -51,7 +51,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     Ok(())
 }
 
-/// The targets, one a file.
+/// The targets, one per file.
 fn targets(root: &Path) -> Result<Vec<String>> {
     let mut targets = Vec::new();
     for entry in fs::read_dir(root.join("fuzz/fuzz_targets"))? {
@@ -62,13 +62,13 @@ fn targets(root: &Path) -> Result<Vec<String>> {
     Ok(targets)
 }
 
-/// Builds all targets; the folder where they lie.
+/// Builds all targets; returns their folder.
 fn build(root: &Path) -> Result<PathBuf> {
     let host = host()?;
     let folder = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
     let folder = folder.join("fuzz");
     let status = Command::new("cargo")
-        // With a target named, build scripts and macros are not instrumented.
+        // If a target is named, build scripts and macros are not instrumented.
         .args(["build", "--quiet", "--release", "--bins", "--target", &host])
         .arg("--target-dir")
         .arg(&folder)
@@ -90,13 +90,13 @@ fn host() -> Result<String> {
     Ok(host.ok_or("rustc does not say what its host is")?.to_owned())
 }
 
-/// Runs one target from the corpus that the repository may keep for it; new inputs go to one below `target`.
+/// Runs one target from its corpus in the repository, if there is one; new inputs are written to one under `target`.
 fn fuzz(root: &Path, binaries: &Path, target: &str, seconds: u32) -> Result<()> {
     let found = binaries.join("corpus").join(target);
     let artifacts = root.join("fuzz/artifacts").join(target);
     fs::create_dir_all(&found)?;
     fs::create_dir_all(&artifacts)?;
-    // A target that makes its own structure begins with nothing.
+    // A target that generates its own input structure has no corpus.
     let kept = Some(root.join("fuzz/corpus").join(target)).filter(|folder| folder.is_dir());
     let output = Command::new(binaries.join(target))
         .arg(&found)

@@ -18,7 +18,7 @@ mod reproduce;
 mod tidy;
 mod verify;
 
-/// How a command ends when it cannot do its work.
+/// The result of a command.
 type Result<T, E = Box<dyn Error>> = std::result::Result<T, E>;
 
 #[derive(Parser)]
@@ -30,17 +30,17 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Time the hot loops beside their rivals, or count their instructions
+    /// Time the hot loops and alternative implementations, or count their instructions
     Bench(bench::Options),
-    /// Hide effects in runs made apart, and score what the diagnosis says of them
+    /// Hide effects in independently simulated runs, and score the diagnosis
     Blind(blind::Options),
-    /// Everything that CI runs after `cargo test --workspace`
+    /// Run everything that CI runs after `cargo test --workspace`
     Ci(ci::Options),
-    /// Simulate runs with random truth and check how often the estimator's intervals hold it
+    /// Simulate runs with random truth and check the coverage of the estimator's intervals
     Coverage(coverage::Options),
     /// Build the book into target/book and check its equations and links
     Doc,
-    /// Fuzz everything that reads a file, each target for some seconds
+    /// Fuzz all readers of files, each target for some seconds
     Fuzz(fuzz::Options),
     /// Run the paper's experiments and write the book's page about them
     Reproduce(reproduce::Options),
@@ -72,13 +72,13 @@ fn main() -> ExitCode {
     }
 }
 
-/// The workspace's root, wherever the command was started.
+/// The root of the workspace, for any working folder.
 fn root() -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().expect("xtask/ lies in the workspace").to_path_buf()
 }
 
-/// Where cargo puts what it builds.
+/// The target folder of cargo.
 fn target(root: &Path) -> Result<PathBuf> {
     let output = std::process::Command::new("cargo")
         .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])

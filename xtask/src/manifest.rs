@@ -1,4 +1,4 @@
-//! What a `Cargo.toml` says, with the lines where it says it.
+//! The content of a `Cargo.toml`, with line numbers.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,29 +7,29 @@ use toml::de::{DeTable, DeValue};
 
 use crate::Result;
 
-/// The parts of a manifest that the workspace's rules speak of.
+/// The parts of a manifest that the rules of the workspace refer to.
 #[derive(Debug, Default)]
 pub(crate) struct Manifest {
     /// The package's name.
     pub(crate) name: String,
-    /// Whether it may go to a registry.
+    /// Whether it may be published.
     pub(crate) published: bool,
     /// The keys of `[package]`.
     pub(crate) keys: Vec<String>,
-    /// Whether the workspace's lints hold for it.
+    /// Whether it inherits the lints of the workspace.
     pub(crate) inherits_lints: bool,
-    /// What it depends on.
+    /// Its dependencies.
     pub(crate) dependencies: Vec<Dependency>,
 }
 
 /// One line of a table of dependencies.
 #[derive(Debug)]
 pub(crate) struct Dependency {
-    /// The package meant, whatever it is called here.
+    /// The name of the package, even if it is renamed.
     pub(crate) package: String,
-    /// Whether only tests, examples and benches see it.
+    /// Whether it is a dev-dependency, for tests, examples and benches only.
     pub(crate) dev: bool,
-    /// Where it stands in the file.
+    /// The line in the file.
     pub(crate) line: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The paper's experiments, run by a program of its own: the tests of the workspace's commands need not wait for it.
+//! The paper's experiments, run by a separate program, so that the tests of xtask need not wait for its build.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,10 +7,10 @@ use clap::Args;
 
 use crate::Result;
 
-/// Whether to write the page or to look at it.
+/// The options of the experiments.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Write nothing; fail if the page or a figure in the repository says something else
+    /// Write nothing; fail if the page or a figure in the repository differs
     #[arg(long)]
     check: bool,
 }

@@ -17,17 +17,17 @@ mod text;
 #[cfg(test)]
 mod tests;
 
-/// The crates in which files still import each other in circles: none may join them.
+/// The crates with cyclic imports between files; no others may be added.
 const IN_CIRCLES: &[&str] = &["rins-blind", "rins-diagnosis"];
 
-/// One breach of a rule.
+/// One violation of a rule.
 #[derive(Debug)]
 struct Finding {
     /// The file, relative to the workspace.
     path: PathBuf,
     /// The line in it, from 1.
     line: usize,
-    /// What is wrong, and what would be right where that is not plain.
+    /// The violation, and the remedy if it is not obvious.
     what: String,
 }
 
@@ -37,7 +37,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Prints every breach, and fails if there is one.
+/// Prints every violation, and fails if there is one.
 pub(crate) fn run(root: &Path) -> Result<()> {
     let findings = findings(root, &tracked_files(root)?)?;
     for finding in &findings {
@@ -49,7 +49,7 @@ pub(crate) fn run(root: &Path) -> Result<()> {
     }
 }
 
-/// Every breach of the rules in these files, which are named relative to `root`.
+/// All violations in these files, whose paths are relative to `root`.
 fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     let mut findings = text::findings(root, files)?;
     findings.extend(references::findings(root, files)?);

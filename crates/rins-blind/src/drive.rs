@@ -1,65 +1,65 @@
-//! The table's servo: how the table angle really goes.
+//! The servo of the table: the actual table angle.
 
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::random::Random;
 
-/// A commanded rate, and for how long.
+/// A commanded rate with its duration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
-    /// \[rad/s\].
+    /// The rate \[rad/s\].
     pub rate: f64,
-    /// \[s\].
+    /// The duration \[s\].
     pub duration: f64,
 }
 
-/// Cogging: the rate is `1 + c cos nζ + s sin nζ` times what the servo makes it.
+/// Cogging: the rate is multiplied by `1 + c cos nζ + s sin nζ`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ripple {
-    /// How often a turn.
+    /// The harmonic order.
     pub order: f64,
-    /// `c`, a part of the rate.
+    /// `c`, a fraction of the rate.
     pub cos: f64,
-    /// `s`, a part of the rate.
+    /// `s`, a fraction of the rate.
     pub sin: f64,
 }
 
-/// A table with a motor.
+/// The motor and servo of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// What it is told to do.
+    /// The commanded motion.
     pub segments: Vec<Segment>,
-    /// How hard it changes its rate \[rad/s²\].
+    /// The acceleration at changes of rate \[rad/s²\].
     pub acceleration: f64,
-    /// Whether it has its first rate before the log begins.
+    /// Whether the table has its first rate before the log begins.
     pub rolling: bool,
-    /// How slowly its rate follows what it is told \[s\].
+    /// The lag of the rate behind the command \[s\].
     pub lag: f64,
-    /// 1σ of the rate that friction adds, over some tenths of a second \[rad/s\].
+    /// The 1σ of the rate due to friction, correlated over some tenths of a second \[rad/s\].
     pub shake: f64,
     /// Its cogging.
     pub ripples: Vec<Ripple>,
 }
 
-/// The time over which friction's rate is forgotten \[s\].
+/// The correlation time of the rate due to friction \[s\].
 const SHAKE_TIME: f64 = 0.3;
 
-/// A rate that is none \[rad/s\].
+/// The rate below which the table counts as stationary \[rad/s\].
 const STILL: f64 = 1e-9;
 
-/// The way the table went, on a grid of short steps.
+/// The trajectory of the table, on a grid of short steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Way {
-    /// The table angle at each point of the grid \[rad\]; zero when the run begins.
+    /// The table angle at each point of the grid \[rad\]; zero at the start of the run.
     pub(crate) angles: Vec<f64>,
-    /// The way it turned last; zero before it ever turned.
+    /// The last direction of rotation; zero before the first rotation.
     pub(crate) senses: Vec<f64>,
-    /// The way its rate changed last; zero before it ever changed.
+    /// The sign of the last change of rate; zero before the first change.
     pub(crate) rises: Vec<f64>,
 }
 
 impl Drive {
-    /// How long the commands last \[s\].
+    /// The duration of the commanded motion \[s\].
     pub fn duration(&self) -> f64 {
         self.segments.iter().map(|segment| segment.duration).sum()
     }
@@ -83,7 +83,7 @@ impl Drive {
         1.0 + self.ripples.iter().map(of).sum::<f64>()
     }
 
-    /// The way from `lead` steps before the run on, `steps` steps of length `step` \[s\] in all.
+    /// The trajectory from `lead` steps before the run on, in `steps` steps of length `step` \[s\].
     pub(crate) fn way(&self, step: f64, lead: usize, steps: usize, random: &mut Random) -> Way {
         let first = if self.rolling { self.command(0.0) } else { 0.0 };
         let mut angles = vec![0.0; lead + 1];
@@ -108,7 +108,7 @@ impl Drive {
             let normal: f64 = StandardNormal.sample(random);
             friction = kept * friction + (1.0 - kept * kept).sqrt() * self.shake * normal;
             let driven = if turning { rate + friction } else { 0.0 };
-            // Half a step ahead, where the cogging is that of the step's middle.
+            // Half a step ahead, so that the cogging is that of the middle of the step.
             let middle = angle + 0.5 * step * driven * self.cogging(angle);
             angle += step * driven * self.cogging(middle);
             let last = way.angles.len() - 1;
@@ -138,12 +138,12 @@ mod tests {
         let way = drive.way(1e-3, 500, 18_500, &mut random(1, 1));
         assert_eq!(way.angles.len(), 18_501);
         assert_eq!((way.angles[2400], way.senses[2400], way.rises[2400]), (0.0, 0.0, 0.0));
-        // Trapezoids: up in 1 s, then from 0.5 to -0.5 in 2 s; the servo is 20 ms behind.
+        // Trapezoids: up in 1 s, then from 0.5 to -0.5 in 2 s; the servo has a lag of 20 ms.
         let (out, back) = (way.angles[10_500], way.angles[18_500]);
         assert!((out - (3.75 - 0.01)).abs() < 2e-3, "{out}");
         assert!((back - (3.75 - 3.0 + 0.01)).abs() < 2e-3, "{back}");
         assert_eq!((way.senses[18_500], way.rises[18_500]), (-1.0, -1.0));
-        // Cogging makes up to a thousandth of half a radian a second, over a seventh of a turn.
+        // Cogging is up to a thousandth of half a radian per second, over a seventh of a turn.
         let rate = |place: usize| (way.angles[place + 1] - way.angles[place]) / 1e-3;
         let rates = (4500..10_000).map(rate);
         let (low, high) = rates.fold((1.0_f64, 0.0_f64), |(l, h), r| (l.min(r), h.max(r)));

@@ -1,4 +1,4 @@
-//! A hidden effect, and the law by which each id acts.
+//! A hidden effect, and the law of each effect id.
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use crate::laws::{Instant, Pose};
 use crate::random::Random;
 use crate::run::Log;
 
-/// An effect with its size and shape.
+/// An effect with its parameters and settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
     /// The catalogue's id.
@@ -19,33 +19,33 @@ pub struct Effect {
     pub settings: Vec<f64>,
 }
 
-/// What is read too much: by the gyros \[rad/s\], by the accelerometers \[m/s²\].
+/// The errors of the readings: of the gyros \[rad/s\], of the accelerometers \[m/s²\].
 pub type Read = (Vector3<f64>, Vector3<f64>);
 
-/// How an effect acts: on what, given its parameters, its settings, and what is going on.
+/// The law of an effect as a function of its parameters, its settings, and the state of the run.
 #[derive(Clone, Copy, Debug)]
 pub enum Law {
-    /// It tilts the axis: a rotation vector in the axis frame \[rad\].
+    /// A tilt of the axis: a rotation vector in the axis frame \[rad\].
     Tilt(fn(&[f64], &[f64], &Pose) -> Vector3<f64>),
-    /// It adds to what gyros and accelerometers read, at every instant \[rad/s, m/s²\].
+    /// Errors of gyros and accelerometers at every instant \[rad/s, m/s²\].
     Sense(fn(&[f64], &[f64], &Instant) -> Read),
-    /// A once-per-turn warmth that gyros follow slowly.
+    /// A temperature variation once per revolution, to which gyros respond with a lag.
     Heat,
-    /// The sensors lie off the axis: the place of each accelerometer in the body \[m\].
+    /// Lever arms: the position of each accelerometer in the body \[m\].
     Places(fn(&[f64]) -> [Vector3<f64>; 3]),
-    /// It delays gyros and accelerometers \[s\].
+    /// Delays of gyros and accelerometers \[s\].
     Delay(fn(&[f64]) -> (f64, f64)),
-    /// It adds to what the encoder reads \[rad\].
+    /// An error of the encoder reading \[rad\].
     Read(fn(&[f64], &[f64], &Pose) -> f64),
-    /// It makes the encoder late \[s\].
+    /// A latency of the encoder \[s\].
     Late(fn(&[f64], &[f64], f64) -> f64),
-    /// It changes the experiment before it begins.
+    /// A change of the experiment before it begins.
     Setup(fn(&[f64], &[f64], &mut Experiment)),
-    /// It spoils the finished log.
+    /// A fault of the finished log.
     Spoil(fn(&[f64], &[f64], &mut Log, &mut Random)),
 }
 
-/// Every id and its law.
+/// Every effect id with its law.
 pub const LAWS: &[&[(&str, Law)]] = &[
     laws::gyro::LAWS,
     laws::gyro_force::LAWS,
@@ -63,10 +63,10 @@ impl Effect {
         Self { id: id.into(), parameters: parameters.to_vec(), settings: settings.to_vec() }
     }
 
-    /// How it acts.
+    /// The law of the effect.
     ///
     /// # Panics
-    /// If there is no law of its id.
+    /// If its id has no law.
     pub fn law(&self) -> Law {
         let found = LAWS.iter().copied().flatten().find(|(id, _)| *id == self.id);
         found.unwrap_or_else(|| panic!("no law is known of {:?}", self.id)).1

@@ -1,4 +1,4 @@
-//! All that is true of a run, and what a laboratory would know of it.
+//! The truth of a run, and the knowledge of a laboratory about it.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,18 +9,18 @@ use crate::place::Place;
 use crate::temperature::Temperature;
 use crate::unknown::Unknown;
 
-/// What is true of a run.
+/// The truth of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Experiment {
-    /// Where the table stands.
+    /// The site of the table.
     pub place: Place,
-    /// How fast what the table stands on turns about the vertical \[rad/s\].
+    /// The rate of the base about the vertical \[rad/s\].
     pub base_rate: f64,
     /// The attitude of the axis frame: roll, pitch, yaw of `Rz(yaw) Rx(pitch) Ry(roll)`, east-north-up \[rad\].
     pub attitude: [f64; 3],
-    /// How the table turns.
+    /// The motion of the table.
     pub drive: Drive,
-    /// How the IMU sits on the table: rotation about its x and y \[rad\].
+    /// The misalignment of the IMU on the table: rotation about its x and y \[rad\].
     pub mounting: [f64; 2],
     /// Its gyros.
     pub gyro: Sensors,
@@ -28,39 +28,39 @@ pub struct Experiment {
     pub accel: Sensors,
     /// The encoder.
     pub encoder: Encoder,
-    /// How warm the IMU is.
+    /// The temperature of the IMU.
     pub temperature: Temperature,
     /// The length of a sample \[s\].
     pub interval: f64,
-    /// How many short steps make up a sample.
+    /// The number of short steps in a sample.
     pub substeps: usize,
-    /// The effects that are there, the table's imperfections among them.
+    /// The effects, including the imperfections of the table.
     pub effects: Vec<Effect>,
-    /// What is there and in no catalogue.
+    /// Error structures outside the catalogue.
     pub unknowns: Vec<Unknown>,
-    /// What all scatter follows from.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// Three sensors and their errors: read is true, and `bias + matrix · true`, and noise.
+/// Three sensors with their errors: the reading is true + `bias + matrix · true` + noise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensors {
-    /// \[rad/s or m/s²\].
+    /// The bias \[rad/s or m/s²\].
     pub bias: Vector3<f64>,
     /// Scale errors on the diagonal, misalignments off it.
     pub matrix: Matrix3<f64>,
-    /// What scatters.
+    /// The random errors.
     pub noise: Noise,
-    /// The least bit, if it matters.
+    /// The LSB; `None` if it is negligible.
     pub rounding: Option<Rounding>,
 }
 
-/// A least bit.
+/// The LSB of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rounding {
-    /// Of increments; what is left over comes with the next one \[rad or m/s\].
+    /// Of increments; the remainder is carried to the next one \[rad or m/s\].
     Increment(f64),
-    /// Of means \[rad/s or m/s²\].
+    /// Of mean values \[rad/s or m/s²\].
     Mean(f64),
 }
 
@@ -69,18 +69,18 @@ pub enum Rounding {
 pub struct Encoder {
     /// 1σ of one reading \[rad\].
     pub noise: f64,
-    /// Its least bit \[rad\]; zero is none.
+    /// Its LSB \[rad\]; zero means none.
     pub resolution: f64,
 }
 
-/// What a laboratory knows of a run.
+/// The knowledge of a laboratory about a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Known {
-    /// Where it believes the table to stand.
+    /// The assumed site of the table.
     pub place: Place,
-    /// The attitude of the axis frame as it was surveyed \[rad\].
+    /// The surveyed attitude of the axis frame \[rad\].
     pub attitude: [f64; 3],
-    /// How well, 1σ of each angle \[rad\].
+    /// Its 1σ for each angle \[rad\].
     pub attitude_sigma: f64,
     /// The gyros' data sheet.
     pub gyro: SensorsKnown,
@@ -88,19 +88,19 @@ pub struct Known {
     pub accel: SensorsKnown,
     /// 1σ of one reading of the encoder \[rad\].
     pub encoder_noise: f64,
-    /// 1σ of the axis' direction \[rad\], if the bearing's maker gives it.
+    /// The wobble: 1σ of the direction of the axis \[rad\], if the bearing's manufacturer states it.
     pub wobble: Option<f64>,
 }
 
-/// What a data sheet says of three sensors, in SI units.
+/// The data sheet of three sensors, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorsKnown {
-    /// The root density of white noise.
+    /// The noise density.
     pub noise: f64,
-    /// 1σ of the bias from one turn-on to the next.
+    /// The 1σ of the turn-on bias.
     pub bias: f64,
-    /// 1σ of the scale errors.
+    /// The 1σ of the scale errors.
     pub scale: f64,
-    /// 1σ of the misalignments \[rad\].
+    /// The 1σ of the misalignments \[rad\].
     pub misalignment: f64,
 }

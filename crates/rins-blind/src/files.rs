@@ -1,4 +1,4 @@
-//! The folder that a laboratory hands over: a log and its rig file, and nothing of what is true.
+//! The folder that a laboratory delivers: a log and its rig file, without the truth.
 
 use std::f64::consts::PI;
 use std::fmt::Write as _;
@@ -27,7 +27,7 @@ fn csv(log: &Log) -> String {
     let mut text = String::from("t,gx,gy,gz,ax,ay,az,table,temp\n");
     for sample in 0..log.times.len() {
         let (g, a) = (log.gyro[sample], log.accel[sample]);
-        // A string takes whatever is written to it.
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "{:.4},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.10},{:.3}",

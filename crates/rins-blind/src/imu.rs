@@ -1,4 +1,4 @@
-//! From what is felt to what an IMU delivers: errors on every short step, means and scatter on every sample.
+//! IMU readings from the true motion: errors on every short step, means and noise on every sample.
 
 use nalgebra::{Complex, Matrix3, Vector3};
 
@@ -12,16 +12,16 @@ use crate::random::random;
 use crate::run::Grid;
 use crate::unknown::Channel;
 
-/// What the sensors have added up from the grid's start to each of its points \[rad, m/s\].
+/// The integrals of the sensors' readings from the start of the grid to each of its points \[rad, m/s\].
 pub(crate) struct Sums {
     gyro: Vec<Vector3<f64>>,
     accel: Vec<Vector3<f64>>,
 }
 
-/// How many time constants before the run a warmth that lags is followed.
+/// The time before the run over which a lagging temperature variation is simulated, in time constants.
 const SETTLED: f64 = 12.0;
 
-/// The gyros' following of heat from one side: `exp(iζ)` behind a low-pass.
+/// The gyros' response to heat from one side: `exp(iζ)` after a low-pass filter.
 struct Warmth<'a> {
     effect: &'a Effect,
     followed: Complex<f64>,
@@ -55,7 +55,7 @@ impl<'a> Warmth<'a> {
     }
 }
 
-/// Adds up what the sensors read over the short steps of a way.
+/// Integrates the sensors' readings over the short steps of a trajectory.
 pub(crate) fn sums(
     experiment: &Experiment,
     grid: &Grid,
@@ -81,7 +81,7 @@ pub(crate) fn sums(
     let warm = |time: f64| experiment.temperature.at(time);
     let start = warm(0.0);
     let axes = experiment.gyro.axes();
-    // The first and the last point have one neighbour only.
+    // The first and the last point have only one neighbor.
     let points = way.angles.len() - 2;
     let zero = Vector3::zeros();
     let mut sums = Sums { gyro: vec![zero; 2], accel: vec![zero; 2] };
@@ -127,7 +127,7 @@ pub(crate) fn sums(
     sums
 }
 
-/// The means over samples, with scatter and rounding: of gyros \[rad/s\], of accelerometers \[m/s²\].
+/// The mean readings over samples, with noise and rounding: of gyros \[rad/s\], of accelerometers \[m/s²\].
 pub(crate) fn readings(
     experiment: &Experiment,
     grid: &Grid,
@@ -196,12 +196,12 @@ fn triad(
 }
 
 impl Sensors {
-    /// What is read beyond what is true.
+    /// The error of a reading.
     fn error(&self, of: &Vector3<f64>) -> Vector3<f64> {
         self.bias + self.matrix * of
     }
 
-    /// The direction of each sensor's own axis in the body: along it is what a sensor reads most of.
+    /// The direction of each sensor's input axis in the body, along which its sensitivity is greatest.
     fn axes(&self) -> [Vector3<f64>; 3] {
         let seen = Matrix3::identity() + self.matrix;
         [0, 1, 2].map(|sensor| seen.row(sensor).transpose().normalize())

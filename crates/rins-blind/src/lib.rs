@@ -1,15 +1,15 @@
-//! Runs of an inertial measurement unit on a rate table, with hidden effects, made apart from all that analyses them.
+//! Simulation of an IMU on a rate table with hidden effects, independent of all code that analyzes the runs.
 //!
-//! **What it does.** [`record`] takes an [`Experiment`] - a place, a table with a servo and a bearing, an IMU, an
-//! encoder, noise, and effects - through an oversampled motion: a servo's angle, the attitude as a quaternion, rates and
-//! forces by differences of attitude and place, sensors' errors on each of the short steps, means over samples.
-//! [`write()`] puts the log and its rig file into a folder, as a laboratory would hand them over; what is
-//! hidden is not in it.
+//! **What it does.** [`record`] simulates an [`Experiment`] - a site, a table with a servo and a bearing, an IMU, an
+//! encoder, noise, and effects - by an oversampled motion: the servo's angle, the attitude as a quaternion, rates and
+//! forces by differences of attitude and position, the sensors' errors on each short step, means over samples.
+//! [`write()`] writes the log and its rig file to a folder, as a laboratory would deliver them, without the hidden
+//! effects.
 //!
-//! **What it does not do.** It knows no closed form of any increment, no derivative of any effect, and no
-//! other crate of this workspace: an error that analysis and simulation share would not be shared by it.
+//! **What it does not do.** It uses no closed form of an increment, no derivative of an effect, and no
+//! other crate of this workspace: an error common to analysis and simulation would not be repeated here.
 //!
-//! Effects have the catalogue's ids, their numbers the catalogue's order; all is in SI units and radians.
+//! Effects have the ids of the catalogue, and their parameters the order of the catalogue; all is in SI units and radians.
 mod drive;
 mod effect;
 mod experiment;

@@ -1,4 +1,4 @@
-//! The true motion: attitudes on a grid of short steps, and what is felt between them, by differences.
+//! The true motion: attitudes on a grid of short steps, with rates and forces from differences.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -10,7 +10,7 @@ use crate::laws::Pose;
 /// An attitude.
 type Attitude = UnitQuaternion<f64>;
 
-/// How a table stands and turns.
+/// The attitude and motion of a table.
 pub(crate) struct Motion<'a> {
     experiment: &'a Experiment,
     tilts: Vec<&'a Effect>,
@@ -22,9 +22,9 @@ pub(crate) struct Motion<'a> {
 
 /// Attitudes at every point of the grid.
 pub(crate) struct Attitudes {
-    /// With respect to inertial space.
+    /// Relative to inertial space.
     inertial: Vec<Attitude>,
-    /// With respect to the place.
+    /// Relative to the local navigation frame.
     local: Vec<Attitude>,
 }
 
@@ -52,7 +52,7 @@ impl<'a> Motion<'a> {
         Self { experiment, tilts, nav_from_axis, mounting, places, step }
     }
 
-    /// Attitudes along the way, of which `lead` steps lie before the run.
+    /// The attitudes along the trajectory, `lead` steps of which are before the run.
     pub(crate) fn attitudes(&self, way: &Way, lead: usize) -> Attitudes {
         let earth = self.experiment.place.earth_rate();
         let mut attitudes = Attitudes { inertial: Vec::new(), local: Vec::new() };
@@ -84,7 +84,7 @@ impl<'a> Motion<'a> {
         (before.inverse() * after).scaled_axis() / self.step
     }
 
-    /// The specific force at point `place`, which has neighbours \[m/s²\].
+    /// The specific force at point `place`, which must not be an end point \[m/s²\].
     pub(crate) fn force(&self, attitudes: &Attitudes, place: usize) -> Vector3<f64> {
         let up = Vector3::z() * self.experiment.place.gravity;
         let mut force = attitudes.in_body(place, &up);
@@ -102,7 +102,7 @@ impl<'a> Motion<'a> {
 }
 
 impl Attitudes {
-    /// A vector of the place in body axes at point `place`.
+    /// A vector of the local navigation frame in body axes at point `place`.
     pub(crate) fn in_body(&self, place: usize, vector: &Vector3<f64>) -> Vector3<f64> {
         self.local[place].inverse() * vector
     }

@@ -1,4 +1,4 @@
-//! Random errors of sensors: white, flicker, and a walk, one number a sample.
+//! Random errors of sensors: white noise, flicker noise and random walk, one number per sample.
 
 use std::f64::consts::PI;
 
@@ -6,38 +6,38 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::random::Random;
 
-/// How strong the random errors of a sensor are; densities are two-sided.
+/// The noise parameters of a sensor; densities are two-sided.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
-    /// The root density of white noise.
+    /// The noise density of white noise.
     pub white: f64,
-    /// `B` of a flicker of density `B²/(2πf)`.
+    /// `B` of flicker noise with the density `B²/(2πf)`.
     pub flicker: f64,
-    /// `K` of a walk of density `K²/(2πf)²`.
+    /// `K` of a random walk with the density `K²/(2πf)²`.
     pub walk: f64,
 }
 
-/// The ratio of the times of neighbouring processes that make up a flicker.
+/// The ratio of the time constants of adjacent processes that approximate flicker noise.
 const RATIO: f64 = 3.0;
 
-/// How many times the run's length the slowest of them takes: slower ones are a bias.
+/// The time constant of the slowest process, in durations of the run: slower ones are a bias.
 const SLOWEST: f64 = 16.0;
 
-/// Noise as it comes, sample after sample.
+/// A generator of noise, sample by sample.
 #[derive(Clone, Debug)]
 pub(crate) struct Scatter {
     sigma: f64,
-    /// Processes that forget: how much of the state is kept, what is added, the state.
+    /// Gauss-Markov processes: the decay factor, the standard deviation of the driving noise, the state.
     slow: Vec<(f64, f64, f64)>,
     step: f64,
     walked: f64,
 }
 
 impl Scatter {
-    /// Noise of samples of `interval`, in a run of `duration` \[s\].
+    /// A generator for samples of `interval` \[s\], in a run of `duration` \[s\].
     pub(crate) fn new(noise: &Noise, interval: f64, duration: f64, random: &mut Random) -> Self {
-        // One process has the one-sided density 4 σ² τ / (1 + (2πfτ)²); a row of them, each RATIO times
-        // slower, comes to σ² / (f ln RATIO), which is to be B² / (πf).
+        // One process has the one-sided density 4 σ² τ / (1 + (2πfτ)²); the sum of processes with time constants in the ratio
+        // RATIO is σ² / (f ln RATIO), which must equal B² / (πf).
         let sigma = noise.flicker * (RATIO.ln() / PI).sqrt();
         let mut slow = Vec::new();
         let mut time = interval;
@@ -51,7 +51,7 @@ impl Scatter {
         Self { sigma, slow, step: noise.walk * interval.sqrt(), walked: 0.0 }
     }
 
-    /// The next number, the white part of it `times` as strong as it is.
+    /// The next number, with its white part multiplied by `times`.
     pub(crate) fn next(&mut self, times: f64, random: &mut Random) -> f64 {
         let mut normal = || -> f64 { StandardNormal.sample(random) };
         let mut sum = self.sigma * times * normal();
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::random::random;
 
-    /// The Allan variance of a flicker is flat, `2 ln 2 B² / π`, as IEEE Std 952 has it.
+    /// The Allan variance of flicker noise is constant, `2 ln 2 B² / π`, by IEEE Std 952.
     #[test]
     fn flicker_is_flat_at_its_level() {
         const LEVEL: f64 = 3.0;
@@ -91,7 +91,7 @@ mod tests {
                 count += 31.0;
             }
             let ratio = sum / count / expected;
-            // Some 600 nearly independent differences: 6 % at 1σ.
+            // About 600 nearly independent differences: 6 % at 1σ.
             assert!((ratio - 1.0).abs() < 0.2, "{length} samples: {ratio}");
         }
     }

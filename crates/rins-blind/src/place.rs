@@ -1,11 +1,11 @@
-//! Where a table stands, and what the Earth does there.
+//! The site of a table, with Earth rate, gravity and magnetic field.
 
 use nalgebra::Vector3;
 
-/// The Earth's rate \[rad/s\], WGS84.
+/// The Earth rate \[rad/s\], WGS84.
 const EARTH_RATE: f64 = 7.292115e-5;
 
-/// A place on the Earth.
+/// A site on the Earth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Geodetic latitude \[rad\].
@@ -15,14 +15,14 @@ pub struct Place {
 }
 
 impl Place {
-    /// A place with the gravity of the formula of 1967 at sea level.
+    /// A site with gravity by the formula of 1967 at sea level.
     pub fn at(latitude: f64) -> Self {
         let (once, twice) = (latitude.sin(), (2.0 * latitude).sin());
         let gravity = 9.780318 * (1.0 + 0.0053024 * once * once - 0.0000059 * twice * twice);
         Self { latitude, gravity }
     }
 
-    /// The Earth's rate, east-north-up \[rad/s\].
+    /// The Earth rate, east-north-up \[rad/s\].
     pub(crate) fn earth_rate(&self) -> Vector3<f64> {
         Vector3::new(0.0, self.latitude.cos(), self.latitude.sin()) * EARTH_RATE
     }

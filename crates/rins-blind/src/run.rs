@@ -1,4 +1,4 @@
-//! From an experiment to its log.
+//! Simulation of an experiment to its log.
 
 use std::ops::{Add, Mul};
 
@@ -13,7 +13,7 @@ use crate::laws::Pose;
 use crate::motion::Motion;
 use crate::random::random;
 
-/// What was recorded.
+/// The recorded signals.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Log {
     /// The end of each sample \[s\].
@@ -22,29 +22,29 @@ pub struct Log {
     pub gyro: Vec<Vector3<f64>>,
     /// The mean specific force over each sample \[m/s²\].
     pub accel: Vec<Vector3<f64>>,
-    /// The encoder at the end of each sample \[rad\].
+    /// The encoder reading at the end of each sample \[rad\].
     pub angles: Vec<f64>,
     /// The temperature at the end of each sample \[°C\].
     pub temperature: Vec<f64>,
 }
 
-/// What the grid holds before and after the run, for what is late or early \[s\].
+/// The margin of the grid before and after the run, for delays of either sign \[s\].
 const MARGIN: f64 = 0.5;
 
-/// Streams of random numbers beside the sensors' own.
+/// Streams of random numbers other than those of the sensors.
 const ENCODER: u64 = 6;
 const DRIVE: u64 = 7;
 const FAULTS: u64 = 8;
 
-/// The short steps of a run.
+/// The grid of short steps of a run.
 pub(crate) struct Grid {
-    /// How long one is \[s\].
+    /// The length of a step \[s\].
     pub(crate) step: f64,
-    /// How many lie before the run.
+    /// The number of steps before the run.
     pub(crate) lead: usize,
-    /// How many there are.
+    /// The number of steps.
     pub(crate) steps: usize,
-    /// How many samples the run has.
+    /// The number of samples of the run.
     pub(crate) samples: usize,
 }
 
@@ -66,7 +66,7 @@ impl Grid {
         (place as f64 - self.lead as f64) * self.step
     }
 
-    /// What lies between the values of a list at the grid's points, at `time`.
+    /// The interpolation at `time` of a list of values at the grid points.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -77,7 +77,7 @@ impl Grid {
         T: Copy + Add<Output = T> + Mul<f64, Output = T>,
     {
         let place = (time / self.step + self.lead as f64).clamp(0.0, (list.len() - 2) as f64);
-        // A point that rounding just missed is that point.
+        // A point that is missed by rounding only counts as that point.
         let whole = (place + 1e-6).floor();
         let part = (place - whole).max(0.0);
         list[whole as usize] * (1.0 - part) + list[whole as usize + 1] * part
@@ -87,7 +87,7 @@ impl Grid {
 /// The log of an experiment.
 ///
 /// # Panics
-/// If an effect has an id of which no law is known, or fewer numbers than its law takes.
+/// If an effect has an id without a law, or fewer parameters than its law needs.
 pub fn record(experiment: &Experiment) -> Log {
     let mut truth = experiment.clone();
     for effect in &experiment.effects {
@@ -119,7 +119,7 @@ pub fn record(experiment: &Experiment) -> Log {
     log
 }
 
-/// What the encoder reads.
+/// The encoder readings.
 fn encoder(truth: &Experiment, grid: &Grid, way: &Way, times: &[f64]) -> Vec<f64> {
     let mut random = random(truth.seed, ENCODER);
     let read = |&time: &f64| {

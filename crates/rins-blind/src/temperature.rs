@@ -1,26 +1,26 @@
-//! How warm the IMU is.
+//! The temperature of the IMU.
 
 use std::f64::consts::TAU;
 
-/// A temperature that settles and goes up and down \[°C\].
+/// A temperature with an exponential transient and a periodic variation \[°C\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Temperature {
-    /// At the start of the run \[°C\].
+    /// The temperature at the start of the run \[°C\].
     pub start: f64,
-    /// By how much it settles in the end \[K\].
+    /// The total change of the transient \[K\].
     pub rise: f64,
-    /// Over what time \[s\].
+    /// The time constant of the transient \[s\].
     pub settling: f64,
-    /// Half the swing of what heats and cools the room \[K\].
+    /// The amplitude of the periodic variation of the room \[K\].
     pub swing: f64,
-    /// The period of that \[s\].
+    /// The period of the variation \[s\].
     pub period: f64,
 }
 
 impl Temperature {
-    /// At this time of the run.
+    /// The temperature at this time of the run.
     pub(crate) fn at(&self, time: f64) -> f64 {
-        // Before the run it is what it was at its start.
+        // Before the run it is constant.
         let time = time.max(0.0);
         let settled = self.rise * (1.0 - (-time / self.settling).exp());
         self.start + settled + self.swing * (TAU * time / self.period).sin()

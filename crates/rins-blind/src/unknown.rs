@@ -140,7 +140,7 @@ impl Unknown {
         match &self.shape {
             Shape::Burst { from, to } if (*from..*to).contains(&time) => self.size,
             Shape::Tails => {
-                // A normal number times this is Student's t: normal over the root of chi-square.
+                // The product of a normal number and this factor has Student's t distribution: normal over the root of χ².
                 let heavy = StudentT::new(3.0).map_or(0.0, |t| t.sample(random));
                 (1.0 + (self.size * heavy).powi(2)).sqrt()
             }

@@ -1,4 +1,4 @@
-//! The paper's campaign, 30 runs of 360 s at 50 Hz: simulation, mechanisation and filter, beside the same
+//! The paper's campaign, 30 runs of 360 s at 50 Hz: simulation, mechanization and filter, compared with the same
 //! with a filter of dense matrices.
 
 use std::hint::black_box;
@@ -16,7 +16,7 @@ use rins_simulation::{Scenario, TableRecord, simulate};
 
 const RUNS: u64 = 30;
 
-/// The estimates must agree to this many sigmas: the rival's transition is another of second order.
+/// The tolerance for the difference of the estimates, in sigmas: the other filter has another second-order transition matrix.
 const AGREEMENT: f64 = 1e-3;
 
 type State = SVector<f64, PAPER_STATES>;
@@ -55,7 +55,7 @@ fn in_lanes(cell: &Cell, runs: u64) -> Vec<RunResult> {
     cell.prepare().expect("the cell can be run").run(0..runs)
 }
 
-/// The paper's twelve states with dense matrices and Joseph's form.
+/// The paper's twelve states with dense matrices and the Joseph form.
 struct Dense {
     setup: Setup,
     navigator: Navigator,

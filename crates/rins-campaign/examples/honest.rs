@@ -1,4 +1,4 @@
-//! Is the paper's filter honest about its own model? 400 runs of a minute say so.
+//! Is the covariance of the paper's filter consistent under its own model? A test with 400 runs of one minute.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;
@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A number that one other bit anywhere would change.
+/// A hash that changes with any bit of the results.
 fn fingerprint(runs: &[RunResult]) -> u64 {
     let mut hasher = DefaultHasher::new();
     for found in runs.iter().flatten() {

@@ -1,30 +1,30 @@
-//! Which runs there are, and in which portions they are made.
+//! The runs of a campaign, and their division into chunks.
 
 use std::ops::Range;
 
 use crate::cell::Cell;
 
-/// Runs over scenarios.
+/// A campaign: runs of several scenarios.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Campaign {
-    /// The scenarios, each with what the filter is told of it.
+    /// The scenarios, each with the setup of the filter.
     pub cells: Vec<Cell>,
-    /// How many runs of each.
+    /// The number of runs of each.
     pub runs: u64,
 }
 
-/// A portion of a campaign: runs of one cell, made by one thread.
+/// A chunk of a campaign: runs of one cell, computed by one thread.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Chunk {
-    /// Its place in the campaign, from 0.
+    /// Its index in the campaign, from 0.
     pub index: u64,
-    /// The cell's.
+    /// The index of the cell.
     pub cell: usize,
-    /// The numbers of its runs.
+    /// The indices of its runs.
     pub runs: Range<u64>,
 }
 
-/// The most runs of a chunk: whole vectors of any machine, and some tenths of a second.
+/// The maximum number of runs of a chunk: a multiple of the vector width of any machine, which takes some tenths of a second.
 const CHUNK: u64 = 64;
 
 impl Campaign {
@@ -40,7 +40,7 @@ impl Campaign {
         })
     }
 
-    /// How many chunks there are.
+    /// The number of chunks.
     pub fn chunk_count(&self) -> u64 {
         self.cells.len() as u64 * self.chunks_per_cell()
     }

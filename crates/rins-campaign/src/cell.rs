@@ -1,4 +1,4 @@
-//! A scenario that is run over and over: what its runs share, and what each finds.
+//! A scenario of a campaign: the common data of its runs, and the result of each.
 
 use std::ops::Range;
 
@@ -8,19 +8,19 @@ use rins_imu::{ImuNoise, Seed, Span};
 use rins_motion::Recording;
 use rins_simulation::{Scenario, ScenarioError, TableRecord, simulate};
 
-/// The ids of what each run estimates.
+/// The ids of the estimated parameters.
 pub const PARAMETERS: [&str; 3] = ["gyro.misalignment.xz", "gyro.misalignment.yz", "gyro.scale.z"];
 
-/// A scenario, and what the filter is told of it.
+/// A scenario with the setup of the filter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// What is simulated; run `k` has the seed's run replaced by `k`.
+    /// The scenario; for run `k` the run index of its seed is replaced by `k`.
     pub scenario: Scenario,
-    /// What the filter is told.
+    /// The setup of the filter.
     pub setup: Setup,
 }
 
-/// Why a cell cannot be run at all.
+/// The reason why a cell cannot be run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CellError {
@@ -32,25 +32,25 @@ pub enum CellError {
     Calibration(#[from] CalibrationError),
 }
 
-/// Why a run has no estimates.
+/// The reason why a run has no estimates.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{reason}")]
 pub struct RunFailure {
-    /// The error's message, and those of what is behind it.
+    /// The error's message, and those of its sources.
     pub reason: String,
 }
 
-/// What a run found.
+/// The result of a run.
 pub type RunResult = Result<Estimate, RunFailure>;
 
-/// A cell made ready: what all of its runs have in common.
+/// A prepared cell, with the common data of its runs.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub(crate) scenario: Scenario,
     pub(crate) setup: Setup,
     /// The run without noise.
     pub(crate) noiseless: Recording,
-    /// Where runs can lie side by side: how they start, and their noise.
+    /// The common initial state and noise of the runs, if these can be computed in SIMD lanes.
     pub(crate) side_by_side: Option<(Start, ImuNoise, Span)>,
 }
 
@@ -60,7 +60,7 @@ impl Cell {
         self.scenario.imu_error.gyro.matrix.column(2).into_owned()
     }
 
-    /// Makes the cell ready: simulates its run without noise, and finds how the filter starts.
+    /// Prepares the cell: simulates its run without noise, and determines the initial state of the filter.
     ///
     /// # Errors
     /// [`CellError`] if a run without noise cannot be simulated or calibrated.
@@ -68,7 +68,7 @@ impl Cell {
         let Self { scenario, setup } = self;
         let noiseless = simulate(&Scenario { noise: None, ..scenario.clone() })?.recording;
         let (start, samples) = beginning(&noiseless, setup)?;
-        // An encoder's noise, effects, and a rest to be aligned on differ from run to run.
+        // Encoder noise, effects, and a static interval for alignment differ from run to run.
         let alike = scenario.table == TableRecord::CommandedRate
             && scenario.effects.terms.is_empty()
             && setup.axis.is_some()
@@ -76,7 +76,7 @@ impl Cell {
         let duration = scenario.profile.duration().max(scenario.interval);
         let span = Span { interval: scenario.interval, duration };
         let noise = scenario.noise.clone().unwrap_or_default();
-        // An impossible noise is found here, before any run.
+        // Invalid noise is detected here, before any run.
         noise.source(&span, scenario.seed).map_err(ScenarioError::from)?;
         Ok(Prepared {
             scenario: scenario.clone(),
@@ -88,7 +88,7 @@ impl Cell {
 }
 
 impl Prepared {
-    /// What runs find, in their order; side by side where they can lie so.
+    /// The results of the runs, in their order; computed in SIMD lanes if that is possible.
     pub fn run(&self, runs: Range<u64>) -> Vec<RunResult> {
         match &self.side_by_side {
             Some(shared) => {
@@ -102,7 +102,7 @@ impl Prepared {
         }
     }
 
-    /// What one run finds, simulated and calibrated as any other recording.
+    /// The result of one run, simulated and calibrated like any other recording.
     ///
     /// # Errors
     /// [`RunFailure`] if it has no estimates.
@@ -113,7 +113,7 @@ impl Prepared {
     }
 }
 
-/// An error's message and all behind it.
+/// An error's message and those of its sources.
 fn reason<E: std::error::Error>(error: E) -> RunFailure {
     let mut reason = error.to_string();
     let mut behind = error.source();

@@ -1,4 +1,4 @@
-//! Runs side by side: each lane has the noise of its own run.
+//! Runs in SIMD lanes: each lane has the noise of its own run.
 
 use std::ops::Range;
 
@@ -11,11 +11,11 @@ use rins_lanes::{Arch, Lane, Real, Simd, Vector, WithSimd};
 
 use crate::cell::Prepared;
 
-/// What runs of one cell share.
+/// The common data of the runs of one cell.
 type Shared = (Start, ImuNoise, Span);
 
 impl Prepared {
-    /// What runs find side by side; a run that must be made alone has nothing.
+    /// The results of runs in SIMD lanes; `None` for a run that must be computed alone.
     pub(crate) fn run_side_by_side(
         &self,
         shared: &Shared,
@@ -50,7 +50,7 @@ impl WithSimd for SideBySide<'_> {
     }
 }
 
-/// What at most as many runs find as there are lanes.
+/// The results of at most as many runs as there are lanes.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
 fn group<S: Simd>(
@@ -65,7 +65,7 @@ fn group<S: Simd>(
     };
     let mut filters = SpinAxisLanes::new(like, &cell.setup, start);
     let mut squares = like;
-    // Lanes beyond the last run go through the motions without noise.
+    // Lanes beyond the last run are computed without noise.
     let still = Increments { angle: InFrame::zeros(), velocity: InFrame::zeros(), interval: 0.0 };
     let mut read = vec![still; like.lanes()];
     let samples = cell.noiseless.len();

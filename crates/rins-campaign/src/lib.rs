@@ -1,9 +1,9 @@
-//! Monte Carlo campaigns: a calibration's scenarios, run thousands of times.
+//! Monte Carlo campaigns: scenarios of a calibration, run thousands of times.
 //!
-//! **What it does.** A [`Campaign`] is a list of [`Cell`]s - a scenario and what the filter is told of it - and
-//! a number of runs of each, whose noise follows from the scenario's seed and the run's number. Runs go
-//! in [chunks](Campaign::chunks), a chunk at a time to any thread in any order, and in SIMD lanes where
-//! the scenario allows it. [`Statistics`] say whether the covariances claimed are those found.
+//! **What it does.** A [`Campaign`] is a list of [`Cell`]s - a scenario with the setup of the filter - and
+//! a number of runs of each, whose noise follows from the scenario's seed and the index of the run. Runs are computed
+//! in [chunks](Campaign::chunks), by any thread in any order, and in SIMD lanes if
+//! the scenario allows it. [`Statistics`] state whether the covariances agree with the errors.
 //!
 //! **What it does not do.** It reads and writes no files. A run's result does not depend on the others,
 //! on threads, lanes or the machine.

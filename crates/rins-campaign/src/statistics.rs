@@ -1,49 +1,49 @@
-//! Whether estimates scatter as their covariances claim.
+//! Consistency of the covariances with the errors of the estimates.
 
 use nalgebra::Vector3;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::cell::RunResult;
 
-/// Half the width of a two-sided 95 % interval of a normal deviate.
+/// Half the width of a two-sided 95 % interval of the standard normal distribution.
 const WITHIN_95: f64 = 1.959963985;
 
-/// The probability that honest covariances lie outside the bounds of [`Statistics::nees_bounds`].
+/// The probability that consistent covariances are outside the bounds of [`Statistics::nees_bounds`].
 const SIGNIFICANCE: f64 = 0.01;
 
-/// How one parameter's estimates scatter over the runs of a cell.
+/// The errors of one parameter's estimates over the runs of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Honesty {
     /// The mean of estimate minus truth.
     pub mean_error: f64,
     /// The standard deviation of the estimates.
     pub spread: f64,
-    /// The root mean square of the 1σ claimed.
+    /// The root mean square of the standard uncertainties.
     pub claimed: f64,
-    /// How many of the 95 % intervals claimed hold the truth, from 0 to 1.
+    /// The coverage of the 95 % intervals: the fraction that contains the true value, from 0 to 1.
     pub coverage: f64,
 }
 
-/// What the runs of a cell say together.
+/// The statistics of the runs of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
-    /// How many runs have estimates.
+    /// The number of runs with estimates.
     pub runs: usize,
-    /// How many have none.
+    /// The number of runs without estimates.
     pub failed: usize,
     /// `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub parameters: [Honesty; 3],
-    /// The mean squared error of the three normalised by their covariance: 3 if that is honest.
+    /// The mean NEES of the three parameters: 3 if the covariances are consistent.
     pub nees: f64,
-    /// Between which the mean lies with a probability of 99 % if it is honest.
+    /// The bounds of the mean NEES with a probability of 99 % if the covariances are consistent.
     pub nees_bounds: [f64; 2],
-    /// The mean normalised innovation squared over its degrees of freedom.
+    /// The mean normalized innovation squared divided by its degrees of freedom.
     pub nis_ratio: f64,
 }
 
-/// What the runs of a cell have said so far, one after the other; of each of them only sums are kept.
+/// The accumulated statistics of a cell; only sums over the runs are kept.
 ///
-/// The bits of its [`statistics`](Self::statistics) follow from the runs and their order alone.
+/// The bits of its [`statistics`](Self::statistics) depend on the runs and their order only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tally {
     truth: Vector3<f64>,
@@ -54,18 +54,18 @@ pub struct Tally {
     nis_ratio: f64,
 }
 
-/// Sums over the errors of one parameter and the variances claimed for them.
+/// Sums over the errors of one parameter and their variances.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Sums {
     mean: f64,
-    /// Of the squares of what differs from the mean (‹welford1962›).
+    /// The sum of squared differences from the mean (‹welford1962›).
     squares: f64,
     variances: f64,
     covered: u32,
 }
 
 impl Sums {
-    /// Adds an error, the `count`th.
+    /// Adds an error, with number `count`.
     fn add(&mut self, error: f64, variance: f64, count: f64) {
         let from_old_mean = error - self.mean;
         self.mean += from_old_mean / count;
@@ -85,7 +85,7 @@ impl Sums {
 }
 
 impl Tally {
-    /// Of no run yet, where this is true.
+    /// The statistics without any run, for these true values.
     pub fn new(truth: Vector3<f64>) -> Self {
         Self {
             truth,
@@ -108,18 +108,18 @@ impl Tally {
         for (index, sums) in self.parameters.iter_mut().enumerate() {
             sums.add(error[index], found.covariance[(index, index)], self.runs as f64);
         }
-        // A covariance that cannot be inverted claims too much.
+        // A covariance that cannot be inverted is too small.
         let root = found.covariance.cholesky();
         self.nees += root.map_or(f64::INFINITY, |root| error.dot(&root.solve(&error)));
         self.nis_ratio += found.nis_ratio;
     }
 
-    /// How many runs were added, with and without estimates.
+    /// The number of runs that were added, with and without estimates.
     pub fn runs(&self) -> usize {
         self.runs + self.failed
     }
 
-    /// What they say together; `None` if fewer than two have estimates.
+    /// The statistics; `None` if fewer than two runs have estimates.
     pub fn statistics(&self) -> Option<Statistics> {
         if self.runs < 2 {
             return None;
@@ -148,7 +148,7 @@ impl Statistics {
         tally.statistics()
     }
 
-    /// Whether the covariances claimed are neither too small nor too large.
+    /// Whether the covariances are consistent, neither too small nor too large.
     pub fn is_honest(&self) -> bool {
         let [least, most] = self.nees_bounds;
         (least..=most).contains(&self.nees)

@@ -276,8 +276,8 @@ impl Linear {
     /// The same with additional parameters: for each of `parameters` one that acts only in the epochs of group 1, and so on
     /// up to group `last`.
     ///
+    /// # Panics
     /// If there is not one group for every epoch.
-    /// If there is not a group for every epoch.
     #[must_use]
     pub fn in_groups(&self, parameters: &[usize], groups: &[usize], last: usize) -> Self {
         assert_eq!(groups.len(), self.epochs.len(), "a group for every epoch");

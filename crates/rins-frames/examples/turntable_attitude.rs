@@ -1,4 +1,4 @@
-//! A tilted turntable: what gravity and the Earth's rotation look like from the IMU on it.
+//! A tilted rate table: gravity and the Earth rate in the body frame of its IMU.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use rins_frames::units::{DEG, DEG_PER_HOUR};

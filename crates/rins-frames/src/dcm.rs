@@ -8,13 +8,13 @@ use nalgebra::{ComplexField, Matrix3, Vector3};
 use crate::frame::{Frame, InFrame};
 use crate::rotation_vector;
 
-/// How far `C Cᵀ` may be from the identity for a matrix to be accepted as a rotation.
+/// The maximum norm of `C Cᵀ - I` at which a matrix is accepted as a rotation.
 const ORTHONORMAL_WITHIN: f64 = 1e-9;
 
 /// The rotation that resolves a vector of frame `From` in frame `To`.
 ///
 /// `Dcm<Nav, Body>` is the literature's `C_b^n`, and a value of it is called `nav_from_body`.
-/// Neighbouring frames cancel, as the subscripts do on paper:
+/// Adjacent frames cancel, like the subscripts on paper:
 ///
 /// ```
 /// use rins_frames::{Body, Dcm, InFrame, Nav, Table};
@@ -39,12 +39,12 @@ const ORTHONORMAL_WITHIN: f64 = 1e-9;
 /// let nav_from_body = Dcm::<Nav, Body>::identity();
 /// let body_from_nav: Dcm<Body, Nav> = nav_from_body;
 /// ```
-/// nor a vector that says no frame:
+/// nor does a vector without a frame:
 /// ```compile_fail,E0277
 /// use rins_frames::{Body, Dcm, Nav};
 /// let up = Dcm::<Nav, Body>::identity() * nalgebra::Vector3::z();
 /// ```
-/// nor a matrix that was never checked, for its field is private:
+/// nor does an unchecked matrix, because the field is private:
 /// ```compile_fail,E0423
 /// use rins_frames::{Body, Dcm, Nav};
 /// let nav_from_body = Dcm::<Nav, Body>(nalgebra::Matrix3::identity() * 2.0);
@@ -56,7 +56,7 @@ pub struct Dcm<To, From> {
     frames: PhantomData<(To, From)>,
 }
 
-/// Why a matrix is not a rotation.
+/// The reason why a matrix is not a rotation.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "not a rotation: C Cᵀ is {defect:e} from the identity and the determinant is {determinant}"
@@ -64,7 +64,7 @@ pub struct Dcm<To, From> {
 pub struct NotARotation {
     /// The Frobenius norm of `C Cᵀ - I`.
     pub defect: f64,
-    /// The matrix's determinant; a rotation has 1.
+    /// The determinant of the matrix; that of a rotation is 1.
     pub determinant: f64,
 }
 
@@ -74,45 +74,44 @@ impl<To: Frame, From: Frame> Dcm<To, From> {
         Self::from_orthonormal(Matrix3::identity())
     }
 
-    /// `From` is `To` turned about their common x axis by `angle` \[rad\], right-handed.
+    /// The rotation in which `From` is `To` rotated about their common x axis by `angle` \[rad\], right-handed.
     pub fn about_x(angle: f64) -> Self {
         let (sin, cos) = ComplexField::sin_cos(angle);
         Self::from_orthonormal(Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos))
     }
 
-    /// `From` is `To` turned about their common y axis by `angle` \[rad\], right-handed.
+    /// The rotation in which `From` is `To` rotated about their common y axis by `angle` \[rad\], right-handed.
     pub fn about_y(angle: f64) -> Self {
         let (sin, cos) = ComplexField::sin_cos(angle);
         Self::from_orthonormal(Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos))
     }
 
-    /// `From` is `To` turned about their common z axis by `angle` \[rad\], right-handed.
+    /// The rotation in which `From` is `To` rotated about their common z axis by `angle` \[rad\], right-handed.
     pub fn about_z(angle: f64) -> Self {
         let (sin, cos) = ComplexField::sin_cos(angle);
         Self::from_orthonormal(Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0))
     }
 
-    /// `From` is `To` turned about `vector` by its length \[rad\].
+    /// The rotation in which `From` is `To` rotated about `vector` by its length \[rad\].
     ///
     /// The vector's components are the same in both frames.
     pub fn from_rotation_vector(vector: &Vector3<f64>) -> Self {
         Self::from_orthonormal(rotation_vector::exp(vector))
     }
 
-    /// The vector about which, and by whose length \[rad\], `From` is turned against `To`.
+    /// The rotation vector \[rad\] by which `From` is rotated relative to `To`.
     ///
     /// Its length is at most π.
     pub fn rotation_vector(&self) -> Vector3<f64> {
         self.quaternion().rotation_vector()
     }
 
-    /// Claims that a bare matrix rotates `From` into `To`.
+    /// The rotation with this matrix, which resolves a vector of frame `From` in frame `To`.
     ///
     /// # Errors
     /// [`NotARotation`] if `C Cᵀ` is not the identity within 1e-9, or the matrix is left-handed.
     ///
-    /// A sensor triad's scale and misalignment errors make no rotation, and nothing takes them for
-    /// one before the error has been looked at:
+    /// A sensor triad's scale and misalignment errors are not a rotation, and the error must be handled:
     /// ```compile_fail,E0308
     /// use rins_frames::{Body, Dcm, Nav};
     /// let triad = nalgebra::Matrix3::identity() * 1.0001;
@@ -128,9 +127,9 @@ impl<To: Frame, From: Frame> Dcm<To, From> {
         }
     }
 
-    /// Claims, unchecked, that a kernel's bare matrix rotates `From` into `To`.
+    /// The rotation with this matrix of a kernel, without a check.
     ///
-    /// Only for what a kernel has multiplied together from rotations; any other matrix goes through
+    /// It is only for products of rotations in a kernel; for any other matrix use
     /// [`Dcm::from_matrix`].
     pub const fn from_kernel(matrix: Matrix3<f64>) -> Self {
         Self::from_orthonormal(matrix)
@@ -142,10 +141,10 @@ impl<To: Frame, From: Frame> Dcm<To, From> {
         Dcm::from_orthonormal(self.matrix.transpose())
     }
 
-    /// The nearest rotation, to first order in what rounding has done to this one.
+    /// The nearest rotation, to first order in the rounding errors of this one.
     ///
-    /// A product of many rotations drifts off orthonormality by a unit in the last place a
-    /// factor; one step of Newton's iteration for the polar decomposition brings it back.
+    /// A product of many rotations loses orthonormality by one unit in the last place per
+    /// factor; one step of Newton's iteration for the polar decomposition restores it.
     #[must_use]
     pub fn orthonormalised(self) -> Self {
         let excess = self.matrix * self.matrix.transpose() - Matrix3::identity();
@@ -188,7 +187,7 @@ mod tests {
     use proptest::prelude::*;
     use rins_testing::{any_matrix, any_rotation_vector, assert_close};
 
-    /// What nine elements of order one lose to rounding: among a million random rotations the
+    /// The rounding error of nine elements of order one: among a million random rotations the
     /// largest defect was 15 units in the last place.
     const ROUNDING: f64 = 24.0 * f64::EPSILON;
 
@@ -309,7 +308,7 @@ mod tests {
             let symmetric = (noise + noise.transpose()) * STRETCH;
             let drifted = Dcm::<Nav, Body>::from_orthonormal(c.matrix + symmetric * c.matrix);
             let repaired = drifted.orthonormalised();
-            // What is left is of second order in the stretch, whose norm is at most 6e-6.
+            // The remainder is of second order in the stretch, whose norm is at most 6e-6.
             prop_assert!((repaired.matrix - c.matrix).norm() < 1e-10);
         }
     }

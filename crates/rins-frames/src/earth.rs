@@ -20,7 +20,7 @@ const SOMIGLIANA: f64 = 0.00193185265241;
 /// `m = ω² a² b / GM` (WGS84).
 const CENTRIFUGAL_RATIO: f64 = 0.00344978650684;
 
-/// A place on or near the WGS84 ellipsoid.
+/// A position on or near the WGS84 ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
     /// Geodetic latitude, north positive \[rad\].
@@ -38,15 +38,15 @@ impl Site {
         SEMI_MAJOR_AXIS * (1.0 - ECCENTRICITY_SQUARED) / (w * ComplexField::sqrt(w))
     }
 
-    /// The radius of curvature across the meridian, `R_N` \[m\], on the ellipsoid.
+    /// The radius of curvature in the prime vertical, `R_N` \[m\], on the ellipsoid.
     pub fn transverse_radius(&self) -> f64 {
         SEMI_MAJOR_AXIS / ComplexField::sqrt(self.curvature_term())
     }
 
-    /// Normal gravity, downwards \[m/s²\]: Somigliana's formula, carried up to second order in height.
+    /// Normal gravity, downwards \[m/s²\]: Somigliana's formula, continued upwards to second order in height.
     ///
-    /// NIMA TR8350.2, eqs. (4-1) and (4-3). The second leaves out squares of the flattening, and is
-    /// off the exact normal gravity by up to 1e-10 m/s² a metre of height.
+    /// NIMA TR8350.2, eqs. (4-1) and (4-3). The second omits squares of the flattening, and differs
+    /// from the exact normal gravity by up to 1e-10 m/s² per meter of height.
     ///
     /// ```
     /// use rins_frames::Site;
@@ -63,15 +63,15 @@ impl Site {
         surface * (1.0 - 2.0 * slope * ratio + 3.0 * ratio * ratio)
     }
 
-    /// The Earth's rotation with respect to inertial space, `ω_ie^n` \[rad/s\].
+    /// The Earth rate, `ω_ie^n` \[rad/s\]: the rotation of the Earth with respect to inertial space.
     pub fn earth_rate(&self) -> InFrame<Nav> {
         let (sin, cos) = ComplexField::sin_cos(self.latitude);
         InFrame::new(0.0, EARTH_RATE * cos, EARTH_RATE * sin)
     }
 
-    /// The rate of the geographic frame over the Earth, `ω_en^n` \[rad/s\], at this velocity \[m/s\].
+    /// The transport rate, `ω_en^n` \[rad/s\]: the rate of the geographic frame relative to the Earth, at this velocity \[m/s\].
     ///
-    /// Its vertical component grows without bound towards the poles, where east is not defined.
+    /// Its vertical component diverges at the poles, where east is not defined.
     ///
     /// A velocity resolved in another frame does not compile:
     /// ```compile_fail,E0308

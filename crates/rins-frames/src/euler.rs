@@ -5,7 +5,7 @@ use nalgebra::{ComplexField, RealField};
 use crate::dcm::Dcm;
 use crate::frame::Frame;
 
-/// The cosine of the pitch below which roll is only rounding.
+/// The cosine of the pitch below which roll consists of rounding errors only.
 const LOCKED: f64 = 8.0 * f64::EPSILON;
 
 /// Roll, pitch and yaw \[rad\]: `C = Rz(yaw) Rx(pitch) Ry(roll)`, which is eq. (5).
@@ -20,7 +20,7 @@ const LOCKED: f64 = 8.0 * f64::EPSILON;
 /// assert!((forward.z - 0.1_f64.sin()).abs() < 1e-15); // pitched up, forward points upwards
 /// ```
 ///
-/// Three angles are no rotation until [`EulerAngles::dcm`] says between which frames:
+/// Three angles are not a rotation until [`EulerAngles::dcm`] states its frames:
 /// ```compile_fail,E0308
 /// use rins_frames::{Dcm, EulerAngles, Nav, Table};
 /// let nav_from_table: Dcm<Nav, Table> = EulerAngles { roll: 0.0, pitch: 0.1, yaw: 0.0 };
@@ -46,16 +46,16 @@ impl EulerAngles {
 impl<To: Frame, From: Frame> Dcm<To, From> {
     /// This rotation's angles in the sequence of eq. (5).
     ///
-    /// At a pitch of ±90° only `yaw ± roll` is defined; roll is then 0. Close to it the two lose
-    /// digits each, but they stay a pair that gives this rotation back.
+    /// At a pitch of ±90° only `yaw ± roll` is defined; roll is then 0. Close to it both angles
+    /// lose digits, but together they still reproduce this rotation.
     pub fn euler_angles(&self) -> EulerAngles {
         let c = self.matrix();
         let level = ComplexField::sqrt(c[(2, 0)] * c[(2, 0)] + c[(2, 2)] * c[(2, 2)]);
         let pitch = RealField::atan2(c[(2, 1)], level);
-        // A difference, not a sign: -0.0 would turn a roll of π into one of -π.
+        // A difference instead of a negation: -0.0 would change a roll of π to -π.
         let roll = if level < LOCKED { 0.0 } else { RealField::atan2(0.0 - c[(2, 0)], c[(2, 2)]) };
-        // The first column of C Ry(-roll) = Rz(yaw) Rx(pitch) is (cos yaw, sin yaw, 0), however
-        // ill-defined roll is.
+        // The first column of C Ry(-roll) = Rz(yaw) Rx(pitch) is (cos yaw, sin yaw, 0), even if roll
+        // is ill-conditioned.
         let (sin, cos) = ComplexField::sin_cos(roll);
         let yaw =
             RealField::atan2(c[(1, 0)] * cos + c[(1, 2)] * sin, c[(0, 0)] * cos + c[(0, 2)] * sin);
@@ -79,7 +79,7 @@ mod tests {
         EulerAngles { roll, pitch, yaw }
     }
 
-    /// The matrix as eq. (5) prints it, element by element.
+    /// The matrix of eq. (5) as printed, element by element.
     fn printed(EulerAngles { roll, pitch, yaw }: EulerAngles) -> Matrix3<f64> {
         let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
         Matrix3::new(
@@ -117,7 +117,7 @@ mod tests {
         #[test]
         fn angles_come_back(e in any_euler_angles()) {
             let back = angles(e).dcm::<Nav, Table>().euler_angles();
-            // Short of the pole by 0.07 rad, what roll and yaw lose is a factor 1/cos pitch < 15.
+            // At 0.07 rad from the pole, roll and yaw lose a factor 1/cos pitch < 15.
             prop_assert!((back.roll - e[0]).abs() < 15.0 * ROUNDING);
             prop_assert!((back.pitch - e[1]).abs() < 15.0 * ROUNDING);
             prop_assert!((back.yaw - e[2]).abs() < 15.0 * ROUNDING);
@@ -131,7 +131,7 @@ mod tests {
             for pitch in [FRAC_PI_2 - 10_f64.powf(exponent), 10_f64.powf(exponent) - FRAC_PI_2] {
                 let c: Dcm<Nav, Table> = EulerAngles { roll, pitch, yaw }.dcm();
                 let back: Dcm<Nav, Table> = c.euler_angles().dcm();
-                // Roll gives up what is below LOCKED.
+                // Roll loses what is below LOCKED.
                 prop_assert!((back.matrix() - c.matrix()).norm() < ROUNDING + 2.0 * LOCKED);
             }
         }

@@ -1,4 +1,4 @@
-//! The frames, and vectors resolved in them.
+//! Frames of reference, and vectors resolved in them.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -10,11 +10,11 @@ use crate::rotation_vector::cross_matrix;
 
 /// A frame of reference.
 ///
-/// A frame is an empty enum, of which no value exists:
+/// A frame is an empty enum, which has no value:
 /// ```compile_fail,E0423
 /// let nav = rins_frames::Nav;
 /// ```
-/// A frame of your own is two lines:
+/// A new frame takes two lines:
 /// ```
 /// use rins_frames::{Body, Dcm, Frame, InFrame};
 /// #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,7 +38,7 @@ macro_rules! frames {
 frames! {
     /// `n`: east, north, up at the turntable (wander angle zero).
     Nav,
-    /// `s`: the body frame at table angle zero; its z is the spin axis. It does not turn.
+    /// `s`: the body frame at table angle zero; its z is the spin axis. It does not rotate with the table.
     Table,
     /// `b`: fixed to the IMU: right, front, up; its z is the spin axis.
     Body,
@@ -54,17 +54,17 @@ frames! {
 /// assert_eq!((east * 3.0 - north * 4.0).norm(), 5.0);
 /// ```
 ///
-/// Vectors of two frames have no sum:
+/// Vectors of two frames cannot be added:
 /// ```compile_fail,E0308
 /// use rins_frames::{Body, InFrame, Nav};
 /// let sum = InFrame::<Nav>::new(1.0, 0.0, 0.0) + InFrame::<Body>::new(0.0, 1.0, 0.0);
 /// ```
-/// no vector product:
+/// nor multiplied:
 /// ```compile_fail,E0308
 /// use rins_frames::{Body, InFrame, Table};
 /// let product = InFrame::<Table>::zeros().cross(&InFrame::<Body>::zeros());
 /// ```
-/// and bare numbers claim a frame by name or not at all:
+/// and a frame is assigned to bare numbers explicitly or not at all:
 /// ```compile_fail,E0308
 /// use rins_frames::{InFrame, Nav};
 /// let velocity: InFrame<Nav> = nalgebra::Vector3::new(1.0, 0.0, 0.0);
@@ -82,22 +82,22 @@ impl<F: Frame> InFrame<F> {
         Self::from_components(Vector3::new(x, y, z))
     }
 
-    /// The vector that is zero in every frame.
+    /// The zero vector.
     pub const fn zeros() -> Self {
         Self::new(0.0, 0.0, 0.0)
     }
 
-    /// Claims that `components` are resolved in `F`: the one way in from bare numbers.
+    /// The vector with these components in `F`: the only conversion from bare numbers.
     pub const fn from_components(components: Vector3<f64>) -> Self {
         Self { components, frame: PhantomData }
     }
 
-    /// The bare components, for a kernel or a state vector: the one way out.
+    /// The bare components, for a kernel or a state vector: the only conversion to bare numbers.
     pub const fn components(&self) -> &Vector3<f64> {
         &self.components
     }
 
-    /// The vector product `self × other`.
+    /// The cross product `self × other`.
     #[must_use]
     pub fn cross(&self, other: &Self) -> Self {
         Self::from_components(self.components.cross(&other.components))
@@ -108,7 +108,7 @@ impl<F: Frame> InFrame<F> {
         self.components.dot(&other.components)
     }
 
-    /// The length.
+    /// The Euclidean norm.
     pub fn norm(&self) -> f64 {
         self.components.norm()
     }

@@ -1,8 +1,8 @@
-//! What a rate-integrating IMU delivers: increments over an interval, or mean rates.
+//! The output of an IMU: increments over an interval, or mean rates.
 
 use crate::frame::{Body, InFrame};
 
-/// The integrals of angular rate and specific force over an interval, resolved in the (turning) body.
+/// The integrals of angular rate and specific force over an interval, resolved in the (rotating) body frame.
 ///
 /// ```
 /// use rins_frames::{InFrame, Rates};
@@ -15,13 +15,13 @@ use crate::frame::{Body, InFrame};
 /// assert_eq!(increments.rates(), rates);
 /// ```
 ///
-/// A rate is no increment:
+/// A rate is not an increment:
 /// ```compile_fail,E0308
 /// use rins_frames::{InFrame, Increments, Rates};
 /// fn integrate(_: Increments) {}
 /// integrate(Rates { angular_rate: InFrame::zeros(), specific_force: InFrame::zeros() });
 /// ```
-/// and nothing that is resolved in another frame is what an IMU delivers:
+/// and a vector resolved in another frame is not an output of an IMU:
 /// ```compile_fail,E0308
 /// use rins_frames::{InFrame, Increments, Nav};
 /// let gravity = InFrame::<Nav>::new(0.0, 0.0, -9.8);
@@ -37,9 +37,9 @@ pub struct Increments {
     pub interval: f64,
 }
 
-/// The means of angular rate and specific force over an interval, resolved in the (turning) body.
+/// The means of angular rate and specific force over an interval, resolved in the (rotating) body frame.
 ///
-/// An increment is no rate:
+/// An increment is not a rate:
 /// ```compile_fail,E0308
 /// use rins_frames::{InFrame, Increments, Rates};
 /// fn compensate(_: Rates) {}
@@ -54,7 +54,7 @@ pub struct Rates {
 }
 
 impl Increments {
-    /// These increments as means over their interval, which must not be zero for them to be finite.
+    /// The mean rates over the interval of these increments, finite only if the interval is not zero.
     pub fn rates(&self) -> Rates {
         Rates {
             angular_rate: self.angle * (1.0 / self.interval),
@@ -64,7 +64,7 @@ impl Increments {
 }
 
 impl Rates {
-    /// These means as increments over `interval` \[s\].
+    /// The increments over `interval` \[s\] at these mean rates.
     pub fn over(&self, interval: f64) -> Increments {
         Increments {
             angle: self.angular_rate * interval,

@@ -1,13 +1,13 @@
-//! Frames of reference, the rotations between them, and the Earth they stand on.
+//! Frames of reference, the rotations between them, and the WGS84 Earth.
 //!
-//! **What it does.** A vector carries the frame that it is resolved in, a rotation the two frames
-//! that it joins, so that a wrong order or a forgotten transpose does not compile. Beside them
-//! stand the WGS84 Earth (radii, normal gravity, Earth and transport rate) and unit constants.
+//! **What it does.** A vector has the frame in which it is resolved as its type, a rotation its two frames,
+//! so that a wrong order or a forgotten transpose does not compile. The crate also contains the
+//! WGS84 Earth (radii, normal gravity, Earth and transport rate) and constants of units.
 //!
-//! A rotation is a [`Dcm`], or a [`Quaternion`] where four numbers are better than nine. Sines and
-//! roots come from the `libm` crate whatever the features, so that every machine gets the same bits.
+//! A rotation is a [`Dcm`], or a [`Quaternion`] if four numbers are preferable to nine. Trigonometric functions
+//! and roots are those of the `libm` crate whatever the features, so that every machine gets the same bits.
 //!
-//! **What it does not do.** Points, positions and poses are left out, and so is a units crate:
+//! **What it does not do.** There are no points, positions and poses, and no types for units:
 //! every number is in SI units and radians.
 //!
 //! ```

@@ -9,12 +9,12 @@ use crate::dcm::Dcm;
 use crate::frame::{Frame, InFrame};
 use crate::rotation_vector::cross_matrix;
 
-/// How far a quaternion's norm may be from 1 for it to be accepted as a rotation.
+/// The maximum difference of a quaternion's norm from 1 at which it is accepted as a rotation.
 const UNIT_WITHIN: f64 = 1e-9;
 
 /// The rotation that resolves a vector of frame `From` in frame `To`, as four numbers.
 ///
-/// `q = (cos φ/2, u sin φ/2)` for a turn by `φ` about `u`, multiplied as Hamilton did (`i j = k`),
+/// `q = (cos φ/2, u sin φ/2)` for a rotation by `φ` about `u`, with Hamilton's multiplication (`i j = k`),
 /// so that a product of quaternions is the product of their matrices in the same order. `q` and
 /// `−q` are the same rotation but do not compare equal.
 ///
@@ -34,7 +34,7 @@ const UNIT_WITHIN: f64 = 1e-9;
 /// let nav_from_table = Quaternion::<Nav, Table>::identity();
 /// let nav_from_body: Quaternion<Nav, Body> = nav_from_table;
 /// ```
-/// nor is it a matrix, unless [`Quaternion::dcm`] makes one:
+/// nor is it a matrix, unless [`Quaternion::dcm`] converts it:
 /// ```compile_fail,E0308
 /// use rins_frames::{Body, Dcm, Nav, Quaternion};
 /// let nav_from_body: Dcm<Nav, Body> = Quaternion::<Nav, Body>::identity();
@@ -46,11 +46,11 @@ pub struct Quaternion<To, From> {
     frames: PhantomData<(To, From)>,
 }
 
-/// Why four numbers are not a rotation.
+/// The reason why four numbers are not a rotation.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("not a rotation: the quaternion's norm is {norm}, not 1")]
 pub struct NotAUnitQuaternion {
-    /// The norm that should be 1.
+    /// The norm, which should be 1.
     pub norm: f64,
 }
 
@@ -60,24 +60,24 @@ impl<To: Frame, From: Frame> Quaternion<To, From> {
         Self::from_unit(1.0, Vector3::zeros())
     }
 
-    /// `From` is `To` turned about their common z axis by `angle` \[rad\], right-handed.
+    /// The rotation in which `From` is `To` rotated about their common z axis by `angle` \[rad\], right-handed.
     pub fn about_z(angle: f64) -> Self {
         let (sin, cos) = ComplexField::sin_cos(angle / 2.0);
         Self::from_unit(cos, Vector3::new(0.0, 0.0, sin))
     }
 
-    /// `From` is `To` turned about `vector` by its length \[rad\].
+    /// The rotation in which `From` is `To` rotated about `vector` by its length \[rad\].
     ///
     /// The vector's components are the same in both frames.
     pub fn from_rotation_vector(vector: &Vector3<f64>) -> Self {
         let half_angle = vector.norm() / 2.0;
         let (sin, cos) = ComplexField::sin_cos(half_angle);
-        // A sine is precise down to the smallest angle, so that only 0/0 needs care.
+        // The sine is accurate down to the smallest angle, so that only 0/0 needs a special case.
         let half_sinc = if half_angle > 0.0 { sin / half_angle / 2.0 } else { 0.5 };
         Self::from_unit(cos, vector * half_sinc)
     }
 
-    /// The vector about which, and by whose length \[rad\], `From` is turned against `To`.
+    /// The rotation vector \[rad\] by which `From` is rotated relative to `To`.
     ///
     /// Its length is at most π.
     pub fn rotation_vector(&self) -> Vector3<f64> {
@@ -90,7 +90,7 @@ impl<To: Frame, From: Frame> Quaternion<To, From> {
         }
     }
 
-    /// Claims that `scalar` and `vector` are the quaternion that rotates `From` into `To`.
+    /// The rotation with the quaternion (`scalar`, `vector`), which resolves a vector of frame `From` in frame `To`.
     ///
     /// # Errors
     /// [`NotAUnitQuaternion`] if the norm is not 1 within 1e-9.
@@ -119,7 +119,7 @@ impl<To: Frame, From: Frame> Quaternion<To, From> {
         Quaternion::from_unit(self.scalar, -self.vector)
     }
 
-    /// This rotation with the norm that rounding has taken off brought back to 1.
+    /// The same rotation with its norm restored to 1, from which rounding has moved it.
     #[must_use]
     pub fn renormalised(self) -> Self {
         let norm = ComplexField::sqrt(self.scalar * self.scalar + self.vector.norm_squared());
@@ -141,7 +141,7 @@ impl<To: Frame, From: Frame> Quaternion<To, From> {
 impl<To: Frame, From: Frame> Dcm<To, From> {
     /// The same rotation as a quaternion, with a scalar part that is not negative.
     ///
-    /// The largest of the four numbers is found first and divides the others (Shepperd 1978), so
+    /// The component of largest magnitude is computed first and divides the others (Shepperd 1978), so
     /// that no rotation loses digits.
     pub fn quaternion(&self) -> Quaternion<To, From> {
         let c = self.matrix();
@@ -161,7 +161,7 @@ impl<To: Frame, From: Frame> Dcm<To, From> {
             let sign = RealField::copysign(1.0, scalar);
             Quaternion::from_unit(scalar * sign, vector * sign)
         };
-        // A matrix that rounding took off orthonormality must not leave a quaternion off 1.
+        // A matrix that is not exactly orthonormal must not give a quaternion whose norm is not 1.
         unit.renormalised()
     }
 }
@@ -200,7 +200,7 @@ mod tests {
     use proptest::prelude::*;
     use rins_testing::{any_direction, any_rotation_vector, small_rotation_vector};
 
-    /// What nine elements of order one lose to rounding: among a million random rotations the
+    /// The rounding error of nine elements of order one: among a million random rotations the
     /// largest defect was 17 units in the last place.
     const ROUNDING: f64 = 24.0 * f64::EPSILON;
 
@@ -265,7 +265,7 @@ mod tests {
                 &(Vector3::from(direction) * (PI - short)),
             );
             let back = q.dcm().quaternion();
-            // At half a turn u and −u are one rotation.
+            // At half a turn u and −u are the same rotation.
             let sign = back.vector.dot(&q.vector).signum();
             let back = Quaternion::from_unit(back.scalar * sign, back.vector * sign);
             prop_assert!(distance(back, q) < ROUNDING);

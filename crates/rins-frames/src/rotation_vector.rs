@@ -1,10 +1,10 @@
-//! Rotation vectors: a rotation's axis times its angle, and the exponential that turns it into a matrix.
+//! Rotation vectors: axis times angle of a rotation, and their exponential, the rotation matrix.
 
 use nalgebra::{ComplexField, Matrix3, Vector3};
 
-/// Below this angle \[rad\] the coefficients of the exponential come from their Taylor series.
+/// The angle \[rad\] below which the coefficients of the exponential come from their Taylor series.
 ///
-/// The first terms left out are `φ⁸/9!` of `sin φ/φ` and `2 φ⁸/10!` of `2 (1 − cos φ)/φ²`; here
+/// The first omitted terms are `φ⁸/9!` of `sin φ/φ` and `2 φ⁸/10!` of `2 (1 − cos φ)/φ²`; at this angle
 /// they are 2e-17 and 4e-18, a tenth of a rounding error.
 const SMALL_ANGLE: f64 = 0.04;
 
@@ -13,14 +13,14 @@ pub fn cross_matrix(v: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)
 }
 
-/// `exp[v×]` (Rodrigues' formula): the matrix of a turn by `|v|` about `v`.
+/// The matrix `exp[v×]` of a rotation by `|v|` about `v` (Rodrigues' formula).
 pub(crate) fn exp(v: &Vector3<f64>) -> Matrix3<f64> {
     let (sinc, cosc) = coefficients(v.norm_squared());
     let cross = cross_matrix(v);
     Matrix3::identity() + cross * sinc + cross * cross * cosc
 }
 
-/// `sin φ / φ` and `(1 − cos φ) / φ²`, of `φ²`.
+/// The coefficients `sin φ / φ` and `(1 − cos φ) / φ²` as functions of `φ²`.
 fn coefficients(square: f64) -> (f64, f64) {
     if square < SMALL_ANGLE * SMALL_ANGLE { series(square) } else { closed_form(square) }
 }
@@ -55,7 +55,7 @@ mod tests {
         Dcm::<Nav, Body>::from_rotation_vector(vector).rotation_vector()
     }
 
-    /// `exp` by its power series in the matrix itself, halved until it converges at once.
+    /// `exp` by the power series of the matrix, with scaling and squaring.
     fn exp_by_squaring(vector: &Vector3<f64>) -> Matrix3<f64> {
         const HALVINGS: i32 = 8;
         let generator = cross_matrix(vector) / f64::from(1 << HALVINGS);

@@ -1,20 +1,20 @@
-//! Axes that are others, or the opposite of others.
+//! Permutations of axes with signs.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Three axes picked from three others, each once, with signs.
+/// Three axes selected from three others, each once, with signs.
 ///
-/// Corrected component `i` is `sign[i]` times component `source[i]` as it is read now.
+/// Component `i` along these axes is `sign[i]` times component `source[i]` along the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedAxes {
-    /// Which component, 0 to 2.
+    /// The index of the selected component, 0 to 2.
     pub source: [usize; 3],
     /// 1 or -1.
     pub sign: [f64; 3],
 }
 
 impl SignedAxes {
-    /// The axes as they are.
+    /// The identity: the axes unchanged.
     pub const IDENTITY: Self = Self { source: [0, 1, 2], sign: [1.0; 3] };
 
     /// The vector's components along these axes.
@@ -29,7 +29,7 @@ impl SignedAxes {
         self.inverse().apply(vector)
     }
 
-    /// The matrix that makes components along these axes.
+    /// The matrix that gives components along these axes.
     #[must_use]
     pub fn matrix(&self) -> Matrix3<f64> {
         Matrix3::from_columns(
@@ -37,7 +37,7 @@ impl SignedAxes {
         )
     }
 
-    /// The axes by which what these have mixed up is as it was.
+    /// The inverse permutation.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let mut inverse = *self;
@@ -48,7 +48,7 @@ impl SignedAxes {
         inverse
     }
 
-    /// These axes picked from those that `first` picks.
+    /// The composition: these axes selected from those of `first`.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         let source = self.source.map(|index| first.source[index]);
@@ -56,17 +56,17 @@ impl SignedAxes {
         Self { source, sign }
     }
 
-    /// How many of the axes' signs are changed.
+    /// The number of axes with a negative sign.
     pub fn flips(&self) -> usize {
         self.sign.iter().filter(|sign| **sign < 0.0).count()
     }
 
-    /// How many axes stay in their place.
+    /// The number of axes that keep their position.
     pub fn kept(&self) -> usize {
         (0..3).filter(|&axis| self.source[axis] == axis).count()
     }
 
-    /// All 48.
+    /// All 48 permutations with signs.
     pub fn all() -> impl Iterator<Item = Self> {
         const ORDERS: [[usize; 3]; 6] =
             [[0, 1, 2], [1, 0, 2], [0, 2, 1], [2, 1, 0], [1, 2, 0], [2, 0, 1]];

@@ -13,13 +13,13 @@ pub const DEG: f64 = PI / 180.0;
 pub const ARCMIN: f64 = DEG / 60.0;
 /// One second of arc \[rad\].
 pub const ARCSEC: f64 = DEG / 3600.0;
-/// One degree a second \[rad/s\].
+/// One degree per second \[rad/s\].
 pub const DEG_PER_SECOND: f64 = DEG;
-/// One degree an hour \[rad/s\].
+/// One degree per hour \[rad/s\].
 pub const DEG_PER_HOUR: f64 = DEG / 3600.0;
 /// One degree per root hour, as an angle random walk \[rad/√s\].
 pub const DEG_PER_ROOT_HOUR: f64 = DEG / 60.0;
-/// One degree an hour per root hertz, as a rate noise density \[rad/s/√Hz\].
+/// One degree per hour per root hertz, as a rate noise density \[rad/s/√Hz\].
 pub const DEG_PER_HOUR_PER_ROOT_HZ: f64 = DEG_PER_HOUR;
 /// One part in a million.
 pub const PPM: f64 = 1e-6;

@@ -1,4 +1,4 @@
-//! Prints the Allan deviation of a simulated gyro beside that of its coefficients.
+//! Prints the Allan deviation of a simulated gyro with that of its noise parameters.
 //!
 //! `cargo run --release -p rins-imu --example allan`
 #![expect(clippy::print_stdout, reason = "an example prints")]

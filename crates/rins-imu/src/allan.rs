@@ -1,4 +1,4 @@
-//! The Allan deviation of a rest, and the noise that it shows.
+//! The Allan deviation over a static interval, and the noise parameters fitted to it.
 
 mod covariance;
 mod curve;

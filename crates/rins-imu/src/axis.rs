@@ -1,4 +1,4 @@
-//! The names of an IMU's sensors: two triads of three axes.
+//! The sensors of an IMU: two triads of three axes.
 
 use core::fmt;
 
@@ -9,7 +9,7 @@ pub enum Axis {
     X,
     /// To the front.
     Y,
-    /// Upwards, along the spin axis.
+    /// Up, along the spin axis.
     Z,
 }
 
@@ -17,7 +17,7 @@ impl Axis {
     /// The axes in order.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
-    /// The axis's place in a vector: 0, 1 or 2.
+    /// The index of the axis in a vector: 0, 1 or 2.
     pub const fn index(self) -> usize {
         self as usize
     }

@@ -1,4 +1,4 @@
-//! The deterministic errors of a whole IMU, and their inverse.
+//! The deterministic errors of an IMU, and their compensation.
 
 use nalgebra::Matrix3;
 use rins_frames::Increments;
@@ -6,7 +6,7 @@ use rins_frames::Increments;
 use crate::axis::Triad;
 use crate::triad::{CompensationError, TriadCompensation, TriadError};
 
-/// The errors of a gyro and an accelerometer triad (eq. (1), once for each). The default has none.
+/// The errors of a gyro and an accelerometer triad (eq. (1) for each). The default is no error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ImuError {
     /// The gyros' errors: biases in rad/s.
@@ -16,14 +16,14 @@ pub struct ImuError {
 }
 
 impl ImuError {
-    /// The same sensors' errors along other axes, which `rotation` makes of those here: vectors along these become
+    /// The errors of the same sensors along other axes: `rotation` maps a vector along the present axes to
     /// `rotation · vector`.
     #[must_use]
     pub fn along(&self, rotation: &Matrix3<f64>) -> Self {
         Self { gyro: self.gyro.along(rotation), accel: self.accel.along(rotation) }
     }
 
-    /// What an IMU with these errors delivers where `truth` happens.
+    /// The output of an IMU with these errors for the true increments `truth`.
     #[must_use]
     pub fn measure(&self, truth: &Increments) -> Increments {
         let interval = truth.interval;
@@ -34,7 +34,7 @@ impl ImuError {
         }
     }
 
-    /// The exact inverse of these errors.
+    /// The exact compensation of these errors.
     ///
     /// # Errors
     /// [`ImuCompensationError`] if either triad cannot be inverted.
@@ -49,28 +49,28 @@ impl ImuError {
     }
 }
 
-/// Which triad cannot be compensated, and why.
+/// The error of a triad that cannot be compensated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("the {triad} errors cannot be compensated")]
 pub struct ImuCompensationError {
     /// The triad.
     pub triad: Triad,
-    /// Why its errors cannot be undone.
+    /// The reason.
     #[source]
     pub reason: CompensationError,
 }
 
-/// The exact inverse of an [`ImuError`].
+/// The exact compensation of an [`ImuError`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compensation {
-    /// The gyros' inverse.
+    /// The compensation of the gyros.
     pub gyro: TriadCompensation,
-    /// The accelerometers' inverse.
+    /// The compensation of the accelerometers.
     pub accel: TriadCompensation,
 }
 
 impl Compensation {
-    /// What happened where the IMU delivered `measured`.
+    /// The true increments for the output `measured` of the IMU.
     #[must_use]
     pub fn compensate(&self, measured: &Increments) -> Increments {
         let interval = measured.interval;
@@ -107,7 +107,7 @@ mod tests {
                 interval: 0.02,
             };
             let undone = error.compensation().unwrap().compensate(&error.measure(&truth));
-            // Relative to the signal, or to the bias where that is the larger.
+            // Relative to the signal, or to the bias if that is larger.
             prop_assert!((undone.angle - truth.angle).norm() <= 1e-15 * (truth.angle.norm() + 1e-3));
             prop_assert!(
                 (undone.velocity - truth.velocity).norm() <= 1e-15 * (truth.velocity.norm() + 1e-3)

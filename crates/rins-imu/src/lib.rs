@@ -1,12 +1,12 @@
-//! What an inertial measurement unit gets wrong, and how to undo it.
+//! The errors of an inertial measurement unit, and their compensation.
 //!
 //! **What it does.** [`ImuError`] is the deterministic part of eq. (1): measured = true + bias +
-//! `(S + M)` true, for a triad of gyros and a triad of accelerometers, with its exact inverse
+//! `(S + M)` true, for a triad of gyros and a triad of accelerometers, with its exact
 //! [`Compensation`]. [`ImuNoise`] is the random part: white noise, random walk, Gauss-Markov and
 //! flicker noise, and a finite resolution, from a [`Seed`] that gives the same numbers on every
-//! machine. [`AllanPlan`] finds its strengths in a rest, by the Allan deviation.
+//! machine. [`AllanPlan`] estimates the noise parameters over a static interval, from the Allan deviation.
 //!
-//! **What it does not do.** It estimates nothing but noise, knows no motion, and has no errors that
+//! **What it does not do.** It estimates nothing but noise, models no motion, and has no errors that
 //! depend on time, temperature or acceleration.
 //!
 //! Vectors are resolved in the body frame, in SI units and radians.

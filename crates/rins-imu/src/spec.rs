@@ -1,30 +1,30 @@
-//! What a data sheet says of an IMU.
+//! The data sheet of an IMU.
 
-/// A data sheet's figures for one triad, 1σ, in SI units.
+/// The data-sheet values of one triad, 1σ, in SI units.
 ///
 /// For gyros a bias is in rad/s, for accelerometers in m/s²; scale and misalignment errors are ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriadSpec {
-    /// The root power spectral density of white noise \[per √Hz\].
+    /// The noise density: root power spectral density of white noise \[per √Hz\].
     pub noise_density: f64,
-    /// How far a bias may be from zero.
+    /// The standard deviation of the bias.
     pub bias_sigma: f64,
-    /// How far a scale error may be from zero.
+    /// The standard deviation of the scale error.
     pub scale_sigma: f64,
-    /// How far a misalignment may be from zero \[rad\].
+    /// The standard deviation of the misalignment \[rad\].
     pub misalignment_sigma: f64,
-    /// The flicker floor, as the bias instability `B` of IEEE Std 952.
+    /// The bias instability `B` of IEEE Std 952, the flicker floor.
     pub bias_instability: Option<f64>,
-    /// The rate random walk density `K` \[per √s\].
+    /// The rate random walk `K` \[per √s\].
     pub random_walk: Option<f64>,
-    /// The largest rate that can be read.
+    /// The measurement range: the largest rate.
     pub range: Option<f64>,
     /// The least significant bit of a reading.
     pub resolution: Option<f64>,
 }
 
 impl TriadSpec {
-    /// The figures of a sheet that tells of white noise and of constant errors only.
+    /// A data sheet with white noise and constant errors only.
     pub const fn white(
         noise_density: f64,
         bias_sigma: f64,
@@ -44,11 +44,11 @@ impl TriadSpec {
     }
 }
 
-/// A data sheet's figures for an IMU.
+/// The data sheet of an IMU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImuSpec {
-    /// The gyros' figures.
+    /// The values of the gyros.
     pub gyro: TriadSpec,
-    /// The accelerometers' figures.
+    /// The values of the accelerometers.
     pub accel: TriadSpec,
 }

@@ -1,31 +1,31 @@
-//! The deterministic errors of three sensors on nearly orthogonal axes, and their inverse.
+//! The deterministic errors of three sensors on nearly orthogonal axes, and their compensation.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_frames::{Body, InFrame};
 
 use crate::axis::Axis;
 
-/// The least reciprocal condition number at which `I + S + M` is inverted: an inverse beyond it
-/// would lose more than half the digits of a double.
+/// The minimum reciprocal condition number at which `I + S + M` is inverted: below it, the inverse
+/// loses more than half the digits of a double.
 const LEAST_RECIPROCAL_CONDITION: f64 = 1e-8;
 
-/// Bias, scale and misalignment of a triad: `measured = true + bias + (S + M) true` (eq. (1)).
+/// Bias, scale error and misalignment of a triad: `measured = true + bias + (S + M) true` (eq. (1)).
 ///
-/// Rates and increments are both of the body frame; `(S + M)` multiplies the *true* quantity. The
-/// default is a triad without error.
+/// Rates and increments are in the body frame; `(S + M)` multiplies the *true* quantity. The
+/// default is a triad without errors.
 ///
-/// The matrix is not a rotation: its six misalignments are free, so that they hold both the
-/// non-orthogonality of the sensors and a common tilt against the body.
+/// The matrix is not a rotation: its six misalignments are independent, so that they contain both the
+/// non-orthogonality of the sensors and a common rotation relative to the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TriadError {
-    /// What each sensor reads at rest: \[rad/s\] for gyros, \[m/s²\] for accelerometers.
+    /// The output of each sensor for a true rate of zero: \[rad/s\] for gyros, \[m/s²\] for accelerometers.
     pub bias: Vector3<f64>,
-    /// `(S + M)`: scale errors on the diagonal, misalignments \[rad\] off it, at (row, column) as in eq. (1).
+    /// `(S + M)`: scale errors on the diagonal, misalignments \[rad\] off the diagonal, at (row, column) as in eq. (1).
     pub matrix: Matrix3<f64>,
 }
 
 impl TriadError {
-    /// The same sensors' error along other axes, which `rotation` makes of those here: vectors along these become
+    /// The error of the same sensors along other axes: `rotation` maps a vector along the present axes to
     /// `rotation · vector`.
     #[must_use]
     pub fn along(&self, rotation: &Matrix3<f64>) -> Self {
@@ -46,7 +46,7 @@ impl TriadError {
         self
     }
 
-    /// This error, with another misalignment \[rad\]: how much of `column`'s quantity the sensor `row` sees.
+    /// This error, with another misalignment \[rad\]: the fraction of `column`'s quantity that the sensor `row` measures.
     ///
     /// With `row` equal to `column` this is the scale error.
     #[must_use]
@@ -55,26 +55,26 @@ impl TriadError {
         self
     }
 
-    /// The scale error `S` of a sensor, a ratio; positive reads too much.
+    /// The scale error `S` of a sensor, a ratio; positive if the output is too large.
     pub fn scale(&self, axis: Axis) -> f64 {
         self.matrix[(axis.index(), axis.index())]
     }
 
-    /// The misalignment `M` at (`row`, `column`) of eq. (1) \[rad\]: how much of `column`'s quantity
-    /// the sensor `row` sees.
+    /// The misalignment `M` at (`row`, `column`) of eq. (1) \[rad\]: the fraction of `column`'s quantity
+    /// that the sensor `row` measures.
     ///
     /// With `row` equal to `column` this is the scale error.
     pub fn misalignment(&self, row: Axis, column: Axis) -> f64 {
         self.matrix[(row.index(), column.index())]
     }
 
-    /// What the triad reads \[rad/s or m/s²\] where `rate` is true.
+    /// The output of the triad \[rad/s or m/s²\] for the true `rate`.
     #[must_use]
     pub fn measured_rate(&self, rate: &InFrame<Body>) -> InFrame<Body> {
         self.measured_increment(rate, 1.0)
     }
 
-    /// What the triad accumulates \[rad or m/s\] over `interval` \[s\] where `increment` is true.
+    /// The output of the triad \[rad or m/s\] over `interval` \[s\] for the true `increment`.
     ///
     /// Eq. (1) is linear with constant coefficients, so its integral is exact for any motion.
     #[must_use]
@@ -83,14 +83,14 @@ impl TriadError {
         InFrame::from_components(truth + (self.matrix * truth + self.bias * interval))
     }
 
-    /// The exact inverse of this error.
+    /// The exact compensation of this error.
     ///
     /// # Errors
-    /// [`CompensationError`] if the error is not finite, a sensor reads nothing, or the three read
-    /// nearly the same.
+    /// [`CompensationError`] if the error is not finite, a sensor does not react to motion, or the outputs of the three
+    /// sensors are nearly linearly dependent.
     ///
     /// # Examples
-    /// A sensor whose scale error is -1 does not react at all:
+    /// A sensor with a scale error of -1 does not react to motion:
     /// ```
     /// use rins_imu::{Axis, CompensationError, TriadError};
     /// let broken = TriadError::default().with_scale(Axis::Y, -1.0);
@@ -122,11 +122,11 @@ impl TriadError {
     }
 }
 
-/// Why a triad's readings cannot be turned back into what was true.
+/// The reason why a triad's errors cannot be compensated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompensationError {
-    /// A bias, scale or misalignment is infinite or not a number.
+    /// A bias, scale error or misalignment is infinite or NaN.
     #[error("a bias, scale or misalignment error is not a finite number")]
     NotFinite,
     /// A sensor does not react to any motion.
@@ -137,7 +137,7 @@ pub enum CompensationError {
         /// Its scale error, a ratio.
         scale_error: f64,
     },
-    /// The three readings do not tell three directions apart.
+    /// The three sensors do not measure three independent directions.
     #[error("the three axes read nearly the same: I + S + M has determinant {determinant}")]
     Singular {
         /// The determinant of `I + S + M`; without error it is 1.
@@ -145,23 +145,23 @@ pub enum CompensationError {
     },
 }
 
-/// The exact inverse of a [`TriadError`].
+/// The exact compensation of a [`TriadError`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriadCompensation {
     bias: Vector3<f64>,
-    /// `(S + M) (I + S + M)⁻¹`: what part of a reading is error. Subtracting it keeps the last
-    /// digits that multiplying by an inverse near the identity would round away.
+    /// `(S + M) (I + S + M)⁻¹`: the fraction of a reading that is error. Its subtraction preserves the last
+    /// digits, which a multiplication by an inverse near the identity would round away.
     excess: Matrix3<f64>,
 }
 
 impl TriadCompensation {
-    /// What was true \[rad/s or m/s²\] where the triad reads `measured`.
+    /// The true rate \[rad/s or m/s²\] for the output `measured`.
     #[must_use]
     pub fn true_rate(&self, measured: &InFrame<Body>) -> InFrame<Body> {
         self.true_increment(measured, 1.0)
     }
 
-    /// What was true \[rad or m/s\] where the triad accumulated `measured` over `interval` \[s\].
+    /// The true increment \[rad or m/s\] for the output `measured` over `interval` \[s\].
     #[must_use]
     pub fn true_increment(&self, measured: &InFrame<Body>, interval: f64) -> InFrame<Body> {
         let unbiased = measured.components() - self.bias * interval;

@@ -1,4 +1,4 @@
-//! Reads a run and says what is in it: `cargo run -p rins-io --example read_run -- RIG`.
+//! Reads a run and prints its content: `cargo run -p rins-io --example read_run -- RIG`.
 //!
 //! Without a rig file a run is simulated, written to a temporary folder and read from there.
 #![expect(clippy::print_stdout, reason = "an example prints")]

@@ -1,4 +1,4 @@
-//! Calibration files: what an IMU gets wrong, to be undone in other runs.
+//! Calibration files: the estimated errors of an IMU, for the compensation of other runs.
 
 mod covariance;
 
@@ -22,17 +22,17 @@ use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};
 
-/// The versions of the format: the second one may hold terms and a covariance. A file that holds neither is
-/// written in the first.
+/// The versions of the format: version 2 may contain terms and a covariance.
+/// A file that contains neither is written as version 1.
 const SCHEMAS: [u64; 2] = [1, 2];
 
-/// The keys of the second version alone.
+/// The keys that only version 2 has.
 const NEWER: [&str; 4] = ["term", "covariance", REFERENCE, "range"];
 
-/// What the axis of rotation may be.
+/// The values of the key `spin`.
 const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
 
-/// What every calibration file begins with.
+/// The comment at the beginning of every calibration file.
 const MEANING: &str = "\
 # Errors of an inertial measurement unit in its own body axes x, y and z, for any spin axis.
 #
@@ -43,25 +43,25 @@ const MEANING: &str = "\
 # gyro.misalignment.xz is the fraction of a rate about z in gyro x.
 ";
 
-/// What stands above the terms.
+/// The comment above the terms.
 const TERMS: &str = "
 # Further effects. Each term adds its equation, for the true rate and force, to a reading. All of them are
 # compensated together: true = measured - (bias + (S + M) true + terms(true)), iterated to convergence.
 ";
 
-/// What stands above the range.
+/// The comment above the range.
 const RANGE: &str = "
 # Range of the runs of the calibration; rate is about the spin axis.
 [range]
 ";
 
-/// What stands above the standard deviations.
+/// The comment above the standard deviations.
 const SIGMAS: &str = "
 # 1 sigma of each estimated number. The other numbers are assumed values.
 [sigma]
 ";
 
-/// The errors of an IMU and how well they are known, as a calibration file holds them.
+/// The errors of an IMU and their standard deviations, the content of a calibration file.
 ///
 /// ```
 /// # use std::path::Path;
@@ -85,40 +85,39 @@ const SIGMAS: &str = "
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
-    /// The file it comes from; empty if none.
+    /// The path of the file; empty if there is none.
     pub path: PathBuf,
     /// The errors, along the sensors' own axes.
     pub error: ImuError,
-    /// The axes of the run in which the calibration was made, picked from the sensors' own: the terms are along these.
+    /// The axes of the run from which the calibration was made, selected from the sensors' own: the terms are along these.
     pub spin: Axes,
-    /// The standard deviations of those numbers that were estimated, by id and in the units of
-    /// [`parameters`](crate::parameters), along the sensors' own axes; of the others none is known.
+    /// The standard deviations of the estimated numbers, by id and in the units of
+    /// [`parameters`](crate::parameters), along the sensors' own axes; the other numbers have none.
     pub sigmas: Vec<Parameter>,
-    /// What else a reader must know of the numbers: which of them are combinations, and where
-    /// these hold.
+    /// Remarks on the numbers: which of them are combinations, and the conditions under which these are valid.
     pub notes: Vec<String>,
-    /// The terms beyond bias, scale and misalignment, with the standard deviations of what was estimated, in a run with the
-    /// axes [`spin`](Self::spin); the file has them along the sensors' own axes.
+    /// The terms beyond bias, scale error and misalignment, with the standard deviations of the estimated parameters, in a run
+    /// with the axes [`spin`](Self::spin); the file has them along the sensors' own axes.
     pub terms: Model,
-    /// The covariance of what was estimated, by ids along the sensors' own axes.
+    /// The covariance of the estimated numbers, by ids along the sensors' own axes.
     pub covariance: Option<Covariance>,
-    /// The temperature at which the values are given, if terms depend on temperature \[°C\].
+    /// The reference temperature of the values, if terms depend on temperature \[°C\].
     pub reference_temperature: f64,
-    /// What the runs covered from which it was made.
+    /// The range covered by the runs from which the calibration was made.
     pub range: CalibratedRange,
 }
 
-/// What was covered by the runs from which a calibration was made: least and largest of each.
+/// The range covered by the runs from which a calibration was made, as minimum and maximum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CalibratedRange {
     /// The temperature \[°C\].
     pub temperature: Option<[f64; 2]>,
-    /// The rate about the axis of rotation, in the sense of the sensor's own axis \[rad/s\].
+    /// The rate about the spin axis, positive about the sensor's own axis \[rad/s\].
     pub rate: Option<[f64; 2]>,
 }
 
 impl Calibration {
-    /// A calibration from a run about z, without standard deviations and notes.
+    /// A calibration from a run about z, without standard deviations and remarks.
     pub fn of(error: ImuError) -> Self {
         Self {
             path: PathBuf::new(),
@@ -137,16 +136,16 @@ impl Calibration {
     ///
     /// # Errors
     /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if one of its numbers is missing,
-    /// unknown or of the wrong dimension, if a standard deviation is not more than zero, if the
-    /// errors cannot be undone, or if it is written in another version of the format.
+    /// unknown or of the wrong dimension, if a standard deviation is not positive, if the
+    /// errors cannot be compensated, or if the file has another version of the format.
     pub fn read(path: &Path) -> Result<Self, IoError> {
         Self::from_document(&Document::read(path)?)
     }
 
-    /// The calibration that `text` holds, as if it stood in the file at `path`.
+    /// The calibration in `text`, parsed as the content of the file at `path`.
     ///
     /// # Errors
-    /// [`IoError::Key`], as [`Calibration::read`].
+    /// [`IoError::Key`], as for [`Calibration::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
         Self::from_document(&Document::parse(text, path)?)
     }
@@ -217,12 +216,12 @@ impl Calibration {
         Ok(calibration)
     }
 
-    /// What a run with these axes, picked from the sensors' own, shows of the errors: bias, scale and misalignment, and the
-    /// terms.
+    /// The errors as they act in a run with these axes, selected from the sensors' own: bias, scale error and misalignment, and
+    /// the terms.
     ///
     /// # Errors
-    /// [`IoError::Key`] if a term has a parameter that only a run about the calibration's axis shows, as the asymmetry of one
-    /// gyro's scale, and this run is about another.
+    /// [`IoError::Key`] if a term has a parameter that acts only in a run about the calibration's axis, such as the scale factor
+    /// asymmetry of one gyro, and this run is about another axis.
     pub fn in_run(&self, axes: &Axes) -> Result<(ImuError, Model), IoError> {
         let from_spin = SignedAxes::from(axes.after(&self.spin.inverse()));
         for chosen in &self.terms.terms {
@@ -243,16 +242,16 @@ impl Calibration {
         Ok((self.error.along(&SignedAxes::from(*axes).matrix()), self.terms.carried(&from_spin)))
     }
 
-    /// The ids of the terms' parameters along the sensors' own axes, with their places in [`terms`](Self::terms).
+    /// The ids of the terms' parameters along the sensors' own axes, with their positions in [`terms`](Self::terms).
     pub fn own_terms(&self) -> Vec<(String, (usize, usize))> {
         own_places(&self.terms, &self.spin.into())
     }
 
-    /// The inverse of bias, scale and misalignment; the terms are not in it
-    /// ([`rins_terms::compensated`] undoes all).
+    /// The compensation of bias, scale error and misalignment, without the terms
+    /// ([`rins_terms::compensated`] compensates all of them).
     ///
     /// # Errors
-    /// [`IoError::Key`] if they cannot be undone.
+    /// [`IoError::Key`] if they cannot be compensated.
     pub fn compensation(&self) -> Result<Compensation, IoError> {
         self.error.compensation().map_err(|refusal| {
             let key = match refusal.triad {
@@ -265,7 +264,7 @@ impl Calibration {
         })
     }
 
-    /// The text of the calibration's file.
+    /// The text of the calibration file.
     pub fn to_toml(&self) -> String {
         let ranged = self.range != CalibratedRange::default();
         let newer = !self.terms.terms.is_empty() || self.covariance.is_some() || ranged;
@@ -320,7 +319,7 @@ impl Calibration {
         text
     }
 
-    /// Writes the calibration's file, whole or not at all.
+    /// Writes the calibration file atomically.
     ///
     /// # Errors
     /// As [`write_file`].
@@ -340,7 +339,7 @@ fn both(section: &Section<'_>) -> Result<ImuError, IoError> {
     Ok(ImuError { gyro, accel: triad("accel", &parameter::ACCEL)? })
 }
 
-/// The terms beyond bias, scale and misalignment.
+/// The terms beyond bias, scale error and misalignment.
 fn terms(root: &Section<'_>, axes: &SignedAxes, reference: Option<f64>) -> Result<Model, IoError> {
     let mut model = Model::default();
     for table in term::tables(root, "term")? {
@@ -354,7 +353,7 @@ fn terms(root: &Section<'_>, axes: &SignedAxes, reference: Option<f64>) -> Resul
     Ok(model)
 }
 
-/// The ids along the sensors' own axes of all parameters of a run's terms, with their places.
+/// The ids of all parameters of a run's terms along the sensors' own axes, with their positions.
 fn own_places(terms: &Model, axes: &SignedAxes) -> Vec<(String, (usize, usize))> {
     let own = |(term, chosen): (usize, &TermInstance)| {
         let order = chosen.term.own_order(axes).into_iter();

@@ -1,4 +1,4 @@
-//! A file of keys: TOML as a tree in which every key and value knows its line.
+//! TOML files as a tree in which every key and value has its line number.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use toml::de::{DeTable, DeValue};
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::inputs;
 
-/// The largest file of keys that is read \[bytes\].
+/// The maximum size of a TOML file \[bytes\].
 const LARGEST: u64 = 1 << 20;
 
-/// A parsed file of keys.
+/// A parsed TOML file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Document {
     pub(crate) path: PathBuf,
@@ -27,7 +27,7 @@ pub(crate) struct Entry {
     pub(crate) value: Value,
 }
 
-/// A value, its line, and how it is written.
+/// A value, its line, and its text in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Value {
     pub(crate) line: usize,
@@ -35,7 +35,7 @@ pub(crate) struct Value {
     pub(crate) node: Node,
 }
 
-/// What a value is.
+/// The content of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Node {
     Text(String),
@@ -48,7 +48,7 @@ pub(crate) enum Node {
 }
 
 impl Node {
-    /// What it is, as an error message calls it.
+    /// The description of the content in an error message.
     pub(crate) fn described(&self, source: &str) -> String {
         match self {
             Self::Text(text) => format!("{text:?} is a text"),
@@ -83,7 +83,7 @@ impl Document {
             .map_err(|_| refuse(KeyProblem::Syntax { message: "not UTF-8 text".into() }).into())
     }
 
-    /// Parses `text`, which stands in the file at `path`.
+    /// Parses `text`, the content of the file at `path`.
     pub(crate) fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
         let lines = Lines::of(text);
         let root = DeTable::parse(text).map_err(|error| {
@@ -98,12 +98,12 @@ impl Document {
     }
 }
 
-/// A parser's message may run over several lines; ours do not.
+/// A parser's message joined to one line.
 fn one_line(message: &str) -> String {
     message.split('\n').map(str::trim).collect::<Vec<_>>().join(", ")
 }
 
-/// A text and where its lines begin.
+/// A text with the positions at which its lines begin.
 struct Lines<'t> {
     text: &'t str,
     starts: Vec<usize>,
@@ -155,7 +155,7 @@ impl<'t> Lines<'t> {
     }
 }
 
-/// TOML lets digits be grouped by underscores.
+/// A number without the underscores by which TOML allows digits to be grouped.
 fn digits(number: &str) -> String {
     number.replace('_', "")
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a file, and where in it.
+//! Errors of files, and their places.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -7,27 +7,27 @@ use crate::log::LogProblem;
 use crate::quantity::{QuantityError, did_you_mean};
 use crate::shown::shown;
 
-/// Why a file could not be read or written.
+/// The error of reading or writing a file.
 ///
-/// Every variant names the file; what is wrong inside one also names the line and the key or
-/// column, the value, and what was expected.
+/// Every variant names the file; an error in the content also names the line and the key or
+/// column, the value found, and the value expected.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum IoError {
-    /// The operating system refused.
+    /// The operating system reported an error.
     #[error("cannot {action} {}", shown(.path))]
     File {
-        /// What was tried: "read", "write", …
+        /// The failed action: "read", "write", …
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// A file of keys says something wrong.
+    /// A TOML file has an invalid key or value.
     #[error(transparent)]
     Key(#[from] Box<KeyError>),
-    /// A log says something wrong.
+    /// A log has invalid content.
     #[error(transparent)]
     Log(#[from] Box<LogError>),
     /// A recording cannot be written in a format.
@@ -35,15 +35,15 @@ pub enum IoError {
     Write {
         /// The log that was to be written.
         path: PathBuf,
-        /// Why it was not.
+        /// The reason.
         problem: WriteProblem,
     },
-    /// A result cannot be put where it should go.
+    /// A result cannot be written to its destination.
     #[error("{}: {problem}", shown(.path))]
     Output {
-        /// The file or folder that was to be written.
+        /// The file or folder to be written.
         path: PathBuf,
-        /// Why it was not.
+        /// The reason.
         problem: OutputProblem,
     },
 }
@@ -59,16 +59,16 @@ impl IoError {
     }
 }
 
-/// A key of a rig, scenario or calibration file, and what is wrong with it.
+/// A key of a rig, scenario or calibration file, and its problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyError {
     /// The file.
     pub path: PathBuf,
-    /// The line, from 1, where there is one to show.
+    /// The line, from 1, if the problem has one.
     pub line: Option<usize>,
     /// The section and the key, as in `[imu.gyro] noise`; empty for the whole file.
     pub key: String,
-    /// What is wrong.
+    /// The problem.
     pub problem: KeyProblem,
 }
 
@@ -87,69 +87,69 @@ impl fmt::Display for KeyError {
 
 impl std::error::Error for KeyError {}
 
-/// What is wrong with a key.
+/// The problem of a key.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KeyProblem {
     /// The file is not TOML.
     #[error("{message}")]
     Syntax {
-        /// What the parser says.
+        /// The message of the parser.
         message: String,
     },
-    /// The file is too large to be one of its kind.
+    /// The file is larger than any file of its kind.
     #[error("more than {most} bytes, too large for a file of keys")]
     TooLarge {
-        /// The most that is read.
+        /// The maximum size.
         most: u64,
     },
-    /// The key is needed and is not there.
+    /// A required key is missing.
     #[error("missing, expected {expected}")]
     Missing {
-        /// What it should be.
+        /// The expected value.
         expected: String,
     },
-    /// There is no such key.
+    /// The key is unknown.
     #[error("unknown key{}", hint(.suggestion.as_deref(), .known))]
     Unknown {
-        /// What may have been meant.
+        /// The most similar known key.
         suggestion: Option<String>,
-        /// The keys that there are.
+        /// The known keys.
         known: String,
     },
     /// The value is not of the right type.
     #[error("{got}, expected {expected}")]
     WrongType {
-        /// What it is.
+        /// The actual type.
         got: String,
-        /// What it should be.
+        /// The expected value.
         expected: String,
     },
-    /// The value is not the quantity that the key stands for.
+    /// The value is not a quantity of the kind of the key.
     #[error(transparent)]
     Quantity(#[from] QuantityError),
-    /// The value is not one of those that the key may have.
+    /// The value is not one of the permitted values of the key.
     #[error("{value:?} is not known{}", hint(.suggestion.as_deref(), .known))]
     NotOneOf {
         /// The value.
         value: String,
-        /// What may have been meant.
+        /// The most similar permitted value.
         suggestion: Option<String>,
-        /// The values that there are.
+        /// The permitted values.
         known: String,
     },
-    /// The value is of the right type but makes no sense.
+    /// The value has the right type but is not permitted.
     #[error("{value} is not allowed, expected {expected}")]
     NotAllowed {
-        /// The value, as written.
+        /// The value, as written in the file.
         value: String,
-        /// What it should be.
+        /// The expected value.
         expected: String,
     },
-    /// The key does not go with another one.
+    /// The key conflicts with another one.
     #[error("{reason}")]
     Conflict {
-        /// Why not.
+        /// The reason.
         reason: String,
     },
 }
@@ -161,14 +161,14 @@ fn hint(suggestion: Option<&str>, known: &str) -> String {
     }
 }
 
-/// A place in a log, and what is wrong there.
+/// A line of a log, and its problem.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogError {
     /// The file.
     pub path: PathBuf,
-    /// The line, from 1, unless the whole file is meant.
+    /// The line, from 1; `None` if the problem is of the whole file.
     pub line: Option<u64>,
-    /// What is wrong.
+    /// The problem.
     pub problem: LogProblem,
 }
 
@@ -195,37 +195,37 @@ impl LogError {
     }
 }
 
-/// Why a result was not put where it should go.
+/// The reason why a result was not written to its destination.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutputProblem {
-    /// Something is there.
+    /// The destination exists.
     #[error("exists already; choose another name, or --force to replace it")]
     Exists,
-    /// Another program has put something there, or taken it away, since the work began.
+    /// Another program has created or removed the destination during the work.
     #[error("was written by another program in the meantime; choose another name, or try again")]
     Overtaken,
-    /// A folder should be replaced that does not look like one of ours.
+    /// The folder to be replaced does not look like a folder of rins results.
     #[error("is not replaced, as it does not hold a result of rins; choose another name")]
     NotOurs,
-    /// A folder of ours holds something else too.
+    /// The folder of rins results contains another file too.
     #[error("is not replaced, as it also holds {entry:?}; move that away or choose another name")]
     HoldsMore {
-        /// The first entry that is not ours.
+        /// The first entry that is not a rins result.
         entry: String,
     },
-    /// A folder should go where a file is, or a file where a folder is.
+    /// The destination of a folder is a file, or that of a file is a folder.
     #[error("is {found}, expected {expected}")]
     WrongType {
-        /// What is there.
+        /// The existing type.
         found: &'static str,
-        /// What should be.
+        /// The expected type.
         expected: &'static str,
     },
-    /// It is one of the files that are read.
+    /// The destination is one of the input files.
     #[error("is an input of the same command and is not replaced; choose another name")]
     IsInput,
-    /// A folder of ours holds one of the files that are read.
+    /// The folder of rins results contains one of the input files.
     #[error(
         "is not replaced, as it holds {entry:?}, an input of the same command; choose another name"
     )]
@@ -236,12 +236,12 @@ pub enum OutputProblem {
     /// The path does not end in a name.
     #[error("does not end in the name of a file or folder")]
     NoName,
-    /// A rig file has to name it, and cannot.
+    /// A rig file must contain the path, which is not UTF-8.
     #[error("its name is not UTF-8, so that a rig file cannot state it; choose another")]
     NotText,
 }
 
-/// Why a recording cannot be written in a format.
+/// The reason why a recording cannot be written in a format.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WriteProblem {
@@ -253,27 +253,27 @@ pub enum WriteProblem {
     Uneven {
         /// The sample, from 1.
         sample: usize,
-        /// How far its time is from where it should be \[s\].
+        /// The difference between its time and the even time step \[s\].
         off: f64,
         /// The interval \[s\].
         interval: f64,
     },
-    /// The format cannot say so much.
+    /// The format cannot represent the recording.
     #[error("{what} cannot be written in {format}: {why}")]
     TooMuch {
-        /// What cannot be written.
+        /// The part that cannot be written.
         what: &'static str,
         /// The format.
         format: &'static str,
-        /// Why not.
+        /// The reason.
         why: &'static str,
     },
-    /// The encoder refuses.
+    /// The encoder reported an error.
     #[error("cannot be written as {format}: {message}")]
     Encoder {
         /// The format.
         format: &'static str,
-        /// What it says.
+        /// The message of the encoder.
         message: String,
     },
 }

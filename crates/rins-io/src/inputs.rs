@@ -1,27 +1,27 @@
-//! Files that are read: regular ones only, and never written over while they are protected.
+//! Input files: regular files only, and protected from being overwritten on request.
 
 use std::fs::{self, File, FileType, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What has been read since inputs are protected, if they are.
+/// The files that were read since the start of the protection; `None` without protection.
 static INPUTS: Mutex<Option<Vec<PathBuf>>> = Mutex::new(None);
 
 fn inputs() -> MutexGuard<'static, Option<Vec<PathBuf>>> {
-    // A list of paths is whole whatever happened to who held it.
+    // The list of paths is valid even if a thread panicked while it held the lock.
     INPUTS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Protects every file that is read from now on: what would write over it, or replace the folder that holds it, is refused.
+/// Protects every file that is read from now on: overwriting it, or replacing the folder that contains it, is refused.
 ///
-/// For a program that reads, works and writes once. Inputs are protected as long as the returned value lives.
+/// It is for a program that reads, computes and writes once. Inputs are protected as long as the returned value lives.
 pub fn protect_inputs() -> ProtectedInputs {
     inputs().get_or_insert_default();
     ProtectedInputs(())
 }
 
-/// As long as it lives inputs are protected; see [`protect_inputs`].
+/// The protection of inputs, which ends when it is dropped; see [`protect_inputs`].
 #[derive(Debug)]
 #[must_use = "inputs are protected as long as this lives"]
 pub struct ProtectedInputs(());
@@ -32,10 +32,10 @@ impl Drop for ProtectedInputs {
     }
 }
 
-/// Opens a file to be read.
+/// Opens an input file.
 ///
 /// # Errors
-/// What the system refuses, and anything but a regular file: a pipe without a writer would be waited for without end.
+/// System errors, and anything but a regular file: reading from a pipe without a writer would block forever.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     if let Some(kind) = special(fs::metadata(path)?.file_type()) {
         let problem = format!("is {kind}, expected a regular file");
@@ -48,7 +48,7 @@ pub(crate) fn open(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// What a file is that is neither a regular one nor a folder.
+/// The type of a file that is neither a regular file nor a folder.
 pub(crate) fn special(kind: FileType) -> Option<&'static str> {
     if kind.is_file() || kind.is_dir() {
         return None;
@@ -72,7 +72,7 @@ pub(crate) fn special(kind: FileType) -> Option<&'static str> {
     Some("not a regular file")
 }
 
-/// Whether this is a file that has been read, under whatever name.
+/// Whether this file is an input, under whatever name.
 pub(crate) fn is_input(path: &Path) -> bool {
     let inputs = inputs();
     let Some(read) = inputs.as_ref().filter(|read| !read.is_empty()) else { return false };
@@ -81,7 +81,7 @@ pub(crate) fn is_input(path: &Path) -> bool {
     read.iter().any(same)
 }
 
-/// Whether both are names of one file.
+/// Whether both paths refer to one file.
 #[cfg(unix)]
 fn is_linked(one: &Path, other: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -89,7 +89,7 @@ fn is_linked(one: &Path, other: &Path) -> bool {
     fs::metadata(one).map(of).ok().is_some_and(|one| fs::metadata(other).map(of).ok() == Some(one))
 }
 
-/// Whether both are names of one file, which cannot be said here.
+/// Whether both paths refer to one file, which cannot be determined on this system.
 #[cfg(not(unix))]
 fn is_linked(_: &Path, _: &Path) -> bool {
     false

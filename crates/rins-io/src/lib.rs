@@ -1,13 +1,10 @@
-//! Files in and out: rigs, scenarios, logs, calibrations and results, with every unit checked.
+//! Input and output of files: rigs, scenarios, logs, calibrations and results, with a check of every unit.
 //!
-//! **What it does.** [`read`] takes a rig file, and the log that it names, to a
-//! [`Recording`](rins_motion::Recording) in SI units and radians. [`ScenarioFile`],
-//! [`ModelFile`] and [`Calibration`] are the other files of keys; [`write_file`] and [`write_folder`] put results in
-//! their place whole or not at all. An [`IoError`] names the file, line, key or column, the value,
-//! and what was expected.
+//! **What it does.** [`read`] converts a rig file and its log to a [`Recording`](rins_motion::Recording) in SI units and radians.
+//! [`ScenarioFile`], [`ModelFile`] and [`Calibration`] are the other TOML files; [`write_file`] and [`write_folder`] write
+//! results atomically. An [`IoError`] names the file, the line, the key or column, the value found and the value expected.
 //!
-//! **What it does not do.** It draws no conclusions from what it reads, and repairs nothing in
-//! silence.
+//! **What it does not do.** It draws no conclusions from the data, and reports every repair.
 //!
 //! ```
 //! use rins_io::quantity::kinds;
@@ -72,7 +69,7 @@ pub use write::{
     Converted, Difference, LogFile, convert, convert_changed, write_log, write_recording,
 };
 
-/// What only a build for fuzzing has.
+/// Entry points of builds for fuzzing.
 #[cfg(fuzzing)]
 pub mod fuzzing {
     pub use crate::source::memory::put;

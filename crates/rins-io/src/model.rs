@@ -1,4 +1,4 @@
-//! Model files: which terms are estimated, from where they start, and what is known of them beforehand.
+//! Model files: the estimated terms with their initial values and priors.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,17 +17,17 @@ use crate::term::{self, Use};
 /// The version of the format.
 const SCHEMA: u64 = 1;
 
-/// The key of the temperature about which coefficients of temperature are, where a term says nothing else.
+/// The key of the reference temperature of temperature coefficients, for terms that do not state their own.
 pub(crate) const REFERENCE: &str = REFERENCE_TEMPERATURE.name;
 
-/// What every model file begins with.
+/// The comment at the beginning of every model file.
 const MEANING: &str = "\
 # Estimated terms: those of the base, and those below. A term below replaces the same term of the base.
 # estimate = true, false or a list of parameters; values are the start of the estimation, or the fixed
 # values; sigma is the prior uncertainty, if it is not that of the data sheet.
 ";
 
-/// A model to be estimated, as a file holds it.
+/// A model to be estimated, the content of a model file.
 ///
 /// ```
 /// # use std::path::Path;
@@ -47,28 +47,28 @@ const MEANING: &str = "\
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelFile {
-    /// The file it comes from; empty if none.
+    /// The path of the file; empty if there is none.
     pub path: PathBuf,
     /// Its terms, those of the base first, in a run with these axes.
     pub model: Model,
-    /// The axes of the run, picked from the sensors' own: the file's names and values are along these, and the bases are of
-    /// the axis of rotation.
+    /// The axes of the run, selected from the sensors' own: the names and values in the file are along these, and the bases refer
+    /// to the spin axis.
     pub axes: Axes,
 }
 
 type Preset = fn() -> Model;
 
-/// The models on which a file may build, the largest first.
+/// The base models that a file can extend, the largest first.
 const BASES: [(&str, Preset); 3] =
     [("full", Model::full), ("paper12", Model::paper12), ("none", Model::default)];
 
 impl ModelFile {
-    /// A model that is in no file yet, of a run about z.
+    /// A model without a file, for a run about z.
     pub fn of(model: Model) -> Self {
         Self { path: PathBuf::new(), model, axes: Axes::IDENTITY }
     }
 
-    /// The same of a run with these axes.
+    /// The same model for a run with these axes.
     #[must_use]
     pub fn with_axes(self, axes: Axes) -> Self {
         Self { axes, ..self }
@@ -77,8 +77,8 @@ impl ModelFile {
     /// Reads the model file at `path` for a run about z.
     ///
     /// # Errors
-    /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if a term, setting or parameter is not
-    /// known, has another dimension or is out of range, or if a term is listed twice.
+    /// [`IoError::File`] if it cannot be read, [`IoError::Key`] if a term, setting or parameter is unknown, has the
+    /// wrong dimension or is out of range, or if a term is listed twice.
     pub fn read(path: &Path) -> Result<Self, IoError> {
         Self::read_along(path, &Axes::IDENTITY)
     }
@@ -86,15 +86,15 @@ impl ModelFile {
     /// Reads the model file at `path` for a run with these axes.
     ///
     /// # Errors
-    /// As [`ModelFile::read`]; a parameter that a run about this axis does not have is not known.
+    /// As for [`ModelFile::read`]; a parameter that a run about this axis does not have is unknown.
     pub fn read_along(path: &Path, axes: &Axes) -> Result<Self, IoError> {
         Self::from_document(&Document::read(path)?, axes)
     }
 
-    /// The model that `text` holds, as if it stood in the file at `path`.
+    /// The model in `text`, parsed as the content of the file at `path`.
     ///
     /// # Errors
-    /// [`IoError::Key`], as [`ModelFile::read`].
+    /// [`IoError::Key`], as for [`ModelFile::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
         Self::from_document(&Document::parse(text, path)?, &Axes::IDENTITY)
     }
@@ -111,7 +111,7 @@ impl ModelFile {
         };
         let mut model = base();
         let reference = root.celsius(REFERENCE)?;
-        // The terms of the base that the file has not said anything of.
+        // The terms of the base that the file has not changed so far.
         let mut unsaid: Vec<bool> = vec![true; model.terms.len()];
         for table in term::tables(&root, "term")? {
             let chosen = term::read_about(&table, Use::Model, &SignedAxes::from(*axes), reference)?;
@@ -130,7 +130,7 @@ impl ModelFile {
         Ok(Self { path: document.path.clone(), model, axes: *axes })
     }
 
-    /// The text of the model's file.
+    /// The text of the model file.
     pub fn to_toml(&self) -> String {
         let terms = &self.model.terms;
         let opens = |base: &Model| {
@@ -153,10 +153,10 @@ impl ModelFile {
         text
     }
 
-    /// Writes the model's file, whole or not at all.
+    /// Writes the model file atomically.
     ///
     /// # Errors
-    /// As [`write_file`].
+    /// As for [`write_file`].
     pub fn write(&self, path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
         write_file(path, overwrite, |file| {
             file.write_all(self.to_toml().as_bytes()).map_err(IoError::file("write", path))
@@ -164,7 +164,7 @@ impl ModelFile {
     }
 }
 
-/// Whether both are one effect: the same term with the same settings.
+/// Whether both are the same effect: the same term with the same settings.
 fn same(a: &TermInstance, b: &TermInstance) -> bool {
     a.term.is(b.term) && a.settings == b.settings
 }

@@ -1,4 +1,4 @@
-//! Results written whole or not at all.
+//! Atomic output of results.
 
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
@@ -11,20 +11,20 @@ use crate::error::{IoError, OutputProblem};
 use crate::inputs;
 use crate::unfinished::{Unfinished, undisturbed};
 
-/// Whether something that is there may be replaced.
+/// Whether existing files or folders may be replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overwrite {
     /// No.
     Refuse,
-    /// Yes, if it is a regular file, or a folder that holds only results of ours; and no input that is protected
+    /// Yes, if it is a regular file, or a folder that contains only results of rins; but not a protected input
     /// ([`protect_inputs`](crate::protect_inputs)).
     Force,
 }
 
-/// Any of these marks a folder as a result of ours.
+/// A folder with any of these files is a result of rins.
 const MARKS: [&str; 2] = ["result.json", "truth.json"];
 
-/// What a folder of ours may hold besides.
+/// Further files that a folder of rins results may contain.
 const NAMES: [&str; 11] = [
     "result.json",
     "report.html",
@@ -39,14 +39,14 @@ const NAMES: [&str; 11] = [
     "log.csv",
 ];
 
-/// Writes the file at `path`, whole or not at all.
+/// Writes the file at `path` atomically.
 ///
-/// `write` fills a temporary file beside it, which is synchronised with the disk and then renamed,
-/// so that whoever looks finds the old file or the new one.
+/// `write` fills a temporary file beside it, which is synchronized with the disk and then renamed,
+/// so that at any time either the old file or the complete new one exists.
 ///
 /// # Errors
-/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
-/// system refuses, or what `write` returns. Nothing has then changed.
+/// [`IoError::Output`] if an existing file must not be replaced, [`IoError::File`] on a system
+/// error, or the error of `write`. Nothing has then changed.
 pub fn write_file(
     path: &Path,
     overwrite: Overwrite,
@@ -72,15 +72,15 @@ pub fn write_file(
     synchronise(parent).map_err(failed())
 }
 
-/// Writes files that belong together into one folder, each whole or not at all.
+/// Writes files that belong together into one folder, each atomically.
 ///
-/// `fill` is given a temporary folder beside them, into which it puts files of the same names. They
-/// are synchronised with the disk, and renamed one after the other.
+/// `fill` receives a temporary folder beside them, into which it writes files of the same names. They
+/// are synchronized with the disk, and renamed one after the other.
 ///
 /// # Errors
-/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
-/// system refuses, or what `fill` returns. Nothing has then changed, unless the system refuses
-/// between one rename and the next.
+/// [`IoError::Output`] if an existing file must not be replaced, [`IoError::File`] on a system
+/// error, or the error of `fill`. Nothing has then changed, unless the system error occurs
+/// between two renames.
 pub fn write_files(
     paths: &[&Path],
     overwrite: Overwrite,
@@ -99,7 +99,7 @@ pub fn write_files(
     synchronise_all(staging.path()).map_err(failed(first))?;
     undisturbed(|| {
         paths.iter().try_for_each(|path| {
-            // Whatever has come in between is not replaced either.
+            // A file that was created in the meantime is not replaced either.
             ensure_replaceable(path, overwrite)?;
             let staged = staging.path().join(split(path)?.1);
             fs::rename(staged, path).map_err(failed(path))
@@ -108,10 +108,10 @@ pub fn write_files(
     synchronise(parent).map_err(failed(first))
 }
 
-/// Refuses to put a file where something is that must not be replaced: for work that is long, before it.
+/// Refuses a destination that must not be replaced; a long computation calls it before it starts.
 ///
 /// # Errors
-/// [`IoError::Output`] if something is there that must not be replaced.
+/// [`IoError::Output`] if an existing file must not be replaced.
 pub fn ensure_replaceable(path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_dir() => {
@@ -131,16 +131,16 @@ pub fn ensure_replaceable(path: &Path, overwrite: Overwrite) -> Result<(), IoErr
     }
 }
 
-/// Writes the folder at `path`, whole or not at all.
+/// Writes the folder at `path` atomically.
 ///
-/// `fill` puts files into a temporary folder beside it, whose path it is given. They are
-/// synchronised with the disk, and the folder is renamed. An empty folder that is there already is
-/// filled. Under [`Overwrite::Force`] one that holds a result of ours, and nothing else, is
-/// replaced: the old one stands beside the new under a hidden name until that is in its place.
+/// `fill` writes files into a temporary folder beside it, whose path it receives. They are
+/// synchronized with the disk, and the folder is renamed. An existing empty folder is
+/// filled. With [`Overwrite::Force`] a folder that contains a result of rins, and nothing else, is
+/// replaced: the old folder is kept under a hidden name until the new one is in its place.
 ///
 /// # Errors
-/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
-/// system refuses, or what `fill` returns. Nothing has then changed.
+/// [`IoError::Output`] if an existing folder must not be replaced, [`IoError::File`] on a
+/// system error, or the error of `fill`. Nothing has then changed.
 pub fn write_folder(
     path: &Path,
     overwrite: Overwrite,
@@ -162,12 +162,12 @@ pub fn write_folder(
     } else {
         undisturbed(|| fs::rename(staging.path(), path)).map_err(|error| overtaken(path, error))?;
     }
-    // It has been renamed, so there is nothing left to remove.
+    // It has been renamed, so nothing is left to be removed.
     let _renamed = staging.keep();
     synchronise(parent).map_err(failed())
 }
 
-/// Why a folder that was looked at before could not be renamed after all.
+/// The error of a rename that failed although the destination was checked before.
 fn overtaken(path: &Path, error: io::Error) -> IoError {
     match error.kind() {
         io::ErrorKind::DirectoryNotEmpty
@@ -178,13 +178,13 @@ fn overtaken(path: &Path, error: io::Error) -> IoError {
     }
 }
 
-/// Puts a new folder in the place of an old one, which is put aside; its remains go with the returned folder.
+/// Moves a new folder to the place of an old one, which is moved aside and removed with the returned folder.
 fn exchange(new: &Path, place: &Path, aside: TempDir) -> io::Result<TempDir> {
     fs::rename(place, aside.path())?;
     match fs::rename(new, place) {
         Ok(()) => Ok(aside),
         Err(error) => {
-            // The old result is worth more than the folder it was put into: it goes back, or
+            // The old result is worth more than the temporary folder: it is moved back, or
             // stays under its hidden name.
             fs::rename(aside.keep(), place)?;
             Err(error)
@@ -192,10 +192,10 @@ fn exchange(new: &Path, place: &Path, aside: TempDir) -> io::Result<TempDir> {
     }
 }
 
-/// Fails if [`write_folder`] would not put its result here: before what takes minutes to compute is computed.
+/// Refuses a destination to which [`write_folder`] would not write; a long computation calls it before it starts.
 ///
 /// # Errors
-/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the system refuses.
+/// [`IoError::Output`] if an existing folder must not be replaced, [`IoError::File`] on a system error.
 pub fn ensure_replaceable_folder(path: &Path, overwrite: Overwrite) -> Result<(), IoError> {
     split(path)?;
     replaceable(path, overwrite).map(drop)
@@ -241,7 +241,7 @@ fn replaceable(path: &Path, overwrite: Overwrite) -> Result<bool, IoError> {
     }
 }
 
-/// An error on a file in the temporary folder as one on the file that it was to become.
+/// Converts an error about a file in the temporary folder to one about its destination.
 fn placed(error: IoError, staging: &Path, destination: &Path) -> IoError {
     match error {
         IoError::File { action, path, source } => {
@@ -257,7 +257,7 @@ fn refuse(path: &Path, problem: OutputProblem) -> IoError {
     IoError::Output { path: path.into(), problem }
 }
 
-/// The folder that holds `path`, and its name there.
+/// The parent folder of `path`, and its name there.
 fn split(path: &Path) -> Result<(&Path, &OsStr), IoError> {
     let name = path.file_name().ok_or_else(|| refuse(path, OutputProblem::NoName))?;
     let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
@@ -271,8 +271,8 @@ fn hidden(name: &OsStr) -> OsString {
     hidden
 }
 
-/// What makes temporary files and folders with the permissions of any other: `mode` less the
-/// process's mask.
+/// A builder of temporary files and folders with the usual permissions: `mode` masked by the
+/// umask of the process.
 fn builder(prefix: &OsStr, mode: u32) -> Builder<'_, 'static> {
     let mut builder = Builder::new();
     builder.prefix(prefix);
@@ -295,7 +295,7 @@ fn synchronise_all(folder: &Path) -> io::Result<()> {
     synchronise(folder)
 }
 
-/// Synchronises a folder's list of names with the disk, where the system can.
+/// Synchronizes a folder's list of names with the disk, if the system supports that.
 fn synchronise(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }

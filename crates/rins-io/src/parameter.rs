@@ -1,4 +1,4 @@
-//! The twelve numbers of a triad's errors by name and unit, as files and results give them.
+//! The twelve numbers of a triad's errors by name and unit, as in files and results.
 
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::{ImuError, TriadError};
@@ -10,7 +10,7 @@ use crate::section::{Section, such_as};
 /// A number of an [`ImuError`], or its standard deviation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its name, such as `gyro.misalignment.xz`: what gyro x sees of a rate about z.
+    /// Its name, such as `gyro.misalignment.xz`: the fraction of a rate about z that gyro x measures.
     pub id: String,
     /// Its value in [`Parameter::unit`].
     pub value: f64,
@@ -18,13 +18,13 @@ pub struct Parameter {
     pub unit: &'static str,
 }
 
-/// The rows and columns of the misalignments, in the order in which files give them.
+/// The rows and columns of the misalignments, in their order in files.
 const MISALIGNMENTS: [(&str, usize, usize); 6] =
     [("xy", 0, 1), ("xz", 0, 2), ("yx", 1, 0), ("yz", 1, 2), ("zx", 2, 0), ("zy", 2, 1)];
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// How one triad is written.
+/// The keys and units of one triad.
 pub(crate) struct TriadKeys {
     name: &'static str,
     bias: &'static Kind,
@@ -79,7 +79,7 @@ pub fn parameters(error: &ImuError) -> Vec<Parameter> {
     parameters
 }
 
-/// What to do about a number that a file leaves out.
+/// The treatment of a number that a file omits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LeftOut {
     /// It is zero.
@@ -127,7 +127,7 @@ pub(crate) fn read(
     Ok(triad)
 }
 
-/// The standard deviations that a section gives, each behind its id, in the order of
+/// The standard deviations in a section with their ids, in the order of
 /// [`parameters`].
 pub(crate) fn read_sigmas(section: &Section<'_>) -> Result<Vec<Parameter>, IoError> {
     let mut sigmas = Vec::new();

@@ -1,4 +1,4 @@
-//! Simulated runs written down: the log, its rig, and the truth that they were made from.
+//! Output of simulated runs: the log, its rig file, and the truth.
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -20,9 +20,9 @@ use crate::write::rig_text::{column_keys, figures, inline, push_table};
 use crate::write::write_recording;
 
 impl ScenarioFile {
-    /// The rig file of a run that was simulated from this scenario: all of the scenario's sections
-    /// but `[truth]` and `[grid]`, its quantities as they are written there, and a `[log]` that describes what
-    /// [`write_recording`] writes.
+    /// The rig file of a run that was simulated from this scenario: all sections of the scenario
+    /// except `[truth]` and `[grid]`, with quantities as written there, and a `[log]` for the output of
+    /// [`write_recording`].
     pub fn rig_toml(&self, recording: &Recording) -> String {
         let mut text = String::from("# A simulated run: site, log and IMU.\n");
         for Entry { key, value, .. } in &self.document.root {
@@ -45,11 +45,11 @@ impl ScenarioFile {
         text
     }
 
-    /// Writes the log, rig file and truth of a run that was simulated from this scenario into
+    /// Writes the log, rig file and truth of a run that was simulated from this scenario to
     /// `folder`.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses.
+    /// [`IoError::File`] on a system error.
     pub fn write_run(&self, recording: &Recording, folder: &Path) -> Result<(), IoError> {
         let write = |name: &str, fill: &dyn Fn(&mut dyn Write) -> io::Result<()>| {
             let path = folder.join(name);
@@ -63,8 +63,8 @@ impl ScenarioFile {
     }
 }
 
-/// What a simulated run was made from, as JSON: the axis frame's true attitude, the IMU's true errors and
-/// the effects by the ids and in the units that results have them.
+/// The truth of a simulated run as JSON: the axis frame's true attitude, the IMU's true errors and
+/// the effects, with the ids and units of results.
 pub fn truth_json(scenario: &Scenario) -> String {
     let angles = true_angles(scenario);
     let parameters: Vec<Value> =

@@ -1,4 +1,4 @@
-//! Scenario files: a rig, and the truth that a simulated run is made from.
+//! Scenario files: a rig file with the truth of a simulated run.
 
 mod temperature;
 
@@ -17,14 +17,14 @@ use crate::rig::{self, Axes, Rig, angle_figures, angles};
 use crate::section::{Section, such_as};
 use crate::term::{self, Use};
 
-/// What a scenario file says: a rig file's sections and `[truth]`.
+/// The content of a scenario file: the sections of a rig file and `[truth]`.
 ///
-/// Of `[log]` it takes the rate, the log's name, what a `table_angle` says of its noise and
-/// resolution, and whether there is a `table_angle` or a `table_rate` to be recorded. Columns and
-/// units, which a rig file with `[truth]` put behind it has, are not looked at: a simulated log has
-/// its own ([`write_recording`](crate::write_recording)). A `[grid]` is for campaigns
-/// ([`ScenarioGrid`](crate::ScenarioGrid)) and not looked at. Errors that `[truth]` leaves out are zero,
-/// and noise is on, with the figures of `[imu]`, unless it is switched off.
+/// From `[log]` it uses the rate, the name of the log, the noise and resolution of `table_angle`,
+/// and the presence of `table_angle` and `table_rate`, which are then recorded. Columns and
+/// units, which occur if `[truth]` is appended to a rig file, are ignored: a simulated log has
+/// its own ([`write_recording`](crate::write_recording)). `[grid]` is for campaigns
+/// ([`ScenarioGrid`](crate::ScenarioGrid)) and ignored here. Errors that `[truth]` omits are zero;
+/// noise has the parameters of `[imu]`, unless it is switched off.
 ///
 /// ```
 /// # use std::path::Path;
@@ -55,11 +55,11 @@ use crate::term::{self, Use};
 pub struct ScenarioFile {
     /// The scenario file.
     pub path: PathBuf,
-    /// What is to be simulated.
+    /// The scenario to be simulated.
     pub scenario: Scenario,
-    /// The name of the log in the folder of a simulated run.
+    /// The file name of the log in the folder of a simulated run.
     pub log_name: String,
-    /// The scenario's text, from which a run's rig file is written.
+    /// The scenario's text, from which the rig file of a run is written.
     pub(crate) document: Document,
 }
 
@@ -76,10 +76,10 @@ impl ScenarioFile {
         Self::from_document(Document::read(path)?)
     }
 
-    /// The scenario that `text` describes, as if it stood in the file at `path`.
+    /// The scenario in `text`, parsed as the content of the file at `path`.
     ///
     /// # Errors
-    /// [`IoError::Key`], as [`ScenarioFile::read`].
+    /// [`IoError::Key`], as for [`ScenarioFile::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
         Self::from_document(Document::parse(text, path)?)
     }
@@ -171,7 +171,7 @@ fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError
             }
             let on = noise.table_angle == Switch::On;
             let sigma = if on { angle.noise.unwrap_or(0.0) } else { 0.0 };
-            // A resolution of zero is none.
+            // A resolution of zero means none.
             let resolution = angle.resolution.filter(|bit| on && *bit > 0.0);
             Ok(TableRecord::Angle(Encoder { noise: sigma, resolution, zero: 0.0 }))
         }
@@ -180,7 +180,7 @@ fn table_record(log: &Section<'_>, noise: &Noise) -> Result<TableRecord, IoError
     }
 }
 
-/// The effects beyond bias, scale, misalignment and noise.
+/// The effects other than bias, scale error, misalignment and noise.
 fn effects(truth: &Section<'_>) -> Result<Model, IoError> {
     let mut effects = Model::default();
     for table in term::tables(truth, "effects")? {
@@ -197,7 +197,7 @@ enum Switch {
     Off,
 }
 
-/// Which noises are made.
+/// The kinds of noise that are simulated.
 struct Noise {
     gyro: Switch,
     accel: Switch,
@@ -248,7 +248,7 @@ impl Noise {
     }
 }
 
-/// What is true of one triad.
+/// The true errors of one triad.
 struct Sensor {
     error: TriadError,
     quantisation: Option<Quantisation>,
@@ -280,7 +280,7 @@ impl Sensor {
     }
 }
 
-/// The rotation of the simulated table axis frame, as roll, pitch and yaw \[rad\].
+/// The true attitude of the simulated table axis frame, as roll, pitch and yaw \[rad\].
 pub(crate) fn true_angles(scenario: &Scenario) -> EulerAngles {
     let nav_from_table: Dcm<_, _> = scenario.nav_from_table;
     nav_from_table.euler_angles()

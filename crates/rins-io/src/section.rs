@@ -1,11 +1,11 @@
-//! A section of a file of keys, read key by key; what is wrong is said with its line.
+//! A section of a TOML file, which is read key by key; errors have the line of the key.
 
 use crate::document::{Document, Entry, Node, Value};
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::quantity::{Dimension, Kind, Quantity};
 use crate::suggestion::nearest;
 
-/// What a temperature should be, in words.
+/// The expected form of a temperature, for an error message.
 pub(crate) const CELSIUS: &str = r#"a temperature such as "20 degC""#;
 
 /// A table of a file: a `[header]`, or an inline table behind a key.
@@ -62,7 +62,7 @@ impl<'d> Section<'d> {
         Ok(Some(section))
     }
 
-    /// The tables in the list behind `key`; keys of theirs other than `known` are refused.
+    /// The tables in the list behind `key`; keys in them other than `known` are refused.
     pub(crate) fn tables(&self, key: &str, known: &[&str]) -> Result<Option<Vec<Self>>, IoError> {
         let expected = format!("a list of tables with the keys {}", known.join(", "));
         let tables = self.any_tables(key, &expected)?;
@@ -125,7 +125,7 @@ impl<'d> Section<'d> {
         self.quantity_of(key, value, kind).map(Some)
     }
 
-    /// The temperature behind `key` \[°C\]. In kelvin it would be read as a difference.
+    /// The temperature behind `key` \[°C\]. Kelvin is refused, because it would be a difference.
     pub(crate) fn celsius(&self, key: &str) -> Result<Option<f64>, IoError> {
         let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };
         self.celsius_of(key, value).map(Some)
@@ -177,7 +177,7 @@ impl<'d> Section<'d> {
         }
     }
 
-    /// The quantity behind `key`, which must be there.
+    /// The quantity behind `key`, which is required.
     pub(crate) fn require_quantity(&self, key: &str, kind: &Kind) -> Result<f64, IoError> {
         self.quantity(key, kind)?.ok_or_else(|| self.missing(key, such_as(kind)))
     }
@@ -208,7 +208,7 @@ impl<'d> Section<'d> {
         Ok(Some(texts))
     }
 
-    /// The texts in the list behind `key`, however many.
+    /// The texts in the list behind `key`, of any number.
     pub(crate) fn list_of_texts(&self, key: &str, expected: &str) -> Result<Vec<String>, IoError> {
         let Some(Entry { value, .. }) = self.get(key) else { return Ok(Vec::new()) };
         let Node::List(items) = &value.node else {
@@ -221,7 +221,7 @@ impl<'d> Section<'d> {
         items.iter().map(text).collect()
     }
 
-    /// The number behind `key`, or three of them, as three.
+    /// The three numbers behind `key`; a single number stands for three equal ones.
     pub(crate) fn numbers(&self, key: &str, expected: &str) -> Result<Option<[f64; 3]>, IoError> {
         let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };
         if matches!(value.node, Node::List(_)) {
@@ -236,7 +236,7 @@ impl<'d> Section<'d> {
         Ok(Some([self.number_of(key, value, expected)?; 3]))
     }
 
-    /// The whole number from zero behind `key`.
+    /// The non-negative integer behind `key`.
     pub(crate) fn count(&self, key: &str, expected: &str) -> Result<Option<u64>, IoError> {
         let Some(Entry { value, .. }) = self.get(key) else { return Ok(None) };
         match value.node {
@@ -248,7 +248,7 @@ impl<'d> Section<'d> {
         }
     }
 
-    /// Which of `choices` the text behind `key` is.
+    /// The one of `choices` that the text behind `key` names.
     pub(crate) fn choice<T: Copy>(
         &self,
         key: &str,
@@ -264,23 +264,23 @@ impl<'d> Section<'d> {
             .error(key, KeyProblem::NotOneOf { value: text.into(), suggestion, known: known() }))
     }
 
-    /// The error that `key` is not there.
+    /// The error that `key` is missing.
     pub(crate) fn missing(&self, key: &str, expected: impl Into<String>) -> IoError {
         self.error(key, KeyProblem::Missing { expected: expected.into() })
     }
 
-    /// The error that the value behind `key` makes no sense.
+    /// The error that the value behind `key` is not permitted.
     pub(crate) fn not_allowed(&self, key: &str, expected: &str) -> IoError {
         let value = self.get(key).map_or_else(String::new, |entry| entry.value.source.clone());
         self.error(key, KeyProblem::NotAllowed { value, expected: expected.into() })
     }
 
-    /// The error that `key` does not go with another one.
+    /// The error that `key` conflicts with another one.
     pub(crate) fn conflict(&self, key: &str, reason: impl Into<String>) -> IoError {
         self.error(key, KeyProblem::Conflict { reason: reason.into() })
     }
 
-    /// The error that `problem` is wrong with `key`.
+    /// The error with this problem of `key`.
     pub(crate) fn error(&self, key: &str, problem: KeyProblem) -> IoError {
         let line = self.get(key).map(|entry| entry.value.line).or(self.line);
         self.error_at(key, line, problem)
@@ -292,13 +292,13 @@ impl<'d> Section<'d> {
         Box::new(KeyError { path: self.document.path.clone(), line, key, problem }).into()
     }
 
-    /// The error that the value behind `key` is of another type.
+    /// The error that the value behind `key` has another type.
     pub(crate) fn wrong_type(&self, key: &str, value: &Value, expected: String) -> IoError {
         let got = value.node.described(&value.source);
         self.error_at(key, Some(value.line), KeyProblem::WrongType { got, expected })
     }
 
-    /// The quantity that a value is, in SI units and radians.
+    /// The quantity in a value, in SI units and radians.
     pub(crate) fn quantity_of(
         &self,
         key: &str,
@@ -352,7 +352,7 @@ impl<'d> Section<'d> {
     }
 }
 
-/// What a quantity should be, in words.
+/// The expected form of a quantity, for an error message.
 pub(crate) fn such_as(kind: &Kind) -> String {
     format!("{} such as {:?}", kind.name, kind.example)
 }

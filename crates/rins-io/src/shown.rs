@@ -1,9 +1,9 @@
-//! Texts of others, such as paths, within a line of ours.
+//! External texts, such as paths, as one line of output.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// A text in which nothing moves the cursor of a terminal or begins a line: control characters are escaped.
+/// A text with escaped control characters, so that it neither moves the cursor of a terminal nor begins a new line.
 #[must_use]
 pub fn one_line(text: &str) -> String {
     let mut line = String::with_capacity(text.len());

@@ -1,4 +1,4 @@
-//! Where a log's bytes come from: the disk or, in a build for fuzzing, memory.
+//! The source of a log's bytes: the disk or, in a build for fuzzing, memory.
 
 #[cfg(not(fuzzing))]
 pub(crate) use disk::{Chunks, Source, chunks, length, open};
@@ -16,23 +16,23 @@ mod disk {
 
     use crate::inputs;
 
-    /// What is read from the first byte on.
+    /// A source that is read sequentially.
     pub(crate) type Source = File;
 
-    /// The bytes from the first on.
+    /// Opens a file for sequential reading.
     pub(crate) fn open(path: &Path) -> io::Result<Source> {
         inputs::open(path)
     }
 
-    /// What is read in any order.
+    /// A source with random access.
     pub(crate) type Chunks = File;
 
-    /// The bytes in any order.
+    /// Opens a file for random access.
     pub(crate) fn chunks(path: &Path) -> io::Result<Chunks> {
         inputs::open(path)
     }
 
-    /// How many there are.
+    /// The length of the file \[bytes\].
     pub(crate) fn length(path: &Path) -> io::Result<u64> {
         fs::metadata(path).map(|data| data.len())
     }

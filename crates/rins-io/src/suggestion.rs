@@ -1,7 +1,7 @@
-//! What a misspelt word may have meant.
+//! Suggestions for misspelled words.
 
-/// The candidate that is nearest to `word`, if one is near: by letters changed, added, left out or
-/// swapped with their neighbour, of which at most a third of the word (and at least one) may be.
+/// The candidate with the smallest edit distance to `word`, if it is small: at most a third of the letters (and at least one) may
+/// be changed, added, omitted or swapped with a neighbor.
 pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let word = letters(word);
     let allowed = (word.len() / 3).max(1);
@@ -9,19 +9,19 @@ pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .into_iter()
         .filter_map(|candidate| {
             let letters = letters(candidate);
-            // A letter more or less is a slip each: most candidates are told by their length.
+            // Each letter of difference in length costs one edit: most candidates are excluded by their length.
             if letters.len().abs_diff(word.len()) > allowed {
                 return None;
             }
             let distance = distance(&word, &letters);
-            // A candidate that shares no letter is as near as any other.
+            // A candidate without a common letter is not more similar than any other.
             (distance <= allowed && distance < letters.len()).then_some((distance, candidate))
         })
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
 }
 
-/// The letters of a word, case ignored; of a text that is no word, so many that none is near it.
+/// The letters of a word in lower case, at most 256, so that the cost of a long text is bounded.
 fn letters(word: &str) -> Vec<char> {
     word.chars().flat_map(char::to_lowercase).take(256).collect()
 }

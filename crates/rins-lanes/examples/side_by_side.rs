@@ -1,9 +1,9 @@
-//! The same turns one after the other and side by side, with the same bits.
+//! The same rotations one by one and in SIMD lanes, with identical bits.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use rins_lanes::{Arch, Lane, Real, Simd, Vector, WithSimd, rotation};
 
-/// How often each vector is turned.
+/// The number of rotations of each vector.
 const TURNS: usize = 1000;
 
 fn turned<T: Real>(turn: &Vector<T>) -> T {

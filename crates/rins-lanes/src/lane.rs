@@ -1,4 +1,4 @@
-//! As many numbers side by side as the machine's vectors hold.
+//! SIMD lanes: as many numbers as the vector registers of the machine hold.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -7,10 +7,10 @@ use pulp::bytemuck;
 
 use crate::real::Real;
 
-/// A number of each of several runs, as many as a vector of the instruction set `S` holds.
+/// One number of each of several runs, as many as a vector of the instruction set `S` holds.
 ///
-/// It can be made only where the machine is known to have those instructions: from the token that
-/// [`dispatch`](crate::Arch::dispatch) hands out.
+/// It can be created only if the machine is known to have these instructions: from the token that
+/// [`dispatch`](crate::Arch::dispatch) provides.
 #[derive(Clone, Copy, Debug)]
 pub struct Lane<S: Simd> {
     simd: S,
@@ -18,16 +18,16 @@ pub struct Lane<S: Simd> {
 }
 
 impl<S: Simd> Lane<S> {
-    /// How many runs lie side by side.
+    /// The number of runs in a vector.
     pub const WIDTH: usize = S::F64_LANES;
 
-    /// One constant for all runs.
+    /// The same constant for all runs.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
         Self { simd, values: simd.splat_f64s(value) }
     }
 
-    /// A vector of numbers, one a run.
+    /// A vector of numbers, one for each run.
     #[inline(always)]
     pub fn new(simd: S, values: S::f64s) -> Self {
         Self { simd, values }
@@ -39,7 +39,7 @@ impl<S: Simd> Lane<S> {
         self.values
     }
 
-    /// Replaces every number by a function of it, a vector at a time.
+    /// Replaces every number by a function of it, vector by vector.
     #[inline(always)]
     pub fn map_slice(simd: S, numbers: &mut [f64], f: impl Fn(Self) -> Self) {
         let (vectors, rest) = S::as_mut_simd_f64s(numbers);

@@ -1,12 +1,12 @@
-//! One run or several side by side: the arithmetic that a kernel is written in once.
+//! Arithmetic for one run or for several runs in SIMD lanes, with which a kernel is written once.
 //!
-//! **What it does.** A kernel that is generic over [`Real`] runs over `f64`, for one run, and over
-//! [`Lane`], for as many runs as the machine's vectors hold; [`Arch`] finds out at run time which
-//! instructions there are, so that a default build uses them. [`Vector`] and [`Matrix`] are three
-//! and three by three of such numbers, [`rotation`] what navigation does with them.
+//! **What it does.** A kernel that is generic over [`Real`] works with `f64`, for one run, and with
+//! [`Lane`], for as many runs as the vector registers of the machine hold; [`Arch`] detects the instruction set
+//! at run time, so that a default build uses it. [`Vector`] and [`Matrix`] contain three
+//! and three by three such numbers, and [`rotation`] has the rotations of a navigation kernel.
 //!
-//! **What it does not do.** It never fuses a multiplication with an addition and takes sines from one
-//! library: the bits of a run are the same alone or beside others, on any machine, whatever the
+//! **What it does not do.** It never fuses a multiplication with an addition and uses the trigonometric functions of one
+//! library: the bits of a run are the same alone or with others, on any machine and with any
 //! target flags.
 //!
 //! ```

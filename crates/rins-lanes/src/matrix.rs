@@ -10,7 +10,7 @@ use crate::vector::Vector;
 pub struct Matrix<T>(pub [[T; 3]; 3]);
 
 impl<T: Real> Matrix<T> {
-    /// The matrix whose elements are `element(row, column)`.
+    /// The matrix with the elements `element(row, column)`.
     #[inline(always)]
     pub fn from_fn(mut element: impl FnMut(usize, usize) -> T) -> Self {
         Self([
@@ -20,13 +20,13 @@ impl<T: Real> Matrix<T> {
         ])
     }
 
-    /// A matrix that is the same in all the runs that `like` has a number of.
+    /// A matrix that is the same for all runs of `like`.
     #[inline(always)]
     pub fn constant(like: T, value: &nalgebra::Matrix3<f64>) -> Self {
         Self::from_fn(|row, column| like.constant(value[(row, column)]))
     }
 
-    /// `[v×]`, so that it times `w` is `v × w`.
+    /// The matrix `[v×]`, whose product with `w` is `v × w`.
     #[inline(always)]
     pub fn cross(v: &Vector<T>) -> Self {
         let [x, y, z] = v.0;
@@ -41,14 +41,14 @@ impl<T: Real> Matrix<T> {
         Self::from_fn(|row, column| self[column][row])
     }
 
-    /// The matrix times a number.
+    /// The matrix multiplied by a number.
     #[inline(always)]
     #[must_use]
     pub fn times(&self, factor: T) -> Self {
         Self::from_fn(|row, column| self[row][column] * factor)
     }
 
-    /// The matrix times a constant.
+    /// The matrix multiplied by a constant.
     #[inline(always)]
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {

@@ -1,12 +1,12 @@
-//! What a kernel asks of a number: that of one run, or a lane each of several.
+//! The numbers of a kernel: one number, or one lane for each of several runs.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number of one run (`f64`), or of several runs side by side ([`crate::Lane`]).
+/// A number of one run (`f64`), or of several runs in lanes ([`crate::Lane`]).
 ///
-/// Every operation rounds each lane as IEEE 754 rounds an `f64`, and none is fused: a lane holds the
-/// bits that its run alone would.
+/// Every operation rounds each lane as IEEE 754 rounds an `f64`, and none is fused: a lane has the
+/// same bits as its run alone.
 pub trait Real:
     Copy
     + Debug
@@ -19,7 +19,7 @@ pub trait Real:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// How many runs lie side by side.
+    /// The number of runs.
     fn lanes(self) -> usize;
 
     /// The number of one run.
@@ -28,11 +28,11 @@ pub trait Real:
     /// If there is no such lane.
     fn lane(self, index: usize) -> f64;
 
-    /// A number for each of the runs that `self` has one of.
+    /// A number for each of the runs of `self`.
     #[must_use]
     fn each(self, value: impl FnMut(usize) -> f64) -> Self;
 
-    /// One constant for all the runs that `self` has a number of.
+    /// The same constant for all runs of `self`.
     #[must_use]
     fn constant(self, value: f64) -> Self;
 
@@ -40,7 +40,7 @@ pub trait Real:
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// Whether the numbers of all runs are below a bound; a run that has none may be passed over.
+    /// Whether the numbers of all runs are below a bound; NaN may be ignored.
     fn all_below(self, bound: f64) -> bool;
 
     /// A function of one number, applied to that of each run.
@@ -50,7 +50,7 @@ pub trait Real:
         self.each(|index| f(self.lane(index)))
     }
 
-    /// The magnitude.
+    /// The absolute value.
     #[must_use]
     #[inline(always)]
     fn abs(self) -> Self {

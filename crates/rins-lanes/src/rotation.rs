@@ -1,18 +1,18 @@
-//! Rotation matrices and rotation vectors, by series where turns are small and in full where not.
+//! Rotation matrices and rotation vectors, by series for small angles and by closed forms for large ones.
 
 use crate::matrix::Matrix;
 use crate::real::Real;
 use crate::vector::Vector;
 
-/// Below this angle \[rad\] coefficients come from their Taylor series: the first terms left out are
+/// The angle \[rad\] below which coefficients come from their Taylor series: the first omitted terms are
 /// `φ⁸/9!` and `2 φ⁸/10!`, a tenth of a rounding error.
 const SMALL_ANGLE: f64 = 0.04;
 
-/// Below this sine the logarithm comes from the series of the arc sine, to the power of ten: the
-/// first term left out is 2e-18.
+/// The sine below which the logarithm comes from the series of the arc sine, to the tenth power: the
+/// first omitted term is 2e-18.
 const SMALL_SINE: f64 = 0.03;
 
-/// `exp[v×]` (Rodrigues' formula): the matrix of a turn by `|v|` about `v`.
+/// The matrix `exp[v×]` of a rotation by `|v|` about `v` (Rodrigues' formula).
 #[inline(always)]
 pub fn exp<T: Real>(v: &Vector<T>) -> Matrix<T> {
     let square = v.dot(v);
@@ -29,13 +29,13 @@ pub fn exp<T: Real>(v: &Vector<T>) -> Matrix<T> {
     ])
 }
 
-/// `sin φ / φ` and `(1 - cos φ) / φ²`, of `φ²`.
+/// The coefficients `sin φ / φ` and `(1 - cos φ) / φ²` as functions of `φ²`.
 #[inline(always)]
 fn coefficients<T: Real>(square: T) -> (T, T) {
     if square.all_below(SMALL_ANGLE * SMALL_ANGLE) {
         (series(square, [6.0, 20.0, 42.0], 1.0), series(square, [24.0, 30.0, 56.0], 0.5))
     } else {
-        // Run by run, so that each has the digits that it has alone.
+        // Each run is computed separately, so that it has the same bits as alone.
         (square.map(|square| one_run(square).0), square.map(|square| one_run(square).1))
     }
 }
@@ -59,11 +59,11 @@ fn one_run(square: f64) -> (f64, f64) {
     (2.0 * half_sinc * cos_half, 2.0 * half_sinc * half_sinc)
 }
 
-/// `(1 - cos θ)/θ²` and `(1 - sin θ/θ)/θ²`, of `θ²`: the weights of `θ×` and `θ×θ×` in the mean of a
-/// turning frame over its turn.
+/// The weights `(1 - cos θ)/θ²` and `(1 - sin θ/θ)/θ²`, as functions of `θ²`, of `θ×` and `θ×θ×` in the mean
+/// orientation of a frame during a rotation.
 #[inline(always)]
 pub fn mean_weights<T: Real>(square: T) -> (T, T) {
-    /// Where the terms left out are below 1e-17.
+    /// The limit below which the omitted terms are smaller than 1e-17.
     const SMALL: f64 = 1e-4;
     #[inline(always)]
     fn of_small<T: Real>(square: T) -> (T, T) {
@@ -86,15 +86,15 @@ pub fn mean_weights<T: Real>(square: T) -> (T, T) {
     }
 }
 
-/// The rotation vector of a matrix near the identity, or `None` if it turns by more than 0.03 rad in
+/// The rotation vector of a matrix near the identity; `None` if the angle exceeds 0.03 rad in
 /// any run.
 #[inline(always)]
 pub fn small_rotation_vector<T: Real>(c: &Matrix<T>) -> Option<Vector<T>> {
-    /// `asin s / s` in powers of `s²`, the highest first.
+    /// The coefficients of `asin s / s` in powers of `s²`, the highest first.
     const ARC_SINE: [f64; 5] = [63.0 / 2816.0, 35.0 / 1152.0, 5.0 / 112.0, 3.0 / 40.0, 1.0 / 6.0];
     let sine = Vector([c[2][1] - c[1][2], c[0][2] - c[2][0], c[1][0] - c[0][1]]).scaled(0.5);
     let square = sine.dot(&sine);
-    // Beyond a right angle the sine falls again; there the trace is below 1.
+    // Beyond a right angle the sine decreases again; there the trace is below 1.
     let trace = c[0][0] + c[1][1] + c[2][2];
     if !(square.all_below(SMALL_SINE * SMALL_SINE) && (-trace).all_below(-1.0)) {
         return None;
@@ -106,7 +106,7 @@ pub fn small_rotation_vector<T: Real>(c: &Matrix<T>) -> Option<Vector<T>> {
     Some(sine * (sum * square + 1.0))
 }
 
-/// The nearest rotation, to first order in what rounding has done to this one: one step of Newton's
+/// The nearest rotation, to first order in the rounding errors of this one: one step of Newton's
 /// iteration for the polar decomposition.
 #[inline(always)]
 #[must_use]

@@ -9,19 +9,19 @@ use crate::real::Real;
 pub struct Vector<T>(pub [T; 3]);
 
 impl<T: Real> Vector<T> {
-    /// A vector that is the same in all the runs that `like` has a number of.
+    /// A vector that is the same for all runs of `like`.
     #[inline(always)]
     pub fn constant(like: T, value: [f64; 3]) -> Self {
         Self([like.constant(value[0]), like.constant(value[1]), like.constant(value[2])])
     }
 
-    /// The null vector for the runs that `like` has a number of.
+    /// The zero vector for the runs of `like`.
     #[inline(always)]
     pub fn zeros(like: T) -> Self {
         Self([like.constant(0.0); 3])
     }
 
-    /// `self × other`.
+    /// The cross product `self × other`.
     #[inline(always)]
     #[must_use]
     pub fn cross(&self, other: &Self) -> Self {
@@ -109,7 +109,7 @@ impl<T: Real> Mul<T> for Vector<T> {
 }
 
 impl<T: Real> Vector<T> {
-    /// The vector times a constant.
+    /// The vector multiplied by a constant.
     #[inline(always)]
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {

@@ -1,28 +1,28 @@
-//! What a report says: sections of text, notes, tables and plots.
+//! The content of a report: sections of text, notes, tables and plots.
 
 use super::plot::Plot;
 
 /// A page, in the order in which it is read.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Report {
-    /// What was done to what, such as "Calibration of run 7".
+    /// The title, such as "Calibration of run 7".
     pub title: String,
-    /// The command, its model and its input files, in a line.
+    /// The command, its model and its input files, in one line.
     pub subtitle: String,
-    /// The result in plain words: the first sentence stands out, the others are listed below it.
+    /// The result in sentences: the first is emphasized, the others are listed below it.
     pub summary: Vec<String>,
     /// The evidence.
     pub sections: Vec<Section>,
 }
 
-/// One question and what answers it.
+/// One question with its answer.
 ///
-/// Plots that follow each other share a row of the page; those with the same abscissa label share a cursor and a zoom.
+/// Consecutive plots share a row of the page; those with the same abscissa label share a cursor and a zoom.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
     /// The heading, also listed at the top of the page.
     pub heading: String,
-    /// What the reader should look for; may be empty.
+    /// What the reader should look for; empty if there is no introduction.
     pub intro: String,
     /// The contents, in reading order.
     pub items: Vec<Item>,
@@ -33,7 +33,7 @@ pub struct Section {
 pub enum Item {
     /// A paragraph.
     Text(String),
-    /// A remark set apart, with its weight.
+    /// A remark in a box, with its weight.
     Note(Tone, String),
     /// A table.
     Table(Table),
@@ -43,27 +43,27 @@ pub enum Item {
     Plot(Plot),
 }
 
-/// How good the news is; the page adds a word to it, never colour alone.
+/// The severity of a statement; the page expresses it by a word in addition to the color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tone {
     /// A fact.
     Neutral,
-    /// As it should be.
+    /// As expected.
     Good,
-    /// Read this before you use the numbers.
+    /// A limitation to be read before the numbers are used.
     Warning,
-    /// The numbers cannot be used as they are.
+    /// An error: the numbers cannot be used as they are.
     Bad,
 }
 
-/// A table with a heading over each column.
+/// A table with a heading above each column.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Table {
-    /// What the rows are.
+    /// The meaning of the rows.
     pub caption: String,
     /// The columns, left to right.
     pub columns: Vec<Column>,
-    /// The rows; a row that is too short ends in empty cells.
+    /// The rows; empty cells are added to a row that is too short.
     pub rows: Vec<Vec<Cell>>,
 }
 
@@ -72,28 +72,28 @@ pub struct Table {
 pub struct Column {
     /// The heading, with the unit of the column if it has one.
     pub heading: String,
-    /// What stands in it.
+    /// The kind of its cells.
     pub kind: Kind,
 }
 
-/// How a column is set.
+/// The format of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Words, at the left.
+    /// Text, aligned left.
     Text,
-    /// Numbers, at the right, with digits of equal width.
+    /// Numbers, aligned right, with digits of equal width.
     Number,
-    /// Identifiers, in a monospaced face.
+    /// Identifiers, in a monospaced font.
     Id,
 }
 
 impl Column {
-    /// A column of words.
+    /// A text column.
     pub fn text(heading: impl Into<String>) -> Self {
         Self { heading: heading.into(), kind: Kind::Text }
     }
 
-    /// A column of numbers.
+    /// A number column.
     pub fn number(heading: impl Into<String>) -> Self {
         Self { heading: heading.into(), kind: Kind::Number }
     }
@@ -107,37 +107,37 @@ impl Column {
 /// A cell of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
-    /// Nothing to say.
+    /// An empty cell.
     Empty,
-    /// Words.
+    /// Text.
     Text(String),
-    /// A number with that many decimals; one that they would show as zero is written with a power of ten.
+    /// A number with this number of decimals; with a power of ten if it would be rounded to zero.
     Number {
         /// The number, in the unit of its column.
         value: f64,
         /// The decimals shown.
         decimals: usize,
     },
-    /// A value ± its standard deviation, both to the second digit of the latter.
+    /// A value ± its standard deviation, both rounded to the second digit of the latter.
     Estimate {
         /// The estimate, in the unit of its column.
         value: f64,
         /// Its standard deviation, in the same unit.
         sigma: f64,
     },
-    /// A value and its standard deviation drawn to a scale that is the column's; beyond −1 and 1 they are cut.
+    /// A bar of a value and its standard deviation, in the scale of the column; values beyond −1 and 1 are clipped.
     Bar {
         /// The value.
         value: f64,
         /// Its standard deviation.
         sigma: f64,
     },
-    /// A word or two that stand out, such as "identifiable".
+    /// One or two emphasized words, such as "identifiable".
     Badge(Tone, String),
 }
 
 impl Cell {
-    /// A cell of words.
+    /// A text cell.
     pub fn text(text: impl Into<String>) -> Self {
         Self::Text(text.into())
     }
@@ -148,10 +148,10 @@ impl Cell {
     }
 }
 
-/// A square matrix of coefficients between −1 and 1, such as correlations, shaded by their size.
+/// A square matrix of coefficients between −1 and 1, such as correlations, shaded by their magnitude.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matrix {
-    /// What the coefficients are.
+    /// The meaning of the coefficients.
     pub caption: String,
     /// The names of rows and columns.
     pub labels: Vec<String>,

@@ -1,14 +1,14 @@
-//! A plot made ready for the page's script: shared abscissae, thinned, rounded to what can be seen.
+//! A plot prepared for the page's script: curves with the same abscissa are grouped, thinned and rounded to visible digits.
 
 use serde::Serialize;
 
 use super::envelope::rows_to_draw;
 use super::plot::{Plot, Scale, Style};
 
-/// The colours of the style sheet; more curves than these repeat them.
+/// The number of colors in the style sheet; further curves repeat them.
 const N_COLOURS: usize = 8;
 
-/// What the script draws, and what its caption must own up to.
+/// The data for the script, and the omissions for the caption.
 #[derive(Debug, Serialize)]
 pub(super) struct Drawing<'a> {
     x_label: &'a str,
@@ -17,10 +17,10 @@ pub(super) struct Drawing<'a> {
     log_y: bool,
     references: Vec<Line<'a>>,
     groups: Vec<Group<'a>>,
-    /// The samples of the longest curve, if fewer of them are drawn.
+    /// The number of samples of the longest curve, if not all of them are drawn.
     #[serde(skip)]
     pub(super) thinned_from: Option<usize>,
-    /// The samples left out since their abscissa is no place on the axis.
+    /// The number of samples that are omitted because their abscissa is not on the axis.
     #[serde(skip)]
     pub(super) n_misplaced: usize,
 }
@@ -31,7 +31,7 @@ struct Line<'a> {
     value: f64,
 }
 
-/// Curves over one abscissa. A NaN is written as `null`.
+/// Curves with a common abscissa. A NaN is written as `null`.
 #[derive(Debug, Serialize)]
 struct Group<'a> {
     entries: Vec<Entry<'a>>,
@@ -39,7 +39,7 @@ struct Group<'a> {
     y: Vec<Vec<f64>>,
 }
 
-/// A line of the legend: one column of its group, or two for a band.
+/// An entry of the legend: one column of its group, or two for a band.
 #[derive(Debug, Serialize)]
 struct Entry<'a> {
     name: &'a str,
@@ -47,7 +47,7 @@ struct Entry<'a> {
     colour: usize,
 }
 
-/// A group as it was given.
+/// A group before thinning.
 struct Given<'a> {
     x: &'a [f64],
     entries: Vec<Entry<'a>>,
@@ -55,7 +55,7 @@ struct Given<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    /// The plot with about `n_points` drawn of each curve at most.
+    /// The plot with at most about `n_points` drawn points of each curve.
     pub(super) fn new(plot: &'a Plot, n_points: usize) -> Self {
         let mut drawing = Self {
             x_label: &plot.x_label,
@@ -115,7 +115,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// Bands and curves by their abscissae; bands first, so that they lie below.
+/// Bands and curves grouped by their abscissae; bands first, so that they are behind the curves.
 fn groups(plot: &Plot) -> Vec<Given<'_>> {
     let mut groups = Vec::new();
     for band in &plot.bands {
@@ -155,14 +155,14 @@ fn range_of(columns: &[Vec<f64>]) -> f64 {
     (greatest - least).max(0.0)
 }
 
-/// An ordinate to six digits, and to a hundred-thousandth of the plot's range if that is finer.
+/// An ordinate rounded to six digits, or to a hundred-thousandth of the plot's range if that is finer.
 fn rounded_ordinate(y: f64, range: f64) -> f64 {
     let short = to_digits(y, 6);
     let visible = 1e-5 * range;
     if visible > 0.0 && (short - y).abs() > visible { to_step(y, visible) } else { short }
 }
 
-/// Abscissae to a ten-millionth of their range (to seven digits where they are drawn as logarithms); still in order.
+/// Abscissae rounded to a ten-millionth of their range (to seven digits on a logarithmic axis); their order is preserved.
 fn rounded_abscissa(x: &[f64], logarithmic: bool) -> Vec<f64> {
     let range = x.last().zip(x.first()).map_or(0.0, |(last, first)| last - first);
     let step = 1e-7 * range;
@@ -174,12 +174,12 @@ fn rounded_abscissa(x: &[f64], logarithmic: bool) -> Vec<f64> {
     x.iter().map(round).collect()
 }
 
-/// The number to that many significant digits, such that it is written short.
+/// The number rounded to this number of significant digits, so that its text is short.
 fn to_digits(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
-/// The number to as many decimals as `step` needs.
+/// The number rounded to the decimals of `step`.
 fn to_step(value: f64, step: f64) -> f64 {
     let decimals = (-step.log10()).ceil().clamp(0.0, 300.0);
     #[expect(

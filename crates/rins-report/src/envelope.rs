@@ -1,10 +1,10 @@
-//! Thinning of long curves for display, such that no peak is lost.
+//! Thinning of long curves for display that preserves all peaks.
 
-/// The rows to draw of columns over one ascending abscissa: all if they are few, else of each of `n_buckets`
-/// equal divisions of the abscissa the least and the greatest of every column, with its first gap.
+/// The rows to be drawn of columns with one ascending abscissa: all if they are few, otherwise, for each of `n_buckets`
+/// equal divisions of the abscissa, the minimum and the maximum of every column and its first gap.
 ///
-/// `position` maps the abscissa to where it is drawn (the identity, or a logarithm). The first and the last row
-/// are always among them. Rows come in ascending order. A value that is not finite is a gap.
+/// `position` maps the abscissa to its position in the plot (the identity, or a logarithm). The first and the last row
+/// are always included. Rows are in ascending order. A value that is not finite is a gap.
 pub(super) fn rows_to_draw(
     abscissa: &[f64],
     columns: &[&[f64]],
@@ -24,7 +24,7 @@ pub(super) fn rows_to_draw(
     let mut first = 0;
     while first < n_rows {
         let bucket = bucket_of(first);
-        // A width of zero makes every bucket NaN, which none shares: then each row is its own.
+        // A width of zero makes every bucket NaN, which is not equal to itself: then each row has its own bucket.
         let next = (first + 1..n_rows).take_while(|row| share(bucket_of(*row), bucket));
         let length = 1 + next.count();
         let begin = kept.len();
@@ -39,7 +39,7 @@ pub(super) fn rows_to_draw(
     kept
 }
 
-/// Where a column is least, where it is greatest, and where its first gap is.
+/// The indices of the minimum, of the maximum and of the first gap of a column.
 fn extremes(column: &[f64]) -> impl Iterator<Item = usize> {
     let (mut least, mut greatest, mut gap) = (None, None, None);
     for (row, value) in column.iter().enumerate() {
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_decade_of_a_logarithmic_abscissa_gets_its_share() {
-        // Half of the drawn width is below 0.1, though only one sample in a thousand is.
+        // Half of the drawn width is below 0.1, although only one sample in a thousand is.
         let abscissa: Vec<f64> = (1..=100_000).map(|row| f64::from(row) * 1e-3).collect();
         let column: Vec<f64> = (1..=100_000).map(|row| f64::from(row % 7)).collect();
         let rows = rows_to_draw(&abscissa, &[&column], 1000, f64::ln);

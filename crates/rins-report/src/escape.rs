@@ -1,12 +1,12 @@
-//! Text that came from a file made harmless on a page, and in a script's data.
+//! Escaping of text from files for the page and for a script's data.
 
 use std::borrow::Cow;
 
 use maud::{Escaper, Markup, PreEscaped, Render};
 
-/// Text as a page shows it, in an element or in a quoted attribute: markup in it is text.
+/// Text for an element or a quoted attribute of the page: markup in it is displayed as text.
 ///
-/// Control characters and those that reverse the direction of writing are shown as U+FFFD, since a file could
+/// Control characters and those that reverse the direction of writing become U+FFFD, because a file could
 /// make one number look like another with them.
 pub(super) struct Shown<'a>(pub(super) &'a str);
 
@@ -18,10 +18,10 @@ impl Render for Shown<'_> {
     }
 }
 
-/// The end of a line, so that a page can be compared line by line.
+/// A line end, so that a page can be compared line by line.
 pub(super) const LINE: PreEscaped<&str> = PreEscaped("\n");
 
-/// Markup as it is, where it was made here.
+/// Markup that this crate has generated, unchanged.
 pub(super) fn made(text: String) -> Markup {
     PreEscaped(text)
 }
@@ -46,9 +46,9 @@ fn reverses(c: char) -> bool {
     matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A JSON text that can stand in a `script` element: the same value, with no `<`, `>`, `&`, U+2028 or U+2029 in it.
+/// JSON text for a `script` element: the same value, without `<`, `>`, `&`, U+2028 and U+2029.
 ///
-/// In JSON those characters occur within strings only, where `\u` may stand for any character.
+/// In JSON these characters occur only in strings, where `\u` can encode any character.
 /// Those that reverse the direction of writing become U+FFFD, as in [`Shown`].
 pub(super) fn json_in_script(json: &str) -> String {
     let mut escaped = String::with_capacity(json.len());

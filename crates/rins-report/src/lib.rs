@@ -1,12 +1,12 @@
-//! A result as a page: one self-contained HTML file that a person reads and that needs no network.
+//! Report pages: a result as one self-contained HTML file, which needs no network.
 //!
-//! A program describes what it found as a [`Report`] of sections, tables, notes and plots; [`render`] makes the page.
-//! Style, scripts and data are all in the file; a content security policy forbids it to load anything else.
-//! Tables and text need no script; the curves are drawn by uPlot, whose licence the page carries.
+//! A program describes its results as a [`Report`] of sections, tables, notes and plots; [`render`] generates the page.
+//! Style, scripts and data are in the file; a content security policy prevents it from loading anything else.
+//! Tables and text need no script; the curves are drawn by uPlot, whose license is in the page.
 //!
-//! Everything given here is taken for text that came from a file: nothing in it can become markup or code.
-//! NaN and infinities become gaps of a curve. Curves of more than some thousand samples are thinned for display
-//! such that every peak survives, and the plot's caption says so; the full numbers belong in `result.json`.
+//! All content is treated as untrusted text: nothing in it can become markup or code.
+//! NaN and infinities become gaps of a curve. Curves of more than a few thousand samples are thinned for display
+//! such that every peak is preserved, and the plot's caption states it; the full numbers are in `result.json`.
 //!
 //! ```
 //! use rins_report::{Cell, Column, Item, Report, Section, Table, render};

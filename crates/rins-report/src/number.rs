@@ -1,9 +1,9 @@
-//! Numbers as people read them.
+//! Numbers as text for readers.
 
-/// What stands for a number that is none.
+/// The text of a number that is not finite.
 const NONE: &str = "–";
 
-/// A number to so many digits, with a power of ten where it is very small or large.
+/// A number with `digits` significant digits, and with a power of ten if it is very small or large.
 pub fn figure(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return unusual(value);
@@ -11,7 +11,7 @@ pub fn figure(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    // Rounded first: 9.996 to three digits is 10.0.
+    // Rounded first: 9.996 with three digits is 10.0.
     let last = digits.saturating_sub(1);
     let scientific = format!("{value:.last$e}");
     let power = power_of(&scientific);
@@ -22,7 +22,7 @@ pub fn figure(value: f64, digits: usize) -> String {
     format!("{value:.decimals$}")
 }
 
-/// The number with that many decimals, and a real minus sign, or with a power of ten where they would make zero of it.
+/// The number with this number of decimals and a minus sign (U+2212), or with a power of ten if it would be rounded to zero.
 pub fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return unusual(value);
@@ -34,9 +34,9 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     signed(&plain)
 }
 
-/// A value and its standard deviation, both to the second digit of the standard deviation, with a real minus sign.
+/// A value and its standard deviation, both rounded to the second digit of the standard deviation, with a minus sign (U+2212).
 ///
-/// Without a usable standard deviation the value has six digits.
+/// Without a valid standard deviation the value has six digits.
 pub fn estimate(value: f64, sigma: f64) -> (String, String) {
     if !value.is_finite() {
         return (unusual(value), unusual_or(sigma, |sigma| format!("{sigma:.1e}")));
@@ -45,7 +45,7 @@ pub fn estimate(value: f64, sigma: f64) -> (String, String) {
         let shown = if sigma == 0.0 { "0".to_owned() } else { unusual(sigma) };
         return (signed(&figure(value, 6)), shown);
     }
-    // Rounded first: 0.0996 has its second digit where 0.10 has it.
+    // Rounded first: the second digit of 0.0996 is that of 0.10.
     let power = power_of(&format!("{sigma:.1e}"));
     if power < -6 && value != 0.0 {
         let digits = (power_of(&format!("{value:e}")) - power + 1).max(0);

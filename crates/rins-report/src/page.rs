@@ -1,4 +1,4 @@
-//! The page around what a report says.
+//! The HTML page of a report.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -14,17 +14,17 @@ const UPLOT: &str = include_str!("../assets/uplot-1.6.32.min.js");
 const UPLOT_STYLE: &str = include_str!("../assets/uplot-1.6.32.min.css");
 const UPLOT_LICENSE: &str = include_str!("../assets/uplot-LICENSE");
 
-/// Nothing is loaded; the page's own style, script and data suffice.
+/// The content security policy: nothing is loaded; only the page's own style, script and data are used.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
                       img-src data:; base-uri 'none'; form-action 'none'";
 
-/// The points drawn of a curve at most, and what it comes down to where a page has very many curves.
+/// The maximum number of drawn points of a curve, in steps for pages with increasing numbers of curves.
 const POINTS: [usize; 5] = [4000, 2000, 1000, 500, 250];
 
-/// The curves' data at most \[bytes\], unless the least of [`POINTS`] exceeds it.
+/// The maximum size of the curves' data \[bytes\], unless it is exceeded with the smallest of [`POINTS`].
 const DATA_SIZE: usize = 2_500_000;
 
-/// More plots in a row than this are set in two columns on a wide screen.
+/// The number of plots in a row above which they are arranged in two columns on a wide screen.
 const FEW_PLOTS: usize = 3;
 
 /// The report as one HTML file.
@@ -113,7 +113,7 @@ fn contents(report: &Report) -> Markup {
 }
 
 fn section(place: usize, section: &Section, figures: &mut impl Iterator<Item = Markup>) -> Markup {
-    // Plots that follow each other share a grid.
+    // Consecutive plots share a grid.
     let runs = section.items.chunk_by(|a, b| is_plot(a) && is_plot(b));
     html! {
         section id={ "s" (place) } { (LINE)
@@ -150,7 +150,7 @@ fn note(tone: Tone, text: &str) -> Markup {
     html! { p.note.(class(tone)) { b { (word) } " " (Shown(text)) } (LINE) }
 }
 
-/// Every plot of the report, each curve with as many points as the page has room for.
+/// All plots of the report, with as many points per curve as the size of the page permits.
 fn figures(report: &Report) -> Vec<Markup> {
     let plots: Vec<&Plot> = report
         .sections

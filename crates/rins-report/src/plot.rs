@@ -1,33 +1,33 @@
-//! What a plot shows, before it is prepared for display.
+//! The content of a plot, before it is prepared for display.
 
 /// Curves over a common abscissa.
 ///
-/// Abscissae ascend; a sample whose abscissa is not finite is left out and the caption counts it.
+/// Abscissae ascend; a sample whose abscissa is not finite is omitted and counted in the caption.
 /// An ordinate that is not finite, or not positive on a logarithmic scale, is a gap.
-/// Of an abscissa and an ordinate of different lengths the common beginning is drawn.
+/// If abscissa and ordinate have different lengths, the common beginning is drawn.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Plot {
-    /// What is shown.
+    /// The title.
     pub title: String,
     /// The abscissa with its unit in brackets, such as "Time \[s\]".
     pub x_label: String,
     /// The ordinate with its unit in brackets.
     pub y_label: String,
-    /// How the abscissa is divided.
+    /// The scale of the abscissa.
     pub x_scale: Scale,
-    /// How the ordinate is divided.
+    /// The scale of the ordinate.
     pub y_scale: Scale,
     /// The curves, the last one on top.
     pub series: Vec<Series>,
     /// Shaded regions behind the curves, such as ±3σ.
     pub bands: Vec<Band>,
-    /// Horizontal lines with a name; always in view until the reader zooms.
+    /// Horizontal lines with a name; always in the visible range until the reader zooms.
     pub references: Vec<Reference>,
-    /// What to see in it; may be empty.
+    /// What the reader should notice; may be empty.
     pub caption: String,
 }
 
-/// How an axis is divided.
+/// The scale of an axis.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Scale {
     /// Equal steps are equal differences.
@@ -46,19 +46,19 @@ pub struct Series {
     pub x: Vec<f64>,
     /// Ordinates, in the unit of the plot's label.
     pub y: Vec<f64>,
-    /// How it is drawn.
+    /// The style.
     pub style: Style,
 }
 
-/// How a curve is drawn.
+/// The style of a curve.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Style {
     /// Samples joined by a line.
     #[default]
     Line,
-    /// Samples joined by a broken line.
+    /// Samples joined by a dashed line.
     Dashed,
-    /// Each sample a dot, not joined.
+    /// A dot for each sample, not joined.
     Points,
     /// Each sample held until the next.
     Steps,
@@ -82,6 +82,6 @@ pub struct Band {
 pub struct Reference {
     /// Its name, written on the line.
     pub name: String,
-    /// Where it lies, in the unit of the ordinate.
+    /// Its ordinate, in the unit of the plot's label.
     pub value: f64,
 }

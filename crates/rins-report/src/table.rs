@@ -6,13 +6,13 @@ use super::content::{Cell, Column, Kind, Matrix, Table, Tone};
 use super::escape::{LINE, Shown};
 use crate::number::{estimate, fixed};
 
-/// A coefficient below this is not worth the reader's eye.
+/// The magnitude below which a coefficient is not emphasized.
 const SLIGHT: f64 = 0.1;
 
-/// More names than this are set small, their coefficients told by shade and on pointing alone.
+/// The number of names above which they are set small, and coefficients are given by shade and tooltip only.
 const MANY: usize = 12;
 
-/// The class by which the style sheet colours a tone.
+/// The class of a tone in the style sheet.
 pub(super) fn class(tone: Tone) -> &'static str {
     match tone {
         Tone::Neutral => "neutral",
@@ -22,7 +22,7 @@ pub(super) fn class(tone: Tone) -> &'static str {
     }
 }
 
-/// A table, in a box that scrolls sideways on a narrow screen.
+/// A table, in a box that scrolls horizontally on a narrow screen.
 pub(super) fn table(table: &Table) -> Markup {
     let n_columns = table.rows.iter().map(Vec::len).fold(table.columns.len(), usize::max);
     let unnamed = Column::text("");
@@ -52,7 +52,7 @@ pub(super) fn table(table: &Table) -> Markup {
     sheet("sheet", &table.caption, &parts)
 }
 
-/// A matrix whose cells are shaded by the size of their coefficient.
+/// A matrix whose cells are shaded by the magnitude of their coefficient.
 pub(super) fn matrix(matrix: &Matrix) -> Markup {
     let many = matrix.labels.len() > MANY;
     let parts = html! {
@@ -95,7 +95,7 @@ fn kind_class(kind: Kind, heading: bool) -> Option<&'static str> {
     }
 }
 
-/// The characters of the widest standard deviation of a column, so that its ± signs stand in line.
+/// The number of characters of the widest standard deviation of a column, for the alignment of its ± signs.
 fn sigma_width(table: &Table, place: usize) -> usize {
     let sigmas = table.rows.iter().filter_map(|row| match row.get(place) {
         Some(Cell::Estimate { value, sigma }) => Some(estimate(*value, *sigma).1.chars().count()),
@@ -121,7 +121,7 @@ fn cell(cell: &Cell, sigma_width: usize) -> Markup {
     }
 }
 
-/// A bar from the middle to the value, and a line over its standard deviation.
+/// A bar from the center to the value, and a line over its standard deviation.
 fn bar(value: f64, sigma: f64) -> Markup {
     if !(value.is_finite() && sigma.is_finite()) {
         return Markup::default();
@@ -143,7 +143,7 @@ fn coefficient(value: f64, own: bool, many: bool) -> Markup {
         return html! { td class="own" { (text) } };
     }
     let direction = if value < 0.0 { "down" } else { "up" };
-    // What is no number is no strong correlation either.
+    // NaN is not a strong correlation either.
     let is_slight = value.is_nan() || value.abs() < SLIGHT;
     let part = if value.is_finite() { value.abs().min(1.0) } else { 0.0 };
     html! {

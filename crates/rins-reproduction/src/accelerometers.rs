@@ -1,4 +1,5 @@
-//! "Accelerometer error can be modulated by 2π rotation", eq. (A.5): what a whole turn leaves of each.
+//! "Accelerometer error can be modulated by 2π rotation", eq. (A.5): the velocity error of each accelerometer error after whole
+//! turns.
 
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -13,20 +14,20 @@ use crate::grid::{ATTITUDES, RATES, turn};
 /// The number of turns of section 4.
 pub(crate) const TURNS: f64 = 10.0;
 
-/// The name of all errors together.
+/// The name of the case with all errors.
 pub(crate) const ALL: &str = "all together";
 
-/// The steps of the quadrature in one turn: of trigonometric polynomials of second degree it is exact.
+/// The number of quadrature steps per turn: exact for trigonometric polynomials of second degree.
 const STEPS: u32 = 72;
 
-/// The interval of the navigator \[s\].
+/// The sample interval of the navigator \[s\].
 const INTERVAL: f64 = 0.02;
 
-/// How far quadrature may be from the closed form, relative to the whole of the error times time:
+/// The tolerance for quadrature against the closed form, relative to the magnitude of the error times time:
 /// rounding.
 const QUADRATURE: f64 = 1e-12;
 
-/// The single errors of a triad, each with its name and alone in a triad.
+/// The single errors of a triad, each with its name in a triad without other errors.
 pub(crate) fn single_errors(all: &TriadError) -> Vec<(String, TriadError)> {
     let axis = ["x", "y", "z"];
     let mut single = Vec::new();
@@ -51,14 +52,14 @@ pub(crate) fn single_errors(all: &TriadError) -> Vec<(String, TriadError)> {
     single
 }
 
-/// The acceleration error `C_b^n δf^b` of a table at one angle \[m/s²\].
+/// The acceleration error `C_b^n δf^b` at a time of a rotation at constant rate \[m/s²\].
 fn acceleration(turn: &ConstantTurn, error: &TriadError, time: f64) -> Vector3<f64> {
     let c_nb = *turn.nav_from_body(time).matrix();
     let force = c_nb.transpose() * Vector3::z() * turn.station.gravity;
     c_nb * (error.bias + error.matrix * force)
 }
 
-/// The velocity error that (A.5) drops, `∫ C_b^n δf^b dt`, by Simpson's rule \[m/s\].
+/// The velocity error that (A.5) omits, `∫ C_b^n δf^b dt`, by Simpson's rule \[m/s\].
 pub(crate) fn integrated(turn: &ConstantTurn, error: &TriadError, time: f64) -> Vector3<f64> {
     let turns = (turn.rate * time / std::f64::consts::TAU).abs();
     let steps = (turns * f64::from(STEPS)).ceil();
@@ -74,10 +75,10 @@ pub(crate) fn integrated(turn: &ConstantTurn, error: &TriadError, time: f64) -> 
     sum * (interval / 6.0)
 }
 
-/// The mean of `C_b^n δf^b` over a turn \[m/s²\]: what no rotation about the axis takes away.
+/// The mean of `C_b^n δf^b` over a turn \[m/s²\], which no rotation about the axis cancels.
 ///
-/// In the axis frame a bias keeps its z component, and a matrix `A` becomes
-/// `Rz A Rzᵀ` in the mean: `(A_xx + A_yy) / 2` across the axis, `A_zz` along it, and
+/// In the axis frame a bias keeps its z component, and the mean of a matrix `A` is that of
+/// `Rz A Rzᵀ`: `(A_xx + A_yy) / 2` across the axis, `A_zz` along it, and
 /// `(A_yx - A_xy) / 2` as a rotation about it.
 pub(crate) fn mean_over_a_turn(turn: &ConstantTurn, error: &TriadError) -> Vector3<f64> {
     let a = &error.matrix;
@@ -88,10 +89,10 @@ pub(crate) fn mean_over_a_turn(turn: &ConstantTurn, error: &TriadError) -> Vecto
     c_ns * (Vector3::z() * error.bias.z + mean * force)
 }
 
-/// The horizontal velocity error that a navigator ends with, with the accelerometer errors alone \[m/s\].
+/// The horizontal velocity error at the end of a navigation with accelerometer errors only \[m/s\].
 ///
 /// # Errors
-/// [`ReproductionError::Profile`] if rate and time make no profile.
+/// [`ReproductionError::Profile`] if rate and time are not a valid profile.
 pub(crate) fn navigated(
     turn: &ConstantTurn,
     error: &TriadError,
@@ -115,7 +116,7 @@ pub(crate) fn navigated(
     Ok(*navigator.state().velocity.components())
 }
 
-/// What is left of an accelerometer error after whole turns, by every method \[m/s\].
+/// The velocity error due to an accelerometer error after whole turns, by every method \[m/s\].
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Left {
     /// The error.
@@ -124,7 +125,7 @@ pub(crate) struct Left {
     pub(crate) attitude: [f64; 3],
     /// The table rate \[deg/s\].
     pub(crate) rate: f64,
-    /// How long the turns take \[s\].
+    /// The duration of the turns \[s\].
     pub(crate) time: f64,
     /// By quadrature, east, north and up.
     pub(crate) integrated: Vector3<f64>,
@@ -132,17 +133,17 @@ pub(crate) struct Left {
     pub(crate) closed: Vector3<f64>,
     /// By the navigator, east and north.
     pub(crate) navigated: Vector3<f64>,
-    /// The size of the error times the time, whatever its direction.
+    /// The magnitude of the error times the time.
     pub(crate) scale: f64,
-    /// How far the navigator may be off for the Schuler loop and the Earth's rate, relative to the scale.
+    /// The tolerance for the navigator because of the Schuler oscillation and the Earth rate, relative to the scale.
     pub(crate) neglected: f64,
 }
 
 impl Left {
-    /// After [`TURNS`] turns.
+    /// The velocity error after [`TURNS`] turns.
     ///
     /// # Errors
-    /// [`ReproductionError::Profile`] if the rate makes no profile.
+    /// [`ReproductionError::Profile`] if the rate is not valid for a profile.
     pub(crate) fn of(
         name: &str,
         error: &TriadError,
@@ -153,8 +154,8 @@ impl Left {
         let time = TURNS * std::f64::consts::TAU / turn.rate.abs();
         let site = turn.station.site;
         let radius = site.meridian_radius();
-        // Of a constant acceleration: the tilt that its velocity brings about takes (t / τ)² / 6 of it, and
-        // twice the Earth's rate turns the velocity by Ω t.
+        // For a constant acceleration: the tilt due to its velocity reduces the velocity by (t / τ)² / 6 of it, and
+        // twice the Earth rate rotates the velocity by Ω t.
         let schuler = turn.station.gravity / radius * time * time / 6.0;
         let coriolis = rins_frames::EARTH_RATE * time;
         Ok(Self {
@@ -175,7 +176,7 @@ impl Left {
         self.integrated.xy().norm()
     }
 
-    /// The bounds that it breaks, in words.
+    /// The violated bounds, in words.
     pub(crate) fn broken(&self) -> Vec<String> {
         let mut broken = Vec::new();
         let mut demand = |what: &str, off: f64, within: f64| {
@@ -192,7 +193,7 @@ impl Left {
         let off = (self.integrated.xy() - self.navigated.xy()).norm();
         demand("the navigator is off the quadrature", off, self.neglected * self.scale);
         if self.is_level() {
-            // The constant part is along the vertical, but for what a scale error makes of gravity there.
+            // The constant part is vertical, except for a scale error of gravity there.
             demand("a level axis leaves a velocity", self.horizontal(), QUADRATURE * self.scale);
         }
         broken
@@ -204,11 +205,11 @@ impl Left {
     }
 }
 
-/// All errors of a triad together and each alone, at every attitude and rate of the grid of
+/// The results for all errors of a triad together and for each alone, at every attitude and rate of the grid of
 /// [`crate::grid`].
 ///
 /// # Errors
-/// [`ReproductionError::Profile`] if a rate makes no profile.
+/// [`ReproductionError::Profile`] if a rate is not valid for a profile.
 pub(crate) fn left_over(all: &TriadError) -> Result<Vec<Left>, ReproductionError> {
     let mut errors = vec![(ALL.to_owned(), *all)];
     errors.extend(single_errors(all));
@@ -225,8 +226,8 @@ pub(crate) fn left_over(all: &TriadError) -> Result<Vec<Left>, ReproductionError
         .collect()
 }
 
-/// The velocity that an error `bias` \[m/s²\] along the axis leaves in n after `time` \[s\]: in the axis' own
-/// direction, which on a level table is up.
+/// The velocity error in n due to an error `bias` \[m/s²\] along the axis after `time` \[s\]: in the direction of the
+/// axis, which is up on a level table.
 pub(crate) fn along_the_axis(turn: &ConstantTurn, bias: f64, time: f64) -> InFrame<Nav> {
     turn.nav_from_table * InFrame::<Table>::new(0.0, 0.0, bias * time)
 }
@@ -270,7 +271,7 @@ mod tests {
         assert_eq!(Left { closed, ..left.clone() }.broken().len(), 1);
         let navigated = left.navigated * 1.5;
         assert_eq!(Left { navigated, ..left.clone() }.broken().len(), 1);
-        // The axis would be level.
+        // As if the axis were level.
         assert_eq!(Left { attitude: [0.0; 3], ..left }.broken().len(), 1);
     }
 

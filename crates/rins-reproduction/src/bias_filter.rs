@@ -1,4 +1,4 @@
-//! The paper's filter with what it lacks: the gyro biases among its states.
+//! The paper's filter with the gyro biases as additional states.
 
 use nalgebra::{Matrix2x3, Matrix3, SMatrix, SVector, Vector3};
 use rins_calibration::Setup;
@@ -8,24 +8,24 @@ use rins_motion::{Navigator, VerticalChannel};
 
 /// `φ` of `C~ = (I - φ×) C`, in n \[rad\].
 const ATTITUDE: Block<3> = Block::first();
-/// The velocity's error, east and north \[m/s\].
+/// The velocity error, east and north \[m/s\].
 const VELOCITY: Block<2> = ATTITUDE.then();
-/// `M_xz`, `M_yz` \[rad\] and `S_z`, true less compensated.
+/// `M_xz`, `M_yz` \[rad\] and `S_z`, true minus compensated.
 const SPIN_AXIS: Block<3> = VELOCITY.then();
-/// The gyros' biases, true less compensated \[rad/s\].
+/// The gyro biases, true minus compensated \[rad/s\].
 const BIAS: Block<3> = SPIN_AXIS.then();
 const STATES: usize = BIAS.end();
 
-/// Velocity east and north, and the gyros' rates.
+/// The measurements: velocity east and north, and the gyros' rates.
 const OF_VELOCITY: Block<2> = Block::first();
 const OF_RATE: Block<3> = OF_VELOCITY.then();
 const MEASUREMENTS: usize = OF_RATE.end();
 
-/// A calibration filter on a pier: attitude, velocity, the three spin-axis errors, three gyro biases.
+/// A calibration filter for a fixed position: attitude, velocity, the three spin-axis errors, three gyro biases.
 ///
-/// It starts from a known attitude and compares the gyros with the commanded rate, as the paper's
-/// does. Unlike that it is written in `φ` rather than `ψ`, and takes the position as known, so that
-/// the two share no equation but the physics; with biases known to be zero they must agree.
+/// It starts from a known attitude and compares the gyros with the commanded rate, like the paper's filter.
+/// Unlike that, it is formulated in `φ` instead of `ψ`, and treats the position as known, so that
+/// the two have only the physics in common; with biases known to be zero they must agree.
 #[derive(Clone, Debug)]
 pub(crate) struct BiasFilter {
     setup: Setup,
@@ -36,9 +36,9 @@ pub(crate) struct BiasFilter {
 }
 
 impl BiasFilter {
-    /// A filter that starts at rest at table angle zero, in an attitude that is known exactly.
+    /// A filter that starts at rest at table angle zero, with an exactly known attitude.
     ///
-    /// Its priors are those of the data sheet in `setup`.
+    /// The priors are those of the data sheet in `setup`.
     pub(crate) fn new(setup: &Setup, nav_from_table: Dcm<Nav, Table>) -> Self {
         let start = nav_from_table * Dcm::about_z(0.0);
         let spec = setup.imu.gyro;
@@ -68,10 +68,10 @@ impl BiasFilter {
         self.filter.covariance.fixed_view::<6, 6>(start, start).into_owned()
     }
 
-    /// Takes in one sample and the mean rate that the table was told to make over it \[rad/s\].
+    /// Processes one sample with the commanded mean rate of the table over it \[rad/s\].
     ///
     /// # Errors
-    /// [`UpdateError`] if a figure is not finite or the innovation covariance not positive definite.
+    /// [`UpdateError`] if a number is not finite or the innovation covariance is not positive definite.
     pub(crate) fn step(&mut self, sample: &Increments, table_rate: f64) -> Result<(), UpdateError> {
         let truer = self.compensate(sample);
         let before = *self.navigator.state().nav_from_body.matrix();
@@ -83,7 +83,7 @@ impl BiasFilter {
         Ok(())
     }
 
-    /// Eq. (1) undone with the present estimates.
+    /// Compensates eq. (1) with the present estimates.
     fn compensate(&self, sample: &Increments) -> Increments {
         let unbiased = sample.angle.components() - self.bias * sample.interval;
         let z = unbiased.z / (1.0 + self.spin_axis.z);
@@ -126,7 +126,7 @@ impl BiasFilter {
         self.filter.predict(&transition, &q);
     }
 
-    /// Zero velocity, and eq. (20); the gyros' noise is in it and in the prediction alike.
+    /// Zero velocity, and eq. (20); the gyro noise is common to it and the prediction.
     fn measurement(
         &self,
         c_nb: &Matrix3<f64>,
@@ -157,7 +157,7 @@ impl BiasFilter {
         Measurement::new(z, h, r).correlated_with_state_error(cross)
     }
 
-    /// Feeds the state back into navigator and estimates; the position is known.
+    /// Transfers the state to the navigator and the estimates; the position is known.
     fn correct(&mut self) {
         let x = self.filter.state;
         let velocity = VELOCITY.of(&x);

@@ -1,4 +1,4 @@
-//! Named causes of a disagreement, and how large each would have to be.
+//! Possible causes of a disagreement, with the size that each would need.
 
 use nalgebra::{SVector, Vector3};
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
@@ -9,45 +9,45 @@ use crate::error::ReproductionError;
 use crate::experiment::spin_axis_error;
 use crate::pure_navigation::PureNavigation;
 
-/// What may be wrong with a navigation on a table that turns at one rate.
+/// A possible error of a navigation on a table at constant rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cause {
-    /// A gyro's bias that was there during the alignment too: what lies east in it then has turned
-    /// the azimuth. By axis of the body.
+    /// A gyro bias, present during the alignment too, in which its east component has caused an azimuth
+    /// error. By axis of the body.
     GyroBias(usize),
-    /// A gyro's bias that came after the alignment.
+    /// A gyro bias that appears after the alignment.
     GyroBiasChange(usize),
-    /// An accelerometer's bias that was there during the alignment too, which it tilted.
+    /// An accelerometer bias, present during the alignment too, in which it has caused a tilt error.
     AccelBias(usize),
-    /// An accelerometer's bias that came after the alignment.
+    /// An accelerometer bias that appears after the alignment.
     AccelBiasChange(usize),
-    /// An attitude error at the start, by axis of n.
+    /// An initial attitude error, by axis of n.
     Start(usize),
-    /// A start attitude that is older than the data: turned back about the spin axis.
+    /// An initial attitude that is older than the data: rotated back about the spin axis.
     StartLag,
-    /// An error of the compensation: true less compensated, of `M_xz`, `M_yz`, `S_z`.
+    /// An error of the compensation: true minus compensated, of `M_xz`, `M_yz`, `S_z`.
     Estimate(usize),
-    /// The table stands further north.
+    /// The site is further north.
     Latitude,
-    /// Gravity is larger, where the data come from and where they are navigated.
+    /// Gravity is larger, both in the data and in the navigation.
     Gravity,
-    /// The navigation takes longer.
+    /// The duration of the navigation is longer.
     Duration,
-    /// The axis tips over by the end, by axis of n: what is read changes, and no velocity error comes of it.
+    /// The axis has tilted at the end, by axis of n: the indicated attitude changes, without a velocity error.
     Tilt(usize),
-    /// The attitude that is read is older than its reference, or the table went past its end.
+    /// The indicated attitude is older than its reference, or the table has overshot its final angle.
     Readout,
-    /// The table turns faster than it is commanded, while the calibration takes the commanded rate for the
-    /// true one. The estimates are those printed, so that the true errors are others.
+    /// The table rotates faster than commanded, while the calibration treats the commanded rate as the
+    /// true one. The estimates are those printed, so that the true errors differ.
     TableRate,
-    /// The IMU's sample clock is slow against the table's: the effect is that of [`Cause::TableRate`].
+    /// The IMU's sample clock is slow relative to the table's: the effect is that of [`Cause::TableRate`].
     SampleClock,
-    /// White noise of the gyros, whose effect is given as 1σ.
+    /// White noise of the gyros, whose effect is its 1σ.
     GyroNoise,
 }
 
 impl Cause {
-    /// Those that can be behind a velocity after a known start.
+    /// The possible causes of a velocity error if the initial attitude is known.
     pub(crate) const OF_VELOCITY: [Self; 16] = [
         Self::GyroBiasChange(0),
         Self::GyroBiasChange(1),
@@ -92,7 +92,7 @@ impl Cause {
         }
     }
 
-    /// Its unit, and that in SI.
+    /// Its unit, and the value of the unit in SI.
     pub(crate) fn unit(self) -> (&'static str, f64) {
         match self {
             Self::GyroBias(_) | Self::GyroBiasChange(_) => ("°/h", DEG_PER_HOUR),
@@ -107,11 +107,11 @@ impl Cause {
         }
     }
 
-    /// What one unit of it does to velocity \[m/s\] and attitude \[deg\], in the order of
+    /// The change of velocity \[m/s\] and attitude \[deg\] per unit of the cause, in the order of
     /// [`Outcome::figures`](crate::pure_navigation::Outcome::figures), about `base`.
     ///
     /// # Errors
-    /// [`ReproductionError`] if the navigation cannot be done.
+    /// [`ReproductionError`] if the navigation fails.
     pub(crate) fn effect(
         self,
         base: &PureNavigation,
@@ -119,7 +119,7 @@ impl Cause {
         if self == Self::GyroNoise {
             return Ok(noise_effect(base, self.unit().1));
         }
-        // Where a unit is too little to be seen or too much to be straight.
+        // The step, if one unit is too small for the numerical precision or too large for linearity.
         let units = match self {
             Self::Gravity => 1e-3,
             Self::Duration => 0.2,
@@ -132,7 +132,7 @@ impl Cause {
         Ok((either[0] - either[1]) / (2.0 * units))
     }
 
-    /// What a navigation ends with where this cause has the given size, in SI units.
+    /// The result of a navigation with this size of the cause, in SI units.
     fn applied(
         self,
         base: &PureNavigation,
@@ -155,7 +155,7 @@ impl Cause {
             Self::AccelBiasChange(axis) => scenario.imu_error.accel.bias[axis] += size,
             Self::Start(axis) => changed.start_error[axis] += size,
             Self::StartLag => {
-                // Turned back by ω times the lag: φ is minus that turn.
+                // Rotated back by ω times the lag: φ is minus that rotation.
                 let back = scenario.profile.rate(scenario.profile.duration()) * size;
                 changed.start_error += c_nb.column(2) * back;
             }
@@ -176,7 +176,7 @@ impl Cause {
             }
             Self::Tilt(axis) => return Ok(tipped(base, axis, size)),
             Self::TableRate | Self::SampleClock => {
-                // What the gyros deliver stays, and with it what is estimated of them: (1 + e) ω is the
+                // The output of the gyros is unchanged, and so are the estimates: (1 + e) ω is the
                 // true rate and ω the commanded one, (z + m) ω is measured.
                 let (rate, duration) = (scenario.profile.rate(0.0), scenario.profile.duration());
                 let segment = Segment { rate: rate * (1.0 + size), duration };
@@ -185,7 +185,7 @@ impl Cause {
                 let measured = matrix.column(2) + Vector3::z();
                 matrix.set_column(2, &(measured / (1.0 + size) - Vector3::z()));
             }
-            // Its effect is random, and known without a navigation.
+            // Its effect is random, and computed without a navigation.
             Self::GyroNoise => {}
             Self::Readout => {
                 let reference = scenario.nav_from_table.euler_angles();
@@ -197,8 +197,8 @@ impl Cause {
     }
 }
 
-/// The 1σ that white gyro noise of `density` \[rad/s/√Hz\] leaves: an angle random walk about each axis,
-/// and its integral under gravity in the velocity.
+/// The 1σ due to white gyro noise of `density` \[rad/s/√Hz\]: an angle random walk about each axis,
+/// and its integral times gravity in the velocity.
 fn noise_effect(base: &PureNavigation, density: f64) -> SVector<f64, 5> {
     let scenario = &base.scenario;
     let time = scenario.profile.duration();
@@ -207,7 +207,7 @@ fn noise_effect(base: &PureNavigation, density: f64) -> SVector<f64, 5> {
     SVector::from([velocity, velocity, angle / DEG, angle / DEG, angle / DEG])
 }
 
-/// What is read where the axis has tipped about an axis of n \[rad\], less nothing else.
+/// The change of the indicated attitude if the axis is tilted about an axis of n \[rad\], with all else unchanged.
 fn tipped(base: &PureNavigation, axis: usize, size: f64) -> SVector<f64, 5> {
     let mut turn = Vector3::zeros();
     turn[axis] = size;
@@ -223,34 +223,34 @@ fn tipped(base: &PureNavigation, axis: usize, size: f64) -> SVector<f64, 5> {
     ])
 }
 
-/// What an east gyro error \[rad/s\] during a static alignment leaves: `φ_U = -δω_E / (Ω cos L)`.
+/// The attitude error due to an east gyro error \[rad/s\] during a static alignment: `φ_U = -δω_E / (Ω cos L)`.
 fn azimuth_error(station: &Station, east: f64) -> Vector3<f64> {
     Vector3::new(0.0, 0.0, -east / (EARTH_RATE * station.site.latitude.cos()))
 }
 
-/// What an accelerometer error in n \[m/s²\] during a static alignment leaves:
+/// The attitude error due to an accelerometer error in n \[m/s²\] during a static alignment:
 /// `φ_E = -δf_N / g`, `φ_N = δf_E / g`, `φ_U = φ_N tan L`.
 fn tilt_error(station: &Station, force: &Vector3<f64>) -> Vector3<f64> {
     let north = force.x / station.gravity;
     Vector3::new(-force.y / station.gravity, north, north * station.site.latitude.tan())
 }
 
-/// A cause at the size that explains most.
+/// A cause at its best-fitting size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Explanation {
     /// The cause.
     pub(crate) cause: Cause,
     /// Its size, in its unit.
     pub(crate) size: f64,
-    /// What it leaves, root mean square, over what there was: 0 explains all, 1 nothing.
+    /// The ratio of the root mean squares after and before the explanation: 0 is a full explanation, 1 none.
     pub(crate) left: f64,
 }
 
-/// The causes, each taken alone at its best size against the velocities of `misfit` (printed less
+/// The causes, each alone at its best-fitting size for the velocities of `misfit` (printed minus
 /// model \[m/s\]), best first.
 ///
 /// # Errors
-/// [`ReproductionError`] if a navigation cannot be done.
+/// [`ReproductionError`] if a navigation fails.
 pub(crate) fn velocity_explanations(
     causes: &[Cause],
     base: &PureNavigation,
@@ -268,46 +268,46 @@ pub(crate) fn velocity_explanations(
     Ok(explanations)
 }
 
-/// Where the size that a cause is allowed comes from.
+/// The origin of the permitted size of a cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Basis {
-    /// The paper states it of its instruments, or it follows from what it states.
+    /// The paper states it for its instruments, or it follows from its statements.
     Stated,
-    /// The paper says nothing of it: a size that such instruments commonly have.
+    /// The paper does not state it: a typical size for such instruments.
     Plausible,
 }
 
-/// A cause with the size that it is allowed, in its unit.
+/// A cause with its permitted size, in its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Graded {
     /// The cause.
     pub(crate) cause: Cause,
-    /// The size allowed, in its unit.
+    /// The permitted size, in its unit.
     pub(crate) grade: f64,
-    /// Where that size comes from.
+    /// The origin of that size.
     pub(crate) basis: Basis,
-    /// What a size of one unit does: m/s and degrees.
+    /// The effect per unit: m/s and degrees.
     pub(crate) effect: SVector<f64, 5>,
 }
 
 impl Graded {
-    /// How large it would have to be, in its unit, to make the error `wanted` in one figure alone.
+    /// The size, in its unit, that causes the error `wanted` in one figure.
     pub(crate) fn needed(&self, figure: usize, wanted: f64) -> f64 {
         wanted / self.effect[figure]
     }
 
-    /// How much of the error `wanted` in one figure it makes at the size allowed: 1 is all of it.
+    /// The fraction of the error `wanted` in one figure that the permitted size causes: 1 is the full error.
     pub(crate) fn share(&self, figure: usize, wanted: f64) -> f64 {
         (self.effect[figure] * self.grade / wanted).abs()
     }
 
-    /// The same over the size allowed.
+    /// The size that causes the error `wanted`, divided by the permitted size.
     pub(crate) fn multiple(&self, figure: usize, wanted: f64) -> f64 {
         (self.needed(figure, wanted) / self.grade).abs()
     }
 }
 
-/// The causes of one figure's error `wanted`, those that make most of it first, each with its share.
+/// The causes of one figure's error `wanted`, in decreasing order of their fractions, each with its fraction.
 pub(crate) fn ranked(causes: &[Graded], figure: usize, wanted: f64) -> Vec<(&Graded, f64)> {
     let mut ranked: Vec<(&Graded, f64)> =
         causes.iter().map(|graded| (graded, graded.share(figure, wanted))).collect();
@@ -315,8 +315,8 @@ pub(crate) fn ranked(causes: &[Graded], figure: usize, wanted: f64) -> Vec<(&Gra
     ranked
 }
 
-/// How much of an error all causes make together at the sizes allowed them: the root sum of squares of
-/// their shares, for causes that know nothing of each other.
+/// The fraction of an error that all causes together explain at their permitted sizes: the root sum of squares of
+/// their fractions, for independent causes.
 pub(crate) fn share_of_all(causes: &[Graded], figure: usize, wanted: f64) -> f64 {
     causes.iter().map(|graded| graded.share(figure, wanted).powi(2)).sum::<f64>().sqrt()
 }

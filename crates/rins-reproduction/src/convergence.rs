@@ -1,4 +1,4 @@
-//! "Converges quickly": when an estimate has come near its final value, beside what gyro noise allows.
+//! "Converges quickly": convergence times of the estimates, compared with the limit of gyro noise.
 
 use std::f64::consts::PI;
 
@@ -6,25 +6,25 @@ use nalgebra::Vector3;
 use rins_calibration::EstimatePoint;
 use rins_simulation::Scenario;
 
-/// How many final sigmas an estimate may be from its final value where it counts as converged.
+/// The maximum difference of a converged estimate from its final value, in final sigmas.
 pub(crate) const WITHIN: f64 = 3.0;
 
-/// The rate about the spin axis at the end of a scenario, the Earth's included \[rad/s\].
+/// The rate about the spin axis at the end of a scenario, including the Earth rate \[rad/s\].
 pub(crate) fn spin_rate(scenario: &Scenario) -> f64 {
     let earth = scenario.nav_from_table.inverse() * scenario.station.site.earth_rate();
     scenario.profile.rate(scenario.profile.duration()) + earth.components().z
 }
 
-/// The least 1σ of `M_xz`, `M_yz` or `S_z` after `time` \[s\] of a known rate \[rad/s\] about the spin axis, from
+/// The minimum 1σ of `M_xz`, `M_yz` or `S_z` after `time` \[s\] at a known rate \[rad/s\] about the spin axis, with
 /// gyro noise of `density` \[rad/s/√Hz\] and a prior 1σ.
 ///
-/// The gyro shows the error times the rate in white noise, so that the information of a second is the
-/// square of rate over noise density.
+/// The gyro measures the error times the rate in white noise, so that the information per second is the
+/// square of the ratio of rate to noise density.
 pub(crate) fn information_bound(density: f64, rate: f64, prior: f64, time: f64) -> f64 {
     (prior.powi(-2) + (rate / density).powi(2) * time).sqrt().recip()
 }
 
-/// The time from which on an estimate stays within `multiple` of its final 1σ of its final value, for
+/// The time from which on an estimate stays within `multiple` final sigmas of its final value, for
 /// each of `M_xz`, `M_yz` and `S_z`, counted from `start` \[s\].
 pub(crate) fn convergence_times(
     points: &[EstimatePoint],
@@ -40,15 +40,15 @@ pub(crate) fn convergence_times(
     })
 }
 
-/// The mean of run length over convergence time for an estimate that white noise alone limits.
+/// The mean of the ratio of run length to convergence time for an estimate that is limited by white noise only.
 ///
-/// Its error is a Brownian motion in 1/t (time inversion of the mean of white noise), so that seen back
-/// from the end it leaves a band of `multiple` final sigmas, on average, after `multiple²` times 1/T.
+/// Its error is a Brownian motion in 1/t (time inversion of the mean of white noise). In reversed time
+/// it leaves a band of `multiple` final sigmas after a mean of `multiple²` times 1/T.
 pub(crate) fn ideal_mean_ratio(multiple: f64) -> f64 {
     1.0 + multiple * multiple
 }
 
-/// The median of convergence time over run length for the same estimate.
+/// The median of the ratio of convergence time to run length for the same estimate.
 pub(crate) fn ideal_median_share(multiple: f64) -> f64 {
     // P(no exit from ±1 up to u) = 4/π Σ (-1)^k / (2k + 1) exp(-(2k + 1)² π² u / 8).
     let stays = |time: f64| {
@@ -77,7 +77,7 @@ mod tests {
     use rins_imu::{Seed, Sensor};
     use rins_testing::assert_close;
 
-    /// The mean of white noise, for which the closed forms hold, over many runs.
+    /// The mean of white noise over many runs, for which the closed forms hold.
     #[test]
     fn the_mean_of_white_noise_converges_as_its_closed_form_says() {
         const RUNS: u64 = 400;
@@ -101,12 +101,12 @@ mod tests {
             ratios.push(f64::from(SAMPLES) / time.max(1.0));
         }
         let mean = ratios.iter().sum::<f64>() / RUNS as f64;
-        // The deviation of an exit time from ±3 is 9 √(2/3); four of the mean's.
+        // The standard deviation of an exit time from ±3 is 9 √(2/3); the tolerance is four standard deviations of the mean.
         let within = 4.0 * 9.0 * (2.0_f64 / 3.0).sqrt() / (RUNS as f64).sqrt();
         assert_close!(mean, ideal_mean_ratio(WITHIN), within);
         ratios.sort_by(f64::total_cmp);
         let below = ratios.iter().filter(|ratio| **ratio < ideal_median_share(WITHIN).recip());
-        // A binomial count of half, within four deviations.
+        // A binomial count with probability one half, within four standard deviations.
         assert_close!(below.count() as f64, 0.5 * RUNS as f64, 4.0 * 0.5 * (RUNS as f64).sqrt());
     }
 
@@ -128,7 +128,7 @@ mod tests {
         let points = [point(11.0, 9.0), point(12.0, 0.0), point(13.0, -3.5), point(14.0, 0.0)];
         assert_close!(convergence_times(&points, 10.0, WITHIN).y, 3.0, 1e-12);
         assert_close!(convergence_times(&points, 10.0, 4.0).y, 1.0, 1e-12);
-        // The last point is at its own value: none other is far.
+        // The only point is at its own value, so that no other is too far from it.
         assert!(convergence_times(&points[1..2], 10.0, WITHIN).norm() < f64::MIN_POSITIVE);
     }
 }

@@ -1,4 +1,4 @@
-//! Whether a filter's covariance is honest: how often its intervals hold the truth.
+//! Consistency of a filter's covariance: the coverage of its intervals.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use rayon::prelude::*;
@@ -13,29 +13,29 @@ use crate::error::ReproductionError;
 use crate::experiment::{Experiment, spin_axis_error};
 use crate::statistics::Sample;
 
-/// Half the width of a two-sided 95 % interval of a normal deviate.
+/// Half the width of a two-sided 95 % interval of the standard normal distribution.
 const WITHIN_95: f64 = 1.959963985;
 
-/// The seed of the true errors; their runs' noise has the scenario's.
+/// The seed of the true errors; the noise of the runs has the seed of the scenario.
 const TRUTH_SEED: u64 = 0x0007_2074;
 
-/// What the filter has for states.
+/// The states of the filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Model {
-    /// The paper's twelve.
+    /// The twelve states of the paper.
     Paper,
-    /// Three gyro biases more.
+    /// These and three gyro biases.
     WithGyroBias,
 }
 
-/// How the table turns.
+/// The rotation of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Schedule {
-    /// At 10 °/s all the time.
+    /// At 10 °/s throughout.
     ConstantRate,
-    /// At 10 °/s half the time, at 5 °/s the other half.
+    /// At 10 °/s for half the time, at 5 °/s for the other half.
     TwoRates,
-    /// At 10 °/s half the time, at -10 °/s the other half.
+    /// At 10 °/s for half the time, at -10 °/s for the other half.
     Reversal,
 }
 
@@ -52,45 +52,45 @@ impl Schedule {
     }
 }
 
-/// How honest a covariance proved to be.
+/// The consistency of a covariance.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Honesty {
-    /// How many runs there were.
+    /// The number of runs.
     pub(crate) n_runs: u64,
-    /// For each parameter how many of the 95 % intervals held the truth, from 0 to 1: the three
+    /// The coverage of the 95 % intervals of each parameter, from 0 to 1: the three
     /// spin-axis errors, and the biases if they are states.
     pub(crate) coverage: Vec<f64>,
-    /// The mean squared error normalised by the covariance claimed.
+    /// The mean squared error normalized by the covariance (NEES).
     pub(crate) nees: f64,
-    /// The number of parameters, which `nees` should be.
+    /// The number of parameters, the expectation of `nees`.
     pub(crate) dof: usize,
-    /// The mean 1σ claimed for `M_xz`, `M_yz` \[rad\] and `S_z`.
+    /// The mean standard uncertainty of `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub(crate) claimed: Vector3<f64>,
-    /// Their errors, root mean square.
+    /// The root mean squares of their errors.
     pub(crate) errors: Vector3<f64>,
 }
 
 impl Honesty {
     #[cfg(test)]
-    /// How far the errors of the three spin-axis parameters exceed what is claimed, at most.
+    /// The maximum ratio of error to standard uncertainty of the three spin-axis parameters.
     pub(crate) fn overconfidence(&self) -> f64 {
         self.errors.component_div(&self.claimed).max()
     }
 }
 
-/// The errors of one run's estimates, with what was claimed for them.
+/// The errors of one run's estimates, with their standard uncertainties.
 struct Scored {
     error: Vec<f64>,
     sigma: Vec<f64>,
     nees: f64,
 }
 
-/// `n_runs` runs of some duration \[s\], whose true errors are drawn from the data sheet in `experiment`.
+/// The results of `n_runs` runs of some duration \[s\], whose true errors are drawn from the data sheet in `experiment`.
 ///
-/// The data hold what the filter with biases knows: the spin-axis errors, gyro biases, white noise.
+/// The data contain the errors that the filter with biases models: the spin-axis errors, gyro biases, white noise.
 ///
 /// # Errors
-/// [`ReproductionError`] of the first run that fails.
+/// [`ReproductionError`] of the first failed run.
 pub(crate) fn coverage(
     experiment: &Experiment,
     model: Model,
@@ -185,7 +185,7 @@ fn scored(
     }
 }
 
-/// The paper's filter at table angle zero, in an attitude that is known exactly.
+/// The paper's filter at table angle zero, with an exactly known attitude.
 pub(crate) fn paper_filter(setup: &Setup, nav_from_table: Dcm<Nav, Table>) -> SpinAxisFilter {
     let start = Start {
         nav_from_table,
@@ -202,7 +202,7 @@ fn score<const N: usize>(
     run: u64,
 ) -> Result<Scored, ReproductionError> {
     let sigma: Vec<f64> = (0..N).map(|row| covariance[(row, row)].sqrt()).collect();
-    // Whitened by hand, Cholesky's factor row by row: nalgebra asks for bounds on N.
+    // Whitened by an explicit Cholesky factorization, row by row: nalgebra needs bounds on N.
     let mut factor = SMatrix::<f64, N, N>::zeros();
     let mut nees = 0.0;
     let mut white = SVector::<f64, N>::zeros();

@@ -3,11 +3,10 @@
 use crate::printed;
 use crate::real_test::Emulated;
 
-/// The enhancement that the paper claims at least.
+/// The minimum enhancement that the paper claims.
 pub(crate) const CLAIMED: f64 = 0.2;
 
-/// How much smaller an error is after compensation, relative to that before: 1 is all of it, and less than
-/// zero where it has grown.
+/// The relative reduction of an error by compensation: 1 if it vanishes, negative if it increases.
 pub(crate) fn enhancement(before: f64, after: f64) -> f64 {
     1.0 - (after / before).abs()
 }
@@ -21,7 +20,7 @@ pub(crate) struct Enhancement {
     pub(crate) median: f64,
     /// The quantiles at 5 % and 95 % over the runs.
     pub(crate) range: [f64; 2],
-    /// The share of the runs in which it is at least [`CLAIMED`].
+    /// The fraction of the runs in which it is at least [`CLAIMED`].
     pub(crate) share: f64,
 }
 
@@ -45,7 +44,7 @@ pub(crate) fn enhancements(runs: &[Emulated]) -> [Enhancement; 5] {
     })
 }
 
-/// The value below which a share of sorted numbers lies, interpolated between two of them.
+/// The quantile of sorted numbers, interpolated linearly.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;
@@ -59,7 +58,7 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
 }
 
-/// The share of the runs in which every one of the five figures is enhanced by at least [`CLAIMED`].
+/// The fraction of the runs in which all five figures are enhanced by at least [`CLAIMED`].
 pub(crate) fn share_of_all(runs: &[Emulated]) -> f64 {
     let met = |run: &&Emulated| {
         let pairs = run.before.figures().into_iter().zip(run.after.figures());
@@ -76,7 +75,7 @@ mod tests {
     use rins_frames::EulerAngles;
     use rins_testing::assert_close;
 
-    /// A run whose five errors are those before compensation times a factor after it.
+    /// A run whose five errors after compensation are those before it times a factor.
     fn run(before: f64, factor: f64) -> Emulated {
         let outcome = |size: f64| Outcome {
             velocity: [size, -size],
@@ -105,7 +104,7 @@ mod tests {
         for one in enhancements(&runs) {
             assert_close!(one.share, 0.5, 1e-12);
             assert_close!(one.median, 0.5 * (0.21 + 0.19), 1e-12);
-            // The 5 % quantile lies 0.15 of the way from the least to the next.
+            // The 5 % quantile is 0.15 of the way from the smallest to the next.
             assert_close!(one.range[0], -2.0 + 0.15 * 2.19, 1e-12);
         }
         assert_close!(share_of_all(&runs), 0.5, 1e-12);

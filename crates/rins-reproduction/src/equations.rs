@@ -1,4 +1,4 @@
-//! The printed equations that are wrong in a sign or a term, against what they should describe.
+//! The printed equations with a wrong sign or term, compared with an independent evaluation.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_frames::units::DEG;
@@ -8,39 +8,39 @@ use rins_motion::{NavState, Navigator, Station, VerticalChannel};
 
 use crate::grid::{ERRORS, turn};
 
-/// An equation as printed and as corrected, against an evaluation that uses neither.
+/// A printed equation and its correction, compared with an evaluation that uses neither.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Check {
-    /// What the evaluation says.
+    /// The value of the evaluation.
     pub(crate) evaluated: f64,
-    /// What the printed equation says.
+    /// The value of the printed equation.
     pub(crate) printed: f64,
-    /// What the corrected one says.
+    /// The value of the corrected equation.
     pub(crate) corrected: f64,
 }
 
 impl Check {
-    /// How far the printed equation is off, relative to what is right.
+    /// The relative error of the printed equation.
     pub(crate) fn printed_off(&self) -> f64 {
         ((self.printed - self.evaluated) / self.evaluated).abs()
     }
 
-    /// How far the corrected equation is off.
+    /// The relative error of the corrected equation.
     pub(crate) fn corrected_off(&self) -> f64 {
         ((self.corrected - self.evaluated) / self.evaluated).abs()
     }
 }
 
-/// The bounded `C_s^n(1,1)` term in the north velocity, by quadrature of eq. (7), after half a
+/// The bounded `C_s^n(1,1)` term of the north velocity, by quadrature of eq. (7), after half a
 /// turn \[m/s\].
 ///
-/// "Corrected" is eq. (9) with its plus, "printed" the same with a minus, a reading of (A.7); all
-/// three are the printed form's whole `δv_y`, so that only that term differs.
+/// "Corrected" is eq. (9) with its plus sign, "printed" the same with a minus sign, a reading of (A.7); all
+/// three are the whole `δv_y` of the printed form, so that only that term differs.
 pub(crate) fn bounded_term() -> Check {
     let turn = turn([30.0, 20.0, 40.0], 10.0);
     let form = ClosedForm::new(turn, ERRORS, Sign::Printed);
     let time = 18.0;
-    // Simpson's rule over the acceleration error.
+    // Simpson's rule for the acceleration error.
     let steps = 1800_u32;
     let interval = time / f64::from(steps);
     let north = |time: f64| form.acceleration_error(time).components().y;
@@ -81,10 +81,10 @@ pub(crate) fn vertical_coupling() -> Check {
     Check { evaluated, printed: -coupling, corrected: coupling }
 }
 
-/// How far eq. (19) as printed, and with the factor on the other side, is from the transpose of
-/// `(I - φ×) C_b^n`, over the size of φ.
+/// The difference of eq. (19) as printed, and with the factor on the other side, from the transpose of
+/// `(I - φ×) C_b^n`, relative to the magnitude of φ.
 ///
-/// The evaluation is 1, the size of the error that is to be described.
+/// The value of the evaluation is 1, the magnitude of the error that the equation describes.
 pub(crate) fn transposed_error() -> Check {
     let angles = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
     let c_bn = angles.dcm::<Nav, Body>().matrix().transpose();
@@ -98,18 +98,18 @@ pub(crate) fn transposed_error() -> Check {
     }
 }
 
-/// The slope of Z2 with the north position error, `δθ_x`, in eq. (21) \[rad/s per rad\].
+/// The derivative of Z2 with respect to the north position error, `δθ_x`, in eq. (21) \[rad/s per rad\].
 ///
-/// The computed attitude follows the computed level (ψ stays zero), and the Earth's rate is
-/// that of the computed place: what Z2 of eq. (20) then shows, along z, at a yaw of 40°.
+/// The computed attitude follows the computed level (ψ remains zero), and the Earth rate is
+/// that of the computed position: the resulting Z2 of eq. (20) along z, at a yaw of 40°.
 pub(crate) fn position_columns() -> Check {
     let angles = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
     let c_nb: Matrix3<f64> = *angles.dcm::<Nav, Body>().matrix();
     let site = Site { latitude: 34.25 * DEG, longitude: 0.0, height: 0.0 };
     let true_rate = c_nb.transpose() * site.earth_rate().components();
     let seen = |d_theta: f64| {
-        // The level leans by δθ about east where the computed place lies south by as much; what Z2
-        // takes for the Earth's rate is that of the surveyed place.
+        // The level is tilted by δθ about east if the computed position is south by the same angle; Z2
+        // uses the Earth rate of the surveyed position.
         let phi = Vector3::new(d_theta, 0.0, 0.0);
         let computed = Dcm::<Nav, Nav>::from_rotation_vector(&-phi);
         let c_nb_computed = computed.matrix() * c_nb;
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn corrected_equations_hold_and_printed_ones_do_not() {
-        // Quadrature, a step of 10 ms, the second order of 3e-4 rad, and of 1e-5 rad.
+        // Tolerances: quadrature, a step of 10 ms, the second order of 3e-4 rad, and of 1e-5 rad.
         for (check, within) in [
             (bounded_term(), 1e-9),
             (vertical_coupling(), 1e-3),

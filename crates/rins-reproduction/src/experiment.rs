@@ -1,4 +1,4 @@
-//! The paper's two experiments as scenario files, and what the filter is told of them.
+//! The paper's two experiments as scenario files, with the setup of the filter.
 
 use std::path::Path;
 
@@ -10,34 +10,34 @@ use rins_simulation::{Scenario, Simulated, simulate};
 
 use crate::error::ReproductionError;
 
-/// An experiment of the paper: what is simulated, and what the filter is told.
+/// An experiment of the paper: the scenario, and the setup of the filter.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Experiment {
-    /// What is simulated.
+    /// The scenario.
     pub(crate) scenario: Scenario,
-    /// What the calibration is told of station, table and IMU.
+    /// The setup of the calibration: station, table and IMU.
     pub(crate) setup: Setup,
 }
 
-/// Which of the scenario's sensor errors are in the data.
+/// The subset of the scenario's sensor errors in the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sensors {
     /// Everything in Tables 1 and 2.
     All,
-    /// Everything but the gyro biases.
+    /// All except the gyro biases.
     WithoutGyroBias,
-    /// The gyro errors alone.
+    /// The gyro errors only.
     Gyros,
-    /// The three gyro errors along the spin axis, and a bias of the z gyro.
+    /// The three gyro errors along the spin axis, and the bias of the z gyro.
     SpinAxisAndBiasZ,
     /// The three gyro errors along the spin axis, `M_xz`, `M_yz` and `S_z`.
     SpinAxis,
-    /// The three along the spin axis and the accelerometers'.
+    /// The three gyro errors along the spin axis and the accelerometer errors.
     SpinAxisAndAccels,
 }
 
 impl Sensors {
-    /// These of the errors in `all`.
+    /// This subset of the errors in `all`.
     #[must_use]
     pub(crate) fn of(self, all: &ImuError) -> ImuError {
         let spin_axis = spin_axis_part(&all.gyro);
@@ -56,7 +56,7 @@ impl Sensors {
     }
 }
 
-/// The third column of a gyro triad's matrix, and nothing else of it.
+/// The third column of a gyro triad's matrix, without its other elements.
 pub(crate) fn spin_axis_part(gyro: &TriadError) -> TriadError {
     spin_axis_error(&gyro.matrix.column(2).into_owned())
 }
@@ -72,16 +72,16 @@ impl Experiment {
     /// The simulation of section 4, with the errors of Tables 1 and 2.
     ///
     /// # Errors
-    /// [`ReproductionError`] if the scenario file is wrong.
+    /// [`ReproductionError`] if the scenario file is invalid.
     pub(crate) fn simulation() -> Result<Self, ReproductionError> {
         let text = include_str!("../../../scenarios/paper/simulation.toml");
         Self::parse("scenarios/paper/simulation.toml", text)
     }
 
-    /// The same with the biases and noises that section 4.1 prints.
+    /// The same with the biases and noises printed in section 4.1.
     ///
     /// # Errors
-    /// [`ReproductionError`] if the scenario file is wrong.
+    /// [`ReproductionError`] if the scenario file is invalid.
     pub(crate) fn section_4_1() -> Result<Self, ReproductionError> {
         let text = include_str!("../../../scenarios/paper/section-4-1.toml");
         Self::parse("scenarios/paper/section-4-1.toml", text)
@@ -90,7 +90,7 @@ impl Experiment {
     /// The experiment of section 5, with the errors of Table 5.
     ///
     /// # Errors
-    /// [`ReproductionError`] if the scenario file is wrong.
+    /// [`ReproductionError`] if the scenario file is invalid.
     pub(crate) fn real_test() -> Result<Self, ReproductionError> {
         let text = include_str!("../../../scenarios/paper/real-test.toml");
         Self::parse("scenarios/paper/real-test.toml", text)
@@ -98,7 +98,7 @@ impl Experiment {
 
     fn parse(name: &'static str, text: &str) -> Result<Self, ReproductionError> {
         let file = ScenarioFile::parse(text, Path::new(name))?;
-        // The filter is told what a user's rig file tells it.
+        // The filter receives the data that a user's rig file contains.
         let run = simulate(&Scenario { noise: None, ..file.scenario.clone() })?;
         let rig = Rig::parse(&file.rig_toml(&run.recording), Path::new(name))?;
         let attitude = rig.attitude;
@@ -106,7 +106,7 @@ impl Experiment {
         let setup = Setup {
             station: file.scenario.station,
             axis: attitude.map(|known| AxisAttitude { angles: known.angles, sigma: known.sigma }),
-            // The commanded rate is taken at its word, as eq. (20) does.
+            // The commanded rate is treated as exact, as in eq. (20).
             table: TableSpec { angle_noise: 0.0, wobble: 0.0, rate_noise: 0.0, latency: 0.0 },
             imu,
             velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
@@ -114,7 +114,7 @@ impl Experiment {
         Ok(Self { scenario: file.scenario, setup })
     }
 
-    /// This experiment with only some of its sensor errors.
+    /// This experiment with a subset of its sensor errors.
     #[must_use]
     pub(crate) fn with(&self, sensors: Sensors) -> Self {
         let imu_error = sensors.of(&self.scenario.imu_error);

@@ -20,14 +20,14 @@ pub(crate) const RATES: [f64; 4] = [10.0, -10.0, 5.0, 20.0];
 pub(crate) const ATTITUDES: [[f64; 3]; 4] =
     [[30.0, 20.0, 40.0], [20.0, 30.0, 40.0], [0.0, 0.0, 0.0], [-60.0, 45.0, 160.0]];
 
-/// The interval of the navigator and of the flat integration \[s\].
+/// The sample interval of the navigator and of the flat-Earth integration \[s\].
 const INTERVAL: f64 = 0.02;
 
-/// How far the flat integration may be off its closed form, relatively: Simpson's rule over a turn
-/// of 0.4° leaves some 10⁻¹¹, rounding over 18,000 steps 10⁻¹⁰.
+/// The relative tolerance for the flat-Earth integration against its closed form: the error of Simpson's rule over a rotation
+/// of 0.4° is about 10⁻¹¹, that of rounding over 18,000 steps 10⁻¹⁰.
 const INTEGRATION: f64 = 1e-8;
 
-/// How far the extended form may be off the navigator, relatively: products of the second order
+/// The relative tolerance for the extended form against the navigator: the second-order products
 /// with Earth rate and curvature, which it lacks.
 const EXTENDED: f64 = 3e-3;
 
@@ -52,7 +52,7 @@ impl Errors {
         Self { velocity: *velocity.components(), attitude: *attitude.components() }
     }
 
-    /// How far this is off `truth`, relative to it: the larger of velocity and attitude.
+    /// The relative difference from `truth`: the larger of velocity and attitude.
     pub(crate) fn relative_to(&self, truth: &Self) -> f64 {
         let velocity = (self.velocity - truth.velocity).norm() / truth.velocity.norm();
         let attitude = (self.attitude - truth.attitude).norm() / truth.attitude.norm();
@@ -60,7 +60,7 @@ impl Errors {
     }
 }
 
-/// One place of the grid, by every method.
+/// One point of the grid, by every method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Row {
     /// Roll, pitch, yaw \[deg\].
@@ -71,27 +71,27 @@ pub(crate) struct Row {
     pub(crate) time: f64,
     /// Eqs. (6), (8), (9) as printed.
     pub(crate) printed: Errors,
-    /// The same with the sign of a strapdown system.
+    /// The same with the sign for a strapdown system.
     pub(crate) corrected: Errors,
-    /// A flat Earth that does not turn, integrated numerically.
+    /// Numerical integration on a flat Earth without rotation.
     pub(crate) flat: Errors,
-    /// The linear model of the round, turning Earth, and the flat Earth's second order.
+    /// The linear model of the round, rotating Earth, with the second order of the flat Earth.
     pub(crate) extended: Errors,
-    /// The navigator on the round, turning Earth.
+    /// The navigator on the round, rotating Earth.
     pub(crate) navigated: Errors,
-    /// How far the flat integration is off its closed form, relatively.
+    /// The relative difference of the flat-Earth integration from its closed form.
     pub(crate) integration: f64,
 }
 
 impl Row {
-    /// How far the corrected form may be off the flat integration, relatively: the second order,
+    /// The relative tolerance for the corrected form against the flat-Earth integration: the second order,
     /// `S_z ω t` and the misalignments themselves.
     pub(crate) fn second_order(&self) -> f64 {
         let turned = (self.rate * DEG_PER_SECOND * self.time).abs();
         ERRORS.scale_z * turned + ERRORS.misalignment_xz.hypot(ERRORS.misalignment_yz)
     }
 
-    /// The bounds that this place breaks, in words.
+    /// The bounds that this point violates, in words.
     pub(crate) fn broken(&self) -> Vec<String> {
         let mut broken = Vec::new();
         let mut demand = |what: &str, is: f64, at_most: f64| {
@@ -122,7 +122,7 @@ impl Row {
 /// The grid at these times \[s\], attitudes \[deg\] and rates \[deg/s\].
 ///
 /// # Errors
-/// [`ReproductionError::Profile`] if a time or a rate makes no profile.
+/// [`ReproductionError::Profile`] if a time or a rate is not valid for a profile.
 pub(crate) fn grid(
     times: &[f64],
     attitudes: &[[f64; 3]],
@@ -139,7 +139,7 @@ pub(crate) fn grid(
     Ok(rows.concat())
 }
 
-/// The table of the grid: where the paper's authors are.
+/// The rotation of the grid, at the site of the paper's authors.
 pub(crate) fn turn(attitude: [f64; 3], rate: f64) -> ConstantTurn {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let [roll, pitch, yaw] = attitude.map(|angle| angle * DEG);
@@ -182,7 +182,7 @@ fn rows(attitude: [f64; 3], rate: f64, times: &[f64]) -> Result<Vec<Row>, Reprod
     Ok(rows.collect())
 }
 
-/// The navigator's errors at some times.
+/// The navigator's errors at these times.
 fn navigated(turn: &ConstantTurn, times: &[f64]) -> Result<Vec<Errors>, ReproductionError> {
     let duration = times.iter().copied().fold(0.0, f64::max);
     let motion = TrueMotion {
@@ -214,8 +214,8 @@ pub(crate) fn over_a_turn(turn: &ConstantTurn, axis: usize) -> Vec<(f64, f64)> {
     times.into_iter().zip(errors).map(|(time, errors)| (time, errors.velocity[axis])).collect()
 }
 
-/// What the measured rate makes of attitude and velocity on a flat Earth that does not turn:
-/// Simpson's rule over `C~ f^b`, with nothing of the closed forms in it.
+/// Attitude and velocity from the measured rate on a flat Earth without rotation:
+/// Simpson's rule for `C~ f^b`, independent of the closed forms.
 fn flat_integration(turn: &ConstantTurn, time: f64) -> Errors {
     let column = Vector3::new(ERRORS.misalignment_xz, ERRORS.misalignment_yz, ERRORS.scale_z);
     let measured = (Vector3::z() + column) * turn.rate;
@@ -243,7 +243,7 @@ fn flat_integration(turn: &ConstantTurn, time: f64) -> Errors {
         step += 1.0;
     }
     let apart = c_nb * turn.nav_from_body(time).matrix().transpose();
-    // The rotation vector of a small turn from its antisymmetric part, whose length is its sine.
+    // The rotation vector of a small rotation from its antisymmetric part, whose length is its sine.
     let sine = Vector3::new(
         apart[(2, 1)] - apart[(1, 2)],
         apart[(0, 2)] - apart[(2, 0)],

@@ -1,18 +1,19 @@
-//! The paper's experiments, run again and set beside what it prints.
+//! Reproduction of the paper's experiments, compared with its printed results.
 //!
-//! **What it does.** Every figure of the paper (‹nie2019›) that can be had again is: the Monte
-//! Carlo of its Tables 3 and 4 ([`Campaign`](monte_carlo::Campaign)), the honesty of the filter's covariance
-//! ([`coverage`]), the read-out lag that its attitudes hold ([`readout`]), the experiment of its section 5,
-//! emulated ([`real_test`]), the uncertainty of its estimates ([`uncertainty`]), its claims of precision
+//! **What it does.** It reproduces every reproducible figure of the paper (‹nie2019›): the Monte
+//! Carlo of its Tables 3 and 4 ([`Campaign`](monte_carlo::Campaign)), the consistency of the filter's covariance
+//! ([`coverage`]), the read-out lag of its attitudes ([`readout`]), an emulation of the experiment of its section 5
+//! ([`real_test`]), the uncertainty of its estimates ([`uncertainty`]), its claims of precision
 //! ([`enhancement`]), convergence ([`convergence`]), modulation ([`rotation`], [`accelerometers`]) and online
-//! compensation ([`running`]), and the equations against numerical integration ([`grid`]). [`report`] turns all
-//! of it into a page of the book and its figures; [`differences`](stale::differences) says where a page kept in the
-//! repository has fallen behind.
+//! compensation ([`running`]), and the equations against numerical integration ([`grid`]). [`report`] writes the
+//! page of the book with its figures; [`differences`](stale::differences) compares it with the page in the
+//! repository.
 //!
-//! **What it does not do.** It holds no algorithm that the other crates should have, but for one:
-//! [`BiasFilter`](bias_filter::BiasFilter), a filter with gyro biases among its states, shows what the paper's filter lacks.
+//! **What it does not do.** It contains no algorithm that belongs to another crate, except
+//! [`BiasFilter`](bias_filter::BiasFilter), a filter with gyro biases as states, which shows the effect of their absence in the
+//! paper's filter.
 //!
-//! Numbers are in SI units and radians, but in [`printed`], which keeps the paper's.
+//! Numbers are in SI units and radians, except in [`printed`], which keeps the paper's units.
 
 use std::env;
 use std::process::ExitCode;

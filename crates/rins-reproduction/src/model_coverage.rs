@@ -1,4 +1,4 @@
-//! Whether the estimator of any list of terms is honest: how often its intervals hold the truth.
+//! Consistency of the estimator of any list of terms: the coverage of its intervals.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -14,30 +14,31 @@ use rins_terms::{Model, Role, catalogue};
 
 use crate::error::ReproductionError;
 
-/// Half the width of a two-sided 95 % interval of a normal deviate.
+/// Half the width of a two-sided 95 % interval of the standard normal distribution.
 const WITHIN_95: f64 = 1.959963985;
 
-/// The seed of the true errors; their runs' noise has another.
+/// The seed of the true errors; the noise of the runs has another.
 const TRUTH_SEED: u64 = 0x7272_6c73;
 
-/// 1σ of the surveyed attitude \[rad\], of one reading of the encoder \[rad\], and of the axis' direction \[rad\].
+/// The 1σ of the surveyed attitude \[rad\]; the next constants are those of an encoder reading and of the axis' direction
+/// \[rad\].
 const ATTITUDE_SIGMA: f64 = 0.05 * DEG;
 const ENCODER: f64 = 0.5 * ARCSEC;
 const WOBBLE: f64 = 1e-3 * ARCSEC;
 
-/// How the table turns, after 30 s of rest.
+/// The rotation of the table, after a static interval of 30 s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Schedule {
-    /// At 10 °/s all the time.
+    /// At 10 °/s throughout.
     ConstantRate,
-    /// At 10 °/s, and back.
+    /// At 10 °/s, and reversed.
     Reversal,
     /// At ±10, ±40 and ±20 °/s.
     SeveralRates,
 }
 
 impl Schedule {
-    /// All of them.
+    /// All schedules.
     pub(crate) const ALL: [Self; 3] = [Self::ConstantRate, Self::Reversal, Self::SeveralRates];
 
     /// Its name in tables.
@@ -64,20 +65,20 @@ impl Schedule {
     }
 }
 
-/// The noise in the data, and what the estimator is told of it.
+/// The noise in the data, with the estimator's knowledge of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Colour {
     /// The gyros' bias instability \[rad/s\], and the accelerometers' \[m/s²\]; zero is white noise only.
     pub(crate) flicker: (f64, f64),
-    /// What the estimator knows of the strengths of its data sheet.
+    /// The estimator's knowledge of the noise parameters of its data sheet.
     pub(crate) knowledge: fn(NoiseParameters) -> NoiseKnowledge,
 }
 
 impl Colour {
-    /// White noise of known strength.
+    /// White noise with known density.
     pub(crate) const WHITE: Self = Self { flicker: (0.0, 0.0), knowledge: NoiseKnowledge::Given };
 
-    /// Bias instability of 0.005 deg/h and 2 µg, estimated from the run like the noise density.
+    /// Bias instability of 0.005 deg/h and 2 µg, estimated from the run together with the noise density.
     pub(crate) const FAINT: Self =
         Self { flicker: (0.005 * DEG_PER_HOUR, 2.0 * MICRO_G), knowledge: NoiseKnowledge::Likely };
 
@@ -99,34 +100,34 @@ impl Colour {
     }
 }
 
-/// How honest an estimator proved to be over many runs.
+/// The consistency of an estimator over many runs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Coverage {
-    /// How many runs there were.
+    /// The number of runs.
     pub(crate) n_runs: usize,
     /// The parameters' ids.
     pub(crate) ids: Vec<String>,
-    /// For each the part of its 95 % intervals that held the truth.
+    /// The coverage of the 95 % intervals of each parameter.
     pub(crate) each: Vec<f64>,
-    /// The same over all.
+    /// The same over all parameters.
     pub(crate) pooled: f64,
-    /// The mean of the squared error normalised by the covariance; the number of parameters if it is right.
+    /// The mean NEES; the number of parameters if the covariance is consistent.
     pub(crate) nees: f64,
-    /// The standard deviation of that mean.
+    /// The standard deviation of the mean NEES.
     pub(crate) nees_sigma: f64,
-    /// For each parameter the mean squared error over the variance claimed, which at the truth is the
+    /// The ratio of mean squared error to variance for each parameter; at the true parameters the variance is the
     /// Cramér-Rao bound.
     pub(crate) variance_ratio: Vec<f64>,
-    /// The mean bias instability found for the gyros \[rad/s\].
+    /// The mean estimate of the gyros' bias instability \[rad/s\].
     pub(crate) flicker: f64,
 }
 
 impl Coverage {
-    /// Where it misses what an honest estimator shows, in words.
+    /// The deviations from a consistent estimator, in words.
     pub(crate) fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let n = self.n_runs as f64;
-        // The bounds that are asked for, or three binomial sigmas where so few runs cannot show them.
+        // The required bounds, or three binomial sigmas if the runs are too few for them.
         let pooled = 0.02_f64.max(3.0 * (0.05 * 0.95 / (n * self.ids.len() as f64 / 3.0)).sqrt());
         if (self.pooled - 0.95).abs() > pooled {
             faults.push(format!("pooled coverage {:.4}", self.pooled));
@@ -150,17 +151,17 @@ impl Coverage {
     }
 }
 
-/// One run's errors, what was claimed for them, and what was found of the noise.
+/// One run's errors, with their standard uncertainties and the estimated noise.
 struct Scored {
     error: DVector<f64>,
     covariance: DMatrix<f64>,
     flicker: f64,
 }
 
-/// `n_runs` runs with true errors drawn from a data sheet, all of `Model::full()` estimated.
+/// The results of `n_runs` runs with true errors drawn from a data sheet, with all of `Model::full()` estimated.
 ///
 /// # Errors
-/// [`ReproductionError`] of the first run that fails.
+/// [`ReproductionError`] of the first failed run.
 pub(crate) fn coverage(
     schedule: Schedule,
     colour: &Colour,
@@ -208,7 +209,7 @@ pub(crate) fn coverage(
     })
 }
 
-/// All of eq. (1) and the attitude of the axis, the latter known to what the survey says.
+/// All of eq. (1) and the attitude of the axis, with the uncertainty of the survey as its prior.
 fn model() -> Model {
     ["x", "y", "z"].iter().fold(Model::full(), |model, axis| {
         let id = format!("{}.{axis}", catalogue::AXIS_ATTITUDE.id);
@@ -216,7 +217,7 @@ fn model() -> Model {
     })
 }
 
-/// The data sheet of a navigation-grade fibre-optic unit.
+/// The data sheet of a navigation-grade fiber-optic unit.
 fn sheet() -> ImuSpec {
     ImuSpec {
         gyro: TriadSpec::white(
@@ -276,7 +277,7 @@ fn scored(
     })
 }
 
-/// Errors as the data sheet has them.
+/// Errors drawn from the data sheet.
 fn drawn(imu: &ImuSpec, stream: &mut NormalStream) -> ImuError {
     let mut triad = |spec: &TriadSpec| {
         let mut error = TriadError::default();
@@ -296,7 +297,7 @@ fn drawn_vector(sigma: f64, stream: &mut NormalStream) -> InFrame<Table> {
     InFrame::new(sigma * stream.sample(), sigma * stream.sample(), sigma * stream.sample())
 }
 
-/// What a parameter truly is.
+/// The true value of a parameter.
 fn true_value(id: &str, error: &ImuError, tilt: &InFrame<Table>) -> f64 {
     let place =
         |letter: Option<char>| "xyz".chars().position(|axis| Some(axis) == letter).unwrap_or(0);

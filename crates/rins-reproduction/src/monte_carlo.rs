@@ -1,4 +1,4 @@
-//! Section 4's Monte Carlo: seeded runs of the paper's filter, the same whatever the thread count.
+//! The Monte Carlo of section 4: runs of the paper's filter with seeds, independent of the number of threads.
 
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
@@ -11,26 +11,25 @@ use crate::experiment::Experiment;
 use crate::pure_navigation::Outcome;
 use crate::statistics::Sample;
 
-/// One of `M_xz`, `M_yz` \[rad\] and `S_z` in the paper's units: arc seconds, arc seconds, ppm.
+/// The units of `M_xz`, `M_yz` \[rad\] and `S_z` in the paper: arc seconds, arc seconds, ppm.
 pub(crate) const UNITS: [f64; 3] = [ARCSEC, ARCSEC, PPM];
 
 /// A finished run of the paper's filter.
 #[derive(Clone, Debug)]
 pub(crate) struct Calibrated {
-    /// `M_xz`, `M_yz` \[rad\] and `S_z` as estimated.
+    /// The estimates of `M_xz`, `M_yz` \[rad\] and `S_z`.
     pub(crate) estimate: Vector3<f64>,
-    /// Their 1σ, as the filter claims it.
+    /// Their 1σ by the filter.
     pub(crate) sigma: Vector3<f64>,
-    /// The squared error of the three, normalised by the covariance claimed: χ² with three degrees
-    /// of freedom if that is honest.
+    /// The NEES of the three: χ² with three degrees of freedom if the covariance is consistent.
     pub(crate) nees: f64,
-    /// The estimates on the way.
+    /// The history of the estimates.
     pub(crate) history: Vec<EstimatePoint>,
-    /// What navigation ends with, nothing compensated.
+    /// The result of the navigation without compensation.
     pub(crate) before: Outcome,
     /// The same with the estimates compensated.
     pub(crate) after: Outcome,
-    /// The way through the navigation before.
+    /// The history of the navigation without compensation.
     pub(crate) before_history: Vec<NavigationPoint>,
 }
 
@@ -44,10 +43,10 @@ pub(crate) struct Campaign {
 }
 
 impl Campaign {
-    /// `n_runs` runs of an experiment; `progress` is told of each that is done, from any thread.
+    /// The runs of an experiment; `progress` is called after each run, from any thread.
     ///
     /// # Errors
-    /// [`ReproductionError`] of the first run that fails.
+    /// [`ReproductionError`] of the first failed run.
     pub(crate) fn of(
         experiment: &Experiment,
         n_runs: u64,
@@ -67,12 +66,12 @@ impl Campaign {
         Sample::of(self.runs.iter().map(|run| run.estimate[parameter] / UNITS[parameter]))
     }
 
-    /// The 1σ that the filter claims for one of the three, in the same units.
+    /// The 1σ of one of the three by the filter, in the same units.
     pub(crate) fn claimed(&self, parameter: usize) -> f64 {
         Sample::of(self.runs.iter().map(|run| run.sigma[parameter] / UNITS[parameter])).mean
     }
 
-    /// The error of one of the three, root mean square over the runs, over the 1σ claimed.
+    /// The ratio of the root mean square error of one of the three over the runs to its 1σ.
     pub(crate) fn overconfidence(&self, parameter: usize) -> f64 {
         let squares = self.runs.iter().map(|run| {
             let off = (run.estimate[parameter] - self.truth[parameter]) / run.sigma[parameter];
@@ -81,7 +80,7 @@ impl Campaign {
         Sample::of(squares).mean.sqrt()
     }
 
-    /// The mean normalised squared error of the three together.
+    /// The mean NEES of the three.
     pub(crate) fn nees(&self) -> f64 {
         Sample::of(self.runs.iter().map(|run| run.nees)).mean
     }

@@ -1,16 +1,16 @@
-//! A strapdown model written apart from the navigator, of which single choices can be changed.
+//! A strapdown model independent of the navigator, with variants of single modeling choices.
 //!
-//! It integrates the differential equations of attitude, velocity and latitude by Runge and Kutta's
-//! rule, from rates and forces that it has in closed form: no increments, no coning, no sculling.
+//! It integrates the differential equations of attitude, velocity and latitude by the Runge-Kutta
+//! method, from closed forms of rates and forces: without increments, coning and sculling.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rins_frames::{EARTH_RATE, Site, cross_matrix};
 use rins_motion::mechanism::{ConstantTurn, SpinAxisErrors};
 
-/// A choice in which one model of the paper's run may differ from another.
+/// A modeling choice in which models of the paper's run may differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Choice {
-    /// As the navigator has it: the WGS84 ellipsoid at the station, gravity as it varies over it.
+    /// As in the navigator: the WGS84 ellipsoid at the station, with position-dependent gravity.
     Ellipsoid,
     /// The height above the ellipsoid is zero.
     NoHeight,
@@ -18,17 +18,17 @@ pub(crate) enum Choice {
     RoundGravity,
     /// The Earth is a sphere of 6371 km.
     Sphere,
-    /// Neither the radii nor gravity nor the Earth's rate change with the computed latitude.
+    /// The radii, gravity and the Earth rate do not change with the computed latitude.
     FixedLatitude,
-    /// The local level does not turn about the vertical with the transport rate: wander azimuth.
+    /// The local level does not rotate about the vertical with the transport rate: wander azimuth.
     WanderAzimuth,
-    /// The errors multiply the table's rate alone, without the Earth's: eq. (3).
+    /// The errors multiply the table rate only, without the Earth rate: eq. (3).
     TableRateAlone,
     /// The errors multiply the measured rate.
     MeasuredRate,
-    /// Euler's rule in steps of 20 ms for all three, less what it makes of perfect sensors.
+    /// Euler's method with steps of 20 ms for all three, minus its result for perfect sensors.
     Euler,
-    /// The level's turn is left out of the gyros' rates: no transport rate.
+    /// The rotation of the level is omitted from the gyros' rates: no transport rate.
     NoTransportRate,
 }
 
@@ -66,7 +66,7 @@ impl Choice {
 /// The interval of the integration \[s\].
 const INTERVAL: f64 = 0.02;
 
-/// What is integrated: `C_b^n`, the velocity east and north, the latitude.
+/// The integrated state: `C_b^n`, the velocity east and north, the latitude.
 #[derive(Clone, Copy)]
 struct State {
     c_nb: Matrix3<f64>,
@@ -91,7 +91,7 @@ struct Model {
     choice: Choice,
 }
 
-/// The velocity east and north after `time` \[m/s\], from rest and the true attitude.
+/// The velocity east and north after `time` \[m/s\], from zero velocity and the true attitude.
 pub(crate) fn velocity(
     turn: &ConstantTurn,
     errors: &SpinAxisErrors,
@@ -130,7 +130,7 @@ impl Model {
                 Choice::Euler => state.moved(&self.rates(&state, now), INTERVAL),
                 _ => self.runge_kutta(&state, now),
             };
-            // Newton's step to the nearest rotation: the rules keep C one only to their order.
+            // A step of Newton's iteration to the nearest rotation: the integration preserves orthonormality only to its order.
             let c = state.c_nb;
             state.c_nb = c * 1.5 - c * c.transpose() * c * 0.5;
             step += 1.0;
@@ -174,7 +174,7 @@ impl Model {
             Choice::NoTransportRate => Vector3::zeros(),
             _ => Vector3::new(-north / along, east / across, azimuth_rate),
         };
-        // The truth stands still at home.
+        // The true position is constant.
         let c_bn = self.turn.nav_from_body(now).matrix().transpose();
         let spin = Vector3::z() * self.turn.rate;
         let true_rate = c_bn * home.earth_rate().components() + spin;
@@ -211,7 +211,7 @@ mod tests {
         let navigated =
             grid(&[90.0], &[[30.0, 20.0, 40.0]], &[10.0]).unwrap()[0].navigated.velocity;
         let plain = velocity(&turn([30.0, 20.0, 40.0], 10.0), &ERRORS, Choice::Ellipsoid, 90.0);
-        // What Runge and Kutta's rule leaves of a turn of 0.2 degrees a step.
+        // The error of the Runge-Kutta method for a rotation of 0.2 degrees per step.
         assert_close!(plain.x, navigated.x, 1e-6);
         assert_close!(plain.y, navigated.y, 1e-6);
         let flat =

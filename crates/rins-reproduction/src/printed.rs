@@ -1,16 +1,16 @@
-//! What the paper prints, in the units it prints: m/s, degrees, arc seconds, ppm.
+//! The printed results of the paper, in its units: m/s, degrees, arc seconds, ppm.
 
 /// A row of Table 4 or 6: velocity east and north \[m/s\], then roll, pitch and yaw \[deg\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Navigation {
     /// `V_x`, `V_y` \[m/s\].
     pub(crate) velocity: [f64; 2],
-    /// Roll, pitch, yaw \[deg\], as errors: what is printed less what should be.
+    /// Roll, pitch, yaw \[deg\], as errors: printed minus reference.
     pub(crate) attitude_error: [f64; 3],
 }
 
 impl Navigation {
-    /// All five, in the order of [`Outcome`](crate::pure_navigation::Outcome).
+    /// All five figures, in the order of [`Outcome`](crate::pure_navigation::Outcome).
     pub(crate) fn figures(&self) -> [f64; 5] {
         let ([east, north], [roll, pitch, yaw]) = (self.velocity, self.attitude_error);
         [east, north, roll, pitch, yaw]
@@ -20,7 +20,7 @@ impl Navigation {
 /// Table 3: `M_xz`, `M_yz` \[arcsec\], `S_z` \[ppm\].
 pub(crate) const TABLE_3: [f64; 3] = [59.96, 59.96, 300.02];
 
-/// Table 4 before compensation, with the minus of `V_y` that only the text has.
+/// Table 4 before compensation, with the minus sign of `V_y` that only the text has.
 pub(crate) const TABLE_4_BEFORE: Navigation = Navigation {
     velocity: [2.982, -17.548],
     attitude_error: [29.697 - 30.0, 20.467 - 20.0, 40.911 - 40.0],
@@ -32,7 +32,7 @@ pub(crate) const TABLE_4_AFTER: Navigation = Navigation {
     attitude_error: [30.030 - 30.0, 19.954 - 20.0, 39.910 - 40.0],
 };
 
-/// Section 4.2's text after compensation; the text has roll and pitch the other way round.
+/// The text of section 4.2 after compensation; it has roll and pitch interchanged.
 pub(crate) const TEXT_4_AFTER: Navigation =
     Navigation { velocity: [0.065, -0.024], attitude_error: [0.034, -0.044, -0.092] };
 

@@ -1,4 +1,4 @@
-//! Inertial navigation without any aid over a scenario, and what it ends with.
+//! Unaided inertial navigation over a scenario, and its final errors.
 
 use nalgebra::{SVector, Vector3};
 use rins_calibration::{FreeNavigation, navigate_freely};
@@ -8,17 +8,17 @@ use rins_simulation::{Scenario, Simulated, simulate};
 
 use crate::error::ReproductionError;
 
-/// What a navigation on a table ends with, as errors.
+/// The final errors of a navigation on a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outcome {
     /// Velocity east and north \[m/s\].
     pub(crate) velocity: [f64; 2],
-    /// Of the axis frame's roll, pitch and yaw \[rad\].
+    /// Roll, pitch and yaw of the axis frame \[rad\].
     pub(crate) attitude: EulerAngles,
 }
 
 impl Outcome {
-    /// East, north \[m/s\], roll, pitch, yaw \[deg\]: the paper's units, so as to be compared with it.
+    /// East, north \[m/s\], roll, pitch, yaw \[deg\]: in the paper's units, for comparison with it.
     pub(crate) fn figures(&self) -> [f64; 5] {
         let ([east, north], EulerAngles { roll, pitch, yaw }) = (self.velocity, self.attitude);
         [east, north, roll / DEG, pitch / DEG, yaw / DEG]
@@ -29,8 +29,8 @@ impl Outcome {
         SVector::from(self.figures())
     }
 
-    /// The same outcome, its attitude read out `lag` \[s\] too early on a table that turns at
-    /// `rate` \[rad/s\] and compared with the reference of now.
+    /// The same outcome with an attitude that is read out `lag` \[s\] too early, on a table that rotates at
+    /// `rate` \[rad/s\], and compared with the reference at the end.
     ///
     /// `reference` is the true attitude of the axis frame.
     #[must_use]
@@ -58,30 +58,30 @@ impl From<&FreeNavigation> for Outcome {
     }
 }
 
-/// A navigation on a table: the data, what is compensated, and how it starts.
+/// A navigation on a table: the data, the compensated errors, and the initial conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PureNavigation {
     /// The data.
     pub(crate) scenario: Scenario,
     /// The sensor errors that are compensated.
     pub(crate) compensated: ImuError,
-    /// The attitude error at the start, `φ(0)` of `C~ = (I - φ×) C`, in n \[rad\].
+    /// The initial attitude error, `φ(0)` of `C~ = (I - φ×) C`, in n \[rad\].
     pub(crate) start_error: Vector3<f64>,
-    /// What the attitude at the end is compared with.
+    /// The reference of the final attitude.
     pub(crate) reference: Reference,
 }
 
-/// What an attitude is compared with.
+/// The reference of an attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reference {
     /// The true attitude of the axis frame.
     Truth,
-    /// The attitude that the navigation started with, as where the truth is not known.
+    /// The initial attitude of the navigation, if the truth is not known.
     Start,
 }
 
 impl PureNavigation {
-    /// A navigation of raw data that starts right.
+    /// A navigation of raw data with exact initial conditions.
     pub(crate) fn of(scenario: &Scenario) -> Self {
         Self {
             scenario: scenario.clone(),
@@ -91,24 +91,24 @@ impl PureNavigation {
         }
     }
 
-    /// The same, with the data free of noise.
+    /// The same with noise-free data.
     #[must_use]
     pub(crate) fn noiseless(mut self) -> Self {
         self.scenario.noise = None;
         self
     }
 
-    /// The same, with these errors compensated.
+    /// The same with these errors compensated.
     #[must_use]
     pub(crate) fn compensating(mut self, errors: ImuError) -> Self {
         self.compensated = errors;
         self
     }
 
-    /// The way through the navigation, and its end.
+    /// The history of the navigation, and its end.
     ///
     /// # Errors
-    /// [`ReproductionError`] if the data cannot be simulated or the errors not be compensated.
+    /// [`ReproductionError`] if the data cannot be simulated or the errors cannot be compensated.
     pub(crate) fn navigate(&self) -> Result<FreeNavigation, ReproductionError> {
         let Simulated { recording, truth } = simulate(&self.scenario)?;
         let angles: Vec<f64> = std::iter::once(0.0).chain(truth.table_angle).collect();
@@ -123,7 +123,7 @@ impl PureNavigation {
             Some(&compensation),
         );
         if self.reference == Reference::Truth {
-            // It is told against the attitude at the start.
+            // The result refers to the initial attitude.
             let (begun, truth) =
                 (start.euler_angles(), self.scenario.nav_from_table.euler_angles());
             let from_truth = |error: &mut EulerAngles| {
@@ -137,10 +137,10 @@ impl PureNavigation {
         Ok(end)
     }
 
-    /// What it ends with.
+    /// The final errors.
     ///
     /// # Errors
-    /// As [`PureNavigation::navigate`].
+    /// As for [`PureNavigation::navigate`].
     pub(crate) fn outcome(&self) -> Result<Outcome, ReproductionError> {
         Ok(Outcome::from(&self.navigate()?))
     }

@@ -1,8 +1,8 @@
-//! The read-out lag that Table 4's attitudes hold.
+//! The read-out lag in the attitudes of Table 4.
 //!
-//! The attitudes that the paper prints before and after compensation differ from the model's by
-//! one and the same rotation about the spin axis. A read-out that is some time older than its
-//! reference makes just that, on a table that turns.
+//! The printed attitudes before and after compensation differ from the model's by
+//! the same rotation about the spin axis. A read-out that is older than its
+//! reference has this effect on a rotating table.
 
 use nalgebra::Vector3;
 use rins_frames::units::DEG;
@@ -11,18 +11,18 @@ use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use crate::pure_navigation::Outcome;
 use crate::statistics::root_mean_square;
 
-/// An outcome of the model, and the roll, pitch and yaw errors printed for it \[deg\].
+/// An outcome of the model, with the printed roll, pitch and yaw errors \[deg\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
-    /// The model's.
+    /// The outcome of the model.
     pub(crate) model: Outcome,
-    /// The paper's: roll, pitch, yaw \[deg\].
+    /// The printed errors: roll, pitch, yaw \[deg\].
     pub(crate) printed: [f64; 3],
 }
 
 impl Pair {
-    /// The rotation that takes the model's attitude to the printed one, as a vector in the axis frame
-    /// \[deg\]: what a lag makes of it has a z component alone.
+    /// The rotation from the model's attitude to the printed one, as a rotation vector in the axis frame
+    /// \[deg\]: a lag gives a z component only.
     pub(crate) fn rotation(&self, reference: &EulerAngles) -> Vector3<f64> {
         let attitude = |roll: f64, pitch: f64, yaw: f64| -> Dcm<Nav, Table> {
             EulerAngles {
@@ -39,7 +39,7 @@ impl Pair {
     }
 }
 
-/// A table that turns while it is read.
+/// A table that rotates during the read-out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Turning {
     /// The true attitude of the axis frame.
@@ -48,17 +48,17 @@ pub(crate) struct Turning {
     pub(crate) rate: f64,
 }
 
-/// The disagreement of model and print for a lag.
+/// The disagreement of model and printed values for a lag.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Disagreement {
     /// The lag \[s\].
     pub(crate) lag: f64,
-    /// Model less print, three for each pair \[deg\].
+    /// Model minus printed, three for each pair \[deg\].
     pub(crate) residuals: Vec<f64>,
 }
 
 impl Disagreement {
-    /// Of these pairs, were the attitude read out `lag` \[s\] late.
+    /// The disagreement of these pairs if the attitude is read out `lag` \[s\] late.
     pub(crate) fn of(pairs: &[Pair], turning: &Turning, lag: f64) -> Self {
         let residuals = pairs.iter().flat_map(|pair| {
             let model = pair.model.read_out_late(&turning.reference, turning.rate, lag).figures();
@@ -67,9 +67,9 @@ impl Disagreement {
         Self { lag, residuals: residuals.collect() }
     }
 
-    /// With the lag that fits best, by least squares.
+    /// The disagreement for the least-squares lag.
     pub(crate) fn least(pairs: &[Pair], turning: &Turning) -> Self {
-        /// A tenth of a millisecond: the residuals are straight over a hundred of them.
+        /// A tenth of a millisecond: the residuals are linear over a hundred of them.
         const STEP: f64 = 1e-4;
         let mut lag = 0.0;
         for _ in 0..4 {
@@ -126,7 +126,7 @@ mod tests {
             assert_close!(rotation.z, -0.13, 1e-9);
             assert!(rotation.xy().norm() < 1e-9);
         }
-        // An upright axis turns the whole lag into yaw: 0.13 deg.
+        // On a vertical axis the whole lag appears in yaw: 0.13 deg.
         let upright = pairs[0].model.read_out_late(&EulerAngles::default(), turning.rate, 0.013);
         assert_close!(upright.attitude.yaw, pairs[0].model.attitude.yaw - 0.13 * DEG, 1e-5 * DEG);
     }

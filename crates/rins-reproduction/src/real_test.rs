@@ -1,4 +1,4 @@
-//! Section 5's experiment, emulated: what an IMU of its grade makes of Table 5's errors.
+//! Emulation of the experiment of section 5: the effect of Table 5's errors for an IMU of its grade.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -16,45 +16,45 @@ use crate::experiment::{Experiment, spin_axis_error, spin_axis_part};
 use crate::pure_navigation::{Outcome, PureNavigation, Reference};
 use crate::statistics::Sample;
 
-/// The seed of the biases; their runs' noise has the scenario's.
+/// The seed of the biases; the noise of the runs has the seed of the scenario.
 const BIAS_SEED: u64 = 0x0007_2075;
 
-/// How much of the turning the estimates are from \[s\]: they have converged long before.
+/// The part of the rotation from which the errors are estimated \[s\]: the estimates converge long before its end.
 const CALIBRATED: f64 = 100.0;
 
-/// How accurate the table's rate is \[rad/s\], section 5.1: "rotation rate accuracy is 0.0001 °/s".
+/// The accuracy of the table rate \[rad/s\], section 5.1: "rotation rate accuracy is 0.0001 °/s".
 pub(crate) const TABLE_RATE_ACCURACY: f64 = 1e-4 * DEG_PER_SECOND;
 
-/// The relative sample clock error that a plain quartz oscillator commonly has \[ppm\].
+/// The typical relative error of a sample clock with a plain quartz oscillator \[ppm\].
 const CLOCK: f64 = 20.0;
 
-/// The noise that a fibre-optic gyro of 0.1 °/h commonly has, 0.01 °/√h \[°/h/√Hz\].
+/// The typical noise density of a fiber-optic gyro of 0.1 °/h, 0.01 °/√h \[°/h/√Hz\].
 const COMMON_GYRO_NOISE: f64 = 0.6;
 
 /// One emulated run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Emulated {
-    /// `M_xz`, `M_yz` \[rad\] and `S_z` in the data: for these, the filter's estimates are Table 5's.
+    /// `M_xz`, `M_yz` \[rad\] and `S_z` in the data: with these, the filter's estimates are those of Table 5.
     pub(crate) truth: Vector3<f64>,
-    /// The same three as estimated.
+    /// The estimates of the three.
     pub(crate) estimate: Vector3<f64>,
-    /// What navigation ends with, as errors against the attitude it started with.
+    /// The final errors of the navigation, relative to its initial attitude.
     pub(crate) before: Outcome,
     /// The same with the estimates compensated.
     pub(crate) after: Outcome,
-    /// The same compensated while it turns, each sample with the estimate before it.
+    /// The same with online compensation, of each sample with the estimate before it.
     pub(crate) online: Outcome,
 }
 
-/// `n_runs` runs, each with biases drawn from the data sheet and a table rate drawn from its accuracy:
-/// alignment on the static interval, calibration against the commanded rate, and navigation before, after and
-/// compensated online.
+/// The results of `n_runs` runs, each with biases drawn from the data sheet and a table rate drawn from its accuracy:
+/// alignment on the static interval, calibration against the commanded rate, and navigation without compensation, with it and
+/// with online compensation.
 ///
-/// Table 5 gives estimates, so the true spin-axis errors of a run are those which its biases and its table rate
-/// turn into Table 5's figures.
+/// Table 5 contains estimates, so the true spin-axis errors of a run are those which together with its biases and its table rate
+/// give the figures of Table 5.
 ///
 /// # Errors
-/// [`ReproductionError`] of the first run that fails.
+/// [`ReproductionError`] of the first failed run.
 pub(crate) fn emulate(
     experiment: &Experiment,
     n_runs: u64,
@@ -82,7 +82,7 @@ fn emulated(experiment: &Experiment, run: u64) -> Result<Emulated, ReproductionE
     let mut stream = Seed { seed: BIAS_SEED, run }.stream(Sensor::Encoder);
     let mut drawn = |sigma: f64| Vector3::from_fn(|_, _| sigma * stream.sample());
     let (gyro, accel) = (drawn(setup.imu.gyro.bias_sigma), drawn(setup.imu.accel.bias_sigma));
-    // Rectangular within the accuracy stated, as nothing but its bounds is known.
+    // A rectangular distribution within the stated accuracy, because only its bounds are known.
     let rate_error = rate_accuracy(scenario) * evenly(stream.sample());
     let estimated = scenario.imu_error;
     let mut matrix = estimated.gyro.matrix;
@@ -96,7 +96,7 @@ fn emulated(experiment: &Experiment, run: u64) -> Result<Emulated, ReproductionE
     let profile = faster(&scenario.profile, rate_error)?;
     let simulated = simulate(&Scenario { imu_error, seed, profile, ..scenario.clone() })?;
     let mut recording = simulated.recording;
-    // The log holds what was commanded.
+    // The log contains the commanded rate.
     for rate in recording.table_rate.iter_mut().flatten() {
         *rate /= 1.0 + rate_error;
     }
@@ -106,7 +106,7 @@ fn emulated(experiment: &Experiment, run: u64) -> Result<Emulated, ReproductionE
     let missing =
         ReproductionError::Missing { name: "the real test", section: "a static interval" };
     let mean = RestMean::of(&recording, 0..rest).ok_or(missing)?;
-    // Only the attitude is of interest, not what is claimed for it.
+    // Only the attitude is used, not its uncertainty.
     let sigma = MeanUncertainty {
         angular_rate: setup.imu.gyro.bias_sigma,
         specific_force: setup.imu.accel.bias_sigma,
@@ -136,11 +136,11 @@ fn emulated(experiment: &Experiment, run: u64) -> Result<Emulated, ReproductionE
     })
 }
 
-/// The `M_xz`, `M_yz` and `S_z` that are estimated as the scenario's where the gyros have a bias \[rad/s\] and the
-/// table turns faster than commanded by a relative `rate_error`.
+/// The true `M_xz`, `M_yz` and `S_z` whose estimates are those of the scenario if the gyros have a bias \[rad/s\] and the
+/// table rotates faster than commanded by a relative `rate_error`.
 ///
-/// The gyros deliver `(z + m) w' + B` at the true rate `w'` about the axis, the Earth's included, and the filter
-/// takes it for `(z + m^) w` at the commanded one.
+/// The gyros measure `(z + m) w' + B` at the true rate `w'` about the axis, including the Earth rate, and the filter
+/// interprets it as `(z + m^) w` at the commanded rate.
 fn true_errors(scenario: &Scenario, bias: &Vector3<f64>, rate_error: f64) -> Vector3<f64> {
     let commanded = spin_rate(scenario);
     let table = scenario.profile.rate(scenario.profile.duration());
@@ -148,17 +148,17 @@ fn true_errors(scenario: &Scenario, bias: &Vector3<f64>, rate_error: f64) -> Vec
     (measured - bias) / (commanded + table * rate_error) - Vector3::z()
 }
 
-/// The accuracy of the table's rate, relative to the rate at the experiment's end.
+/// The accuracy of the table rate, relative to the rate at the end of the experiment.
 pub(crate) fn rate_accuracy(scenario: &Scenario) -> f64 {
     TABLE_RATE_ACCURACY / scenario.profile.rate(scenario.profile.duration())
 }
 
-/// A standard normal number as one that is spread evenly over -1 to 1.
+/// Converts a standard normal number to a uniform distribution from -1 to 1.
 fn evenly(normal: f64) -> f64 {
     1.0 - libm::erfc(normal * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// A static interval and a turn, the turn faster by a relative `error`.
+/// A static interval and a rotation, with the rate of the rotation increased by a relative `error`.
 fn faster(profile: &Profile, error: f64) -> Result<Profile, ReproductionError> {
     let duration = profile.duration();
     let rate = profile.rate(duration);
@@ -170,7 +170,7 @@ fn faster(profile: &Profile, error: f64) -> Result<Profile, ReproductionError> {
     Ok(Profile::new(&segments, None)?)
 }
 
-/// How many intervals a span holds.
+/// The number of intervals in a span.
 fn samples_in(span: f64, interval: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
@@ -181,10 +181,10 @@ fn samples_in(span: f64, interval: f64) -> usize {
     count
 }
 
-/// The turning part of the experiment without noise, its sensors without bias.
+/// The rotating part of the experiment without noise, with sensors without bias.
 ///
 /// # Errors
-/// [`ReproductionError`] if the scenario's profile does not end with a turn.
+/// [`ReproductionError`] if the scenario's profile does not end with a rotation.
 pub(crate) fn turning(experiment: &Experiment) -> Result<PureNavigation, ReproductionError> {
     let scenario = &experiment.scenario;
     let profile = &scenario.profile;
@@ -196,22 +196,22 @@ pub(crate) fn turning(experiment: &Experiment) -> Result<PureNavigation, Reprodu
     Ok(PureNavigation { reference: Reference::Start, ..turn })
 }
 
-/// What the model says of Table 6 before compensation: the errors of Table 5 and no other.
+/// The model's prediction for Table 6 before compensation: the errors of Table 5 and no others.
 ///
 /// # Errors
-/// [`ReproductionError`] if the navigation cannot be done.
+/// [`ReproductionError`] if the navigation fails.
 pub(crate) fn predicted(experiment: &Experiment) -> Result<Outcome, ReproductionError> {
     turning(experiment)?.outcome()
 }
 
-/// The causes that may have left Table 6's errors after compensation, each with the size allowed it.
+/// The possible causes of Table 6's errors after compensation, each with its permitted size.
 ///
-/// The paper states 0.1 °/h, 100 µg, and a table that is accurate to 2″ and to 0.0001 °/s. Timing is allowed
-/// half a sample, 5 ms; an estimate of `M` or `S_z` what a bias of 0.1 °/h hides in it.
+/// The paper states 0.1 °/h, 100 µg, and a table with an accuracy of 2″ and 0.0001 °/s. Timing may be wrong by
+/// half a sample, 5 ms; an estimate of `M` or `S_z` by the effect of a bias of 0.1 °/h on it.
 /// The paper states neither the gyros' noise nor the accuracy of the clocks.
 ///
 /// # Errors
-/// [`ReproductionError`] if a navigation cannot be done.
+/// [`ReproductionError`] if a navigation fails.
 pub(crate) fn causes_after(experiment: &Experiment) -> Result<Vec<Graded>, ReproductionError> {
     use Basis::{Plausible, Stated};
     let base = compensated(experiment)?;
@@ -251,17 +251,17 @@ fn graded(
         .collect()
 }
 
-/// The turning part with the errors of Table 5 compensated.
+/// The rotating part with the errors of Table 5 compensated.
 fn compensated(experiment: &Experiment) -> Result<PureNavigation, ReproductionError> {
     let gyro = spin_axis_part(&experiment.scenario.imu_error.gyro);
     Ok(turning(experiment)?.compensating(ImuError { gyro, ..ImuError::default() }))
 }
 
-/// The causes that may have made the difference of Table 6's two navigations other than Table 5's
-/// errors do: what differed between two navigations of one log.
+/// The possible causes of a difference between Table 6's two navigations other than that of Table 5's
+/// errors: differences between two navigations of one log.
 ///
 /// # Errors
-/// [`ReproductionError`] if a navigation cannot be done.
+/// [`ReproductionError`] if a navigation fails.
 pub(crate) fn causes_between(experiment: &Experiment) -> Result<Vec<Graded>, ReproductionError> {
     use Basis::{Plausible, Stated};
     graded(

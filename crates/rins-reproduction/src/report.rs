@@ -1,4 +1,4 @@
-//! The page of the book that sets the paper's figures beside ours, and its charts.
+//! The page of the book that compares the paper's figures with those of rins, and its charts.
 
 mod accelerometers;
 mod attitude;
@@ -22,13 +22,13 @@ mod uncertainty;
 
 pub(crate) use results::{Results, Scale};
 
-/// Where the page stands, from the workspace's root.
+/// The path of the page, relative to the workspace's root.
 pub(crate) const PAGE: &str = "docs/src/reproduction.md";
 
-/// The folder of its charts, from the workspace's root.
+/// The folder of its charts, relative to the workspace's root.
 pub(crate) const FIGURES: &str = "docs/src/figures";
 
-/// A file of the report: its path from the workspace's root, and what it holds.
+/// A file of the report: its path relative to the workspace's root, and its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct File {
     /// The path.

@@ -1,4 +1,4 @@
-//! "Rotation restrains the divergence of attitude": one IMU static and rotating, axis by axis.
+//! "Rotation restrains the divergence of attitude": an IMU static and rotating, axis by axis.
 
 use nalgebra::Vector3;
 use rins_frames::InFrame;
@@ -10,40 +10,40 @@ use rins_simulation::Scenario;
 use crate::error::ReproductionError;
 use crate::experiment::{Experiment, Sensors, spin_axis_error};
 
-/// Whether the table turns.
+/// The motion of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
-    /// It stands.
+    /// Static.
     Static,
-    /// It turns at the experiment's rate.
+    /// Rotation at the experiment's rate.
     Rotating,
 }
 
-/// An attitude error on the way, of one motion with one set of gyro errors.
+/// The history of the attitude error, for one motion and one set of gyro errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct AttitudeHistory {
     /// The motion.
     pub(crate) motion: Motion,
-    /// Which gyro errors are in the data.
+    /// The gyro errors in the data.
     pub(crate) errors: GyroErrors,
     /// Time \[s\], and the attitude error in the axis frame: x and y across the axis, z along it \[rad\].
     pub(crate) points: Vec<(f64, Vector3<f64>)>,
 }
 
-/// The gyro errors of Table 2 that are in the data.
+/// The subset of Table 2's gyro errors in the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GyroErrors {
     /// The biases.
     Biases,
-    /// The biases and all of the matrix but its last column: what a perfect calibration of the spin-axis
-    /// errors leaves.
+    /// The biases and the matrix without its last column: the errors that remain after a perfect calibration of the spin-axis
+    /// errors.
     AllButSpinAxis,
     /// All of them.
     All,
 }
 
 impl GyroErrors {
-    /// These of the errors in `gyro`.
+    /// This subset of the errors in `gyro`.
     fn of(self, gyro: &TriadError) -> TriadError {
         let spin_axis = spin_axis_error(&gyro.matrix.column(2).into_owned());
         match self {
@@ -57,12 +57,12 @@ impl GyroErrors {
 }
 
 impl AttitudeHistory {
-    /// The attitude error at the end, axis by axis \[rad\].
+    /// The final attitude error, axis by axis \[rad\].
     pub(crate) fn end(&self) -> Vector3<f64> {
         self.points.last().map_or_else(Vector3::zeros, |point| point.1)
     }
 
-    /// The largest error so far about each axis, at each time \[rad\].
+    /// The running maximum of the error about each axis, at each time \[rad\].
     pub(crate) fn largest_so_far(&self) -> Vec<(f64, Vector3<f64>)> {
         let mut largest = Vector3::<f64>::zeros();
         let so_far = self.points.iter().map(|&(time, error)| {
@@ -82,7 +82,7 @@ impl AttitudeHistory {
 /// errors; the accelerometers are perfect.
 ///
 /// # Errors
-/// [`ReproductionError::Profile`] if the experiment's profile makes none.
+/// [`ReproductionError::Profile`] if the experiment's profile is not valid for this.
 pub(crate) fn histories(
     experiment: &Experiment,
 ) -> Result<Vec<AttitudeHistory>, ReproductionError> {
@@ -150,15 +150,15 @@ mod tests {
         let histories = histories(&experiment).unwrap();
         let fixed = history(&histories, Motion::Static, GyroErrors::Biases);
         let turning = history(&histories, Motion::Rotating, GyroErrors::Biases);
-        // Earth's rate, Schuler's loop and the products of errors take less than (t / τ)² and Ω t of it.
+        // The Earth rate, the Schuler oscillation and products of errors change it by less than the fractions (t / τ)² and Ω t.
         let coupled = 0.2;
         for axis in 0..3 {
             let drift = -gyro.bias[axis] * time;
             assert_close!(fixed.end()[axis], drift, coupled * drift.abs());
         }
-        // Static or rotating, the drift about the axis is the same.
+        // The drift about the axis is the same for static and rotating IMUs.
         assert_close!(turning.end().z, fixed.end().z, coupled * fixed.end().z.abs());
-        // Two radians' worth of bias over rate, in the plane; what couples from the z drift is on top.
+        // Two radians times the ratio of bias to rate, in the plane; the coupling from the z drift is added.
         let bound = 2.0 * gyro.bias.xy().norm() / rate;
         let across = turning.largest().xy().norm();
         assert!(across > 0.5 * bound, "{across} of {bound}");
@@ -172,15 +172,15 @@ mod tests {
         let histories = histories(&experiment).unwrap();
         let all = history(&histories, Motion::Rotating, GyroErrors::All);
         let rest = history(&histories, Motion::Rotating, GyroErrors::AllButSpinAxis);
-        // Eq. (6): S_z ω t along the axis. Of the part that is horizontal, sin² of the axis' tilt, Schuler's loop takes
-        // (ω_s t)² / 6.
+        // Eq. (6): S_z ω t along the axis. The horizontal part, sin² of the axis' tilt, is reduced by the Schuler oscillation by
+        // the fraction (ω_s t)² / 6.
         let Scenario { station, nav_from_table, profile, .. } = &experiment.scenario;
         let scale = gyro.matrix[(2, 2)] * profile.angle(360.0);
         let horizontal = 1.0 - nav_from_table.matrix()[(2, 2)].powi(2);
         let schuler = station.gravity / station.site.meridian_radius() * 360.0 * 360.0 / 6.0;
         let drift = -scale * (1.0 - horizontal * schuler);
         assert_close!(all.end().z - rest.end().z, drift, 0.002 * scale);
-        // Eq. (6) over one turn: up to twice the length of the misalignments across the axis.
+        // Eq. (6) over one turn: up to twice the magnitude of the misalignments across the axis.
         let early: Vec<_> = all.points.iter().filter(|point| point.0 < 36.01).copied().collect();
         let one_turn = AttitudeHistory { points: early, ..all.clone() };
         let swing = 2.0 * gyro.matrix[(0, 2)].hypot(gyro.matrix[(1, 2)]);

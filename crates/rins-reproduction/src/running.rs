@@ -1,5 +1,5 @@
-//! Runs of section 4 followed sample by sample: how quickly the estimates converge, and navigation
-//! compensated while the table turns.
+//! Runs of section 4 processed sample by sample: convergence of the estimates, and navigation with online
+//! compensation.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -12,17 +12,17 @@ use crate::error::ReproductionError;
 use crate::experiment::{Experiment, spin_axis_error};
 use crate::pure_navigation::Outcome;
 
-/// The times at which the estimates are kept \[s\].
+/// The times at which the estimates are stored \[s\].
 pub(crate) const TIMES: [f64; 6] = [0.1, 1.0, 10.0, 36.0, 100.0, 360.0];
 
-/// One run, followed sample by sample.
+/// One run, processed sample by sample.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Followed {
     /// The time from which on each estimate stays within [`WITHIN`] final sigmas of its final value \[s\].
     pub(crate) converged: Vector3<f64>,
-    /// The estimate and its claimed 1σ at each of [`TIMES`].
+    /// The estimate and its 1σ at each of [`TIMES`].
     pub(crate) kept: Vec<[Vector3<f64>; 2]>,
-    /// What navigation ends with, nothing compensated.
+    /// The result of navigation without compensation.
     pub(crate) none: Outcome,
     /// The same with each sample compensated by the estimate before it.
     pub(crate) online: Outcome,
@@ -30,10 +30,10 @@ pub(crate) struct Followed {
     pub(crate) batch: Outcome,
 }
 
-/// `n_runs` runs of an experiment whose start attitude is known; `progress` is told of each.
+/// The results of `n_runs` runs of an experiment with a known initial attitude; `progress` is called after each.
 ///
 /// # Errors
-/// [`ReproductionError`] of the first run that fails.
+/// [`ReproductionError`] of the first failed run.
 pub(crate) fn followed(
     experiment: &Experiment,
     n_runs: u64,
@@ -64,7 +64,7 @@ fn follow(experiment: &Experiment, run: u64) -> Result<Followed, ReproductionErr
     let batch = ImuError { gyro: spin_axis_error(&last), ..ImuError::default() }.compensation()?;
     let each = running.compensations(0..recording.len())?;
     let online = navigate_online(&recording, &angles, axis, station, &each);
-    // The estimate of a time is the first at or after it.
+    // The estimate for a time is the first at or after it.
     let kept = TIMES.map(|time| {
         let after = points.partition_point(|point| point.time - start < time - 0.5 * interval);
         let point = &points[after.min(points.len() - 1)];

@@ -1,15 +1,15 @@
-//! Whether a page kept in the repository still says what the code says.
+//! Comparison of a page in the repository with the present results.
 
 use std::fmt;
 
-/// A place where the kept text and the new one differ by more than a unit in a last digit.
+/// A place where the stored text and the new one differ by more than a unit in a last digit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Difference {
-    /// The line of the kept text, from 1.
+    /// The line of the stored text, from 1.
     pub(crate) line: usize,
-    /// What is kept there.
+    /// The stored text.
     pub(crate) kept: String,
-    /// What it should be.
+    /// The new text.
     pub(crate) made: String,
 }
 
@@ -19,10 +19,9 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Where `kept` differs from `made`, line by line.
+/// The differences between `kept` and `made`, line by line.
 ///
-/// Numbers may differ by one in the last digit that is written: the last bits of a sine are not the
-/// same on every machine.
+/// Numbers may differ by one in the last written digit: the last bits of a sine depend on the machine.
 pub(crate) fn differences(kept: &str, made: &str) -> Vec<Difference> {
     let (kept, made): (Vec<&str>, Vec<&str>) = (kept.lines().collect(), made.lines().collect());
     (0..kept.len().max(made.len()))
@@ -46,7 +45,7 @@ fn is_same(kept: &str, made: &str) -> bool {
     kept.len() == made.len() && kept.iter().zip(&made).all(|(one, other)| one.agrees(other))
 }
 
-/// A run of text without digits, or a number.
+/// A sequence of characters without digits, or a number.
 #[derive(Debug, PartialEq)]
 enum Token<'t> {
     Text(&'t str),
@@ -68,7 +67,7 @@ impl Token<'_> {
     }
 }
 
-/// The numbers of a line and what stands between them; a sign is a part of its number.
+/// The numbers of a line and the text between them; a sign belongs to its number.
 fn tokens(line: &str) -> Vec<Token<'_>> {
     let mut tokens = Vec::new();
     let mut rest = line;
@@ -76,7 +75,7 @@ fn tokens(line: &str) -> Vec<Token<'_>> {
         let length = rest[start..]
             .find(|c: char| !(c.is_ascii_digit() || c == '.'))
             .unwrap_or(rest.len() - start);
-        // A full stop behind a number is the sentence's.
+        // A period after a number belongs to the sentence.
         let number = rest[start..start + length].trim_end_matches('.');
         let before = &rest[..start];
         let unsigned = before.trim_end_matches(['-', '−']);

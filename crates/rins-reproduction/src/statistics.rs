@@ -1,20 +1,20 @@
-//! Mean and spread of a sample.
+//! Mean and standard deviation of a sample.
 
-/// Mean and spread of some numbers, in their unit.
+/// Mean and standard deviation of some numbers, in their unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sample {
-    /// How many there are.
+    /// The number of numbers.
     pub(crate) count: usize,
     /// The mean.
     pub(crate) mean: f64,
-    /// The standard deviation about the mean, with `count - 1` below.
+    /// The standard deviation about the mean, with the divisor `count - 1`.
     pub(crate) deviation: f64,
 }
 
 impl Sample {
-    /// The sample of these numbers, taken in their order; without any its mean is not a number.
+    /// The sample of these numbers, in their order; the mean of no numbers is NaN.
     pub(crate) fn of(numbers: impl IntoIterator<Item = f64>) -> Self {
-        // Welford's recurrence.
+        // Welford's algorithm.
         let (mut count, mut mean, mut squares) = (0_usize, 0.0, 0.0);
         for number in numbers {
             count += 1;
@@ -29,7 +29,7 @@ impl Sample {
         Self { count, mean, deviation }
     }
 
-    /// How far `value` lies from the mean, in standard deviations.
+    /// The distance of `value` from the mean, in standard deviations.
     pub(crate) fn deviations_to(&self, value: f64) -> f64 {
         (value - self.mean) / self.deviation
     }

@@ -10,12 +10,12 @@ use crate::monte_carlo::UNITS;
 use crate::printed;
 use crate::real_test::rate_accuracy;
 
-/// What is assumed of a quantity's distribution, and what its size means.
+/// The assumed distribution of a quantity, and the meaning of its size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Distribution {
     /// The size is the standard uncertainty.
     Normal,
-    /// The size is the half-width: bounds are stated and nothing else (JCGM 100, 4.3.7).
+    /// The size is the half-width: only bounds are stated (JCGM 100, 4.3.7).
     Rectangular,
 }
 
@@ -32,18 +32,18 @@ impl Distribution {
 /// A contribution to the uncertainty of an estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Contribution {
-    /// What it is.
+    /// Its name.
     pub(crate) name: &'static str,
-    /// What is assumed of its distribution.
+    /// Its assumed distribution.
     pub(crate) distribution: Distribution,
-    /// Its size, a standard uncertainty or a half-width by its distribution.
+    /// Its size: a standard uncertainty or a half-width, depending on its distribution.
     pub(crate) size: f64,
-    /// The change of the estimate with it.
+    /// The derivative of the estimate with respect to it.
     pub(crate) sensitivity: f64,
 }
 
 impl Contribution {
-    /// The standard uncertainty that it adds to the estimate.
+    /// Its contribution to the standard uncertainty of the estimate.
     pub(crate) fn standard_uncertainty(&self) -> f64 {
         self.distribution.standard_uncertainty(self.size) * self.sensitivity.abs()
     }
@@ -71,7 +71,7 @@ impl Budget {
     }
 
     /// The probability that the error is within `half_width`, with the largest rectangular
-    /// contribution taken as it is and the sum of the others as normal.
+    /// contribution treated exactly and the sum of the others as normal.
     pub(crate) fn coverage(&self, half_width: f64) -> f64 {
         let rectangular = self
             .contributions
@@ -87,7 +87,7 @@ impl Budget {
         if normal < 1e-9 * rectangular {
             return (half_width / bound).min(1.0);
         }
-        // The mean of the normal distribution's function over the rectangle: its integral is z Φ(z) + φ(z).
+        // The mean of the normal distribution function over the rectangle: its integral is z Φ(z) + φ(z).
         let integral = |limit: f64| {
             let z = limit / normal;
             let below = 1.0 - 0.5 * libm::erfc(z * FRAC_1_SQRT_2);
@@ -100,7 +100,7 @@ impl Budget {
         inside * normal / (2.0 * bound)
     }
 
-    /// The half-width of the interval that holds the value with this probability.
+    /// The half-width of the interval that contains the value with this probability.
     pub(crate) fn half_width(&self, probability: f64) -> f64 {
         let (mut low, mut high) = (0.0, self.expanded(10.0));
         for _ in 0..60 {
@@ -127,14 +127,14 @@ impl Budget {
     }
 }
 
-/// The accuracy that section 5.1 states of the gyros \[rad/s\].
+/// The accuracy of the gyros stated in section 5.1 \[rad/s\].
 const GYRO_ACCURACY: f64 = 0.1 * DEG_PER_HOUR;
 
-/// The budgets of Table 5's `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\], with the table rate's accuracy under
-/// the distribution given.
+/// The budgets of Table 5's `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\], with the given distribution of the table rate's
+/// accuracy.
 ///
-/// The calibration compares the gyros with the commanded rate `ω`. A true rate of `(1 + e) ω` puts `e` into
-/// `S_z` and `M e` into a misalignment; a bias `B` puts `B / w` into its own.
+/// The calibration compares the gyros with the commanded rate `ω`. A true rate of `(1 + e) ω` adds `e` to
+/// `S_z` and `M e` to a misalignment; a bias `B` adds `B / w` to its own.
 pub(crate) fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Budget; 3] {
     let scenario = &experiment.scenario;
     let spin = spin_rate(scenario);
@@ -178,7 +178,7 @@ pub(crate) fn table_5(experiment: &Experiment, table_rate: Distribution) -> [Bud
     })
 }
 
-/// One contribution of a budget, alone.
+/// A budget with one contribution only.
 pub(crate) fn alone(budget: &Budget, place: usize) -> Budget {
     Budget { value: budget.value, contributions: vec![budget.contributions[place]] }
 }
@@ -211,7 +211,7 @@ mod tests {
         assert_close!(normal.half_width(0.95), 1.959_963_985 * 5.0, 1e-7);
     }
 
-    /// The second moment from the coverage is the square of the combined uncertainty: `∫ 2c (1 - P) dc`.
+    /// The second moment of the coverage is the square of the combined uncertainty: `∫ 2c (1 - P) dc`.
     #[test]
     fn coverage_has_the_combined_uncertainty_as_its_deviation() {
         for normal in [0.01, 0.5, 2.8, 40.0] {

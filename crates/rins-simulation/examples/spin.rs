@@ -1,4 +1,4 @@
-//! Simulates ten minutes of spin, and reads the scale error and the z bias off the recording by hand.
+//! Simulates ten minutes of rotation, and computes the scale error and the z bias from the recording by hand.
 //!
 //! `cargo run --release -p rins-simulation --example spin`
 #![expect(clippy::print_stdout, reason = "an example prints")]

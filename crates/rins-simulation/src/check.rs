@@ -1,4 +1,4 @@
-//! Which scenarios can be simulated.
+//! Validity checks of scenarios.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,24 +8,24 @@ use rins_terms::{Need, TermInstance};
 use crate::scenario::{Encoder, Scenario, TableRecord};
 use crate::temperature::Temperature;
 
-/// The most samples of a run: 8 gigabytes of them, or 11 days at 100 Hz.
+/// The maximum number of samples of a run: 8 gigabytes, or 11 days at 100 Hz.
 const MOST_SAMPLES: f64 = 1e8;
 
-/// Why a scenario cannot be simulated.
+/// The reason why a scenario cannot be simulated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScenarioError {
-    /// A figure is infinite, not a number, or outside of what it may be.
+    /// A quantity is infinite, NaN, or out of range.
     #[error("{quantity} is {value}; it must be {expected}")]
     Quantity {
-        /// Which figure.
+        /// The quantity.
         quantity: &'static str,
         /// Its value, in SI units and radians.
         value: f64,
-        /// What it may be.
+        /// The permitted range.
         expected: &'static str,
     },
-    /// An effect's parameter is infinite or not a number.
+    /// An effect's parameter is infinite or NaN.
     #[error("the effect {effect} has {value} as its {name}; it must be a finite number")]
     EffectParameter {
         /// The effect's id.
@@ -35,7 +35,7 @@ pub enum ScenarioError {
         /// Its value, in SI units.
         value: f64,
     },
-    /// An effect's setting is outside of what it may be.
+    /// An effect's setting is out of range.
     #[error("the effect {effect} has {value} as its {name}; it must be from {low} to {high}")]
     EffectSetting {
         /// The effect's id.
@@ -44,12 +44,12 @@ pub enum ScenarioError {
         name: &'static str,
         /// Its value, in SI units.
         value: f64,
-        /// The least that it may be.
+        /// The lower limit.
         low: f64,
-        /// The most that it may be.
+        /// The upper limit.
         high: f64,
     },
-    /// An effect has no meaning in this run.
+    /// An effect is not defined in this run.
     #[error("the effect {effect} needs {what}, which this run does not have")]
     EffectNeeds {
         /// The effect's id.
@@ -57,7 +57,7 @@ pub enum ScenarioError {
         /// What the run lacks.
         what: &'static str,
     },
-    /// The run holds no sample.
+    /// The run contains no sample.
     #[error("a profile of {duration} s holds no whole interval of {interval} s")]
     TooShort {
         /// The profile's duration \[s\].
@@ -65,37 +65,37 @@ pub enum ScenarioError {
         /// The interval \[s\].
         interval: f64,
     },
-    /// The run holds more samples than can be kept.
+    /// The run has too many samples.
     #[error("the run would hold {n_samples} samples; shorten it or lengthen the interval")]
     TooLong {
-        /// How many samples it would have.
+        /// The number of samples.
         n_samples: f64,
     },
-    /// The table makes more than one turn within an interval.
+    /// The table rotates by more than one turn within an interval.
     #[error(
         "at {time} s the table rotates at {rate} rad/s, more than one revolution per sample of {interval} s"
     )]
     TooFast {
-        /// When \[s\].
+        /// The time \[s\].
         time: f64,
         /// The rate \[rad/s\].
         rate: f64,
         /// The interval \[s\].
         interval: f64,
     },
-    /// There is no memory for the run.
+    /// There is not enough memory for the run.
     #[error("not enough memory for the {n_samples} samples of the run")]
     OutOfMemory {
-        /// How many samples it would have.
+        /// The number of samples.
         n_samples: usize,
     },
-    /// A noise model is impossible.
+    /// A noise model is invalid.
     #[error(transparent)]
     Noise(#[from] ImuNoiseError),
 }
 
 impl Scenario {
-    /// Whether this scenario can be simulated, but for its noise; if so, the number of samples or one more.
+    /// Checks everything but the noise; returns the number of samples or one more.
     pub(crate) fn check(&self) -> Result<usize, ScenarioError> {
         self.check_place()?;
         self.check_sensors()?;
@@ -107,7 +107,7 @@ impl Scenario {
         let site = self.station.site;
         demand("latitude", site.latitude, "within ±π/2", |x| x.abs() <= FRAC_PI_2)?;
         finite("longitude", site.longitude)?;
-        // From the deepest mine to beyond any aircraft: the normal gravity is a series in height.
+        // From the deepest mine to above any aircraft: the normal gravity is a series in height.
         demand("height", site.height, "within ±100 km", |x| x.abs() <= 1e5)?;
         demand("gravity", self.station.gravity, "positive", |x| x > 0.0)?;
         let attitude = self.nav_from_table.matrix();
@@ -166,7 +166,7 @@ impl Scenario {
             reason = "it lies between zero and the most samples"
         )]
         let n_samples = n_samples as usize;
-        // Twice a sample, since a rate may last less than an interval.
+        // Two checks per sample, because a rate may last less than an interval.
         for half in 0..=2 * n_samples {
             let time = 0.5 * interval * half as f64;
             let rate = self.profile.rate(time);

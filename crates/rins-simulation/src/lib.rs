@@ -1,12 +1,12 @@
-//! A measured-looking run of an IMU on a single-axis rate table, from a seeded scenario.
+//! Simulation of an IMU on a single-axis rate table, from a scenario with a seed.
 //!
-//! **What it does.** [`simulate`] takes a [`Scenario`] - where the table stands, how it turns, what
-//! the IMU gets wrong, how the encoder reads, which effects there are besides - through the chain true
-//! motion, eq. (1) and effects, noise, resolution, and returns a recording as a log would hold it, beside the [`Truth`] that a log never holds.
-//! The same scenario makes the same run on every machine.
+//! **What it does.** [`simulate`] converts a [`Scenario`] - site, motion of the table, errors of the IMU, encoder, further
+//! effects - to a recording like that of a log, with the [`Truth`]. The steps are true
+//! motion, eq. (1) and effects, noise, resolution.
+//! The same scenario gives the same run on every machine.
 //!
 //! **What it does not do.** It reads and writes no files. Effects are those of the catalogue of
-//! [`rins_terms`], on a table that does not travel.
+//! [`rins_terms`], on a table with a fixed position.
 //!
 //! ```
 //! use rins_frames::units::{DEG, DEG_PER_SECOND, PPM};

@@ -1,4 +1,4 @@
-//! From true motion to what is read without noise: eq. (1) and the effects.
+//! Readings without noise from true motion: eq. (1) and the effects.
 
 use rins_frames::{InFrame, Increments, Table};
 use rins_terms::{MeasurementModel, Model, Surroundings, Track};
@@ -11,18 +11,18 @@ use crate::scenario::Scenario;
 pub(crate) struct TrueRun {
     pub(crate) times: Vec<f64>,
     pub(crate) increments: Vec<Increments>,
-    /// The table angle at the end of each interval \[rad\]; at time zero it is zero.
+    /// The table angle at the end of each interval \[rad\]; zero at time zero.
     pub(crate) angles: Vec<f64>,
     pub(crate) temperature: Option<Vec<f64>>,
 }
 
-/// What is read, without noise.
+/// The readings without noise.
 #[derive(Debug)]
 pub(crate) struct Readings {
     pub(crate) increments: Vec<Increments>,
-    /// By how much each reading of the table angle is off \[rad\]; empty if no effect acts on any.
+    /// The error of each reading of the table angle \[rad\]; empty if no effect acts on them.
     pub(crate) angle_errors: Vec<f64>,
-    /// The tilt at time zero and at the end of each interval; empty if the axis stands still.
+    /// The tilt at time zero and at the end of each interval; empty if the axis does not move.
     pub(crate) tilts: Vec<InFrame<Table>>,
 }
 
@@ -36,7 +36,7 @@ pub(crate) fn reserved<T>(n_samples: usize) -> Result<Vec<T>, ScenarioError> {
 }
 
 impl Scenario {
-    /// What is read of `truth` without noise.
+    /// The readings without noise for the true motion `truth`.
     pub(crate) fn readings(&self, truth: &TrueRun) -> Result<Readings, ScenarioError> {
         let mut readings = Readings {
             increments: reserved(truth.increments.len())?,
@@ -48,7 +48,7 @@ impl Scenario {
             readings.increments.extend(measured);
             return Ok(readings);
         }
-        // Eq. (1) acts on what is felt, and a table that tilts is felt: all terms are read at once.
+        // Eq. (1) acts on the actual motion including the tilt of the table, so all terms are applied together.
         let mut model = Model::from(&self.imu_error);
         model.terms.extend(self.effects.terms.iter().cloned());
         let track = self.track(truth)?;

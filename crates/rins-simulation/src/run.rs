@@ -1,4 +1,4 @@
-//! A scenario becomes a recording.
+//! Simulation of a scenario to a recording.
 
 use rins_frames::{Body, Dcm, InFrame, Nav, Table};
 use rins_imu::{ImuError, ImuNoise, Sensor, Span};
@@ -12,29 +12,29 @@ use crate::scenario::{Encoder, Scenario, TableRecord};
 /// A simulated run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulated {
-    /// What a log of it holds.
+    /// The recording, as in a log.
     pub recording: Recording,
-    /// What it does not hold.
+    /// The truth, which a log does not contain.
     pub truth: Truth,
 }
 
-/// What is true of a simulated run.
+/// The truth of a simulated run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: Station,
     /// The attitude of the axis frame.
     pub nav_from_table: Dcm<Nav, Table>,
-    /// The IMU's bias, scale and misalignment; wandering biases are not in it.
+    /// The IMU's bias, scale error and misalignment, without random biases.
     pub imu_error: ImuError,
-    /// The effects beyond these.
+    /// The further effects.
     pub effects: Model,
-    /// The velocity at time zero, and, since the table does not travel, ever after \[m/s\].
+    /// The velocity at time zero, which is constant because the table has a fixed position \[m/s\].
     pub initial_velocity: InFrame<Nav>,
-    /// The table angle at the end of each interval \[rad\]; at time zero it is zero.
+    /// The table angle at the end of each interval \[rad\]; zero at time zero.
     pub table_angle: Vec<f64>,
-    /// The rotation vector by which the table is tilted out of the axis frame, at time zero and at the
-    /// end of each interval \[rad\]; empty if it is not.
+    /// The rotation vector by which the table is tilted relative to the axis frame, at time zero and at the
+    /// end of each interval \[rad\]; empty if there is no tilt.
     pub tilt: Vec<InFrame<Table>>,
 }
 
@@ -44,7 +44,7 @@ impl Truth {
         self.attitude_at(0.0, self.tilt.first())
     }
 
-    /// The attitude of the body at the end of an interval, if the run has it.
+    /// The attitude of the body at the end of an interval; `None` if the run has no such sample.
     pub fn attitude(&self, sample: usize) -> Option<Dcm<Nav, Body>> {
         let angle = self.table_angle.get(sample)?;
         Some(self.attitude_at(*angle, self.tilt.get(sample + 1)))
@@ -62,14 +62,14 @@ impl Truth {
     }
 }
 
-/// The run that `scenario` describes.
+/// Simulates the run of `scenario`.
 ///
-/// Each sample is true motion, then eq. (1) and the effects, then noise, then the resolution; the table's
-/// angle is read by its encoder. Effects on the log come last. The gyros, accelerometers and the encoder
-/// have random numbers of their own, so that none of them changes with what the others are.
+/// Each sample is computed in the order true motion, eq. (1) and effects, noise, resolution; the table
+/// angle comes from its encoder. Effects on the log are applied last. The gyros, the accelerometers and the encoder
+/// have random numbers of their own, so that none of them changes with the settings of the others.
 ///
 /// # Errors
-/// [`ScenarioError`] if a figure is impossible, an effect needs what the run does not have, or the run is
+/// [`ScenarioError`] if a quantity is invalid, an effect needs something that the run does not have, or the run is
 /// empty or too long.
 pub fn simulate(scenario: &Scenario) -> Result<Simulated, ScenarioError> {
     let n_samples = scenario.check()?;

@@ -1,4 +1,4 @@
-//! What is simulated: a table, an IMU on it, and what is written down.
+//! Scenarios: a table, an IMU on it, and the recorded signals.
 
 use rins_frames::{Dcm, Nav, Table};
 use rins_imu::{ImuError, ImuNoise, NormalStream, Seed, rounded};
@@ -10,25 +10,25 @@ use crate::temperature::Temperature;
 /// A run to be simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    /// Where the table stands.
+    /// The site of the table.
     pub station: Station,
-    /// The attitude of the axis frame, which does not move.
+    /// The attitude of the axis frame, which is constant.
     pub nav_from_table: Dcm<Nav, Table>,
-    /// The table's motion.
+    /// The motion of the table.
     pub profile: Profile,
-    /// The time between samples \[s\]; a last part of an interval is left out.
+    /// The time between samples \[s\]; an incomplete last interval is omitted.
     pub interval: f64,
-    /// The IMU's bias, scale and misalignment.
+    /// The IMU's bias, scale error and misalignment.
     pub imu_error: ImuError,
     /// The IMU's noise and resolution, or none at all.
     pub noise: Option<ImuNoise>,
-    /// What is recorded of the table.
+    /// The recorded signal of the table.
     pub table: TableRecord,
-    /// What else is not as it should be; values are true, roles mean nothing.
+    /// Further effects; values are true, and roles are ignored.
     pub effects: Model,
-    /// The temperature that is recorded with every sample, and on which effects depend.
+    /// The temperature, which is recorded with every sample, and on which effects depend.
     pub temperature: Option<Temperature>,
-    /// What all random numbers follow from.
+    /// The seed of all random numbers.
     pub seed: Seed,
 }
 
@@ -54,13 +54,13 @@ impl Scenario {
         }
     }
 
-    /// The same run without errors of the IMU, noise of the IMU, and effects.
+    /// The same run without errors and noise of the IMU, and without effects.
     #[must_use]
     pub fn without_errors(self) -> Self {
         Self { imu_error: ImuError::default(), noise: None, effects: Model::default(), ..self }
     }
 
-    /// The noise of IMU and encoder, with what the effects make of it.
+    /// The noise of IMU and encoder, as modified by the effects.
     pub(crate) fn noises(&self) -> Noises {
         let encoder = match self.table {
             TableRecord::Angle(encoder) => encoder.noise,
@@ -70,10 +70,10 @@ impl Scenario {
     }
 }
 
-/// What a recording holds of the table's motion.
+/// The recorded signal of the table's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TableRecord {
-    /// The angle, as an encoder reads it.
+    /// The angle, as measured by an encoder.
     Angle(Encoder),
     /// The mean commanded rate of each interval.
     CommandedRate,
@@ -81,21 +81,21 @@ pub enum TableRecord {
     Nothing,
 }
 
-/// How the table's angle is read. The default reads it as it is.
+/// The encoder of the table angle. The default has no errors.
 ///
-/// What is read is the true angle plus `zero` plus noise, rounded to the resolution.
+/// Its reading is the true angle plus `zero` plus noise, rounded to the resolution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Encoder {
-    /// The standard deviation of white noise in each reading \[rad\].
+    /// The standard deviation of the white noise of each reading \[rad\].
     pub noise: f64,
     /// The least significant bit \[rad\].
     pub resolution: Option<f64>,
-    /// What is read at table angle zero \[rad\].
+    /// The reading at table angle zero \[rad\].
     pub zero: f64,
 }
 
 impl Encoder {
-    /// What is read where the table stands at `angle` \[rad\].
+    /// The reading at the true table angle `angle` \[rad\].
     pub(crate) fn reading(&self, angle: f64, stream: &mut NormalStream) -> f64 {
         let noisy = angle + self.zero + self.noise * stream.sample();
         self.resolution.map_or(noisy, |bit| rounded(noisy, bit))

@@ -1,35 +1,35 @@
-//! How the temperature of an IMU goes over a run.
+//! The temperature of an IMU during a run.
 
 use std::f64::consts::TAU;
 
 /// The temperature of a run, which is recorded with every sample, and on which effects depend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Temperature {
-    /// The same all the time \[°C\].
+    /// A constant temperature \[°C\].
     Constant(f64),
     /// `start + rate t`.
     Ramp {
-        /// At time zero \[°C\].
+        /// The temperature at time zero \[°C\].
         start: f64,
-        /// How fast it rises \[K/s\].
+        /// The rate of change \[K/s\].
         rate: f64,
     },
-    /// `start + rise (1 - exp(-t/T))`: an IMU that takes up the heat of its own electronics.
+    /// `start + rise (1 - exp(-t/T))`: an exponential transient after turn-on, from the heat of the electronics.
     WarmUp {
-        /// At time zero \[°C\].
+        /// The temperature at time zero \[°C\].
         start: f64,
-        /// How far it rises in the end \[K\].
+        /// The total rise \[K\].
         rise: f64,
-        /// `T`, the time in which what is left to rise falls by e \[s\].
+        /// The time constant `T`, in which the remaining rise decreases by a factor e \[s\].
         time_constant: f64,
     },
-    /// `start + amplitude sin(2π t/period)`: a room that is heated on and off.
+    /// `start + amplitude sin(2π t/period)`: a room with periodic heating.
     Sinus {
-        /// At time zero, and the mean \[°C\].
+        /// The temperature at time zero, and the mean \[°C\].
         start: f64,
-        /// How far it leaves the mean \[K\].
+        /// The amplitude \[K\].
         amplitude: f64,
-        /// How long it takes to come back \[s\].
+        /// The period \[s\].
         period: f64,
     },
 }

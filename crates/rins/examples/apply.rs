@@ -1,4 +1,4 @@
-//! A calibration in another program: readings as they come, without the errors that it holds.
+//! Applying a calibration in another program: readings are compensated as they arrive.
 
 use rins::frames::{InFrame, Increments};
 use rins::io::Calibration;
@@ -8,7 +8,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::args().nth(1).ok_or("usage: apply CALIBRATION")?;
     let calibration = Calibration::read(file.as_ref())?;
     let compensation = calibration.error.compensation()?;
-    // One reading of 10 ms: 10 deg/s about z, and gravity.
+    // One reading over 10 ms: 10 deg/s about z, and gravity.
     let measured = Increments {
         angle: InFrame::new(0.0, 0.0, 0.1_f64.to_radians()),
         velocity: InFrame::new(0.0, 0.0, 0.0981),

@@ -1,4 +1,4 @@
-//! A log, calibrated: prints what `rins calibrate RIG` prints.
+//! Calibrates a log: prints what `rins calibrate RIG` prints.
 
 use rins::{CalibrateOptions, Log};
 

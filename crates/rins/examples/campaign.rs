@@ -1,4 +1,4 @@
-//! Do the errors of the paper's filter scatter as it claims? A hundred runs of a scenario.
+//! A Monte Carlo campaign of a hundred runs: are the covariances of the paper's filter consistent with its errors?
 
 use rins::{MonteCarloOptions, Outcome};
 

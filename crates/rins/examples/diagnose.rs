@@ -1,4 +1,4 @@
-//! What a model lacks: prints what `rins diagnose RIG` prints.
+//! Diagnoses unmodeled effects: prints what `rins diagnose RIG` prints.
 
 use rins::{DiagnoseOptions, Log};
 

@@ -1,5 +1,5 @@
-//! An effect that the catalogue has not: a gyro whose reading bends with the square of its rate, made, and estimated beside the
-//! others.
+//! An effect that the catalogue does not contain: a gyro error proportional to the square of the rate, simulated, and estimated
+//! together with effects of the catalogue.
 
 use rins::estimation::{NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit};
 use rins::frames::units::{DEG, DEG_PER_HOUR, DEG_PER_SECOND, MICRO_G, PPM};

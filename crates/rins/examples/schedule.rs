@@ -1,4 +1,4 @@
-//! The shortest schedule that separates a g-sensitivity from the lever arm of the accelerometers.
+//! The shortest schedule that distinguishes a g-sensitivity from the lever arm of the accelerometers.
 
 use rins::{ObserveOptions, Outcome};
 

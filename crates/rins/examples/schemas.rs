@@ -1,4 +1,4 @@
-//! Writes the JSON schema of every command's result into a folder: `docs/schema` of this repository, or where a client wants it.
+//! Writes the JSON schema of every command's result into a folder: `docs/schema` of this repository, or a folder of your choice.
 
 use std::fs;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! A log without the errors that a calibration holds.
+//! Compensation of a log with the errors in a calibration file.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -17,22 +17,22 @@ use crate::log::{Beyond, OutsideRange, beyond, repairs};
 use crate::navigate::axis_attitude;
 use crate::outcome::Outcome;
 
-/// How a calibration is applied.
+/// The options of [`apply`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ApplyOptions {
     /// The calibration file.
     pub calibration: PathBuf,
     /// The new log; its rig file lies beside it and ends in `.toml`.
     pub output: PathBuf,
-    /// The format of the new log; by default its name tells.
+    /// The format of the new log; by default it follows from the extension of its name.
     pub format: Option<LogFile>,
-    /// Whether readings are compensated at temperatures far outside of those that were calibrated.
+    /// Whether readings are compensated at temperatures far outside the calibrated range.
     pub extrapolate: bool,
-    /// Whether files that exist may be replaced.
+    /// Whether existing files may be replaced.
     pub overwrite: Overwrite,
 }
 
-/// A log that was written without the errors that a calibration holds.
+/// A compensated log that was written.
 #[derive(Debug)]
 pub struct Applied {
     rig: String,
@@ -78,10 +78,10 @@ pub struct ApplyResult {
     pub repairs: Vec<String>,
 }
 
-/// Writes a log without the errors that a calibration holds, and the rig file that reads it.
+/// Compensates a log with a calibration file, and writes the compensated log with its rig file.
 ///
 /// # Errors
-/// If a file cannot be read or written, if units, signs or axes are mistaken, or if the calibration does not cover the log.
+/// If a file cannot be read or written, if units, signs or axes are wrong, or if the calibration does not cover the log.
 ///
 /// ```
 /// use rins::{ApplyOptions, CalibrateOptions, Outcome, Overwrite};
@@ -168,10 +168,10 @@ impl Outcome for Applied {
     }
 }
 
-/// Takes what a calibration holds out of a run.
+/// Compensates the readings of a run with a calibration.
 fn undo((error, terms): (ImuError, Model), loaded: &mut Loaded) -> anyhow::Result<()> {
     if terms.terms.is_empty() {
-        // Eq. (1) is undone sample by sample, wherever the axis points.
+        // Eq. (1) is inverted sample by sample, for every direction of the axis.
         let compensation = error.compensation()?;
         for sample in &mut loaded.recording.increments {
             *sample = compensation.compensate(sample);

@@ -1,4 +1,4 @@
-//! Whether a model fits: the verdict in words, and the whitened innovations.
+//! Goodness of fit of a model: the verdict as a sentence, and the whitened innovations.
 
 use nalgebra::SVector;
 use rins_calibration::{Consistency, MEASUREMENTS, Verdict};
@@ -28,7 +28,7 @@ pub struct ConsistencyResult {
     pub verdict: String,
 }
 
-/// A number as a whole one where it is one: where all epochs have the same channels.
+/// Serializes a number as an integer if it is one: if all epochs have the same channels.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes by reference")]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most six channels")]
 fn whole<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -58,7 +58,7 @@ impl From<&Consistency> for ConsistencyResult {
     }
 }
 
-/// A p-value as a person reads it.
+/// A p-value as text.
 pub(crate) fn probability(p: f64) -> String {
     if p < 1e-12 {
         "< 1e-12".into()
@@ -69,7 +69,7 @@ pub(crate) fn probability(p: f64) -> String {
     }
 }
 
-/// What the innovations say of the model.
+/// The goodness of fit as a sentence.
 pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
     let figures = format!(
         "mean NIS {:.2}, expected {}; whiteness test p {}",
@@ -92,7 +92,7 @@ pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
     }
 }
 
-/// The consistency tests that a misfit fails.
+/// The failed consistency tests of a misfit, in words.
 fn failed_tests(consistency: &Consistency) -> &'static str {
     let is_large =
         consistency.nis_p < Consistency::SIGNIFICANCE && consistency.nis_mean > consistency.nis_dof;
@@ -103,16 +103,16 @@ fn failed_tests(consistency: &Consistency) -> &'static str {
     }
 }
 
-/// Whitened innovations in order of time.
+/// Whitened innovations in the order of time.
 pub(crate) struct Residuals<'a> {
-    /// What the rows are.
+    /// The names of the rows.
     pub(crate) channels: [&'static str; MEASUREMENTS],
-    /// When each came \[s\].
+    /// The time of each column \[s\].
     pub(crate) times: &'a [f64],
     pub(crate) innovations: &'a [SVector<f64, MEASUREMENTS>],
 }
 
-/// Whether the model fits, with the evidence.
+/// The report section on the goodness of fit, with the evidence.
 pub(crate) fn consistency_section(
     heading: &str,
     consistency: &Consistency,

@@ -1,4 +1,4 @@
-//! A log of one format as one of another, with the rig file that reads it.
+//! Conversion of a log to another format, with a new rig file.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -11,18 +11,18 @@ use crate::error::Result;
 use crate::log::repairs;
 use crate::outcome::Outcome;
 
-/// How a log is converted.
+/// The options of [`convert`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConvertOptions {
     /// The new log; its rig file lies beside it and ends in `.toml`.
     pub output: PathBuf,
-    /// The format of the new log; by default its name tells.
+    /// The format of the new log; by default it follows from the extension of its name.
     pub format: Option<LogFile>,
-    /// Whether files that exist may be replaced.
+    /// Whether existing files may be replaced.
     pub overwrite: Overwrite,
 }
 
-/// A log that was written in another format.
+/// A log that was converted to another format.
 #[derive(Debug)]
 pub struct Conversion {
     rig: String,
@@ -71,10 +71,10 @@ pub struct DifferenceResult {
     pub largest: Option<f64>,
 }
 
-/// Writes a log in another format, and the rig file that reads it.
+/// Converts a log to another format, and writes its new rig file.
 ///
 /// # Errors
-/// If a file cannot be read or written, or the name of the new log tells no format.
+/// If a file cannot be read or written, or the format does not follow from the name of the new log.
 ///
 /// ```
 /// use rins::{ConvertOptions, Outcome, Overwrite};
@@ -135,7 +135,7 @@ impl Outcome for Conversion {
     }
 }
 
-/// The format of a new log: as it is said, or as its name tells.
+/// The format of a new log: the given one, or that of the extension of its name.
 pub(crate) fn format_of(output: &Path, said: Option<LogFile>) -> anyhow::Result<LogFile> {
     if let Some(format) = said {
         return Ok(format);
@@ -150,7 +150,7 @@ pub(crate) fn format_of(output: &Path, said: Option<LogFile>) -> anyhow::Result<
     })
 }
 
-/// What a user must know of what was written.
+/// Remarks on the written log.
 pub(crate) fn remarks(converted: &Converted) -> Vec<String> {
     let mut lines = Vec::new();
     if converted.differences.is_empty() {

@@ -1,4 +1,4 @@
-//! The main job on an embedded run, with nothing to prepare.
+//! Calibration and diagnosis of an embedded run, without any preparation.
 
 use std::fmt;
 use std::path::Path;
@@ -18,7 +18,7 @@ use crate::progress::Progress;
 /// The rig file of the embedded run.
 pub const RIG: &str = include_str!("../data/demo/rig.toml");
 
-/// Its log, made by `rins simulate` from [`SCENARIO`].
+/// Its log, simulated by `rins simulate` from [`SCENARIO`].
 pub const LOG: &str = include_str!("../data/demo/run.csv");
 
 /// The scenario of the embedded run.
@@ -41,7 +41,7 @@ pub struct DemoResult {
     pub diagnosis: DiagnoseResult,
 }
 
-/// Writes the embedded run into a folder, as `rig.toml` and `run.csv`, and reads it as anybody's would be.
+/// Writes the embedded run into a folder, as `rig.toml` and `run.csv`, and reads it like any other log.
 ///
 /// # Errors
 /// If the files cannot be written.
@@ -66,13 +66,13 @@ pub fn log(folder: &Path) -> Result<Log> {
 /// Calibrates and diagnoses the embedded run.
 ///
 /// # Errors
-/// If there is no room for temporary files.
+/// If temporary files cannot be written.
 pub fn demo(progress: &Progress) -> Result<Demo> {
     let folder = tempfile::tempdir().context("no temporary folder for the embedded run")?;
     let log = log(folder.path())?;
     let options = CalibrateOptions { progress: progress.clone(), ..CalibrateOptions::default() };
     let calibration = calibrate(vec![log.clone()], &options)?;
-    // There is more in the run than the paper's filter has states for.
+    // The run contains more effects than the paper's filter has states for.
     let options = DiagnoseOptions { progress: progress.clone(), ..DiagnoseOptions::default() };
     Ok(Demo { calibration, diagnosis: diagnose(vec![log], options)? })
 }

@@ -1,8 +1,8 @@
-//! Why a job has no result.
+//! The error of a job.
 
 use std::fmt;
 
-/// Why a job has no result: what is wrong, where, the value found and the value expected.
+/// The error of a job: what is wrong, where, the value found and the value expected.
 ///
 /// Its [`Display`](fmt::Display) is the whole chain of causes, in one line.
 pub struct Error(anyhow::Error);
@@ -22,7 +22,7 @@ impl fmt::Debug for Error {
     }
 }
 
-// The chain is in the display: a source would say it twice.
+// `Display` prints the whole chain: with a `source`, the causes would appear twice.
 impl std::error::Error for Error {}
 
 impl From<anyhow::Error> for Error {

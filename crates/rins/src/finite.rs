@@ -1,6 +1,6 @@
-//! Numbers that JSON has not.
+//! Numbers that JSON does not support.
 
-/// A number, or nothing if it is infinite or none.
+/// The number, or `None` if it is infinite or NaN.
 pub(crate) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

@@ -1,4 +1,4 @@
-//! Free inertial navigation: what it ends with, before and after, and plots of the way there.
+//! Free inertial navigation: final errors before and after compensation, and plots over time.
 
 use rins_calibration::{FreeNavigation, NavigationPoint};
 use rins_frames::units::DEG;
@@ -10,7 +10,7 @@ use crate::values::EulerDegrees;
 use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Plot, Section, Series, Style, Table};
 
-/// A change of the velocity error by less than this factor is none.
+/// A reduction of the velocity error by less than this factor counts as no change.
 const LEAST_GAIN: f64 = 1.5;
 
 /// What free inertial navigation ends with.
@@ -49,7 +49,7 @@ impl BeforeAfterResult {
     }
 }
 
-/// A run of free navigation and what it is called.
+/// A free navigation solution with its name.
 pub(crate) type Named<'a> = (&'a str, &'a FreeNavigation);
 
 /// The horizontal velocity error over time.
@@ -100,9 +100,9 @@ fn plot(title: &str, y_label: &str, runs: &[Named<'_>], components: &[Component]
     }
 }
 
-/// What compensating the estimates does to free navigation.
+/// A sentence on the effect of compensation on free navigation.
 ///
-/// `what` is undone, such as "the gyro errors along the spin axis".
+/// `what` names the compensated errors, such as "the gyro errors along the spin axis".
 pub(crate) fn gain_sentence(what: &str, before: &FreeNavigation, after: &FreeNavigation) -> String {
     let duration = match (before.history.first(), before.history.last()) {
         (Some(first), Some(last)) => last.time - first.time,
@@ -112,7 +112,7 @@ pub(crate) fn gain_sentence(what: &str, before: &FreeNavigation, after: &FreeNav
     let navigation =
         format!("the velocity error of this run after {duration:.0} s of free inertial navigation");
     if after * LEAST_GAIN < before {
-        // Beyond this the remainder is the noise's, and its ratio means nothing.
+        // A larger ratio is meaningless, because the remaining error is due to noise.
         let ratio = (before / after.max(1e-9)).min(1e6);
         format!(
             "Compensation of {what} reduces {navigation} from {} m/s to {} m/s, a factor of {} (in the data of the estimate, \
@@ -136,7 +136,7 @@ pub(crate) fn gain_sentence(what: &str, before: &FreeNavigation, after: &FreeNav
     }
 }
 
-/// What compensating gains in free navigation.
+/// The report section on the effect of compensation on free navigation.
 pub(crate) fn navigation_section(
     heading: &str,
     before: &FreeNavigation,

@@ -1,4 +1,4 @@
-//! A draft of the rig file of a log.
+//! A draft of a rig file from a log.
 
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Result;
 use crate::outcome::Outcome;
 
-/// A draft of the rig file of a log, with what was guessed and what is to be filled in.
+/// A draft of a rig file from a log, with the guessed keys and the keys to be filled in.
 #[derive(Debug)]
 pub struct DraftedRig {
     log: PathBuf,
@@ -53,7 +53,7 @@ pub struct ToFillInResult {
     pub expected: String,
 }
 
-/// Drafts a rig file from a log, to be written to `output` or, without it, to be printed.
+/// Drafts a rig file from a log; it is written to `output`, or printed if there is none.
 ///
 /// # Errors
 /// If the log cannot be read, or `output` is the log itself.
@@ -119,7 +119,7 @@ impl Outcome for DraftedRig {
     }
 }
 
-/// What is left to do, for a terminal.
+/// The remaining steps, as text for a terminal.
 fn summary(draft: &Draft, log: &Path, rig: &Path) -> String {
     let mut text = format!("Draft of a rig for {}\n", shown(log));
     if !draft.guesses.is_empty() {

@@ -1,21 +1,21 @@
-//! From the log of an IMU on a rate table to its errors: what a user depends on.
+//! Calibration and diagnosis of a rotational INS from the log of an IMU on a rate table: the library for users.
 //!
 //! | question | function | result |
 //! | --- | --- | --- |
-//! | what does this log look like? | [`init`](init()) | [`InitResult`](init::InitResult) |
+//! | what does this log contain? | [`init`](init()) | [`InitResult`](init::InitResult) |
 //! | what is wrong with this log? | [`check`](check()) | [`CheckResult`](check::CheckResult) |
 //! | how noisy is the IMU? | [`allan`](allan()) | [`AllanResult`](allan::AllanResult) |
-//! | how does it stand? | [`align`](align()) | [`AlignResult`](align::AlignResult) |
-//! | where does free navigation end? | [`navigate`](navigate()) | [`NavigateResult`](navigate::NavigateResult) |
-//! | which errors has the IMU? | [`calibrate`](calibrate()) | [`CalibrateResult`](calibrate::CalibrateResult) |
-//! | what does the model lack? | [`diagnose`](diagnose()) | [`DiagnoseResult`](diagnose::DiagnoseResult) |
-//! | what does a schedule show? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
+//! | what is its attitude? | [`align`](align()) | [`AlignResult`](align::AlignResult) |
+//! | which errors does free navigation reach? | [`navigate`](navigate()) | [`NavigateResult`](navigate::NavigateResult) |
+//! | which errors does the IMU have? | [`calibrate`](calibrate()) | [`CalibrateResult`](calibrate::CalibrateResult) |
+//! | which effects are unmodeled? | [`diagnose`](diagnose()) | [`DiagnoseResult`](diagnose::DiagnoseResult) |
+//! | what is observable under a schedule? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
 //! | what changed between calibrations? | [`compare`](compare()) | [`CompareResult`](compare::CompareResult) |
-//! | do errors scatter as claimed? | [`monte_carlo`], [`merge`] | [`CampaignResult`](campaign::CampaignResult) |
+//! | do errors agree with covariances? | [`monte_carlo`], [`merge`] | [`CampaignResult`](campaign::CampaignResult) |
 //! | a run, a log, a compensated log | [`simulate`](simulate()), [`convert`](convert()), [`apply`](apply()) | theirs |
 //!
-//! Every function returns an [`Outcome`]: its text is what the `rins` command prints, its result is a documented struct that
-//! `--json` prints and that reads back, and its page and files are what `-o` writes.
+//! Every function returns an [`Outcome`]. Its text is what the `rins` command prints; its result is a documented struct that
+//! `--json` prints and that deserializes again; its page and files are what `-o` writes.
 //!
 //! ```no_run
 //! use rins::{CalibrateOptions, Log, Outcome, Overwrite};
@@ -27,7 +27,7 @@
 //! # Ok::<(), rins::Error>(())
 //! ```
 //!
-//! Angles, rates and increments are in SI units and radians inside; results name the unit of every number.
+//! Angles, rates and increments inside are in SI units and radians; results name the unit of every number.
 
 pub mod align;
 pub mod allan;

@@ -1,4 +1,4 @@
-//! What a calibration or a diagnosis is asked for.
+//! Options of a calibration or a diagnosis.
 
 use std::path::{Path, PathBuf};
 
@@ -12,15 +12,15 @@ pub enum ModelChoice {
     Paper12,
     /// All of eq. (1), and the attitude of the axis.
     Full,
-    /// As a model file lists it.
+    /// The model in a model file.
     File(PathBuf),
 }
 
 impl ModelChoice {
-    /// The model that is meant by `paper12`, `full`, or the name of a file that ends in `.toml`.
+    /// The model named by `paper12`, `full`, or a file name that ends in `.toml`.
     ///
     /// # Errors
-    /// What was expected, if `text` is none of these.
+    /// The expected values, if `text` is none of them.
     ///
     /// ```
     /// use rins::ModelChoice;
@@ -38,10 +38,10 @@ impl ModelChoice {
         }
     }
 
-    /// A model for the estimator that takes any: the paper's filter takes its own only.
+    /// A model for the general estimator, which excludes the model of the paper's filter.
     ///
     /// # Errors
-    /// What was expected, if `text` is no such model.
+    /// The expected values, if `text` is no such model.
     pub fn parse_estimated(text: &str) -> Result<Self, String> {
         match Self::parse(text) {
             Ok(choice) if choice != Self::Paper12 => Ok(choice),
@@ -50,24 +50,24 @@ impl ModelChoice {
     }
 }
 
-/// What is known of the random errors.
+/// The treatment of the noise parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NoiseChoice {
-    /// The data sheet is a first guess; the most likely noise is estimated.
+    /// The noise parameters are estimated by maximum likelihood, from those of the data sheet as initial values.
     #[default]
     Likely,
-    /// The data sheet is right.
+    /// The noise parameters of the data sheet are used unchanged.
     Given,
 }
 
-/// A model to be estimated, and what it is called.
+/// A model to be estimated, with its name.
 pub(crate) struct NamedModel {
     pub(crate) name: String,
     pub(crate) model: Model,
 }
 
 impl NamedModel {
-    /// The model that was chosen, read if it is a file, in a run with these axes.
+    /// The chosen model for a run with these axes; a model file is read.
     pub(crate) fn of(choice: &ModelChoice, axes: &Axes) -> anyhow::Result<Self> {
         let (name, model) = match choice {
             ModelChoice::Paper12 => ("paper12".into(), Model::paper12()),

@@ -1,4 +1,4 @@
-//! What every job delivers.
+//! The outcome of a job, which every function of the library returns.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -11,29 +11,29 @@ use serde::de::DeserializeOwned;
 
 use crate::error::Result;
 
-/// The name of the page in a folder of results.
+/// The file name of the report page in a folder of results.
 const PAGE: &str = "report.html";
 
-/// What a job delivers: its text is what the command prints, its result is what `--json` prints, and its page and files are
+/// The outcome of a job: its text is what the command prints, its result is what `--json` prints, and its page and files are
 /// what `-o` writes.
 pub trait Outcome: Display {
-    /// The result for a machine: a documented struct, of which `docs/schema` has the JSON schema.
+    /// The machine-readable result: a documented struct, whose JSON schema is in `docs/schema`.
     type Result: Serialize + DeserializeOwned + JsonSchema;
 
-    /// The result for a machine.
+    /// The machine-readable result.
     fn result(&self) -> Self::Result;
 
-    /// The page for a browser, if there is one.
+    /// The report page, if there is one.
     fn report(&self) -> Option<Report> {
         None
     }
 
-    /// Further files for the folder of the results: their names and contents.
+    /// Further files for the folder of results: their names and contents.
     fn files(&self) -> Vec<(String, Vec<u8>)> {
         Vec::new()
     }
 
-    /// Writes the further files into a folder that is being made.
+    /// Writes the further files into a folder that is being created.
     ///
     /// # Errors
     /// [`IoError`] if a file cannot be written.
@@ -41,7 +41,7 @@ pub trait Outcome: Display {
         self.files().iter().try_for_each(|(name, content)| put(folder, name, content))
     }
 
-    /// Why the data are at fault, although there is a result.
+    /// The defect of the data, if there is one in spite of the result.
     fn failure(&self) -> Option<String> {
         None
     }

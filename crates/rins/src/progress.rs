@@ -1,24 +1,24 @@
-//! How far a long computation is, for whoever wants to know.
+//! Progress reports of a long computation.
 
 use std::fmt;
 use std::sync::Arc;
 
-/// What a computation says of how far it is.
+/// One progress report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step<'a> {
-    /// A stage begins, of so many parts if that is known.
+    /// A stage begins, with its number of parts if that is known.
     Begin(&'a str, Option<usize>),
-    /// So many parts of the stage are done.
+    /// The number of parts of the stage that are done.
     Done(usize),
-    /// What the stage is at, in words.
+    /// The current activity of the stage, in words.
     At(&'a str),
-    /// The stage is over.
+    /// The stage has ended.
     End,
 }
 
 type Listener = dyn Fn(Step<'_>) + Send + Sync;
 
-/// Who hears how far a computation is; by default nobody.
+/// The listener for progress reports of a computation; by default none.
 ///
 /// ```
 /// let progress = rins::Progress::new(|step| eprintln!("{step:?}"));
@@ -34,12 +34,12 @@ impl fmt::Debug for Progress {
 }
 
 impl Progress {
-    /// Told to this function.
+    /// A listener that is this function.
     pub fn new(listener: impl Fn(Step<'_>) + Send + Sync + 'static) -> Self {
         Self(Some(Arc::new(listener)))
     }
 
-    /// Begins a stage, which is over when what is returned is dropped.
+    /// Begins a stage, which ends when the returned value is dropped.
     pub(crate) fn begin(&self, what: &str, length: Option<usize>) -> Stage<'_> {
         self.say(Step::Begin(what, length));
         Stage(self)
@@ -56,12 +56,12 @@ impl Progress {
 pub(crate) struct Stage<'a>(&'a Progress);
 
 impl Stage<'_> {
-    /// So many parts are done.
+    /// Reports the number of parts that are done.
     pub(crate) fn done(&self, parts: usize) {
         self.0.say(Step::Done(parts));
     }
 
-    /// It is at this.
+    /// Reports the current activity.
     pub(crate) fn at(&self, words: &str) {
         self.0.say(Step::At(words));
     }

@@ -8,7 +8,7 @@ use crate::{
     navigate, observe, simulate,
 };
 
-/// The JSON schema of every command's result, by the name of the command; `merge` has that of `monte-carlo`.
+/// The JSON schema of every command's result, by the name of the command; the schema of `merge` is that of `monte-carlo`.
 ///
 /// ```
 /// let schemas = rins::schemas();
@@ -40,7 +40,7 @@ fn schema<T: JsonSchema>() -> Value {
     schema
 }
 
-/// Brackets around units are escaped in the documentation, and not in a schema.
+/// Removes the backslashes before brackets around units, which the documentation needs and a schema does not.
 fn unescape(value: &mut Value) {
     match value {
         Value::String(text) => *text = text.replace("\\[", "[").replace("\\]", "]"),

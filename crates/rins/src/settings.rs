@@ -1,9 +1,9 @@
-//! The settings of a term in words.
+//! The settings of a term as text.
 
 use rins_report::number::{estimate, figure};
 use rins_terms::{Term, Unit};
 
-/// The settings of a term, such as "order = 2"; one that was `sought` has a sigma.
+/// The settings of a term, such as "order = 2"; an estimated one (`sought`) has a sigma.
 pub(crate) fn settings_in_words(
     term: &Term,
     values: &[f64],
@@ -33,7 +33,7 @@ pub(crate) fn settings_in_words(
     words.join(", ")
 }
 
-/// A unit in a sentence: nothing of a plain number.
+/// The symbol of a unit in a sentence: empty for a plain number.
 pub(crate) fn symbol(unit: Unit) -> &'static str {
     if unit == Unit::ONE { "" } else { unit.symbol }
 }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::Result;
 use crate::outcome::Outcome;
 
-/// A simulated data set, as an IMU would have recorded it.
+/// A simulated data set in the form of a recorded log.
 #[derive(Debug)]
 pub struct SimulatedRun {
     name: String,
@@ -42,10 +42,10 @@ pub struct SimulateResult {
     pub files: Vec<String>,
 }
 
-/// Simulates the run of a scenario file, with this seed in place of the scenario's if one is given.
+/// Simulates the run of a scenario file, with `seed` in place of the scenario's seed if it is given.
 ///
 /// # Errors
-/// If the file cannot be read or says something wrong, or if the run cannot be simulated.
+/// If the file cannot be read or has an invalid value, or if the run cannot be simulated.
 ///
 /// ```
 /// use rins::Outcome;

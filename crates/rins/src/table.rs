@@ -1,8 +1,8 @@
-//! Tables for a terminal, and the same for a page.
+//! Tables for a terminal and for a report page.
 
 use rins_report::{Cell, Column, Table};
 
-/// Columns set to their widest cell: the first to the left, the others to the right.
+/// Columns as wide as their widest cell: the first and the last aligned left, the others right.
 pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or_default();
     let widths: Vec<usize> = (0..columns)
@@ -16,7 +16,7 @@ pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
         text.push_str("  ");
         for (column, cell) in row.iter().enumerate() {
             let pad = " ".repeat(widths[column] - cell.chars().count());
-            // The last column is prose, and the first names: both are set to the left.
+            // The first column contains names and the last one prose: both are aligned left.
             if column == 0 || column + 1 == columns {
                 text.push_str(cell);
                 text.push_str(if column + 1 == row.len() { "" } else { &pad });
@@ -30,7 +30,7 @@ pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// The same rows as a table of a page: the first row is the head, the first and the last column are text.
+/// The same rows as a table of a report page: the first row is the head, the first and the last column are text.
 pub(crate) fn report_table(rows: &[Vec<String>]) -> Table {
     let mut rows = rows.iter();
     let head = rows.next().cloned().unwrap_or_default();

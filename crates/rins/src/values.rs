@@ -1,4 +1,4 @@
-//! Values that several results have, for a machine.
+//! Values that are common to several results, for the JSON output.
 
 use rins_frames::EulerAngles;
 use rins_frames::units::DEG;

@@ -1,4 +1,4 @@
-//! What an IMU that only rests shows, and what is assumed of it.
+//! A static IMU: the observable quantities, and the assumptions.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use tempfile::TempDir;
 
 use crate::support::{list, number, numbers, result_in, rins_in};
 
-/// Five minutes of rest; the gyro along up is off by a hundred times what the data sheet says, or not at all.
+/// Five minutes at rest; the bias of the gyro along up is a hundred times that of the data sheet, or zero.
 fn rest(bias: &str) -> TempDir {
     let scenario = format!(
         concat!(
@@ -48,7 +48,7 @@ gyro = {{ bias = ["0 deg/h", "0 deg/h", "{bias}"] }}
     fs::write(folder.path().join("scenario.toml"), scenario).unwrap();
     let made = rins_in(folder.path(), "simulate scenario.toml -o run");
     assert_eq!(made.code, Some(0), "{}", made.err);
-    // A rig that states no attitude.
+    // A rig without an attitude.
     let rig = folder.path().join("run/rig.toml");
     let text = fs::read_to_string(&rig).unwrap();
     let (before, after) = text.split_once("[attitude]").unwrap();
@@ -69,7 +69,7 @@ fn gyro_that_gravity_does_not_show_is_told_by_the_heading() {
             "{found:?} {sigma:?}"
         );
         let earth_rate = number(&result, "/apparent/earth_rate_deg_h");
-        // The Earth's rate along north and up of the station's latitude.
+        // The Earth rate along north and up at the station's latitude.
         let [north, up] = {
             let rate = number(&result, "/site/earth_rate_deg_h");
             let latitude = number(&result, "/site/latitude_deg").to_radians();
@@ -102,7 +102,7 @@ fn axes_of_an_imu_at_rest_need_an_attitude() {
     assert!(!check.contains("neither static nor"), "{check}");
 }
 
-/// A line of 0.565 Hz beside white noise and steps of the resolution, as of a base that sways.
+/// A spectral line of 0.565 Hz, as of a swaying base, in addition to white noise and quantization.
 #[test]
 fn line_is_no_quantisation() {
     let folder = rest("0 deg/h");

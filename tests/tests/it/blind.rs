@@ -1,6 +1,6 @@
-//! A blind trial of each kind: short runs of a generator that shares nothing with the analyser.
+//! A blind trial of each kind: short runs of a generator that is independent of the analysis.
 //!
-//! More of them, each with what has to come of it, are the frozen trials: `cargo xtask blind --frozen`.
+//! More trials, each with its expected result, are the frozen trials: `cargo xtask blind --frozen`.
 
 use rins_tests::rins;
 use rins_trials::{Analyser, Answer, Level, Schedule, Trial, try_out};

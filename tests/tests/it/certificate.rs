@@ -1,4 +1,4 @@
-//! Calibrations with any model: what was hidden is found, alone or in the combination that is told.
+//! Calibrations with any model: hidden errors are found, alone or in the reported combination.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -20,7 +20,7 @@ use crate::support::{
 /// Values by id, in the units of results.
 type Truth = BTreeMap<String, f64>;
 
-/// What an independent generator hid in a sample run.
+/// The errors that an independent generator hid in a sample run.
 fn hidden(run: &Path) -> Truth {
     let truth = fs::read_to_string(run.join("truth.json")).unwrap();
     let truth: Value = serde_json::from_str(&truth).unwrap();
@@ -46,7 +46,7 @@ fn hidden(run: &Path) -> Truth {
         EulerAngles { roll: roll * DEG, pitch: pitch * DEG, yaw: yaw * DEG }.dcm()
     };
     let [roll, pitch, yaw] = [0, 1, 2].map(|axis| number(&truth, &format!("/rpy_deg/{axis}")));
-    // The rig files say 30, 20 and 40 deg.
+    // The rig files state 30, 20 and 40 deg.
     let off = (angles(30.0, 20.0, 40.0).inverse() * angles(roll, pitch, yaw)).rotation_vector();
     for (axis, name) in names.iter().enumerate() {
         values.insert(format!("axis.attitude.{name}"), off[axis] / ARCSEC);
@@ -54,7 +54,7 @@ fn hidden(run: &Path) -> Truth {
     values
 }
 
-/// What a result says of a parameter, less what is true of it or of the combination that is told, in sigmas.
+/// The error of a parameter of a result, or of its reported combination, in sigmas.
 fn off(parameter: &Value, truth: &Truth) -> f64 {
     let id = parameter["id"].as_str().unwrap();
     let partners = texts(parameter, "/aliases");
@@ -70,7 +70,7 @@ fn sample(name: &str) -> (PathBuf, Value) {
     (run, result)
 }
 
-/// The chi-square probability of what is off, of the parameters that are shown alone.
+/// The χ² probability of the errors of the parameters that are observable alone.
 fn probability(result: &Value, truth: &Truth) -> f64 {
     let parameters = list(result, "/parameters");
     let alone: Vec<usize> =
@@ -95,7 +95,7 @@ fn all_that_several_rates_show_is_found() {
     for parameter in parameters {
         assert!(off(parameter, &truth).abs() < 4.0, "{parameter}");
     }
-    // The errors that the schedule is made for are shown alone, well below the data sheet.
+    // The errors for which the schedule is designed are observable alone, with a sigma well below the data sheet.
     for id in ["gyro.bias.z", "gyro.scale.z", "gyro.misalignment.xz", "gyro.misalignment.yz"] {
         let parameter = parameters.iter().find(|parameter| parameter["id"] == id).unwrap();
         assert_eq!(parameter["identifiable"], true, "{parameter}");
@@ -117,12 +117,12 @@ fn one_rate_after_a_rest_shows_the_rest_in_combinations() {
     for parameter in parameters {
         assert!(off(parameter, &truth).abs() < 4.0, "{parameter}");
     }
-    // Accelerometers never turn about another axis: pairs stay together.
+    // The accelerometers rotate about one axis only: some parameters are observable only in pairs.
     let scale = parameter(&result, "accel.scale.x");
     assert_eq!(scale["identifiable"], false, "{scale}");
     assert_eq!(texts(scale, "/aliases"), ["accel.scale.y"]);
     assert!(number(scale, "/sigma") < 0.1 * number(scale, "/marginal/sigma"), "{scale}");
-    // The minute of rest tells gyro bias from what turns with the table, and says how well.
+    // The static minute distinguishes the gyro bias from errors proportional to the table rate, with a stated sigma.
     let alone = number(parameter(&result, "gyro.misalignment.xz"), "/sigma");
     let paper = result_in(&run, "calibrate rig.toml --model paper12");
     let with_bias = number(parameter(&paper, "gyro.misalignment.xz"), "/sigma");
@@ -131,7 +131,7 @@ fn one_rate_after_a_rest_shows_the_rest_in_combinations() {
     assert!((0.001..0.999).contains(&p), "the chi-square of what is off is at its {p} point");
 }
 
-/// A scenario on an axis tilted by `roll`: `effects` are in it besides three gyro errors.
+/// A scenario with an axis tilted by `roll`, and with `effects` in addition to three gyro errors.
 fn scenario(roll: f64, seed: u64, effects: &str) -> String {
     format!(
         r#"{site}
@@ -216,7 +216,7 @@ fn a_hidden_lever_arm_is_estimated_written_and_undone() {
     for (one, other) in velocities[0].iter().zip(&velocities[1]) {
         assert!((one - other).abs() < 1e-9, "{velocities:?}");
     }
-    // Nothing is left to be found in the clean log.
+    // Nothing more is found in the compensated log.
     let again = result_in(folder.path(), "calibrate clean.toml --model model.toml");
     for (id, was) in [("gyro.scale.z", 300.0), ("accel_lever_arm.r_x", 4.0)] {
         let left = number(parameter(&again, id), "/value");
@@ -231,8 +231,8 @@ fn what_was_calibrated_is_the_next_model() {
     let first = result_in(folder.path(), "calibrate a/rig.toml --model model.toml");
     let again = result_in(folder.path(), "calibrate a/rig.toml --model out/model.toml");
     for id in ["gyro.scale.z", "accel_lever_arm.r_y"] {
-        // The same data a second time: the same value, and a sigma that is less by the root of two, or by more
-        // where what goes together with it is known better.
+        // The same data a second time: the same value, with a sigma smaller by the root of two, or by more
+        // if the correlated parameters are known better.
         let [a, b] = [&first, &again].map(|result| parameter(result, id));
         let moved = (number(a, "/marginal/value") - number(b, "/marginal/value")).abs();
         assert!(moved < 0.2 * number(a, "/marginal/sigma"), "{id}: {a} {b}");
@@ -255,7 +255,7 @@ fn two_tilts_share_the_sensors_and_show_more() {
     assert_eq!([of_run(1), of_run(2)], [9, 9]);
     assert_found(&both, "gyro.scale.z", 300.0);
     assert_found(&both, "gyro.misalignment.xz", 60.0);
-    // The Earth turns about another axis of the body at the other tilt.
+    // At the other tilt, the Earth rate is about another axis of the body.
     let sigma = |result: &Value| number(parameter(result, "gyro.scale.x"), "/marginal/sigma");
     assert!(sigma(&both) < 0.6 * sigma(&one), "{} of {}", sigma(&both), sigma(&one));
     for name in ["calibration.toml", "calibration-2.toml", "model.toml", "report.html"] {
@@ -274,14 +274,14 @@ fn what_moved_between_two_calibrations_is_told_in_sigmas() {
     };
     let same = compare("a-out", "a-out");
     assert!(number(&same, "/together/chi_square") < 1e-9, "{same}");
-    // Other noise, the same errors: as probable as it should be.
+    // Other noise, the same errors: the p-value is unremarkable.
     let alike = compare("a-out", "b-out");
     assert_eq!(list(&alike, "/parameters").len(), 24);
     assert!(number(&alike, "/together/p") > 1e-3, "{alike}");
     for parameter in list(&alike, "/parameters") {
         assert!(number(parameter, "/sigmas").abs() < 4.5, "{parameter}");
     }
-    // A scale error that is another one is told.
+    // A changed scale error is reported.
     let path = folder.path().join("b-out/calibration.toml");
     let text = fs::read_to_string(&path).unwrap();
     let line = text.lines().find(|line| line.starts_with("scale = ")).unwrap();

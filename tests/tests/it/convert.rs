@@ -1,4 +1,4 @@
-//! `rins convert`: one run in every format is one run.
+//! `rins convert`: a run is the same in every format.
 
 use std::fs;
 use std::path::Path;
@@ -67,7 +67,7 @@ fn a_name_that_tells_no_format_is_refused() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 
-/// The run navigates from another's format as from ours: the velocity at its end is the same.
+/// The run navigates with another format as with that of rins: the final velocity is the same.
 #[test]
 fn a_navigation_does_not_depend_on_the_format() {
     let folder = run();

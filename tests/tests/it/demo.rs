@@ -1,4 +1,4 @@
-//! `rins demo`: a first run with nothing at hand leaves a result, and next steps that work.
+//! `rins demo`: a first run without any data gives a result, and next steps that work.
 
 use std::fs;
 use std::path::Path;
@@ -10,11 +10,11 @@ use tempfile::TempDir;
 
 use crate::support::{Finished, list, magnitude, number, object, rins_in};
 
-/// What came of the demo, of the same once more, and of the same if it is told to replace its result. It is run once for all
-/// tests that only look at it.
+/// The results of the demo, of a repetition, and of a repetition that may replace its result. It runs once for all
+/// tests that only read the results.
 struct Demo {
     finished: Finished,
-    /// Where it was run the first time.
+    /// The folder of the first run.
     folder: TempDir,
     again: Finished,
     forced: Finished,
@@ -24,7 +24,7 @@ static DEMO: LazyLock<Demo> = LazyLock::new(|| {
     let [folder, other] = [(); 2].map(|()| tempfile::tempdir().expect("there is a place for it"));
     let finished = rins_in(folder.path(), "demo");
     let again = rins_in(folder.path(), "demo");
-    // Another result of the command is replaced, so that the first stays to be looked at.
+    // In this folder the result is replaced, so that the first one remains.
     let result = other.path().join("rins-demo");
     fs::create_dir(&result).expect("an empty folder takes a folder");
     fs::copy(folder.path().join("rins-demo/result.json"), result.join("result.json"))
@@ -33,7 +33,7 @@ static DEMO: LazyLock<Demo> = LazyLock::new(|| {
     Demo { finished, folder, again, forced }
 });
 
-/// Runs a line of a shell, whose `rins` is the one under test.
+/// Runs a line of a shell, in which `rins` is the command under test.
 fn in_shell(line: &str, folder: &Path) -> (Option<i32>, String) {
     let program = rins_tests::rins().get_program().to_owned();
     let ours = Path::new(&program).parent().expect("a program lies in a folder").to_owned();
@@ -71,7 +71,7 @@ fn demo_leaves_a_result_that_others_can_read() {
         let content = fs::read_to_string(folder.path().join("rins-demo").join(name)).unwrap();
         assert!(content.starts_with(opening), "{name}");
     }
-    // The report works with the network cut: nothing in it is fetched.
+    // The report works without a network: nothing in it is fetched.
     let page = fs::read_to_string(folder.path().join("rins-demo/report.html")).unwrap();
     for fetched in ["src=\"http", "href=\"http", "src=\"//", "@import", "fetch("] {
         assert!(!page.contains(fetched), "the report holds {fetched}");
@@ -86,7 +86,7 @@ fn demo_leaves_a_result_that_others_can_read() {
     assert!(before > 100.0 * after, "{before} m/s before, {after} m/s after");
 }
 
-/// The embedded run was made with the paper's errors, 60″ and 300 ppm, and its table angle is read 0.1 ms late.
+/// The embedded run has the paper's errors, 60″ and 300 ppm, and a table angle with a latency of 0.1 ms.
 #[test]
 fn demo_prints_one_object_that_tells_the_truth() {
     let Demo { forced, .. } = &*DEMO;

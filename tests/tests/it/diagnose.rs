@@ -1,4 +1,4 @@
-//! `rins diagnose`: what was hidden is named with its size, and nothing where nothing is.
+//! `rins diagnose`: a hidden effect is reported with its amplitude, and nothing if there is none.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,10 +10,10 @@ use serde_json::Value;
 
 use crate::support::{list, magnitude, number, result_in, rins_in, texts};
 
-/// Three amplitudes in a thousand lie further from the truth than that; the runs hold a dozen.
+/// The tolerance of amplitudes in sigmas, which three in a thousand exceed; the runs contain a dozen.
 const WITHIN: f64 = 3.0;
 
-/// A shipped schedule, with these lines of truth more.
+/// A shipped schedule with these lines added to its truth.
 fn scenario(truth: &str) -> String {
     let schedule = workspace().join("scenarios/schedules/iii-three-rates.toml");
     fs::read_to_string(schedule).unwrap() + truth
@@ -112,7 +112,7 @@ fn hidden_effects_are_named_with_their_size() {
     }
 }
 
-/// A driver that hands out old samples: they are named and taken out, and mislead nobody.
+/// A driver that repeats old samples: they are reported and removed, and have no effect on the result.
 #[test]
 fn stuck_samples_are_named_and_do_no_harm() {
     let folder = tempfile::tempdir().unwrap();
@@ -127,7 +127,7 @@ fn stuck_samples_are_named_and_do_no_harm() {
     assert!(off.abs() < 3.0 && share > 0.003, "{share}, {off} sigma off");
 }
 
-/// The paper's Table 4: the attitude that the table gives is that of half a sample before, and nobody has said so.
+/// The paper's Table 4: the table angle is half a sample old, which the rig file does not state.
 #[test]
 fn a_read_out_that_lags_by_half_a_sample_is_told_in_samples() {
     let folder = tempfile::tempdir().unwrap();
@@ -146,7 +146,7 @@ fn a_read_out_that_lags_by_half_a_sample_is_told_in_samples() {
     assert!(page.contains("(0.500 samples)") && page.contains("Harmonic order of the table angle"));
 }
 
-/// What is written is what the other commands take, on another run of the same IMU too.
+/// The other commands accept the written files, on another run of the same IMU too.
 #[test]
 fn extended_model_calibrates_and_navigates_another_run() {
     let folder = tempfile::tempdir().unwrap();
@@ -194,7 +194,8 @@ fn extended_model_calibrates_and_navigates_another_run() {
     assert!(raw > 20.0 * undone, "{raw} and {undone}");
 }
 
-/// What a run cannot tell comes with the run that can; that run, made with the same effect, does.
+/// A parameter that is unobservable in a run comes with a proposed run; simulated with the same effect, it makes the parameter
+/// observable.
 #[test]
 fn the_next_test_tells_what_this_one_could_not() {
     let folder = tempfile::tempdir().unwrap();
@@ -228,7 +229,7 @@ fn the_next_test_tells_what_this_one_could_not() {
     assert!(!texts(cause, "/cannot_tell_from").contains(&"base_tilt_ramp"), "{cause}");
 }
 
-/// A late encoder on a short fast turn of a consumer IMU; `turned` is how long \[s\].
+/// A latency of the encoder in a short fast rotation of a consumer IMU; `turned` is its duration \[s\].
 fn short_turn(turned: u32) -> String {
     format!(
         r#"
@@ -270,7 +271,8 @@ fn short_turn(turned: u32) -> String {
     )
 }
 
-/// The diagnosis of a run of half a minute or less stands, whether a test of twice its length tells the causes apart or not.
+/// The diagnosis of a run of half a minute or less does not depend on whether a test of twice its length distinguishes the
+/// causes.
 #[test]
 fn diagnosis_stands_without_a_next_test() {
     let folder = tempfile::tempdir().unwrap();
@@ -289,13 +291,13 @@ fn diagnosis_stands_without_a_next_test() {
     }
 }
 
-/// What is supposed is measured as it is, significant or not, and what cannot be supposed is refused.
+/// A hypothesis is evaluated whether significant or not, and an invalid hypothesis is refused.
 #[test]
 fn a_supposed_effect_is_measured_and_not_searched_for() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let truth = "\n[[truth.effects]]\nid = \"gyro_scale_asymmetry\"\nz = \"6 ppm\"\n";
-    // Revolutions enough at the fastest rate.
+    // Enough revolutions at the fastest rate.
     let longer = scenario(truth).replace("36 s", "72 s");
     fs::write(here.join("scenario.toml"), longer).unwrap();
     result_in(here, "simulate scenario.toml -o run");

@@ -1,4 +1,4 @@
-//! Effects of a scenario: simulated, told by the truth, undone by a calibration that holds them.
+//! Effects of a scenario: simulated, contained in the truth, and compensated by a calibration with these effects.
 
 use std::fs;
 
@@ -8,8 +8,8 @@ use serde_json::Value;
 
 use crate::support::{list, magnitude, number, result_in};
 
-/// A table that turns both ways under an IMU with a lever arm, a bias that follows the temperature, and an
-/// encoder that is not quite round.
+/// A table that rotates in both directions, an IMU with a lever arm, a temperature-dependent bias, and an
+/// encoder with eccentricity.
 const SCENARIO: &str = r#"
 [site]
 latitude = "45 deg"
@@ -42,7 +42,7 @@ effects = [
 ]
 "#;
 
-/// What undoes it, as a calibration would write it down.
+/// The calibration that compensates them.
 const CALIBRATION: &str = r#"
 schema = 2
 
@@ -94,14 +94,14 @@ fn what_is_simulated_is_told_and_undone() {
         let run = runs.iter().find(|found| found["name"] == run).unwrap();
         magnitude(run, "/velocity_m_s")
     };
-    // What is left is the start: the table angle before the first sample is what the z gyro makes of that
-    // after it, and the Earth turns by half a second of arc meanwhile.
+    // The remainder is due to the start: the table angle before the first sample is computed from the z gyro and the angle
+    // after it, and the Earth rotates by half an arcsecond meanwhile.
     let (before, after) = (velocity("as recorded"), velocity("compensated"));
     assert!(before > 0.3, "{before} m/s");
     assert!(after < 5e-3 * before, "{before} m/s before, {after} m/s after");
 }
 
-/// The schedules that come with the project are scenarios: each is simulated.
+/// The shipped schedules are scenarios: each is simulated.
 #[test]
 fn every_schedule_is_simulated() {
     let folder = tempfile::tempdir().unwrap();

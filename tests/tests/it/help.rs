@@ -1,6 +1,6 @@
-//! What `--help` says, kept in `tests/snapshots`.
+//! The output of `--help`, stored in `tests/snapshots`.
 //!
-//! After a change that is meant, `RINS_RENEW=1 cargo test -p rins-tests help` writes them anew; read
+//! After an intended change, `RINS_RENEW=1 cargo test -p rins-tests help` writes it again; read
 //! the difference before it is committed.
 
 use std::fs;
@@ -29,10 +29,10 @@ const COMMANDS: [&str; 16] = [
     "compare",
 ];
 
-/// How wide a terminal is taken to be.
+/// The assumed width of a terminal.
 const TERMINAL: usize = 100;
 
-/// How far an option's name is indented at most, and what is before the line of what it does.
+/// The maximum indentation of an option's name, which is followed by its description.
 const OPTION_INDENT: usize = 6;
 const DESCRIPTION: &str = "          ";
 
@@ -62,7 +62,7 @@ fn help_is_as_it_was_read_last() {
     }
 }
 
-/// The list of commands in `rins --help` and the one here are the same.
+/// The list of commands in `rins --help` is the same as that of this test.
 #[test]
 fn help_of_every_command_is_kept() {
     let help = help("");
@@ -75,8 +75,8 @@ fn help_of_every_command_is_kept() {
     assert_eq!(listed, COMMANDS[1..]);
 }
 
-/// What is wrong with a help text: a sentence first, then how the command is used, and every option with what it does, no line
-/// wider than a terminal.
+/// The faults of a help text: it must begin with a sentence, then the usage, then every option with its description, and no
+/// line may be wider than a terminal.
 fn help_fault(command: &str, help: &str) -> Fault {
     let lines: Vec<&str> = help.lines().collect();
     let starts_in_words = lines.first().is_some_and(|line| line.starts_with(char::is_uppercase));
@@ -89,7 +89,7 @@ fn help_fault(command: &str, help: &str) -> Fault {
     let mut names = Vec::new();
     for (at, line) in lines.iter().enumerate().skip(options) {
         let name = line.trim_start();
-        // Deeper are what an option does and the values that it takes.
+        // Deeper lines are descriptions of options and their values.
         if !name.starts_with('-') || line.len() - name.len() > OPTION_INDENT {
             continue;
         }
@@ -108,7 +108,7 @@ fn help_says_how_a_command_is_used_and_what_each_option_does() {
     assert_rows(COMMANDS.iter().map(|command| (command, help_fault(command, &help(command)))));
 }
 
-/// What is not described, too wide, or not there is found out.
+/// Missing descriptions, wide lines and missing parts are detected.
 #[test]
 fn help_that_says_too_little_is_found_out() {
     let right = help("calibrate");

@@ -1,4 +1,4 @@
-//! Files that are meant to fill memory or to go on for ever end within bounds.
+//! Files that are designed to fill the memory or to be read endlessly are refused within bounds.
 #![cfg(target_os = "linux")]
 
 use std::fs::{self, File};
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 use crate::support::Finished;
 
-/// What a command may ask of memory \[KiB\], and how long it may take.
+/// The memory limit of a command \[KiB\], and its time limit.
 const MEMORY: u64 = 1 << 20;
 const TIME: Duration = Duration::from_secs(10);
 
@@ -30,7 +30,7 @@ gyro = { columns = ["gx", "gy", "gz"], unit = "rad/s" }
 accel = { columns = ["ax", "ay", "az"], unit = "m/s^2" }
 "#;
 
-/// Runs `rins` with so much memory only.
+/// Runs `rins` with limited memory.
 fn bounded(folder: &Path, arguments: &str) -> Finished {
     let binary = rins().get_program().to_owned();
     let script = format!("ulimit -v {MEMORY}; exec \"$0\" {arguments}");
@@ -74,7 +74,7 @@ fn ten_gigabytes_in_one_line() {
         ("rig.toml", "", "rig.toml: more than 1048576 bytes, too large for a file of keys"),
     ] {
         let folder = with_rig(log, keys);
-        // A hole that is read as zeros.
+        // A hole in the file, which is read as zeros.
         let file = File::options().create(true).append(true).open(folder.path().join(log)).unwrap();
         file.set_len(10 << 30).unwrap();
         refused(&folder, "check rig.toml", says);
@@ -94,7 +94,7 @@ fn columns_by_the_hundred_thousand() {
     refused(&folder, "init run.csv", "run.csv:1: more than 4096 columns");
 }
 
-/// A matrix of zeros that is packed a thousandfold.
+/// A matrix of zeros that is compressed a thousandfold.
 #[test]
 fn few_bytes_that_unpack_to_very_many() {
     let rows: u32 = 32 << 20;
@@ -123,7 +123,7 @@ fn few_bytes_that_unpack_to_very_many() {
     refused(&folder, "check rig.toml", "rows, the most that are read of a log of this size");
 }
 
-/// Keys within keys, each a hundred thousand deep.
+/// Nested keys, a hundred thousand levels deep.
 #[test]
 fn keys_without_an_end() {
     for (text, says) in [

@@ -1,6 +1,7 @@
-//! The book's page of what schedules tell apart: made from the shipped schedules, and held against figures from elsewhere.
+//! The book's page on effects that schedules distinguish: generated from the shipped schedules, and compared with independent
+//! figures.
 //!
-//! After a change that is meant, `RINS_RENEW=1 cargo test -p rins-tests identifiability` writes the page anew.
+//! After an intended change, `RINS_RENEW=1 cargo test -p rins-tests identifiability` writes the page again.
 
 mod page;
 
@@ -16,8 +17,8 @@ const SCHEDULES: &str = "i-constant-rate.toml ii-reversal.toml iii-three-rates.t
 
 const INFINITE: f64 = f64::INFINITY;
 
-/// Two effects, and the separation costs that a linear prototype written apart finds under each schedule; none where
-/// it leaves the first to the nuisances, or the schedules differ in what matters.
+/// Two effects, and the separations of an independent linear prototype under each schedule; none if
+/// the prototype treats the first as a nuisance parameter, or the schedules differ in a relevant way.
 struct Row {
     pair: &'static str,
     prototype: [Option<f64>; 5],
@@ -66,21 +67,21 @@ const ROWS: [Row; 12] = [
     row("accel_latency,wrong_latitude", [None, Some(1.0), Some(1.0), Some(1.0), Some(1.0)]),
 ];
 
-/// A figure of the prototype's is of another arrangement of the same rates and rests: within this factor.
+/// The factor for the prototype's figures, which are for another arrangement of the same rates and static intervals.
 const FACTOR: f64 = 2.1;
 
 /// The schedules under which sigmas are compared.
 const OF_LIMITS: &str = "i-constant-rate.toml ii-reversal.toml iii-three-rates.toml \
                          v-two-tilts-a.toml+v-two-tilts-b.toml";
 
-/// A sigma by the data alone beside the prototype's, where it has one.
+/// A sigma from the data alone, with that of the prototype, if it has one.
 struct Limit {
     id: &'static str,
-    /// How many of the unit shown one of the parameter's own is.
+    /// The number of displayed units in one unit of the parameter.
     scale: f64,
     unit: &'static str,
     prototype: [Option<f64>; 4],
-    /// Up to which factor they agree.
+    /// The factor within which they agree.
     within: f64,
 }
 
@@ -93,16 +94,16 @@ const fn limit(
     Limit { id, scale, unit, prototype, within }
 }
 
-/// A second of arc in parts per million.
+/// One arcsecond in parts per million.
 const PPM_OF_ARCSEC: f64 = 4.848;
 
-/// An alike setting: within a tenth.
+/// An equal setting: within a tenth.
 const SAME: f64 = 1.1;
 
-/// What a run of half the length, or an axis tilted to another side, makes of it: a factor of two at most.
+/// The effect of a run of half the length, or of an axis tilted to another side: at most a factor of two.
 const ALIKE: f64 = 2.15;
 
-/// What differs by more is told below the table.
+/// Larger differences are explained below the table.
 const APART: f64 = 8.0;
 
 const LIMITS: [Limit; 17] = [
@@ -180,12 +181,12 @@ const LIMITS: [Limit; 17] = [
     ),
 ];
 
-/// Sigmas by the data alone under each schedule, beside the effects of `baseline` and one that does not matter.
+/// The sigmas from the data alone under each schedule, with the effects of `baseline` and an irrelevant one.
 fn sigmas(limit: &Limit) -> Vec<f64> {
     let other =
         if limit.id.starts_with("encoder") { "accel_quadratic.x" } else { "encoder_eccentricity" };
     let (term, name) = limit.id.rsplit_once('.').unwrap_or_default();
-    // Of what has one parameter alone, of a pair that goes together both.
+    // One parameter of a single effect, both of a pair that belongs together.
     let asked = if name == "cos" || term == "base_tilt_ramp" { term } else { limit.id };
     let told = compared(&format!("{OF_LIMITS} --separate {asked},{other}"));
     let sigma = |schedule: &Value| {
@@ -197,7 +198,7 @@ fn sigmas(limit: &Limit) -> Vec<f64> {
     list(&told, "/schedules").iter().map(sigma).collect()
 }
 
-/// A number to two digits.
+/// A number with two digits.
 fn two_digits(value: f64) -> String {
     let decimals = match value {
         value if value < 0.01 => 4,

@@ -1,4 +1,4 @@
-//! Commands that are killed leave what was there, or a result that is whole.
+//! Commands that are killed leave the previous files, or a complete result.
 #![cfg(unix)]
 
 use std::fs;
@@ -12,14 +12,14 @@ use tempfile::TempDir;
 use crate::monte_carlo::scenario;
 use crate::support::rins_in;
 
-/// How often each command is killed where `RINS_KILLS` does not say.
+/// The default number of kills of each command, without `RINS_KILLS`.
 const KILLS: u32 = 6;
 
 fn kills() -> u32 {
     std::env::var("RINS_KILLS").map_or(KILLS, |kills| kills.parse().unwrap())
 }
 
-/// Kills a command after a part of the time that it takes; whether it was still at work.
+/// Kills a command after a fraction of its duration; returns whether it was still running.
 fn kill_after(mut command: Command, lasting: Duration, part: f64) -> bool {
     let mut child = command.spawn().unwrap();
     std::thread::sleep(lasting.mul_f64(part));
@@ -27,18 +27,18 @@ fn kill_after(mut command: Command, lasting: Duration, part: f64) -> bool {
     child.wait().unwrap().code().is_none()
 }
 
-/// The parts of its time after which a command is killed: more often towards the end, where results
-/// are put in their place.
+/// The fractions of the duration after which a command is killed: more often towards the end, when results
+/// are moved to their place.
 fn parts() -> impl Iterator<Item = f64> {
     let kills = kills();
     (1..=kills).map(move |kill| (f64::from(kill) / f64::from(kills)).sqrt())
 }
 
-/// Says how often a command was killed at work; fails if that was hardly ever of as many times as were asked for.
+/// Reports how often a command was killed while running; fails if that was only a small part of many kills.
 #[expect(clippy::print_stderr, reason = "a test that is asked for figures gives them")]
 fn assert_at_work(arguments: &str, at_work: u32) {
     eprintln!("{arguments}: killed {at_work} of {} times while at work", kills());
-    // A machine with other work to do may be slower or faster from one time to the next: a few kills may all come late.
+    // On a busy machine durations vary: if there are few kills, all may come too late.
     if std::env::var_os("RINS_KILLS").is_some() {
         assert!(4 * at_work >= kills(), "{arguments}: {at_work} of {} times at work", kills());
     }
@@ -81,8 +81,8 @@ fn command(folder: &Path, arguments: &str) -> Command {
     command
 }
 
-/// What is to be seen in a folder, and what each file holds. Hidden names are those of work that was
-/// not finished.
+/// The visible entries of a folder, with the content of each file. Hidden names are those of unfinished
+/// output.
 fn seen(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut seen = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -104,8 +104,8 @@ fn seen(folder: &Path) -> Vec<(String, Vec<u8>)> {
     seen
 }
 
-/// Kills `arguments` at moments all through its run: what is then seen is one of `states`, and
-/// with nothing in the way the command works afterwards.
+/// Kills `arguments` at times distributed over its run: the visible files are then one of `states`, and
+/// the command works afterwards without manual cleanup.
 fn killed(arguments: &str, prepare: &str) {
     let whole = run();
     if !prepare.is_empty() {
@@ -123,11 +123,11 @@ fn killed(arguments: &str, prepare: &str) {
         let folder = copy(ready.path());
         at_work += u32::from(kill_after(command(folder.path(), arguments), lasting, part));
         let seen = seen(folder.path());
-        // Of two files that belong together one may be there; whatever is there is whole.
+        // Of two files that belong together only one may exist; every existing file is complete.
         let whole = |file: &&(String, Vec<u8>)| !before.contains(file) && !after.contains(file);
         let odd: Vec<&str> = seen.iter().filter(whole).map(|(name, _)| name.as_str()).collect();
         assert!(odd.is_empty(), "{arguments} killed after {part:.3} left {odd:?}");
-        // Only what is to be replaced may be gone: it then stands under a hidden name.
+        // Only the file to be replaced may be missing: it then exists under a hidden name.
         let kept = |(name, _): &(String, Vec<u8>)| seen.iter().any(|(seen, _)| seen == name);
         assert!(
             arguments.ends_with("--force") || before.iter().all(kept),
@@ -171,7 +171,7 @@ fn a_log_is_compensated_or_not() {
     killed("apply run/rig.toml --calibration cal/calibration.toml -o clean.csv", calibrate);
 }
 
-/// What is in a folder, hidden or not.
+/// The entries of a folder, hidden or not.
 fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names: Vec<String> =
@@ -180,7 +180,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Whoever interrupts a command, other than by killing it, finds nothing of what it had begun.
+/// An interrupt other than a kill leaves no unfinished output.
 #[test]
 fn what_an_interrupted_command_had_begun_is_removed() {
     ended_by("-INT", 130);
@@ -191,13 +191,13 @@ fn what_a_command_had_begun_that_is_told_to_end_is_removed() {
     ended_by("-TERM", 143);
 }
 
-/// A terminal that hangs up is such a signal, where nothing has it ignored.
+/// The hangup of a terminal is such a signal, unless it is ignored.
 #[test]
 fn what_a_command_had_begun_whose_terminal_hangs_up_is_removed() {
     ended_by("-HUP", 129);
 }
 
-/// The command with signals as a terminal has them, whatever the tests were started with.
+/// The command with the signal handling of a terminal, independent of that of the tests.
 fn listening(folder: &Path, arguments: &str) -> Command {
     let rins = command(folder, arguments);
     let mut command = Command::new("env");
@@ -230,7 +230,7 @@ fn ended_by(signal: &str, expected: i32) {
             let _ = Command::new("kill").args(interrupt).stderr(Stdio::null()).status().unwrap();
             let code = child.wait().unwrap().code();
             let left = names(folder.path());
-            // One that comes before the command listens ends it without a code.
+            // A signal that arrives before the handler is installed ends the command without a code.
             let whole = if code == Some(0) { vec![&after] } else { vec![&before, &after] };
             assert!(whole.contains(&&left), "{arguments}: {part:.3}, {code:?}: {left:?}");
             assert!([Some(0), Some(expected), None].contains(&code), "{arguments}: {code:?}");
@@ -240,8 +240,8 @@ fn ended_by(signal: &str, expected: i32) {
     assert!(at_work > 0, "no command was at work when it was sent {signal}");
 }
 
-/// Killed again and again and continued each time, a campaign ends with the bytes of one that was left
-/// alone.
+/// A campaign that is repeatedly killed and resumed gives the same bytes as an uninterrupted
+/// one.
 #[test]
 fn a_campaign_that_is_killed_time_and_again_loses_nothing() {
     const CAMPAIGN: &str = "monte-carlo scenario.toml --runs 150 --seed 3";
@@ -262,7 +262,7 @@ fn a_campaign_that_is_killed_time_and_again_loses_nothing() {
         journals += u32::from(path("c.parquet.part").exists());
         if let Ok(bytes) = fs::read(path("c.parquet")) {
             assert!(bytes == results, "killed after {part:.3}");
-            // Once more from the beginning.
+            // Once more from the start.
             fs::remove_file(path("c.parquet")).unwrap();
             let _ = fs::remove_file(path("c.parquet.part"));
         }

@@ -1,4 +1,4 @@
-//! The library says what the command prints, byte for byte.
+//! The library returns the output of the command, byte for byte.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::support::rins_in;
 
-/// That the command prints an outcome as text, and its result with `--json`.
+/// Asserts that the command prints an outcome as text, and its result with `--json`.
 fn says<O: rins::Outcome + Display>(folder: &Path, arguments: &str, outcome: &O)
 where
     O::Result: Serialize,
@@ -16,7 +16,7 @@ where
     assert_eq!(rins_in(folder, arguments).out, outcome.to_string(), "rins {arguments}");
     let json = rins_in(folder, &format!("{arguments} --json")).out;
     let own = serde_json::to_string(&outcome.result()).unwrap() + "\n";
-    // How long it took is no result.
+    // The duration of the computation is not part of the result.
     let timeless = |json: &str| match json.split_once("\"seconds\":") {
         Some((before, after)) => format!("{before}{}", after.split_once(',').unwrap().1),
         None => json.to_owned(),

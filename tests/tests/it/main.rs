@@ -1,4 +1,4 @@
-//! The `rins` command as its users meet it.
+//! The `rins` command from the view of its users.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
 mod at_rest;

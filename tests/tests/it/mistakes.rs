@@ -1,5 +1,5 @@
-//! Mistakes of axes, units and columns in a rig file: each is named with what undoes it, and a right
-//! rig file is said to be right.
+//! Errors of axes, units and columns in a rig file: each is reported with its correction, and a correct
+//! rig file is accepted.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,18 +9,18 @@ use serde_json::{Value, json};
 
 use crate::support::{list, object, result_in, rins_in, texts};
 
-/// The units of the logs of simulated runs, and all that a rig file may call them.
+/// The units of the logs of simulated runs, and all units that a rig file may state.
 const GYRO: (&str, [&str; 6]) = ("rad", ["rad/s", "deg/s", "deg/h", "rad", "deg", "arcsec"]);
 const ACCEL: (&str, [&str; 6]) = ("m/s", ["m/s^2", "g", "mg", "ug", "m/s", "ug*s"]);
 const TABLE: (&str, [&str; 4]) = ("rad", ["rad", "deg", "arcsec", "gon"]);
 
-/// A scenario of a table that is tilted, with its angle read and its attitude known.
+/// A scenario of a tilted table, with a recorded angle and a known attitude.
 struct Bench {
     profile: Vec<(f64, f64)>,
     angles: [f64; 3],
     latitude: f64,
     rate: u32,
-    /// How much larger all errors of the sensors are than those of a navigation grade IMU.
+    /// The ratio of all sensor errors to those of a navigation-grade IMU.
     errors: f64,
     seed: u32,
 }
@@ -35,7 +35,7 @@ const USUAL: Bench = Bench {
 };
 
 impl Bench {
-    /// Simulates it into `folder`/run; the text of its rig file.
+    /// Simulates it into `folder`/run; returns the text of its rig file.
     fn simulated(&self, folder: &Path) -> String {
         let Self { profile, angles: [roll, pitch, yaw], latitude, rate, errors, seed } = self;
         let profile: Vec<String> = profile
@@ -45,7 +45,7 @@ impl Bench {
             })
             .collect();
         let of = |size: f64, unit: &str| format!("{} {unit}", size * errors);
-        // Errors of one to two sigma, some of each sign.
+        // Errors of one to two sigma, with both signs.
         let sign = |place: u32| f64::from((seed * 7 + place * 5) % 9) / 2.0 - 2.0;
         let three = |size: f64, unit: &str, from: u32| -> String {
             let list =
@@ -103,7 +103,7 @@ accel = {{ bias = [{}], scale = [{}] }}
     }
 }
 
-/// One run that begins at rest, and one that turns from its first sample to its last.
+/// One run that begins at rest, and one that rotates from its first sample to its last.
 fn good_runs() -> Vec<(tempfile::TempDir, String)> {
     let profiles =
         [vec![(0.0, 30.0), (10.0, 45.0), (-10.0, 40.0)], vec![(12.0, 65.0), (-12.0, 65.0)]];
@@ -115,7 +115,7 @@ fn good_runs() -> Vec<(tempfile::TempDir, String)> {
     profiles.into_iter().map(run).collect()
 }
 
-/// What `rins check` says of the run in `folder` under another rig file.
+/// The result of `rins check` for the run in `folder` with another rig file.
 fn checked(folder: &Path, rig: &str) -> Value {
     fs::write(folder.join("run/wrong.toml"), rig).unwrap();
     let finished = rins_in(folder, "check run/wrong.toml --json");
@@ -125,7 +125,7 @@ fn checked(folder: &Path, rig: &str) -> Value {
     check
 }
 
-/// All orders and signs of three axes but the right one.
+/// All orders and signs of three axes except the correct one.
 fn mistakes() -> Vec<[String; 3]> {
     let orders = [
         ["x", "y", "z"],
@@ -152,14 +152,14 @@ fn line<'r>(rig: &'r str, key: &str) -> &'r str {
     rig.lines().find(|line| line.starts_with(&format!("{key} = "))).unwrap()
 }
 
-/// A rig file in which the line of `key` has something replaced.
+/// A rig file with a replacement in the line of `key`.
 fn replaced(rig: &str, key: &str, from: &str, to: &str) -> String {
     let old = line(rig, key);
     assert!(old.contains(from), "{old}");
     rig.replacen(old, &old.replacen(from, to, 1), 1)
 }
 
-/// What `rins check --json` says is to be written as axes, where the table's sense is right.
+/// The correction of axes in `rins check --json` if the table's direction of rotation is correct.
 fn mend(gyro: Option<[&str; 3]>, accel: Option<[&str; 3]>) -> Value {
     json!({"gyro_axes": gyro, "accel_axes": accel, "table_direction": null})
 }
@@ -186,11 +186,11 @@ fn every_order_and_sign_of_axes_is_told_with_the_lines_that_undo_it() {
     }
 }
 
-/// What is to be written counts from what is written, and from the sensor's axes.
+/// The correction starts from the stated axes, and from the sensor's axes.
 #[test]
 fn a_mend_takes_account_of_axes_and_spin_that_are_there() {
     let (folder, rig) = good_runs().remove(0);
-    // The same IMU, called by other names: what spins is its x axis.
+    // The same IMU with other names of axes: the spin axis is its x axis.
     let mut turned = format!("{rig}\n[axis]\nspin = \"x\"\n");
     for sensor in ["gyro", "accel"] {
         turned = replaced(&turned, sensor, " }", ", axes = [\"z\", \"x\", \"y\"] }");
@@ -201,7 +201,7 @@ fn a_mend_takes_account_of_axes_and_spin_that_are_there() {
     assert_eq!(checked(folder.path(), &wrong)["corrections"], json!([mend]));
 }
 
-/// What computes something from a log, before the rig file's name.
+/// The commands that compute a result from a log, without the name of the rig file.
 const COMMANDS: [&str; 7] = [
     "calibrate --model paper12",
     "calibrate --model full",
@@ -233,7 +233,7 @@ fn nothing_is_computed_with_wrong_axes() {
     }
 }
 
-/// Fails unless each unit that `key` may be said to be in is named as what it is not.
+/// Asserts that every wrong unit of `key` is reported with the correct one.
 fn assert_units(folder: &Path, rig: &str, key: &str, (meant, units): (&str, &[&str])) {
     for unit in units.iter().filter(|unit| **unit != meant) {
         let quoted = format!("unit = \"{meant}\"");
@@ -290,7 +290,7 @@ fn exchanged_columns_and_a_table_of_the_other_sense_are_told() {
             |name| json!([{"gyro_axes": null, "accel_axes": null, "table_direction": name}]);
         assert_eq!(check["corrections"], sense("reversed"), "{told:?}");
 
-        // What is to be written is what undoes it, and is as wrong where it is not needed.
+        // The proposed correction removes the error, and causes one where it is not needed.
         let mended = replaced(&rig, "table_angle", " }", ", sense = \"reversed\" }");
         assert_eq!(checked(folder.path(), &mended)["suspicions"], json!([]));
         fs::write(folder.path().join("run/run.csv"), log).unwrap();
@@ -302,7 +302,7 @@ fn exchanged_columns_and_a_table_of_the_other_sense_are_told() {
     }
 }
 
-/// Where only the commanded profile is known, its sense is stated there.
+/// If only the commanded profile is known, its direction of rotation is stated there.
 #[test]
 fn a_profile_of_the_other_sense_is_told() {
     for (folder, rig) in good_runs() {
@@ -322,10 +322,10 @@ fn a_profile_of_the_other_sense_is_told() {
     }
 }
 
-/// A hundred runs of all kinds, each without a mistake.
+/// A hundred correct runs of all kinds.
 fn hundred() -> impl Iterator<Item = Bench> {
     (1..=100_u32).map(|seed| {
-        // Angles that no two runs share, spread over their ranges by irrational steps.
+        // Angles that differ in all runs, spread over their ranges by irrational steps.
         let spread = |step: f64, most: f64| ((f64::from(seed) * step).fract() * 2.0 - 1.0) * most;
         let rate = spread(0.618, 1.0);
         let rate = (2.0 + 38.0 * rate.abs()).copysign(rate);
@@ -357,7 +357,7 @@ fn of_a_hundred_good_runs_none_is_suspected() {
     }
 }
 
-/// The schedules that are shipped.
+/// The shipped schedules.
 #[test]
 fn other_good_runs_are_not_suspected() {
     let folder = tempfile::tempdir().unwrap();
@@ -371,7 +371,7 @@ fn other_good_runs_are_not_suspected() {
     assert_unsuspected(&runs);
 }
 
-/// Runs that other programs have made.
+/// Runs of other programs.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn runs_of_other_programs_are_not_suspected() {

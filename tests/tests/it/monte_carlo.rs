@@ -1,4 +1,4 @@
-//! Campaigns: the same bytes whatever the threads, the shards and the interruptions.
+//! Campaigns: the output does not depend on threads, shards and interruptions.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use tempfile::tempdir;
 
 use crate::support::{list, number, result_in, rins_in};
 
-/// The paper's simulation for 36 s, at two rates and without biases.
+/// The paper's simulation over 36 s, at two rates and without biases.
 pub(crate) fn scenario(folder: &Path) {
     let paper = rins_tests::workspace().join("scenarios/paper/simulation.toml");
     let text = fs::read_to_string(paper).unwrap();
@@ -51,7 +51,7 @@ fn bytes_are_the_same_for_any_threads_and_shards() {
 
 #[test]
 fn an_interrupted_campaign_is_continued_to_the_same_bytes() {
-    // It has to be under way for some seconds when it is killed.
+    // It must run for some seconds before it is killed.
     const LONGER: &str = "monte-carlo scenario.toml --runs 1500 --seed 3";
     let folder = tempdir().unwrap();
     let folder = folder.path();
@@ -79,7 +79,7 @@ fn an_interrupted_campaign_is_continued_to_the_same_bytes() {
     let other = rins_in(folder, other);
     assert_eq!(other.code, Some(1));
     assert!(other.err.contains("another campaign"), "{}", other.err);
-    // What a crash leaves of a line does not count.
+    // A line that a crash has truncated does not count.
     let mut text = fs::read_to_string(&journal).unwrap();
     text.push_str("chunk 1 64\n3ff0");
     fs::write(&journal, text).unwrap();
@@ -103,7 +103,7 @@ fn a_campaign_says_whether_covariances_are_honest() {
         assert!((2.0..4.0).contains(&nees), "{nees}");
         assert!(number(cell, "/parameters/2/coverage_95") > 0.85);
     }
-    // A misalignment shows as the rate does: half the rate, twice the sigma.
+    // The effect of a misalignment is proportional to the rate: half the rate gives twice the sigma.
     let claimed = |cell: usize| number(&cells[cell], "/parameters/0/sigma_rms");
     assert!((claimed(0) / claimed(1) - 2.0).abs() < 0.1);
 }

@@ -1,4 +1,4 @@
-//! Where results cannot be written, nothing of them is left.
+//! If results cannot be written, no part of them remains.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 
 use crate::support::{Finished, rins_in};
 
-/// Each command that writes, and what it leaves where there is room.
+/// Each command that writes, with its output if there is enough space.
 const COMMANDS: [(&str, &str); 9] = [
     ("demo -o disk/out", "disk/out"),
     ("simulate scenario.toml -o disk/out", "disk/out"),
@@ -48,10 +48,10 @@ fn is_refused(finished: &Finished, command: &str, says: &str) {
     assert!(told, "{command}: {}", finished.err);
 }
 
-/// No file may grow beyond a few blocks: writing fails half way.
+/// No file may exceed a few blocks: writing fails in the middle.
 #[test]
 fn a_file_that_cannot_grow_is_not_left_half_written() {
-    // The demo's own files, which stand elsewhere, would be the first not to grow.
+    // The demo's own files, which are elsewhere, would be the first to fail.
     for (command, _) in COMMANDS.into_iter().skip(1) {
         let folder = run();
         let script = format!("trap '' XFSZ; ulimit -f 16; exec \"$0\" {command}");
@@ -88,7 +88,7 @@ fn a_disk_that_cannot_be_written_is_named() {
     }
 }
 
-/// An old result on a disk without room for the new one stays.
+/// An old result remains if the disk has no space for the new one.
 #[test]
 #[cfg_attr(not(private_mounts), ignore = "this user may mount nothing")]
 fn an_old_result_outlives_a_full_disk() {
@@ -105,7 +105,7 @@ fn an_old_result_outlives_a_full_disk() {
     assert_eq!(finished.out, "");
 }
 
-/// Where what is printed has no room, or nobody reads it, no command panics.
+/// If the output cannot be printed, or has no reader, no command panics.
 #[test]
 fn what_cannot_be_printed_is_said_or_not_missed() {
     let folder = run();

@@ -1,4 +1,4 @@
-//! `rins observe`: what the shipped schedules tell, and the schedule to run next.
+//! `rins observe`: the observability under the shipped schedules, and the next schedule.
 
 use std::path::{Path, PathBuf};
 
@@ -27,7 +27,7 @@ fn one_rate_is_said_to_tell_combinations() {
     let bias = of(parameters, "gyro.bias.x");
     assert_eq!(bias["observability"], "combination");
     assert_eq!(bias["aliases"][0], misalignment["id"]);
-    // The same sum, in which the bias counts once.
+    // The same combination, with a coefficient of one for the bias.
     let ratio = number(misalignment, "/data_sigma") / number(bias, "/data_sigma");
     assert!((ratio / number(misalignment, "/combination/0/coefficient") - 1.0).abs() < 1e-6);
     let finished = rins_in(&schedules(), "observe i-constant-rate.toml");
@@ -47,7 +47,7 @@ fn baseline_loses_three_combinations_at_one_rate_and_none_otherwise() {
     assert_eq!(losses, [3.0, 0.0, 0.0, 0.0, 0.0]);
 }
 
-/// What it proposes is a scenario that can be simulated, and tells apart what it was asked for.
+/// The proposed schedule is a scenario that can be simulated, and distinguishes the requested effects.
 #[test]
 fn reversal_is_proposed_where_one_rate_confuses_two_effects() {
     let folder = tempfile::tempdir().unwrap();

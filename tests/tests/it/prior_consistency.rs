@@ -1,11 +1,11 @@
-//! A calibration is held against the data sheet, in its first lines and for machines.
+//! A calibration is compared with the data sheet, in its first lines and in the JSON result.
 
 use std::fs;
 use std::path::Path;
 
 use crate::support::{list, number, object, rins_in};
 
-/// A run of an IMU with this scale error of its accelerometers, on a rig that says this of gravity.
+/// A run of an IMU with this scale error of its accelerometers, with a rig that states this gravity.
 fn simulated(folder: &Path, scale: f64, gravity: &str) {
     let scenario = format!(
         r#"[site]
@@ -53,7 +53,7 @@ fn estimates_beyond_the_data_sheet_are_told_first() {
         (2500.0, "", true, 0),
         (10_000.0, "", true, 1),
         (-10_000.0, "", true, 1),
-        // Half a percent below what is there.
+        // Half a percent below the actual gravity.
         (0.0, "gravity = \"9.757 m/s^2\"", true, 1),
     ] {
         simulated(folder, scale, gravity);

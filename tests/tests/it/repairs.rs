@@ -1,4 +1,4 @@
-//! What of a log was repaired or left out is in every result.
+//! Repairs and omissions while reading a log are in every result.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use crate::support::{number, object, parameter, result_in, rins_in, texts};
 
-/// The demo's run with two samples lost at the rest's end, a line written twice, and a cut end.
+/// The demo's run with two samples lost at the end of the static interval, a repeated line, and a truncated end.
 fn imperfect() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let demo = rins_tests::workspace().join("crates/rins/data/demo");
@@ -45,7 +45,7 @@ fn every_result_tells_what_was_repaired_and_left_out() {
     }
     let converted = result_in(folder.path(), "convert rig.toml -o new.parquet");
     assert_eq!(told(&converted), expected);
-    // What was converted has nothing left but the gap, over which it has already been held.
+    // In a converted log only the gap remains, over which the rate has already been held.
     let again = result_in(folder.path(), "check new.toml");
     let [gap] = told(&again)[..] else { panic!("{again}") };
     assert!(gap.ends_with("the increment after each is taken to cover it"), "{gap}");
@@ -63,8 +63,8 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// Repeated samples are taken out by the paper's model too. Its filter has no state for what is lost with them: where that matters
-/// the innovations say so, and the result is never wrong without a word.
+/// Repeated samples are removed for the paper's model too. Its filter has no state for the error due to their loss: if that is
+/// significant the innovations show it, and the result always states it.
 #[test]
 fn the_paper_s_model_takes_out_repeated_samples_and_is_not_wrong_in_silence() {
     let mut close = 0;

@@ -1,4 +1,4 @@
-//! What `--force` replaces: regular files and folders of ours, and no input.
+//! The scope of `--force`: regular files and folders of rins results, and no input.
 #![cfg(unix)]
 
 use std::fs;
@@ -51,7 +51,7 @@ const TO_FILES: [(&str, &[&str]); 5] = [
     ("merge one.parquet two.parquet", &["one.parquet", "two.parquet"]),
 ];
 
-/// Commands that write a folder, and one of ours that holds an input of theirs.
+/// Commands that write a folder, and a folder of rins results that contains an input of theirs.
 const TO_FOLDERS: [(&str, &str); 8] = [
     ("simulate cal/scenario.toml", "cal"),
     ("check run/rig.toml", "run"),
@@ -78,7 +78,7 @@ fn prepared() -> TempDir {
     folder
 }
 
-/// Everything below a folder but for what is hidden: path, kind and content.
+/// All entries in a folder except hidden ones: path, kind and content.
 fn everything(folder: &Path) -> Vec<(PathBuf, String, Vec<u8>)> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -97,7 +97,7 @@ fn everything(folder: &Path) -> Vec<(PathBuf, String, Vec<u8>)> {
     found
 }
 
-/// Fails unless a command is refused with such words, and nothing has changed.
+/// Asserts that a command is refused with these words, and nothing has changed.
 fn assert_refused(folder: &Path, command: &str, destination: &str, says: &str) {
     let before = everything(folder);
     let Finished { code, err, .. } =
@@ -107,7 +107,7 @@ fn assert_refused(folder: &Path, command: &str, destination: &str, says: &str) {
     assert!(before == everything(folder), "{command} -o {destination} changed something");
 }
 
-/// What must not be replaced, of every kind that there is; a device needs a privilege to be made.
+/// Destinations of every kind that must not be replaced, except devices, which need a privilege to be created.
 fn specials(folder: &Path) -> [(&'static str, &'static str); 5] {
     let made = Command::new("mkfifo").arg(folder.join("pipe")).status().unwrap();
     assert!(made.success());
@@ -147,7 +147,7 @@ fn no_command_writes_over_what_it_reads() {
     for (command, inputs) in TO_FILES {
         for input in inputs {
             assert_refused(folder, command, input, "choose another name");
-            // Nor under another name of the same file.
+            // Another name of the same file is refused too.
             let other = folder.join("other-name");
             fs::hard_link(folder.join(input), &other).unwrap();
             assert_refused(folder, command, "other-name", "choose another name");
@@ -159,7 +159,7 @@ fn no_command_writes_over_what_it_reads() {
     }
 }
 
-/// Results of ours are replaced, as they are told to be.
+/// Results of rins are replaced on request.
 #[test]
 fn results_are_replaced() {
     let folder = prepared();
@@ -178,13 +178,13 @@ fn results_are_replaced() {
             assert_eq!(code, Some(0), "{again}: {err}");
         }
     }
-    // A campaign that was left unfinished too.
+    // An unfinished campaign too.
     fs::write(folder.join("campaign.part"), "").unwrap();
     let campaign = rins_in(folder, "monte-carlo scenario.toml --runs 2 -o campaign --force");
     assert_eq!((campaign.code, folder.join("campaign.part").exists()), (Some(0), false));
 }
 
-/// A pipe is not waited for, and nothing in a path writes to the terminal.
+/// A pipe does not block, and control characters in a path are not written to the terminal.
 #[test]
 fn pipes_and_paths_with_control_characters_are_told() {
     let folder = prepared();

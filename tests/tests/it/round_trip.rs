@@ -1,4 +1,4 @@
-//! A simulated run that is written, read and calibrated is the one that was simulated, to the bit.
+//! A simulated run that is written, read and calibrated gives bit-identical results.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use crate::support::{list, number, numbers, result_in};
 
-/// Two rates and a reversal after a rest; `table` is what the log is to hold of the table.
+/// Two rates and a reversal after a static interval; `table` is the recorded table signal.
 fn scenario(table: &str) -> String {
     format!(
         r#"{site}
@@ -58,7 +58,7 @@ misalignment = {{ xz = "60 arcsec", yz = "-40 arcsec" }}
 const ENCODER: &str = r#"table_angle = { noise = "0.3 arcsec", resolution = "0.01 arcsec" }"#;
 const COMMANDED: &str = "table_rate = {}";
 
-/// What the scenario's figures mean to the calibration, put down apart from how a file is read.
+/// The setup that the scenario's figures mean for the calibration, written independently of the reader.
 fn setup(angle_noise: f64) -> Setup {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let hour = DEG_PER_HOUR;
@@ -77,7 +77,7 @@ fn setup(angle_noise: f64) -> Setup {
     }
 }
 
-/// An encoder's noise and the rounding to its last bit.
+/// The encoder's noise combined with its rounding error.
 fn encoder_noise() -> f64 {
     (0.3 * ARCSEC).hypot(0.01 * ARCSEC / 12.0_f64.sqrt())
 }
@@ -85,22 +85,22 @@ fn encoder_noise() -> f64 {
 fn in_memory(scenario: &str, setup: &Setup) -> (Recording, Calibration) {
     let file = ScenarioFile::parse(scenario, Path::new("scenario.toml")).unwrap();
     let run = simulate(&file.scenario).unwrap().recording;
-    // A rig that does not say how steady its axis is gets what is most likely.
+    // A rig without a stated wobble gets the most likely one.
     let mut setup = *setup;
     setup.table.wobble = likely_wobble(&run, &setup).unwrap();
     let calibration = calibrate(&run, &setup, |_| ()).unwrap();
     (run, calibration)
 }
 
-/// Simulates with the command, into `folder`/run.
+/// Simulates with the command, to `folder`/run.
 fn simulated(folder: &Path, scenario: &str) {
     fs::write(folder.join("scenario.toml"), scenario).unwrap();
     let result = result_in(folder, "simulate scenario.toml -o run");
     assert_eq!((&result["samples"], &result["seed"]), (&2400.into(), &7.into()));
 }
 
-/// What the command found is what the library found. The quantities in files are parsed to the last
-/// bit or the one beside it, and the filter makes no more of that.
+/// Asserts that command and library give the same result. The quantities in files are parsed to the last
+/// bit or its neighbor, and the filter does not amplify that.
 fn assert_same(found: &Value, calibration: &Calibration) {
     const ROUNDING: f64 = 1e-12;
     let parameters = list(found, "/parameters");
@@ -144,7 +144,7 @@ fn commanded_rate_comes_back_as_a_column() {
     assert_same(&result_in(folder.path(), "calibrate run/rig.toml"), &calibration);
 }
 
-/// A log that holds nothing of the table, and a rig that tells its profile, are as good as a log
+/// A log without a table signal, with a profile in its rig, is equivalent to a log
 /// with the commanded rate.
 #[test]
 fn commanded_profile_stands_in_for_a_column() {
@@ -172,7 +172,7 @@ fn same_seed_makes_the_same_bytes_and_another_seed_others() {
         assert_eq!(bytes("told", name), bytes("run", name), "{name}");
     }
     assert_ne!(bytes("other", "run.csv"), bytes("run", "run.csv"));
-    // Only the noise is another: the rig is the same, and the truth but for the seed.
+    // Only the noise differs: the rig is the same, and the truth except for the seed.
     assert_eq!(bytes("other", "rig.toml"), bytes("run", "rig.toml"));
     let truth: Value = serde_json::from_slice(&bytes("other", "truth.json")).unwrap();
     assert_eq!(truth["seed"], 8);

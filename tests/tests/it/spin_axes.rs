@@ -1,4 +1,4 @@
-//! A table that turns an IMU about any of its axes: names, signs and columns are the sensors' own.
+//! A table that rotates an IMU about any of its axes: names, signs and columns are those of the sensors.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use crate::support::{list, number, numbers, object, result_in, rins_in};
 
-/// A way to mount an IMU: for each axis of the run, of which z is the axis of rotation, which of the sensors' axes it is, and
+/// A mounting of an IMU: for each axis of the run, of which z is the spin axis, the corresponding axis of the sensors, and
 /// whether it is reversed.
 #[derive(Clone, Copy, Debug)]
 struct Mounting {
@@ -17,7 +17,7 @@ struct Mounting {
     axes: [(&'static str, f64); 3],
 }
 
-/// All six, written down by hand.
+/// All six, written by hand.
 const MOUNTINGS: [Mounting; 6] = [
     Mounting { spin: "x", axes: [("y", 1.0), ("z", 1.0), ("x", 1.0)] },
     Mounting { spin: "y", axes: [("z", 1.0), ("x", 1.0), ("y", 1.0)] },
@@ -32,7 +32,7 @@ impl Mounting {
         self.axes["xyz".find(letter).unwrap()]
     }
 
-    /// What a parameter of a run about z is called along the sensors' own axes, and what its value is multiplied by.
+    /// The name of a parameter of a run about z along the sensors' own axes, and the factor of its value.
     fn own(self, id: &str) -> (String, f64) {
         let (term, name) = id.rsplit_once('.').unwrap();
         if term == "axis.attitude" {
@@ -44,7 +44,8 @@ impl Mounting {
         (format!("{term}.{name}"), if term.ends_with("scale") { 1.0 } else { sign })
     }
 
-    /// The axes under which a log of a run about z is that of an IMU so mounted: what the sensor calls x is what is read as ...
+    /// The value of `axes` with which a log of a run about z becomes that of an IMU in this mounting: the readings of the
+    /// sensor's x, ...
     fn read_as(self) -> [String; 3] {
         ["x", "y", "z"].map(|own| {
             let place = self.axes.iter().position(|(letter, _)| *letter == own).unwrap();
@@ -59,7 +60,7 @@ const SCALES: [(&str, f64); 3] = [("x", 1500.0), ("y", -2500.0), ("z", 3000.0)];
 const MISALIGNMENTS: [(&str, f64); 6] =
     [("xy", 412.5), ("xz", -618.8), ("yx", -206.3), ("yz", 165.0), ("zx", 144.4), ("zy", -247.5)];
 
-/// A run on a level table of the IMU so mounted, simulated into `folder`/`name` as one about z.
+/// Simulates a run on a level table of the IMU in this mounting to `folder`/`name`, as one about z.
 fn simulated(folder: &Path, name: &str, mounting: Mounting, seed: u32) {
     let value = |id: &str, list: &[(&str, f64)]| {
         let (own, sign) = mounting.own(id);
@@ -113,7 +114,7 @@ accel = {{ bias = ["1 mg", "-2 mg", "1.5 mg"], scale = ["0 ppm", "0 ppm", "0 ppm
     result_in(folder, &format!("simulate scenario.toml -o {name}"));
 }
 
-/// The rig file of that run as one of the IMU so mounted.
+/// The rig file of that run for the IMU in this mounting.
 fn mounted(folder: &Path, name: &str, mounting: Mounting) -> String {
     let rig = fs::read_to_string(folder.join(name).join("rig.toml")).unwrap();
     let axes = format!(", axes = {:?} }}", mounting.read_as());
@@ -136,7 +137,7 @@ fn parameters(result: &Value) -> BTreeMap<String, Value> {
     list(result, "/parameters").iter().map(parameter).collect()
 }
 
-/// Fails unless a result along the sensors' own axes is that of the run about z but for names and signs.
+/// Asserts that a result along the sensors' own axes is that of the run about z except for names and signs.
 fn assert_same(plain: &Value, own: &Value, mounting: Mounting) {
     let (plain, own) = (parameters(plain), parameters(own));
     assert_eq!(plain.len(), own.len(), "{mounting:?}");
@@ -164,7 +165,8 @@ fn run_about_z() -> TempDir {
 fn results_about_any_axis_differ_in_names_alone() {
     let folder = run_about_z();
     let of = |rig: &str, model: &str| {
-        // Biases like these are no part of the paper's model: that its innovations are too large is said, beside the result.
+        // Biases of this size are not part of the paper's model: the excessive innovations are reported in addition to the
+        // result.
         object(&rins_in(folder.path(), &format!("calibrate {rig} --model {model} --json")))
     };
     let plain = ["paper12", "full"].map(|model| of("run/rig.toml", model));
@@ -175,7 +177,7 @@ fn results_about_any_axis_differ_in_names_alone() {
     }
 }
 
-/// What `apply` writes has the columns of the sensors that were read, and `navigate` is the same whatever they are called.
+/// The output of `apply` has the columns of the sensors in the log, and `navigate` does not depend on their names.
 #[test]
 fn compensation_is_of_the_sensors_that_were_read() {
     let folder = run_about_z();
@@ -199,14 +201,14 @@ fn compensation_is_of_the_sensors_that_were_read() {
         let row: Vec<f64> =
             lines.nth(600).unwrap().split(',').map(|n| n.parse().unwrap()).collect();
         let turned = |axis: &str| row[head.iter().position(|h| *h == axis).unwrap()].to_degrees();
-        // At 30 s the table turns at 30 deg/s, or 1.5 deg in a sample.
+        // At 30 s the table rotates at 30 deg/s, or 1.5 deg per sample.
         for (place, letter) in ["x", "y", "z"].into_iter().enumerate() {
             let (own, sign) = mounting.axes[place];
             let expected = if letter == "z" { 1.5 * sign } else { 0.0 };
             let seen = turned(&format!("gyro_{own}"));
             assert!((seen - expected).abs() < 0.01, "{mounting:?}: gyro_{own} {seen}");
         }
-        // Its own rig file knows the axis, and what is left of the errors is nothing.
+        // Its rig file has the axis, and the remaining errors are zero.
         let again = result_in(folder.path(), &format!("calibrate {out}.toml --model paper12"));
         let scale = format!("gyro.scale.{}", mounting.axes[2].0);
         let left = &parameters(&again)[&scale];
@@ -215,7 +217,7 @@ fn compensation_is_of_the_sensors_that_were_read() {
     }
 }
 
-/// What is read of a log is told by the sensors' own names.
+/// The channels of a log are reported by the names of the sensors.
 #[test]
 fn channels_are_named_as_the_sensors_are() {
     let folder = run_about_z();
@@ -247,7 +249,7 @@ fn channels_are_named_as_the_sensors_are() {
     }
 }
 
-/// The textbook calibration: one IMU mounted three ways on a table gives all of its gyros' scale errors and misalignments.
+/// The textbook calibration: one IMU in three mountings on a table determines all scale errors and misalignments of its gyros.
 #[test]
 fn three_mountings_give_all_scale_errors_and_misalignments_of_the_gyros() {
     let folder = tempfile::tempdir().unwrap();
@@ -275,7 +277,7 @@ fn three_mountings_give_all_scale_errors_and_misalignments_of_the_gyros() {
         assert_eq!(found[&id]["identifiable"], true, "{id}");
     }
     assert!(number(&result, "/consistency/whiteness_p") > 1e-4, "{}", result["consistency"]);
-    // Each run's file has the whole matrix, and a diagnosis of runs about several axes says that it cannot be.
+    // Each run's file has the whole matrix, and a diagnosis of runs about several axes is refused.
     let files = ["calibration.toml", "calibration-2.toml", "calibration-3.toml"].map(|file| {
         let text = fs::read_to_string(folder.path().join("cal").join(file)).unwrap();
         let gyro = text.split("[gyro]").nth(1).unwrap();
@@ -287,7 +289,7 @@ fn three_mountings_give_all_scale_errors_and_misalignments_of_the_gyros() {
     assert!(refused.err.contains("the runs have different spin axes"), "{}", refused.err);
 }
 
-/// A parameter that only a run about one axis shows is no parameter of a run about another, and that is said.
+/// A parameter that acts only in a run about one axis is not available in a run about another, and the message states it.
 #[test]
 fn models_and_calibrations_name_the_axes_that_the_run_has() {
     let folder = run_about_z();
@@ -309,14 +311,14 @@ fn models_and_calibrations_name_the_axes_that_the_run_has() {
     assert_eq!(found.code, Some(0), "{}", found.err);
     let text = fs::read_to_string(folder.path().join("with/calibration.toml")).unwrap();
     assert!(text.contains("id = \"gyro_scale_asymmetry\"\nestimate = true\nx = "), "{text}");
-    // A calibration with the asymmetry of gyro x says nothing of a run about z.
+    // A calibration with the asymmetry of gyro x does not apply to a run about z.
     let command = "apply run/rig.toml --calibration with/calibration.toml -o clean.csv";
     let refused = rins_in(folder.path(), command);
     assert_eq!(refused.code, Some(1));
     let reason = "gyro_scale_asymmetry.x was estimated in a run about x";
     assert!(refused.err.contains(reason), "{}", refused.err);
     assert!(!folder.path().join("clean.csv").exists());
-    // Read again, the model is what was estimated.
+    // Read again, the model is the estimated one.
     let again = result_in(folder.path(), &format!("calibrate {rig} --model with/model.toml"));
     assert!(parameters(&again).contains_key("gyro_scale_asymmetry.x"));
 }

@@ -1,4 +1,4 @@
-//! The static intervals of a log, as every command finds and uses them.
+//! The static intervals of a log, in the search and use by every command.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -11,27 +11,27 @@ use tempfile::TempDir;
 
 use crate::support::{list, number, numbers, parameter, result_in, rins_in};
 
-/// Gravity where the logs are made \[m/s²\]; the rig files state it.
+/// Gravity at the site of the logs \[m/s²\], as in the rig files.
 const GRAVITY: f64 = 9.8;
 
 const DEG: f64 = std::f64::consts::PI / 180.0;
 
-/// How far the ends of an interval may be off \[s\].
+/// The tolerance for the ends of an interval \[s\].
 const WITHIN: f64 = 0.3;
 
-/// What a sensor triad of a log gets wrong, and what its data sheet says.
+/// The errors of the sensors of a log, with their data sheet.
 struct Imu {
-    /// \[rad/s\], \[m/s²\]
+    /// The biases \[rad/s\], \[m/s²\].
     bias: [[f64; 3]; 2],
     /// The 1σ of a sample \[rad/s\], \[m/s²\].
     noise: [f64; 2],
-    /// The bias of each gyro by the specific force along it \[(rad/s)/(m/s²)\].
+    /// The bias of each gyro per specific force along it \[(rad/s)/(m/s²)\].
     g_sensitivity: f64,
     /// `[imu.gyro]` and `[imu.accel]`.
     sheet: &'static str,
 }
 
-/// A consumer MEMS.
+/// A consumer MEMS IMU.
 const MEMS: Imu = Imu {
     bias: [[-0.0009, -0.0017, 0.002], [0.007, 0.0, 0.36]],
     noise: [1.2e-3, 0.01],
@@ -42,7 +42,7 @@ const MEMS: Imu = Imu {
             misalignment_sigma = \"1 deg\"\n",
 };
 
-/// The same with a gyro that no one calibrated.
+/// The same with an uncalibrated gyro.
 const UNCALIBRATED: Imu = Imu {
     bias: [[2.0 * DEG, -1.2 * DEG, 0.4 * DEG], [0.007, 0.0, 0.36]],
     sheet: "[imu.gyro]\nnoise = \"0.01 deg/s/sqrt(Hz)\"\nbias_sigma = \"5 deg/s\"\nscale_sigma = \"3 %\"\n\
@@ -62,24 +62,24 @@ const TACTICAL: Imu = Imu {
             misalignment_sigma = \"600 arcsec\"\n",
 };
 
-/// A rate of the body \[rad/s\] that is held for so long \[s\].
+/// A rate of the body \[rad/s\] with its duration \[s\].
 type Motion = (Vector3<f64>, f64);
 
 fn still(seconds: f64) -> Motion {
     (Vector3::zeros(), seconds)
 }
 
-/// Tipped about x by so much and set back, in so many seconds each.
+/// A rotation about x by `angle` and back, in `half` seconds each.
 fn rocked(angle: f64, half: f64) -> [Motion; 2] {
     let rate = Vector3::x() * (angle / half);
     [(rate, half), (-rate, half)]
 }
 
-/// Static intervals of so many seconds, and a turn of 1.5 s by a hand between each two of them.
+/// Static intervals of `seconds`, with a rotation of 1.5 s by hand between each two of them.
 fn tumble(stops: usize, seconds: f64) -> Vec<Motion> {
     let mut motions = vec![still(seconds)];
     for stop in 1..stops {
-        // Axes that are those of no body, so that no two attitudes are alike.
+        // Axes in general directions, so that all attitudes differ.
         let (one, other) = (1.9 * stop as f64, 0.8 * stop as f64);
         let axis = Vector3::new(one.cos(), one.sin(), other.sin()).normalize();
         motions.push((axis * (90.0 * DEG / 1.5), 1.5));
@@ -101,7 +101,7 @@ fn stationary(motions: &[Motion]) -> Vec<[f64; 2]> {
     spans
 }
 
-/// A folder with a log of these motions at so many samples a second, `lost` of which are left out, and a rig file that reads it.
+/// A folder with a log of these motions at this sampling rate, from which `lost` samples are omitted, and its rig file.
 fn log_of(
     imu: &Imu,
     hz: f64,
@@ -152,7 +152,7 @@ fn whole(imu: &Imu, hz: f64, motions: &[Motion]) -> TempDir {
     log_of(imu, hz, motions, "", |_| false)
 }
 
-/// The intervals of a result that are used \[s\].
+/// The static intervals of a result that are used \[s\].
 fn used(result: &Value) -> Vec<[f64; 2]> {
     list(result, "/static_intervals")
         .iter()
@@ -169,7 +169,7 @@ fn assert_spans(found: &[[f64; 2]], truth: &[[f64; 2]]) {
     assert!(agree, "{found:?} where {truth:?} are static");
 }
 
-/// Whether a span lies in one of these.
+/// Whether a span is within one of these.
 fn within(span: &[f64], truth: &[[f64; 2]]) -> bool {
     truth.iter().any(|[start, end]| span[0] >= start - WITHIN && span[1] <= end + WITHIN)
 }
@@ -178,7 +178,7 @@ fn check(folder: &Path) -> Value {
     result_in(folder, "check rig.toml")
 }
 
-/// What is tipped over and set back gains no angle in all, but is not static.
+/// A rotation and its reversal have a total angle of zero, but are not static.
 #[test]
 fn what_is_rocked_there_and_back_is_motion_to_every_command() {
     for half in [1.0, 2.0, 4.0, 8.0] {
@@ -203,7 +203,7 @@ fn what_is_rocked_there_and_back_is_motion_to_every_command() {
     }
 }
 
-/// A bias is no motion where the data sheet says that it may be so large; the mean rate is removed.
+/// A bias within the data sheet is not motion; the mean rate is removed.
 #[test]
 fn a_bias_within_the_data_sheet_is_no_motion() {
     for (hz, stops, seconds) in [(50.0, 7, 6.0), (100.0, 22, 3.0)] {
@@ -216,13 +216,13 @@ fn a_bias_within_the_data_sheet_is_no_motion() {
             let bias = parameter(&result, &format!("gyro.bias.{name}"));
             let truth = UNCALIBRATED.bias[0][axis] / DEG * 3600.0;
             let (value, sigma) = (number(bias, "/value"), number(bias, "/sigma"));
-            // The Earth's rate is known but for the azimuth.
+            // The Earth rate is known except for the azimuth.
             assert!((value - truth).abs() < 4.0 * sigma + 15.05, "{bias}, not {truth}");
         }
     }
 }
 
-/// A rate about the vertical that no bias explains is a turn, and the result says so.
+/// A rate about the vertical that exceeds any bias is a rotation, and the result states it.
 #[test]
 fn a_constant_turn_about_the_vertical_is_no_bias() {
     let turn = Vector3::z() * (3.0 * DEG);
@@ -274,7 +274,7 @@ fn calibrates(imu: &Imu, hz: f64, stops: usize, seconds: f64) {
     }
 }
 
-/// One lost sample a minute costs next to nothing: the whole log is used, and what is filled in does not show.
+/// One lost sample per minute has almost no effect: the whole log is used, and the filled-in samples do not change the noise.
 #[test]
 fn the_noise_of_a_log_that_loses_single_samples_is_that_of_all_of_it() {
     let motions = [still(1200.0)];
@@ -295,7 +295,7 @@ fn the_noise_of_a_log_that_loses_single_samples_is_that_of_all_of_it() {
     assert!(text.contains("20 lost samples"), "{text}");
 }
 
-/// Where too much is lost, only a part is used; the result says which, and that it is a part.
+/// If too many samples are lost, only a part is used, and the result states which.
 #[test]
 fn the_noise_of_a_log_that_loses_much_says_what_was_left_out() {
     let lost = |sample: u32| sample < 3000 && sample % 10 == 5;
@@ -318,7 +318,7 @@ fn stated_static_intervals_take_the_place_of_a_search() {
             .collect();
         assert_spans(&stated, &[[5.0, 25.0], [40.0, 70.0]]);
     }
-    // A statement that the data contradict is believed, and what contradicts it is said.
+    // A statement that the data contradict is used, and the contradiction is reported.
     let folder = log_of(&MEMS, 50.0, &motions, "static = [[\"20 s\", \"40 s\"]]", |_| false);
     let checked = check(folder.path());
     let [stated] = list(&checked, "/static_intervals") else { panic!("{checked:#}") };

@@ -1,4 +1,4 @@
-//! Running `rins` in a folder, and looking at what came of it.
+//! Functions that run `rins` in a folder and read its output.
 
 use std::path::Path;
 use std::process::Output;
@@ -6,7 +6,7 @@ use std::process::Output;
 use rins_tests::rins;
 use serde_json::Value;
 
-/// What a run of `rins` left behind.
+/// The output of a run of `rins`.
 #[derive(Debug)]
 pub(crate) struct Finished {
     /// Its exit code.
@@ -24,14 +24,14 @@ impl From<Output> for Finished {
     }
 }
 
-/// Runs `rins` in `folder` with the words of `arguments`.
+/// Runs `rins` in `folder` with these arguments, separated by blanks.
 pub(crate) fn rins_in(folder: &Path, arguments: &str) -> Finished {
     let mut command = rins();
     command.args(arguments.split_whitespace()).current_dir(folder);
     command.output().expect("rins starts").into()
 }
 
-/// What `rins --json` prints in `folder`, after it has succeeded without a word on standard error.
+/// The output of `rins --json` in `folder`, after success without any output on standard error.
 pub(crate) fn result_in(folder: &Path, arguments: &str) -> Value {
     let finished = rins_in(folder, &format!("{arguments} --json"));
     assert_eq!((finished.code, finished.err.as_str()), (Some(0), ""), "rins {arguments}");
@@ -80,7 +80,7 @@ pub(crate) fn parameter<'r>(result: &'r Value, id: &str) -> &'r Value {
     found.unwrap_or_else(|| panic!("no {id}"))
 }
 
-/// Holds what was found of the parameter `id`, in the unit of the result, against four of its sigmas.
+/// Asserts that the estimate of the parameter `id`, in the unit of the result, is within four sigmas of the truth.
 pub(crate) fn assert_found(result: &Value, id: &str, truth: f64) {
     let found = parameter(result, id);
     let (value, sigma) = (number(found, "/value"), number(found, "/sigma"));

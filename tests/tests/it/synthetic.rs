@@ -1,4 +1,4 @@
-//! Sample runs from a generator that is not this project's: truth known, found again.
+//! Sample runs of an independent generator: the known truth is recovered.
 
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,8 @@ use serde_json::Value;
 
 use crate::support::{list, magnitude, number, result_in, texts};
 
-/// The smallest sigma that is believed: what accelerometer errors put into an estimate beyond the
-/// model's own sigma.
+/// The minimum sigma: the errors due to accelerometer errors, which are not in the sigma
+/// of the model.
 const ANGLE_FLOOR: f64 = 0.03;
 const SCALE_FLOOR: f64 = 0.1;
 
@@ -21,7 +21,7 @@ fn calibrated(run: &Path) -> Value {
     result_in(run, "calibrate --model paper12 rig.toml")
 }
 
-/// The Earth's rate about the spin axis of `C_s^n = Rz(yaw) Rx(pitch) Ry(roll)`, from the axis'
+/// The Earth rate about the spin axis of `C_s^n = Rz(yaw) Rx(pitch) Ry(roll)`, from the axis'
 /// north and up components.
 fn earth_rate_about_spin_axis(truth: &Value, latitude: f64) -> f64 {
     const EARTH_RATE: f64 = 7.292115e-5;
@@ -57,7 +57,7 @@ fn one_constant_rate_shows_combinations_and_says_so() {
         let (value, sigma) = (number(parameter, "/value"), number(parameter, "/sigma"));
         let off = (value - combination).abs();
         assert!(off < 4.0 * sigma.max(floor), "{id}: {combination} found as {value} ± {sigma}");
-        // Without the bias it would not be the truth: the test can tell.
+        // Without the bias it would not be the truth: the test is sensitive to it.
         assert!((value - coupling / factor).abs() > 4.0 * sigma.max(floor), "{id}");
     }
     let before = magnitude(&result, "/navigation/before/velocity_m_s");
@@ -65,7 +65,7 @@ fn one_constant_rate_shows_combinations_and_says_so() {
     assert!(before > 100.0 * after, "{before} m/s before, {after} m/s after");
 }
 
-/// Several rates tell the errors from the biases, but a model without biases cannot follow them.
+/// Several rates distinguish the errors from the biases, but a model without biases does not fit them.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn several_rates_show_that_the_model_lacks_something() {

@@ -1,4 +1,4 @@
-//! What depends on temperature is about the reference temperature of the model, whichever run it is used in.
+//! Temperature-dependent terms refer to the reference temperature of the model, in whichever run they are used.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use crate::support::{assert_found, list, number, numbers, parameter, result_in, rins_in, texts};
 
-/// A tilted table that rests and turns both ways, of a gyro that changes by (0.5, -0.3, 0.2) deg/h and 2 ppm a kelvin;
-/// `temperature` says how warm it is.
+/// A tilted table with a static interval and rotations in both directions, and a gyro that changes by (0.5, -0.3, 0.2) deg/h
+/// and 2 ppm per kelvin; `temperature` is its temperature profile.
 fn simulated(folder: &Path, name: &str, temperature: &str, seed: u32) {
     let scenario = format!(
         r#"[site]
@@ -60,7 +60,7 @@ fn write_model(folder: &Path, opening: &str) {
     fs::write(folder.join("m.toml"), model).unwrap();
 }
 
-/// How far free navigation with a calibration is off \[m/s\], and what is said of its range.
+/// The velocity error of free navigation with a calibration \[m/s\], and the remarks on its range.
 fn navigated(folder: &Path, rig: &str, more: &str) -> (f64, Value) {
     let result =
         result_in(folder, &format!("navigate {rig} --calibration cal/calibration.toml{more}"));
@@ -80,7 +80,7 @@ fn calibration_is_as_good_in_a_run_that_starts_at_another_temperature() {
     simulated(folder, "hot", r#""75 degC""#, 4);
     write_model(folder, "");
     let found = result_in(folder, "calibrate warming/rig.toml --model m.toml -o cal");
-    // Values are those at 20 degC, as they were simulated.
+    // Values refer to 20 degC, as in the simulation.
     for (id, truth) in [
         ("gyro.scale.z", 100.0),
         ("gyro_thermal_scale.z", 2.0),
@@ -97,11 +97,11 @@ fn calibration_is_as_good_in_a_run_that_starts_at_another_temperature() {
     let own = navigated(folder, "warming/rig.toml", "").0;
     for run in ["warm", "cold"] {
         let (velocity, result) = navigated(folder, &format!("{run}/rig.toml"), "");
-        // A reference at the run's own start would leave degrees an hour: metres a second.
+        // A reference at the run's initial temperature would leave degrees per hour: meters per second.
         assert!(velocity < own + 0.02, "{run}: {velocity} m/s, {own} where it was calibrated");
         assert_eq!(result["notes"], Value::Array(Vec::new()), "{run}");
     }
-    // 35 K beyond, where 30 were calibrated.
+    // 35 K outside a calibrated range of 30 K.
     let far = rins_in(folder, "navigate hot/rig.toml --calibration cal/calibration.toml");
     assert_eq!(far.code, Some(1));
     assert!(
@@ -163,7 +163,7 @@ fn log_without_temperature_and_temperatures_in_kelvin_are_refused() {
     assert!(refused.err.contains("a temperature such as \"20 degC\""), "{}", refused.err);
 }
 
-/// A coefficient that no run shows by itself, as each is at one temperature: three soaks show it.
+/// A coefficient that is unobservable in any single run, because each has one temperature: three soaks show it.
 #[test]
 fn scale_error_that_differs_between_soaks_is_named_as_its_temperature_coefficient() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! An IMU that a hand turns over from rest to rest, with nothing that reads how far.
+//! An IMU that is turned by hand from one static interval to the next, without an angle reference.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -10,23 +10,23 @@ use serde_json::Value;
 
 use crate::support::{list, number, result_in, rins_in, texts};
 
-/// Gravity where it is turned over \[m/s²\]: the rig file says so too.
+/// Gravity at the site \[m/s²\], as in the rig file.
 const GRAVITY: f64 = 9.8;
 
-/// The length of a sample \[s\].
+/// The sample interval \[s\].
 const INTERVAL: f64 = 0.02;
 
-/// Samples of a rest, and of a turn.
+/// The number of samples of a static interval, and of a rotation.
 const STEPS: [u32; 2] = [300, 75];
 
-/// What the accelerometers get wrong after a switching-on \[m/s²\]; the rest of it is for good.
+/// The accelerometer biases after each turn-on \[m/s²\]; the other errors are constant.
 const BIASES: [[f64; 3]; 2] = [[0.02, -0.03, 0.01], [-0.015, 0.01, 0.025]];
 
-/// Scale errors on the diagonal, misalignments beside it.
+/// Scale errors on the diagonal, misalignments off the diagonal.
 const SHAPE: Matrix3<f64> =
     Matrix3::new(0.002, 0.001, 0.0, 0.0, -0.003, 0.0015, -0.0005, 0.0, 0.001);
 
-/// A log of `turns` quarter turns and a rest of six seconds after each, and a rig file that reads it.
+/// A log of `turns` quarter turns with a static interval of six seconds after each, and its rig file.
 fn turned_over(folder: &Path, name: &str, bias: [f64; 3], turns: usize, seed: u64) {
     let mut deviates = Seed::new(seed).stream(Sensor::Encoder);
     let mut noise = |sigma: f64| Vector3::from_fn(|_, _| sigma * deviates.sample());
@@ -52,7 +52,7 @@ fn turned_over(folder: &Path, name: &str, bias: [f64; 3], turns: usize, seed: u6
     };
     for turn in 0..=turns {
         hold(Vector3::zeros(), STEPS[0]);
-        // Axes that are those of no body, so that no two rests are alike.
+        // Axes in general directions, so that all static intervals differ.
         let (one, other) = (1.9 * turn as f64, 0.8 * turn as f64);
         let axis = Unit::new_normalize(Vector3::new(one.cos(), one.sin(), other.sin()));
         let rate = std::f64::consts::FRAC_PI_2 / (f64::from(STEPS[1]) * INTERVAL);
@@ -77,7 +77,7 @@ fn shown<'r>(result: &'r Value, id: &str, run: Option<u64>) -> &'r Value {
     list(result, "/parameters").iter().find(of).unwrap()
 }
 
-/// Whether a parameter in this unit is as the log was made.
+/// Asserts that a parameter in this unit agrees with the truth of the log.
 fn assert_found(parameter: &Value, truth: f64, unit: f64) {
     let (value, sigma) = (number(parameter, "/value"), number(parameter, "/sigma"));
     let off = (value - truth / unit) / sigma;
@@ -125,7 +125,7 @@ fn two_logs_share_the_sensors_and_not_the_switching_on() {
     assert!(folder.path().join("out/calibration-2.toml").is_file());
 }
 
-/// Two attitudes tell nothing that one does not.
+/// Two attitudes give no more information than one.
 #[test]
 fn a_log_of_few_attitudes_is_calibrated_on_its_longest_rest() {
     let folder = tempfile::tempdir().unwrap();

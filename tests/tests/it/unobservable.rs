@@ -1,4 +1,4 @@
-//! What a run does not show is neither shown as a value nor compensated.
+//! An unobservable quantity is neither reported as a value nor compensated.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -10,7 +10,7 @@ use crate::support::{number, parameter, result_in, rins_in, texts};
 const RUNS: [(f64, f64, f64, u32); 4] =
     [(60.0, 100.0, 25.0, 41), (25.0, 50.0, 0.0, 7), (120.0, 200.0, 60.0, 3), (40.0, 20.0, 8.0, 19)];
 
-/// What no turn about z shows of the gyros.
+/// The gyro parameters that are unobservable in any rotation about z.
 const UNOBSERVABLE: [&str; 6] = [
     "gyro.scale.x",
     "gyro.scale.y",
@@ -65,13 +65,13 @@ accel = {{ bias = ["1 mg", "-0.5 mg", "2 mg"], scale = ["0 ppm", "0 ppm", "0 ppm
     result_in(folder, "simulate scenario.toml -o run");
 }
 
-/// A log of the same IMU that is turned at so much about y \[deg/s\], in a hand: nothing but its biases is wrong about y.
+/// A log of the same IMU that is rotated by hand about y at this rate \[deg/s\]; its only errors about y are biases.
 fn turned_about_y(folder: &Path, rate: f64) {
     let mut log = "time,gyro_x,gyro_y,gyro_z,accel_x,accel_y,accel_z\n".to_owned();
     for sample in 1_u32..=500 {
         let time = 0.01 * f64::from(sample);
         let [x, y, z] = [BIAS[0], rate + BIAS[1], BIAS[2]];
-        // Readings that repeat are those of a channel that is stuck.
+        // Repeated readings would be those of a stuck channel.
         let last = f64::from(sample % 7) * 1e-5;
         let [x, y, z, up] = [x + last, y + last, z - last, 9.8 - last];
         writeln!(log, "{time:.2},{x},{y},{z},{last},{last},{up}").unwrap();
@@ -90,7 +90,7 @@ accel = { columns = ["accel_x", "accel_y", "accel_z"], unit = "m/s^2" }
     fs::write(folder.join("about_y.toml"), rig).unwrap();
 }
 
-/// The mean of a column of a log, a header above it.
+/// The mean of a column of a log with a header.
 fn mean(log: &str, column: &str) -> f64 {
     let mut lines = log.lines();
     let place = lines.next().unwrap().split(',').position(|name| name == column).unwrap();
@@ -127,7 +127,7 @@ fn what_a_turn_about_z_does_not_show_is_not_compensated() {
         turned_about_y(folder, 100.0);
         rins_in(folder, "apply about_y.toml --calibration cal/calibration.toml -o clean.csv");
         let clean = fs::read_to_string(folder.join("clean.csv")).unwrap();
-        // It holds increments, in rad a sample.
+        // It contains increments, in rad per sample.
         let rate = mean(&clean, "gyro_y").to_degrees() / 0.01;
         let bias = number(parameter(&result, "gyro.bias.y"), "/sigma") / 3600.0;
         assert!((rate - 100.0).abs() < 5.0 * bias, "{given:?}: {rate} deg/s, bias known to {bias}");
@@ -143,7 +143,7 @@ fn value_of_a_combination_stands_with_the_combination() {
     let row = text.out.lines().find(|line| line.trim_start().starts_with("accel.scale.z")).unwrap();
     let words: Vec<&str> = row.split_whitespace().collect();
     let own: f64 = words[1].parse().unwrap();
-    // Its own value, which what was known before holds at a few percent, whatever the combination is.
+    // Its own value, which the prior keeps at a few percent, whatever the combination is.
     assert!(own.abs() < 3e4, "{row}");
     assert!(row.contains("observable only in the combination accel.scale.z"), "{row}");
     assert!(row.contains(" ± ") && row.contains(" ppm (1σ)"), "{row}");

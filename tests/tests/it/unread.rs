@@ -1,4 +1,4 @@
-//! A table that nothing reads: gravity tells by how much it turned.
+//! A table without a recorded angle: gravity is the angle reference.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use rins_testing::{data_sheets, site};
 
 use crate::support::{assert_found, number, parameter, result_in, texts};
 
-/// A rest, and two stretches of which the second is the longer one: it begins where the table has turned by who knows what.
+/// A static interval, and two rotations, of which the second is longer: it begins at an unknown table angle.
 const SCENARIO: &str = concat!(
     site!(),
     r#"
@@ -41,8 +41,8 @@ misalignment = { xy = "20 arcsec", xz = "60 arcsec", yx = "20 arcsec", yz = "-40
 "#
 );
 
-/// The stated attitude is that of a table whose angle is zero. Where nothing tells the angle the axis still points where it was
-/// surveyed, and nothing is found in a run that holds nothing.
+/// The stated attitude refers to a table angle of zero. Without an angle reference the axis still has its surveyed
+/// direction, and no effect is found in a run without effects.
 #[test]
 fn its_axis_points_where_it_was_surveyed() {
     let folder = tempfile::tempdir().unwrap();
@@ -69,7 +69,7 @@ fn its_axis_points_where_it_was_surveyed() {
     ] {
         assert_found(&result, id, truth);
     }
-    // An axis that gravity alone shows is surveyed to two degrees.
+    // An axis that is known from gravity alone has a prior of two degrees.
     assert!(number(parameter(&result, "axis.attitude.x"), "/sigma") < 720.0);
     let diagnosis = result_in(folder.path(), "diagnose run/rig.toml");
     assert_eq!(diagnosis["verdict"], "adequate", "{}", diagnosis["causes"]);

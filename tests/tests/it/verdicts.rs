@@ -1,4 +1,4 @@
-//! `rins check` has a verdict on each thing that can be wrong with a log.
+//! `rins check` has a verdict on each possible gross error of a log.
 
 use std::fs;
 use std::path::Path;
@@ -31,14 +31,14 @@ const ITEMS: [&str; 19] = [
     "what it can show",
 ];
 
-/// The word and the sentence on one thing.
+/// The word and the sentence of the verdict on one item.
 fn verdict<'v>(check: &'v Value, item: &str) -> (&'v str, &'v str) {
     let found = list(check, "/verdicts").iter().find(|verdict| verdict["check"] == item);
     let found = found.unwrap_or_else(|| panic!("no verdict on {item} in {check:#}"));
     (found["verdict"].as_str().unwrap(), found["finding"].as_str().unwrap())
 }
 
-/// The demo's run, with something replaced in its rig file and in its log.
+/// The demo's run, with replacements in its rig file and in its log.
 fn run(rig: [&str; 2], log: impl Fn(Vec<String>) -> Vec<String>) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let demo = rins_tests::workspace().join("crates/rins/data/demo");
@@ -77,7 +77,7 @@ fn a_good_run_has_nothing_odd() {
     );
 }
 
-/// What is done to a log, on which item that shows, the verdict, and what it says.
+/// A change of the log, the item that shows it, the verdict, and its text.
 type Row = (&'static str, fn(Vec<String>) -> Vec<String>, &'static str, &'static str);
 
 fn field(line: &str, place: usize, change: impl Fn(f64) -> f64) -> String {
@@ -159,7 +159,7 @@ fn each_fault_shows_where_it_belongs() {
     }
 }
 
-/// Fails unless the last line of a check names the item with its word, and the exit code follows from it.
+/// Asserts that the last line of a check names the item with its word, and that the exit code agrees.
 fn assert_conclusion(folder: &Path, item: &str, word: &str) {
     let Finished { code, out, .. } = rins_in(folder, "check rig.toml");
     let last = out.trim_end().lines().last().unwrap();
@@ -168,7 +168,7 @@ fn assert_conclusion(folder: &Path, item: &str, word: &str) {
     assert_eq!(last.contains("bad: "), code == Some(1), "{item}: {last}");
 }
 
-/// A latency of ten seconds is said of a table that is read at once.
+/// The rig file states a latency of ten seconds for a table without latency.
 #[test]
 fn last_line_follows_from_the_verdicts() {
     let folder =
@@ -192,7 +192,7 @@ fn a_late_table_is_told_by_how_much() {
         .split_once("the latency of the table's angle is ")
         .and_then(|(_, rest)| rest.split_once(" ms"));
     let late: f64 = late.unwrap().0.parse().unwrap();
-    // 60 microseconds are hidden in that run.
+    // The latency in that run is 60 microseconds.
     assert!((late - 0.060).abs() < 0.003, "{says}");
     let clean = outside_data("synthetic/clean_multirate");
     assert_eq!(verdict(&result_in(Path::new(&clean), "check rig.toml"), "latency").0, "good");

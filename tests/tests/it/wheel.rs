@@ -1,4 +1,4 @@
-//! An IMU on a wheel whose heading nobody wrote down: it rests, turns forwards and back, and rests.
+//! An IMU on a wheel with unknown heading: static interval, rotation in both directions, static interval.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -14,31 +14,32 @@ use serde_json::Value;
 
 use crate::support::{number, parameter, result_in};
 
-/// Gravity where the wheel is \[m/s²\]; the rig file says so too.
+/// Gravity at the site \[m/s²\], as in the rig file.
 const GRAVITY: f64 = 9.8;
 
-/// The Earth's rate \[rad/s\].
+/// The Earth rate \[rad/s\].
 const EARTH_RATE: f64 = 7.292115e-5;
 
-/// Samples in a second, and of a rest, of a change of rate, and of a rate that lasts.
+/// The sampling rate; the next constants are the numbers of samples of a static interval, of a change of rate, and of a constant
+/// rate.
 const RATE: f64 = 100.0;
 const STEPS: [u32; 3] = [800, 100, 3000];
 
 /// White noise of a gyro \[rad/s/√Hz\] and of an accelerometer \[m/s²/√Hz\].
 const NOISE: [f64; 2] = [8e-5, 9e-3];
 
-/// What a log was made with.
+/// The truth of a log.
 struct Truth {
-    /// \[rad/s\].
+    /// The gyro biases \[rad/s\].
     gyro_bias: Vector3<f64>,
     scale: f64,
-    /// The Earth's horizontal rate \[rad/s\].
+    /// The horizontal Earth rate \[rad/s\].
     horizontal: f64,
-    /// From east to where the axis leans \[rad\].
+    /// The angle from east to the direction in which the axis is tilted \[rad\].
     leans_to: f64,
 }
 
-/// A log and a rig file without `[attitude]`, of a wheel whose axis leans by 20 to 90 deg to wherever.
+/// A log and a rig file without `[attitude]`, of a wheel whose axis is tilted by 20 to 90 deg in any direction.
 fn wheel(folder: &Path, seed: u64) -> Truth {
     let mut rng = Pcg64::seed_from_u64(seed);
     let latitude = rng.random_range(-60.0_f64..60.0);
@@ -100,7 +101,7 @@ fn wheel(folder: &Path, seed: u64) -> Truth {
     Truth { gyro_bias, scale, horizontal, leans_to: azimuth - TAU / 4.0 }
 }
 
-/// How far a parameter is from what the log was made with, in its 1σ.
+/// The error of a parameter, in its 1σ.
 fn off(result: &Value, id: &str, truth: f64) -> f64 {
     let found = parameter(result, id);
     (number(found, "/value") - truth) / number(found, "/sigma")
@@ -115,7 +116,7 @@ fn its_azimuth_is_a_parameter_and_its_rests_are_used() {
         let truth = wheel(folder.path(), seed);
         let result = result_in(folder.path(), "calibrate rig.toml");
         assert_eq!(result["runs"][0]["static_intervals_used"], 2, "{seed}");
-        // The rate as it is where the axis leans to where it was taken to.
+        // The horizontal rate relative to the assumed direction of the tilt.
         let angle = |name: &str| number(&result["runs"][0]["axis_attitude_deg"], name).to_radians();
         let [roll, pitch, yaw] = ["/roll", "/pitch", "/yaw"].map(angle);
         let assumed = EulerAngles { roll, pitch, yaw }.dcm::<Nav, Table>();
@@ -138,12 +139,12 @@ fn its_azimuth_is_a_parameter_and_its_rests_are_used() {
             count += 1.0;
         }
     }
-    // The mean of 96 squares, correlated by the eights.
+    // The mean of 96 squares, with correlation in groups of eight.
     let mean: f64 = square / count;
     assert!((0.5..1.7).contains(&mean), "{mean}");
 }
 
-/// An azimuth taken for zero was called a g-sensitivity, of more than 10σ.
+/// An azimuth that was assumed to be zero was reported as a g-sensitivity of more than 10σ.
 #[test]
 fn its_azimuth_is_no_effect() {
     for seed in 20..24 {

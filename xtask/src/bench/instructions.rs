@@ -1,4 +1,4 @@
-//! Instructions of the hot loops, which repeat exactly: the gate against getting slower.
+//! Instruction counts of the hot loops, which are reproducible: the check for performance regressions.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,20 +8,20 @@ use std::process::Command;
 
 use crate::Result;
 
-/// By how much a count may exceed the one that is kept.
+/// The maximum relative increase of a count over the stored one.
 const TOLERANCE: f64 = 0.02;
 
-/// Where the counts are kept.
+/// The file of the stored counts.
 const KEPT: &str = "xtask/instructions.toml";
 
 /// A function whose instructions are counted.
 struct Counted {
     package: &'static str,
     bench: &'static str,
-    /// Its name, and its benchmark's.
+    /// The name of the function, and that of its benchmark.
     name: &'static str,
     filter: &'static str,
-    /// How many steps one call takes. It is called twice: for its answer, and by criterion.
+    /// The number of steps per call. The function is called twice: for its result, and by criterion.
     steps: f64,
 }
 
@@ -43,7 +43,7 @@ const ALL: &[Counted] = &[
     counted(["rins-motion", "strapdown"], ["strapdown_lanes", "strapdown_step/lanes"], 1000.0),
 ];
 
-/// Counts, and keeps the counts or compares them with those kept.
+/// Counts instructions, and stores the counts or compares them with the stored ones.
 pub(super) fn run(root: &Path, keep: bool) -> Result<()> {
     if Command::new("valgrind").arg("--version").output().is_err() {
         println!("valgrind is not installed: nothing is counted");
@@ -109,7 +109,7 @@ fn compiler() -> Result<Compiler> {
 }
 
 impl Counted {
-    /// The instructions of one call.
+    /// The number of instructions of one call.
     fn count(&self, root: &Path, host: &str) -> Result<f64> {
         let folder = crate::target(root)?;
         fs::create_dir_all(&folder)?;
@@ -135,7 +135,7 @@ impl Counted {
     }
 }
 
-/// What callgrind says it collected; a process that the bench starts says zero.
+/// The total that callgrind reports; it is zero for a child process of the bench.
 fn collected(text: &str) -> Option<f64> {
     let counts = text.lines().filter_map(|line| line.split_once("Collected : "));
     let counts = counts.filter_map(|(_, count)| count.trim().parse::<f64>().ok());

@@ -1,4 +1,4 @@
-//! How fast the hot loops are beside their rivals, and how many instructions they take.
+//! Benchmarks of the hot loops against alternative implementations, and their instruction counts.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -15,25 +15,25 @@ mod timing;
 
 use timing::{Timings, per};
 
-/// What to measure.
+/// The options of the benchmark.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Count instructions by valgrind and compare them with those kept, and time nothing
+    /// Count instructions with valgrind and compare them with the stored counts, without timing
     #[arg(long)]
     instructions: bool,
-    /// Keep the counts of instructions as the new ones to compare with
+    /// Store the instruction counts as the new reference
     #[arg(long, requires = "instructions")]
     keep: bool,
 }
 
-/// A package, and its bench.
+/// A package with its bench.
 type Bench = (&'static str, &'static str);
 
-/// The benches that are timed, each beside its rival.
+/// The benches that are timed, each with its alternative implementation.
 const BENCHES: &[Bench] =
     &[("rins-calibration", "step"), ("rins-motion", "strapdown"), ("rins-campaign", "campaign")];
 
-/// A row of the table: its name, what is timed, and its rival.
+/// A row of the table: its name, the timed bench, and the alternative.
 type Row = (&'static str, &'static str, Option<&'static str>);
 
 /// The rows, by the names of the benches in criterion's folder.
@@ -51,7 +51,7 @@ const ROWS: &[Row] = &[
     (CAMPAIGN, "campaign_30/lanes", Some("campaign_30/dense")),
 ];
 
-/// The row whose times are told in seconds.
+/// The row whose times are in seconds.
 const CAMPAIGN: &str = "campaign_30";
 
 /// Times the benches and writes `target/bench.json`, or counts instructions.

@@ -1,4 +1,4 @@
-//! What criterion measured.
+//! The results of criterion.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::Result;
 
-/// The folder in which criterion keeps its results.
+/// The folder of criterion's results.
 pub(super) struct Timings {
     folder: PathBuf,
 }
@@ -21,7 +21,7 @@ impl Timings {
         }
     }
 
-    /// The median time for one element of a bench \[ns\].
+    /// The median time per element of a bench \[ns\].
     pub(super) fn of(&self, bench: &str) -> Result<f64> {
         let folder = self.folder.join(bench).join("new");
         let number = |name: &str, pointer: &str| -> Result<f64> {
@@ -37,7 +37,7 @@ impl Timings {
     }
 }
 
-/// A number with so many decimals, or a dash.
+/// A number with this number of decimals, or a dash.
 pub(super) fn per(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| "-".into(), |value| format!("{value:.decimals$}"))
 }

@@ -1,4 +1,4 @@
-//! Sets the equations of a page, `$…$` and `$$…$$`, when the book is built: a page needs no script.
+//! Renders the equations of a page, `$…$` and `$$…$$`, when the book is built, so that a page needs no script.
 
 use std::fmt::{self, Write};
 use std::ops::Range;
@@ -14,7 +14,7 @@ pub(crate) struct Equations {
     katex: KatexContext,
 }
 
-/// What is wrong with an equation.
+/// An error in an equation.
 #[derive(Debug, PartialEq)]
 pub(crate) struct EquationError {
     line: usize,
@@ -54,10 +54,10 @@ impl Preprocessor for Equations {
 }
 
 impl Equations {
-    /// The Markdown of a page with its equations set.
+    /// The Markdown of a page with its equations rendered.
     ///
     /// # Errors
-    /// [`EquationError`] for the first one that is not TeX, or for a `$` without its partner.
+    /// [`EquationError`] for the first equation that is not valid TeX, or for an unpaired `$`.
     fn set(&self, markdown: &str) -> Result<String, EquationError> {
         let mut page = String::with_capacity(markdown.len());
         let mut done = 0;
@@ -93,10 +93,10 @@ fn error(markdown: &str, range: &Range<usize>, what: &str) -> EquationError {
     EquationError { line, what: what.into() }
 }
 
-/// HTML whose text Markdown leaves alone.
+/// HTML whose text is protected from Markdown.
 ///
-/// Markdown keeps tags as they are but reads the text between them, where `_`, `*` or `\` would
-/// mean something else.
+/// Markdown copies tags unchanged but interprets the text between them, where `_`, `*` or `\` would
+/// have another meaning.
 fn shielded(html: &str) -> String {
     let mut shielded = String::with_capacity(2 * html.len());
     let mut in_tag = false;
@@ -105,7 +105,7 @@ fn shielded(html: &str) -> String {
         in_tag = character == '<' || in_tag && character != '>';
         match character {
             '\n' => shielded.push(' '),
-            // `&`, `#` and `;` are parts of entities already.
+            // `&`, `#` and `;` belong to entities.
             _ if is_text && character.is_ascii_punctuation() && !"&#;".contains(character) => {
                 write!(shielded, "&#{};", u32::from(character))
                     .expect("a String takes all that is written");

@@ -1,4 +1,4 @@
-//! Whether what the pages point to is there.
+//! Checks that the targets of all links exist.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,11 +6,11 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::Result;
 
-/// The page that a server shows for a wrong address; its links start at the server's root.
+/// The page that a server shows for an invalid address; its links are relative to the server's root.
 const NOT_FOUND: &str = "404.html";
 
-/// Checks every local link, image, script and style sheet of the pages under `root`, their
-/// fragments included, and the fonts that the equations need; returns how many pages there are.
+/// Checks every local link, image, script and style sheet of the pages under `root`, including
+/// fragments, and the fonts of the equations; returns the number of pages.
 pub(crate) fn check(root: &Path) -> Result<usize> {
     let mut broken = Vec::new();
     let pages = pages(root)?;
@@ -37,7 +37,7 @@ pub(crate) fn check(root: &Path) -> Result<usize> {
     if broken.is_empty() { Ok(pages.len()) } else { Err(broken.join("\n").into()) }
 }
 
-/// What is wrong with a link on `page`, if anything is.
+/// The fault of a link on `page`, if there is one.
 fn fault(page: &Path, target: &str) -> Result<Option<&'static str>> {
     let (path, fragment) = target.split_once('#').unwrap_or((target, ""));
     let path = path.split('?').next().unwrap_or_default();
@@ -54,7 +54,7 @@ fn fault(page: &Path, target: &str) -> Result<Option<&'static str>> {
     Ok((!is_there).then_some("no such place on that page"))
 }
 
-/// The path without its `..`, which a folder that does not exist would break.
+/// The path with its `..` resolved, which fails in the file system if a folder does not exist.
 fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
@@ -74,7 +74,7 @@ fn is_local(target: &str) -> bool {
     !scheme.contains(':') && !target.starts_with("//")
 }
 
-/// The values of an attribute in some HTML.
+/// The values of an attribute in HTML.
 fn values<'t>(html: &'t str, attribute: &str) -> impl Iterator<Item = &'t str> {
     let opening = format!(" {attribute}=\"");
     let length = opening.len();
@@ -82,7 +82,7 @@ fn values<'t>(html: &'t str, attribute: &str) -> impl Iterator<Item = &'t str> {
     starts.into_iter().filter_map(|start| html[start..].split('"').next())
 }
 
-/// The fonts that a style sheet asks for first.
+/// The first font of each entry in a style sheet.
 fn fonts(style: &str) -> impl Iterator<Item = &str> {
     let names = style.split("url(").skip(1).filter_map(|rest| rest.split(')').next());
     names.filter(|name| Path::new(name).extension().is_some_and(|ending| ending == "woff2"))
@@ -110,7 +110,7 @@ fn pages(root: &Path) -> Result<Vec<PathBuf>> {
 mod tests {
     use super::*;
 
-    /// What is broken in a book with this page, `a/b.html` and the style sheet of the equations.
+    /// The broken links of a book with this page, `a/b.html` and the style sheet of the equations.
     fn broken(page: &str) -> String {
         let root = tempfile::TempDir::new().unwrap();
         for folder in ["a", "katex/fonts"] {

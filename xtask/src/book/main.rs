@@ -13,7 +13,7 @@ use crate::equations::Equations;
 mod equations;
 mod links;
 
-/// How a step ends when it cannot do its work.
+/// The result of a step.
 type Result<T, E = Box<dyn Error>> = std::result::Result<T, E>;
 
 fn main() -> ExitCode {
@@ -41,7 +41,7 @@ fn build(root: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The style sheet of the equations names its fonts beside itself.
+/// Copies the fonts to the style sheet of the equations, which refers to them by relative paths.
 fn copy_fonts(from: &Path, to: &Path) -> Result<()> {
     fs::create_dir_all(to)?;
     for font in fs::read_dir(from)? {

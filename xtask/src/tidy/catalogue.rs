@@ -1,6 +1,6 @@
-//! Whether anything but the catalogue tells terms by their ids or settings by their names.
+//! Checks that only the catalogue refers to terms by their ids and to settings by their names.
 //!
-//! Both are for files and their readers. A program asks a setting for its kind and compares a term with the catalogue's constant,
+//! Both are for files and their readers. Code asks a setting for its kind and compares a term with the constant of the catalogue,
 //! which the compiler checks.
 
 use std::collections::BTreeSet;
@@ -19,17 +19,17 @@ use crate::manifest::{Manifest, crate_folders};
 /// The crate of the catalogue.
 const CATALOGUE: &str = "rins-terms";
 
-/// The crate that reads and writes files, whose own keys have the same words as settings: `time`, `axes`.
+/// The crate that reads and writes files, some of whose own keys are also names of settings: `time`, `axes`.
 const FILES: &str = "rins-io";
 
-/// Words that are a setting's name and mean something else in a crate, with what they mean there.
+/// Words that are a setting's name and have another meaning in a crate, with that meaning.
 const OTHER_WORDS: &[(&str, &str, &str)] = &[
     ("rins", "duration", "a key of a scenario that is proposed"),
     ("rins", "time", "a word of the report: what a change goes along with"),
     ("rins-trials", "time", "a command of the program"),
 ];
 
-/// What the catalogue calls its terms and their settings.
+/// The ids of the catalogue's terms and the names of their settings.
 #[derive(Default)]
 struct Names {
     terms: BTreeSet<String>,
@@ -47,8 +47,8 @@ impl Names {
     }
 }
 
-/// Every literal in the sources of the crates at `root` that is a term's id or a setting's name, outside tests, in the crates that
-/// use the catalogue.
+/// Every literal in the sources of the crates at `root` that is a term's id or a setting's name, outside tests, in the crates
+/// that use the catalogue.
 pub(super) fn findings(root: &Path) -> Result<Vec<Finding>> {
     let folders = crate_folders(root)?;
     let mut names = Names::default();
@@ -102,7 +102,7 @@ fn of_crate(root: &Path, folder: &Path, name: &str, names: &Names) -> Result<Vec
     Ok(findings)
 }
 
-/// The fields of a term or of a setting, if this makes one.
+/// The fields of a term or of a setting, if this expression constructs one.
 fn defined(made: &ExprStruct) -> Option<&'static [&'static str]> {
     match made.path.segments.last()?.ident.to_string().as_str() {
         "Term" => Some(&["id", "also"]),
@@ -115,7 +115,7 @@ fn is_one_of(member: &Member, fields: &[&str]) -> bool {
     matches!(member, Member::Named(name) if fields.iter().any(|field| name == field))
 }
 
-/// Collects what terms and settings are called where they are defined.
+/// Collects the names of terms and settings from their definitions.
 impl<'a> Visit<'a> for Names {
     fn visit_item(&mut self, item: &'a Item) {
         if !is_for_tests(item) {
@@ -146,10 +146,10 @@ impl<'a> Visit<'a> for Words {
 
 /// Collects the literals of a crate's file that are one of these names.
 struct Literals<'n> {
-    /// Of the crate.
+    /// The name of the crate.
     name: &'n str,
     names: &'n Names,
-    /// The lines, and what is wrong there.
+    /// The lines, with the violation.
     found: Vec<(usize, String)>,
 }
 
@@ -170,7 +170,7 @@ impl Literals<'_> {
         self.found.push((literal.span().start().line, what));
     }
 
-    /// The literals of a macro's input, but for the keys of an object that is written: `{"table_sense": …}`.
+    /// The literals of a macro's input, except the keys of an object that is written: `{"table_sense": …}`.
     fn see_tokens(&mut self, tokens: TokenStream) {
         let mut tokens = tokens.into_iter().peekable();
         while let Some(token) = tokens.next() {
@@ -195,7 +195,7 @@ impl<'a> Visit<'a> for Literals<'_> {
         }
     }
 
-    /// Documentation says what it likes.
+    /// Documentation may use any word.
     fn visit_attribute(&mut self, _: &'a syn::Attribute) {}
 
     fn visit_lit_str(&mut self, literal: &'a LitStr) {
@@ -206,7 +206,7 @@ impl<'a> Visit<'a> for Literals<'_> {
         self.see_tokens(called.tokens.clone());
     }
 
-    /// A term or a setting that is no entry of the catalogue may be called as one that is.
+    /// The definition of a term or a setting outside the catalogue may use the names of the catalogue.
     fn visit_expr_struct(&mut self, made: &'a ExprStruct) {
         let fields = defined(made).unwrap_or_default();
         let others = made.fields.iter().filter(|field| !is_one_of(&field.member, fields));

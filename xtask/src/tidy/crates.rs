@@ -1,4 +1,4 @@
-//! Rules about crates: their layers, what each may use, and what each must bring.
+//! Rules about crates: their layers, their dependencies, and their required files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use super::Finding;
 use crate::Result;
 use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 
-/// The crates in layers, bottom first: a crate uses those of the layers below its own.
+/// The crates in layers, the lowest first: a crate uses only crates of lower layers.
 const LAYERS: &[&[&str]] = &[
     &["rins-frames", "rins-ekf", "rins-lanes", "rins-report", "rins-blind"],
     &["rins-imu", "rins-motion"],
@@ -20,7 +20,7 @@ const LAYERS: &[&[&str]] = &[
     &["rins-cli"],
 ];
 
-/// The crate that is for tests only: a dev-dependency of any other, and in no layer.
+/// The crate for tests only: a dev-dependency of any other, and in no layer.
 const TESTING: &str = "rins-testing";
 
 /// Dependencies that only some crates may use, outside their tests.
@@ -33,10 +33,10 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("toml", &["rins-io", "rins"]),
 ];
 
-/// What `[package]` must say before a crate can be published.
+/// The keys of `[package]` that a published crate needs.
 const REQUIRED_KEYS: &[&str] = &["description", "license"];
 
-/// Every breach in the crates of the workspace at `root`.
+/// All violations in the crates of the workspace at `root`.
 pub(super) fn findings(root: &Path) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
     for folder in crate_folders(root)? {
@@ -59,7 +59,7 @@ pub(super) fn layer_of(name: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&name))
 }
 
-/// What is wrong with the crate's dependencies.
+/// The violations in the crate's dependencies.
 fn dependencies(manifest: &Manifest) -> Vec<(usize, String)> {
     let name = manifest.name.as_str();
     let mut breaches = Vec::new();
@@ -78,7 +78,7 @@ fn dependencies(manifest: &Manifest) -> Vec<(usize, String)> {
     breaches
 }
 
-/// Whether this dependency of a crate at `height` leads up or sideways.
+/// The violation by a dependency of a crate at `height` on the same or a higher layer, if it is one.
 fn upward(name: &str, height: usize, dependency: &Dependency) -> Option<String> {
     let Dependency { package, dev, .. } = dependency;
     if package == TESTING {
@@ -95,7 +95,7 @@ fn confined(name: &str, dependency: &Dependency) -> Option<String> {
     (!allowed).then(|| format!("{package} is for {} only", users.join(" and ")))
 }
 
-/// What is wrong with the manifest itself.
+/// The violations in the manifest itself.
 fn package(manifest: &Manifest, folder: &Path) -> Vec<(usize, String)> {
     let mut breaches = Vec::new();
     if !folder.ends_with(&manifest.name) {
@@ -110,7 +110,7 @@ fn package(manifest: &Manifest, folder: &Path) -> Vec<(usize, String)> {
     breaches
 }
 
-/// What a published crate should have beside its code: a README with an example, and an example that runs.
+/// The violations in the files of a published crate: it needs a README with an example, and an example that runs.
 fn files(root: &Path, folder: &Path) -> Vec<Finding> {
     let finding = |path: PathBuf, what: &str| Finding { path, line: 1, what: what.into() };
     let mut findings = Vec::new();

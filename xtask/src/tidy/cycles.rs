@@ -1,7 +1,7 @@
-//! Whether the files of a crate import each other in a circle.
+//! Checks that the files of a crate have no cyclic imports.
 //!
-//! A file uses another where a path leads to an item that the other defines, by `crate`, `self` or `super`. What a file re-exports
-//! is where it is defined, and what is there for tests only does not count.
+//! A file uses another if a path leads to an item that the other defines, by `crate`, `self` or `super`. A re-exported item
+//! belongs to the file of its definition, and items for tests only do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -17,17 +17,17 @@ use crate::manifest::crate_folders;
 /// The path of a module in its crate, such as `["inspection", "lag"]`.
 type Module = Vec<String>;
 
-/// What the file of a module says of others.
+/// The imports and exports of a module's file.
 #[derive(Default)]
 struct File {
     path: PathBuf,
-    /// The items that it re-exports, by the name that they have here, and where they come from.
+    /// The items that it re-exports, by their name here, with their origin.
     exports: BTreeMap<String, Vec<String>>,
-    /// Paths from the crate's root that it uses, and the lines.
+    /// The paths from the crate's root that it uses, with their lines.
     uses: Vec<(Vec<String>, usize)>,
 }
 
-/// Every circle in the sources of the crates at `root`, but for those of `exempt` crates, which must have one.
+/// All cycles in the sources of the crates at `root`, except those of `exempt` crates, which must have one.
 pub(super) fn findings(root: &Path, exempt: &[&str]) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
     for folder in crate_folders(root)? {
@@ -74,7 +74,7 @@ fn named(module: &[String]) -> String {
     if module.is_empty() { "the crate's root".to_owned() } else { module.join("::") }
 }
 
-/// The files of a crate, by module; none where it has no sources.
+/// The files of a crate, by module; empty if it has no sources.
 fn files(source: &Path) -> Result<BTreeMap<Module, File>> {
     let mut files = BTreeMap::new();
     if !source.is_dir() {
@@ -106,7 +106,7 @@ pub(super) fn module_of(path: &Path) -> Module {
     module
 }
 
-/// Reads what a file says of others.
+/// Collects the imports and exports of a file.
 struct Reader {
     /// The modules that it declares.
     children: BTreeSet<String>,
@@ -115,7 +115,7 @@ struct Reader {
 }
 
 impl Reader {
-    /// A path from the crate's root; `None` if it leads out of the crate or is relative to nothing that is known.
+    /// A path from the crate's root; `None` if it leads out of the crate or is relative to something unknown.
     fn of_crate(&self, path: &[String]) -> Option<Vec<String>> {
         let mut from = match path.first()?.as_str() {
             "crate" => Vec::new(),
@@ -143,7 +143,7 @@ impl Reader {
         }
     }
 
-    /// Every name of a tree of names, with its path and what it is called here.
+    /// All names in a tree of imports, with their path and their local name.
     fn leaves(tree: &UseTree, before: &[String], leaves: &mut Vec<(Vec<String>, String)>) {
         let and = |name: &syn::Ident| [before, &[name.to_string()]].concat();
         match tree {
@@ -169,7 +169,7 @@ impl<'a> Visit<'a> for Reader {
     }
 
     fn visit_item_mod(&mut self, inner: &'a ItemMod) {
-        // A module within the file is a place of its own.
+        // A module inside the file has its own path.
         self.module.push(inner.ident.to_string());
         syn::visit::visit_item_mod(self, inner);
         self.module.pop();
@@ -184,7 +184,7 @@ impl<'a> Visit<'a> for Reader {
                 self.used(&path, line);
                 continue;
             }
-            // `pub use lag::TableLag` means the module's own child.
+            // `pub use lag::TableLag` refers to a child of the module.
             let here = || [&self.module[..], &path[..]].concat();
             let from = self.of_crate(&path).unwrap_or_else(here);
             self.file.exports.insert(name, from);
@@ -219,9 +219,9 @@ pub(super) fn is_for_tests(item: &Item) -> bool {
     })
 }
 
-/// The module whose file defines what a path leads to.
+/// The module whose file defines the item at this path.
 fn resolved<'f>(files: &'f BTreeMap<Module, File>, path: &[String]) -> Option<&'f Module> {
-    /// Re-exports of re-exports, and no end of them.
+    /// The maximum number of nested re-exports.
     const MOST: usize = 8;
     let mut path = path.to_vec();
     for _ in 0..MOST {
@@ -275,7 +275,7 @@ fn circles(files: &BTreeMap<Module, File>) -> Vec<Vec<Module>> {
 mod tests {
     use super::*;
 
-    /// The circles of a crate of these files, by their modules.
+    /// The cycles of a crate with these files, by their modules.
     fn circles_of(sources: &[(&str, &str)]) -> Vec<Vec<String>> {
         let folder = tempfile::tempdir().unwrap();
         for (path, text) in sources {
@@ -309,7 +309,7 @@ mod tests {
         let of_root = ("d.rs", "use crate::{B, C};");
         let none = Vec::<Vec<String>>::new();
         assert_eq!(circles_of(&[root, parent, child, sibling, of_root]), none);
-        // What the parent itself defines is another matter.
+        // An item that the parent itself defines is a real use.
         let own = ("a/mod.rs", "mod b; pub struct A; fn a(_: b::B) {}");
         let uses = ("a/b.rs", "use super::A; pub struct B(A);");
         assert_eq!(circles_of(&[root, own, uses]), [["a", "a::b"]]);

@@ -1,11 +1,11 @@
-//! Words that may not come back: what a user reads has one standard term for one concept.
+//! Banned words: texts for users have one standard term for one concept.
 
 use std::path::{Path, PathBuf};
 
 use super::Finding;
 use crate::Result;
 
-/// Where these words are looked for: what the command and the library say, and the book.
+/// The places that are checked: the texts of the command and the library, and the book.
 const PLACES: &[&str] = &[
     "crates/rins/src/",
     "crates/rins-cli/src/",
@@ -54,7 +54,7 @@ const BANNED: &[(&str, &str)] = &[
     ("honest", "consistent"),
 ];
 
-/// Every banned phrase in the tracked files of these places, outside of code.
+/// All banned phrases in the tracked files of these places, outside of code.
 pub(super) fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
     for path in files {
@@ -89,7 +89,7 @@ fn in_text(path: &Path, text: &str, source: bool) -> Vec<Finding> {
     findings
 }
 
-/// What a line of source says to a user: documentation, and string literals, one of which may be `quoted` from the line before.
+/// The text of a source line for users: documentation, and string literals, one of which may be continued from the line before.
 fn said(line: &str, quoted: &mut bool) -> String {
     let trimmed = line.trim_start();
     if !*quoted && trimmed.starts_with("//") {

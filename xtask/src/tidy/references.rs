@@ -1,4 +1,4 @@
-//! Whether what the sources cite, by key in angle quotes, is in the list of references.
+//! Checks that all citations in the sources, keys in angle quotes, are in the list of references.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use super::Finding;
 use crate::Result;
 
-/// The list: a heading is a key.
+/// The list, whose headings are the keys.
 const LIST: &str = "docs/src/references.md";
 
-/// Every citation in these files, which are named relative to `root`, that the list does not have.
+/// All citations in these files, whose paths are relative to `root`, that are not in the list.
 pub(super) fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
-    // A workspace without a list knows no key.
+    // A workspace without a list has no keys.
     let list = fs::read_to_string(root.join(LIST)).unwrap_or_default();
     let keys: BTreeSet<&str> = list.lines().filter_map(|line| line.strip_prefix("## ")).collect();
     let mut findings = Vec::new();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Result;
 
-/// The files of Rust in a folder and below it.
+/// The Rust files in a folder and its subfolders.
 pub(super) fn sources(folder: &Path) -> Result<BTreeMap<PathBuf, syn::File>> {
     let mut files = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];

@@ -1,4 +1,4 @@
-//! Breaches planted in a small workspace are found, and nothing else is.
+//! Violations in a small test workspace are found, and nothing else is.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use super::crates::layer_of;
 use super::{findings, tracked_files};
 
-/// A workspace with nothing to find, in a temporary folder.
+/// A workspace without violations, in a temporary folder.
 struct Planted {
     root: TempDir,
     files: Vec<PathBuf>,
@@ -53,14 +53,14 @@ fn manifest(name: &str, dependencies: &str) -> String {
     )
 }
 
-/// What is found when `crates/{name}/Cargo.toml` gets these dependencies, which start at line 7.
+/// The findings if `crates/{name}/Cargo.toml` gets these dependencies, which start at line 7.
 fn found_with(name: &str, dependencies: &str) -> Vec<String> {
     let mut planted = Planted::new();
     planted.write(&format!("crates/{name}/Cargo.toml"), &manifest(name, dependencies));
     planted.found()
 }
 
-/// What is found when there is also this file.
+/// The findings if this file is added.
 fn found_beside(path: &str, text: &str) -> Vec<String> {
     let mut planted = Planted::new();
     planted.write(path, text);
@@ -162,7 +162,7 @@ fn binary_and_vendored_files_are_left_alone() {
     assert_eq!(planted.found(), NOTHING);
 }
 
-/// What is said where `rins-imu` uses a crate above its own.
+/// The message if `rins-imu` uses a crate of a higher layer.
 fn upward(name: &str) -> String {
     let layer = layer_of(name).unwrap();
     assert!(layer > 1, "{name} is not above rins-imu");
@@ -254,7 +254,7 @@ fn what_a_published_crate_lacks_is_found() {
     );
 }
 
-/// What is found where a crate that uses the catalogue has these files, beside a catalogue of one term with one setting.
+/// The findings if a crate that uses the catalogue has these files, with a catalogue of one term with one setting.
 fn found_beside_catalogue(name: &str, files: &[(&str, &str)]) -> Vec<String> {
     let mut planted = Planted::new();
     let uses = "[dependencies]\nrins-terms.workspace = true\n";
@@ -301,7 +301,7 @@ fn setting_told_by_its_name_is_found() {
         "crates/rins-estimation/src/a.rs:2: `order` is a setting's name: use its `SettingKind`";
     assert_eq!(found("fn f(s: &str) { match s { \"order\" => {} _ => {} } }"), [expected]);
     assert_eq!(found("fn f() { dbg!([\"order\"]); }"), [expected]);
-    // A key of a result is written, not read; and what is no entry of the catalogue is defined somewhere.
+    // A key of a result is written, not read; and a definition outside the catalogue is allowed.
     assert_eq!(found("fn f() { json!({\"order\": 1}); }"), NOTHING);
     assert_eq!(found("const S: Setting = Setting { name: \"order\", meaning: \"\" };"), NOTHING);
     assert_eq!(found("const T: Term = Term { id: \"gyro_lag\", also: &[] };"), NOTHING);

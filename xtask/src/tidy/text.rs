@@ -1,4 +1,4 @@
-//! Rules about the text of a file: its length, its first line, and words that do not belong.
+//! Rules about the text of a file: its length, its first line, and forbidden words.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,22 +6,22 @@ use std::path::{Path, PathBuf};
 use super::Finding;
 use crate::Result;
 
-/// Around here a file usually holds two ideas.
+/// The length above which a file usually has two concepts.
 const MAX_LINES: usize = 400;
 
-/// Other people's files, and those that a fuzzer begins with, kept as they came.
+/// Third-party files, and initial inputs of a fuzzer, which are kept unchanged.
 const VENDORED: &[&str] = &["crates/rins-report/assets", "docs/katex", "fuzz/corpus"];
 
-/// Names that say nothing of what is inside.
+/// Names that state no concept.
 const EMPTY_NAMES: &[&str] = &["utils", "util", "common", "helpers", "misc"];
 
-/// Marks of work put off: each needs the number of the issue that holds it, as in `(#12)`.
+/// Marks of postponed work: each needs the number of its issue, as in `(#12)`.
 ///
-/// They are spelt in two halves so that this file does not hold them.
+/// They are split in two halves so that this file does not contain them.
 pub(super) const POSTPONED: &[&str] =
     &[concat!("TO", "DO"), concat!("FIX", "ME"), concat!("XX", "X")];
 
-/// Words that are never right, and why.
+/// Words that are always wrong, with the reason.
 pub(super) const FORBIDDEN: &[(&str, &str)] = &[
     (concat!("lorem", " ipsum"), "a placeholder"),
     (concat!("<<<<", "<<< "), "a merge conflict"),
@@ -32,14 +32,14 @@ pub(super) const FORBIDDEN: &[(&str, &str)] = &[
     (concat!("/wo", "rk/"), "a path of one machine"),
 ];
 
-/// Every breach in these files, which are named relative to `root`.
+/// All violations in these files, whose paths are relative to `root`.
 pub(super) fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     let mut findings = Vec::new();
     for path in files {
         if VENDORED.iter().any(|folder| path.starts_with(folder)) || is(path, "lock") {
             continue;
         }
-        // What is not text has no lines to speak of.
+        // A file that is not text has no lines to check.
         let Ok(text) = String::from_utf8(fs::read(root.join(path))?) else { continue };
         let breaches = source(path, &text)
             .into_iter()
@@ -50,7 +50,7 @@ pub(super) fn findings(root: &Path, files: &[PathBuf]) -> Result<Vec<Finding>> {
     Ok(findings)
 }
 
-/// What is wrong with a file of Rust as a whole.
+/// The violations of a Rust file as a whole.
 fn source(path: &Path, text: &str) -> Vec<(usize, String)> {
     let mut breaches = Vec::new();
     if !is(path, "rs") {
@@ -72,10 +72,10 @@ fn source(path: &Path, text: &str) -> Vec<(usize, String)> {
     breaches
 }
 
-/// What is wrong with single lines of any text.
+/// The violations in single lines of any text.
 fn lines(path: &Path, text: &str) -> Vec<(usize, String)> {
     let mut breaches = Vec::new();
-    // A log may come with tabs between its columns.
+    // A log may have tabs between its columns.
     let may_have_tabs = ["csv", "tsv", "txt"].iter().any(|ending| is(path, ending));
     for (number, line) in (1..).zip(text.lines()) {
         if line.contains('\t') && !may_have_tabs {
@@ -100,7 +100,7 @@ fn is(path: &Path, ending: &str) -> bool {
     path.extension().is_some_and(|found| found == ending)
 }
 
-/// Where `word` stands in `line`, not as the tail of a longer word or path.
+/// The position of `word` in `line`, except at the end of a longer word or path.
 fn position_of_word(line: &str, word: &str) -> Option<usize> {
     let mut found = line.match_indices(word);
     found.find_map(|(at, _)| {

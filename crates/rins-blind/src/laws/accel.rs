@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Instant, after, axes};
 use crate::effect::{Law, Read};
 
-/// The rate at which vibration's rectification is given \[rad/s\].
+/// The table rate to which the vibration rectification parameter refers \[rad/s\].
 const TEN_DEGREES: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// The laws of this file.
@@ -45,7 +45,7 @@ fn accel(error: Vector3<f64>) -> Read {
     (Vector3::zeros(), error)
 }
 
-/// Force along an axis, times what a matrix without a diagonal makes of force.
+/// The force along an axis, multiplied by the product of a matrix without diagonal and the force.
 fn cross_coupling(p: &[f64], _: &[f64], now: &Instant) -> Read {
     let turned = Matrix3::new(0.0, p[0], p[1], p[2], 0.0, p[3], p[4], p[5], 0.0);
     accel((turned * now.force).component_mul(&now.force))

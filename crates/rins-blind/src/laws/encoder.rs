@@ -1,4 +1,4 @@
-//! What an encoder reads wrong, and when.
+//! Errors and latencies of the encoder.
 
 use super::after;
 use crate::effect::Law;

@@ -30,7 +30,7 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("stuck_samples", Law::Spoil(stuck)),
 ];
 
-/// The encoder is read some time before or after it is said to be.
+/// Jitter: the encoder is read some time before or after its time stamp.
 fn jitter(p: &[f64], _: &[f64], log: &mut Log, random: &mut Random) {
     let true_angles = log.angles.clone();
     let interval = log.times[1] - log.times[0];
@@ -55,7 +55,7 @@ fn outliers(p: &[f64], _: &[f64], log: &mut Log, random: &mut Random) {
     }
 }
 
-/// The last sample again, so many times.
+/// Repetitions of the last sample.
 fn stuck(p: &[f64], s: &[f64], log: &mut Log, random: &mut Random) {
     let mut left = 0.0;
     for place in 1..log.times.len() {

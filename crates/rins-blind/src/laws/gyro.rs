@@ -43,8 +43,8 @@ fn rate_dependent_bias(p: &[f64], _: &[f64], now: &Instant) -> Read {
     gyro(axes(p) * speed.powi(2) + Vector3::new(p[3], p[4], 0.0) * speed)
 }
 
-/// Below its width a gyro reads nothing of what it turns about its own axis, or an IMU of what it turns about its body's;
-/// above it what is left of a lock-in.
+/// A dead zone: below its width a gyro reads zero for a rotation about its own axis, or an IMU for one about its body's axis;
+/// above it, a lock-in remains.
 fn dead_zone(p: &[f64], s: &[f64], now: &Instant) -> Read {
     let rates = if s[0] == 0.0 { now.about_axes } else { now.turning };
     gyro(rates.zip_map(&axes(p), |rate, width| {

@@ -1,4 +1,4 @@
-//! What gyros show of force and of the magnetic field.
+//! Gyro errors due to specific force and magnetic field.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,4 +1,4 @@
-//! How effects act, each on an instant of the true motion.
+//! The laws of effects, each evaluated at an instant of the true motion.
 
 pub(crate) mod accel;
 pub(crate) mod encoder;
@@ -11,33 +11,33 @@ pub(crate) mod table;
 
 use nalgebra::Vector3;
 
-/// Where the table is at an instant.
+/// The state of the table at an instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose {
-    /// Since the run began \[s\].
+    /// The time since the start of the run \[s\].
     pub time: f64,
     /// The table angle \[rad\].
     pub angle: f64,
-    /// The way the table turned last: 1, -1, or 0 before it ever turned.
+    /// The last direction of rotation of the table: 1, -1, or 0 before the first rotation.
     pub sense: f64,
 }
 
-/// What an IMU feels over a short step.
+/// The quantities that act on an IMU over a short step.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant {
-    /// Since the run began \[s\].
+    /// The time since the start of the run \[s\].
     pub time: f64,
     /// The table's rate \[rad/s\].
     pub rate: f64,
-    /// The way the table's rate changed last: 1, -1, or 0 before it ever changed.
+    /// The sign of the last change of the table's rate: 1, -1, or 0 before the first change.
     pub rise: f64,
     /// The temperature above that at the start \[K\].
     pub warming: f64,
-    /// How fast it changes \[K/s\].
+    /// Its rate of change \[K/s\].
     pub warming_rate: f64,
     /// The body's rate with respect to inertial space \[rad/s\].
     pub turning: Vector3<f64>,
-    /// Of that, what each gyro turns about its own axis \[rad/s\].
+    /// The component of that rate about each gyro's own axis \[rad/s\].
     pub about_axes: Vector3<f64>,
     /// The specific force \[m/s²\].
     pub force: Vector3<f64>,
@@ -45,12 +45,12 @@ pub struct Instant {
     pub field: Vector3<f64>,
 }
 
-/// 0 before `time`, 1 after it.
+/// The unit step: 0 before `time`, 1 after it.
 pub(crate) fn after(time: f64, now: f64) -> f64 {
     if now >= time { 1.0 } else { 0.0 }
 }
 
-/// Three parameters, one an axis.
+/// Three parameters as a vector, one per axis.
 pub(crate) fn axes(p: &[f64]) -> Vector3<f64> {
     Vector3::new(p[0], p[1], p[2])
 }

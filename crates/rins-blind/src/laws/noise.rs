@@ -1,4 +1,4 @@
-//! Scatter that is not what the data sheet says.
+//! Noise that differs from the data sheet.
 
 use crate::effect::Law;
 use crate::experiment::{Rounding, Sensors};
@@ -15,7 +15,7 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("accel_quantisation", Law::Setup(|p, _, all| round(&mut all.accel, p))),
 ];
 
-/// Two sources that know nothing of each other.
+/// Two independent sources.
 fn flicker(sensors: &mut Sensors, level: f64) {
     sensors.noise.flicker = (sensors.noise.flicker.powi(2) + level.powi(2)).sqrt();
 }

@@ -1,4 +1,4 @@
-//! The place, the building and the mains.
+//! Effects of the site, the building and the power line.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("interference_line", Law::Sense(line)),
 ];
 
-/// One axis, gyro and accelerometer.
+/// A spectral line on one axis, of gyro and accelerometer.
 fn line(p: &[f64], s: &[f64], now: &Instant) -> Read {
     let (sin, cos) = (TAU * s[0] * now.time).sin_cos();
     let axis = if s[1] < 1.5 {

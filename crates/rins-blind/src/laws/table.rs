@@ -1,4 +1,4 @@
-//! True motions of the table and of what it stands on.
+//! True motions of the table and of its base.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,7 +7,7 @@ use nalgebra::{Complex, Vector3};
 use crate::drive::Ripple;
 use crate::effect::Law;
 
-/// How long a step of the base takes at least \[s\].
+/// The minimum duration of a tilt step of the base \[s\].
 const STEP_TIME: f64 = 0.02;
 
 /// The laws of this file.
@@ -42,7 +42,7 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ),
 ];
 
-/// From 0 to 1 about a time of zero, in this time.
+/// A smooth step from 0 to 1, centered at time zero, with this duration.
 fn smooth_step(time: f64, duration: f64) -> f64 {
     let part = (time / duration + 0.5).clamp(0.0, 1.0);
     0.5 - 0.5 * (PI * part).cos()

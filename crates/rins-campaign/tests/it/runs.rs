@@ -1,4 +1,4 @@
-//! Runs: the same whatever they are made with.
+//! Results of runs do not depend on the way in which they are computed.
 
 use rins_campaign::{Campaign, RunResult};
 use rins_imu::NoiseModel;
@@ -31,7 +31,7 @@ fn runs_side_by_side_find_what_each_finds_alone() {
         let (lane, alone) = (run.unwrap(), prepared.run_alone(number).unwrap());
         for row in 0..3 {
             let sigma = alone.covariance[(row, row)].sqrt();
-            // The run alone carries three states more, which round otherwise.
+            // A run computed alone has three more states, with other rounding errors.
             assert!((lane.value[row] - alone.value[row]).abs() < 1e-9 * sigma);
             let ratio = lane.covariance[(row, row)] / alone.covariance[(row, row)];
             assert!((ratio - 1.0).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! The paper's filter is honest about its own model, and a wrong noise is found out.
+//! The paper's filter is consistent under its own model, and a wrong noise density is detected.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_calibration::Estimate;
@@ -47,7 +47,7 @@ fn one_run_has_no_statistics() {
 
 #[test]
 fn sums_keep_the_digits_of_a_small_spread_about_a_large_error() {
-    // Errors of 1e8 + 4, 7, 13 and 16, whose variance is 30; claimed are 31.
+    // Errors of 1e8 + 4, 7, 13 and 16, whose variance is 30; the stated variance is 31.
     let mut tally = Tally::new(Vector3::repeat(-1e8));
     for error in [4.0, 7.0, 13.0, 16.0] {
         tally.add(&Err(RunFailure { reason: "none".into() }));

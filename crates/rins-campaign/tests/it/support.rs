@@ -8,10 +8,10 @@ use rins_imu::{Axis, ImuError, ImuNoise, ImuSpec, NoiseModel, Seed, TriadError, 
 use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Encoder, Scenario, TableRecord};
 
-/// The noise of the encoder, where there is one \[rad\].
+/// The noise of the encoder, if there is one \[rad\].
 pub(crate) const ENCODER_NOISE: f64 = 1.0 * ARCSEC;
 
-/// The three gyro errors along the spin axis and white noise, over so many seconds of 10 °/s.
+/// The three gyro errors along the spin axis and white noise, over `duration` seconds at 10 °/s.
 pub(crate) fn cell(duration: f64, table: TableRecord) -> Cell {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let station = Station::with_normal_gravity(site);

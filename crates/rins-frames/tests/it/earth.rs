@@ -1,4 +1,4 @@
-//! The Earth against published figures, the exact normal potential, and geometry by differences.
+//! The Earth model against published figures, the exact normal potential, and numerical differentiation.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -7,11 +7,11 @@ use proptest::prelude::*;
 use rins_frames::{EARTH_RATE, InFrame, Nav, Site};
 use rins_testing::{any_latitude, assert_close};
 
-/// WGS84's defining constants and their consequences, as printed in NIMA TR8350.2, tables 3.1-3.4.
+/// The defining and derived constants of WGS84, as printed in NIMA TR8350.2, tables 3.1-3.4.
 const A: f64 = 6378137.0;
 const B: f64 = 6356752.3142;
 const GM: f64 = 3.986004418e14;
-/// GRS80's, which differs (Moritz 1980).
+/// The constants of GRS80 that differ (Moritz 1980).
 const GRS80_GM: f64 = 3.986005e14;
 const LINEAR_ECCENTRICITY: f64 = 5.2185400842339e5;
 
@@ -19,7 +19,7 @@ fn site(latitude: f64, height: f64) -> Site {
     Site { latitude, longitude: 0.3, height }
 }
 
-/// Geodetic to Earth-centred coordinates, by stretching the circle of the parametric latitude.
+/// Earth-centered coordinates from geodetic ones, by the parametric latitude.
 fn position(latitude: f64, longitude: f64, height: f64) -> Vector3<f64> {
     let parametric = (B / A * latitude.tan()).atan();
     let (sin, cos) = latitude.sin_cos();
@@ -31,7 +31,7 @@ fn position(latitude: f64, longitude: f64, height: f64) -> Vector3<f64> {
     )
 }
 
-/// East, north and up as rows, from differences of positions alone.
+/// East, north and up as rows, by numerical differentiation of positions.
 fn nav_from_earth(latitude: f64, longitude: f64) -> Matrix3<f64> {
     const STEP: f64 = 1e-4;
     let along = |d_latitude: f64, d_longitude: f64| {
@@ -75,7 +75,7 @@ fn normal_gravity_has_the_published_values() {
     assert_close!(site(FRAC_PI_2, 0.0).normal_gravity(), 9.8321849378, 1e-10);
     assert_close!(site(-FRAC_PI_2, 0.0).normal_gravity(), 9.8321849378, 1e-10);
     // GRS80 (Moritz 1980) has the same ellipsoid to 0.1 mm and the same rotation, so that its
-    // gravity is in proportion to its GM, but for the centrifugal part of that 1e-7.
+    // gravity is proportional to its GM, except for the centrifugal part of that 1e-7.
     assert_close!(site(FRAC_PI_4, 0.0).normal_gravity(), 9.806199203 * GM / GRS80_GM, 1e-8);
 }
 
@@ -84,7 +84,7 @@ fn gravity_falls_by_three_microgals_a_centimetre() {
     let gradient = |latitude: f64| {
         (site(latitude, 100.0).normal_gravity() - site(latitude, -100.0).normal_gravity()) / 200.0
     };
-    // The free-air gradient is given as 0.3086 mGal/m; it differs by 0.1 % with latitude.
+    // The conventional free-air gradient is 0.3086 mGal/m; it varies by 0.1 % with latitude.
     assert_close!(gradient(FRAC_PI_4), -3.086e-6, 1e-9);
 }
 
@@ -118,7 +118,7 @@ proptest! {
         const STEP: f64 = 100.0;
         let slope = (normal_potential(latitude, height + STEP)
             - normal_potential(latitude, height - STEP)) / (2.0 * STEP);
-        // The published formula leaves out squares of the flattening in what height does.
+        // The published formula omits squares of the flattening in the terms of height.
         let within = 1e-8 + 1e-10 * height.abs();
         assert_close!(site(latitude, height).normal_gravity(), -slope, within);
     }
@@ -129,7 +129,7 @@ proptest! {
         let northwards = position(latitude + STEP, 0.3, 0.0) - position(latitude - STEP, 0.3, 0.0);
         let eastwards = position(latitude, 0.3 + STEP, 0.0) - position(latitude, 0.3 - STEP, 0.0);
         let place = site(latitude, 0.0);
-        // Chords are short of arcs by STEP²/6 of the radius, 1 cm.
+        // Chords are shorter than arcs by STEP²/6 of the radius, 1 cm.
         assert_close!(place.meridian_radius(), northwards.norm() / (2.0 * STEP), 0.02);
         let parallel = place.transverse_radius() * latitude.cos();
         assert_close!(parallel, eastwards.norm() / (2.0 * STEP), 0.02);
@@ -151,7 +151,7 @@ proptest! {
     ) {
         const STEP: f64 = 1e-4;
         const SECONDS: f64 = 10.0;
-        // Where a second's flight leads, from differences of positions.
+        // The displacement in one second of flight, by numerical differentiation of positions.
         let per_radian = |d_latitude: f64, d_longitude: f64| {
             (position(latitude + d_latitude, 0.3 + d_longitude, height)
                 - position(latitude - d_latitude, 0.3 - d_longitude, height)).norm() / (2.0 * STEP)
@@ -167,7 +167,7 @@ proptest! {
         let expected = -Vector3::new(turned[(2, 1)], turned[(0, 2)], turned[(1, 0)]);
 
         let rate = site(latitude, height).transport_rate(&InFrame::new(east, north, 0.0));
-        // Differences over 10 s of flight lose the second order of 3e-3 rad, near 80° a few times that.
+        // Differences over 10 s of flight neglect the second order of 3e-3 rad, near 80° a few times that.
         let within = 1e-3 * expected.norm() + 1e-10;
         prop_assert!((rate.components() - expected).norm() < within, "{rate:?} {expected}");
     }

@@ -1,3 +1,3 @@
-//! The crate against what was published, or written apart.
+//! The crate against published values and independent implementations.
 
 mod earth;

@@ -1,29 +1,29 @@
-//! How the Allan variances of one series scatter together, whatever mixture of noise it holds.
+//! The covariances of the Allan variances of one series, for any mixture of noise.
 
 use nalgebra::{DMatrix, Matrix4, Vector4};
 
 use super::law::NoiseLaw;
 
-/// Where one cluster is longer than the other by more than this, their variances are taken to be
-/// independent: white noise correlates them by less than 2 % then.
+/// The ratio of cluster lengths above which variances are treated as independent: white noise then
+/// correlates them by less than 2 %.
 const LARGEST_RATIO: usize = 64;
 
-/// A smooth covariance is sampled so often over the shorter cluster.
+/// The number of samples of a smooth covariance over the shorter cluster.
 const SAMPLES_PER_CLUSTER: usize = 8;
 
-/// Beyond so many times the two spans, the second differences have forgotten each other: those of
-/// flicker noise correlate as the inverse square of their distance, the others not at all.
+/// The lag, in multiples of the two spans, beyond which second differences are treated as uncorrelated: the correlation of
+/// flicker noise decreases with the inverse square of the lag, that of the others is zero.
 const LARGEST_LAG: usize = 3;
 
-/// The covariances of overlapping Allan variances, as quadratic forms of the squared strengths.
+/// The covariances of overlapping Allan variances, as quadratic forms of the squared noise parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Covariances {
-    /// Row by row the lower triangle.
+    /// The lower triangle, row by row.
     forms: Vec<Vec<Matrix4<f64>>>,
 }
 
 impl Covariances {
-    /// Of the Allan variances of `n_samples` increments over `interval` \[s\] each, at clusters of
+    /// The covariances of the Allan variances of `n_samples` increments over `interval` \[s\] each, at clusters of
     /// that many samples, in ascending order.
     pub(super) fn new(n_samples: usize, interval: f64, clusters: &[usize]) -> Self {
         let form = |longer: usize, shorter: usize| {
@@ -40,7 +40,7 @@ impl Covariances {
         Self { forms }
     }
 
-    /// The covariances under noise of these squared strengths.
+    /// The covariances for noise with these squared noise parameters.
     pub(super) fn of(&self, squares: &Vector4<f64>) -> DMatrix<f64> {
         let n_points = self.forms.len();
         DMatrix::from_fn(n_points, n_points, |row, column| {
@@ -50,7 +50,7 @@ impl Covariances {
     }
 }
 
-/// Two series of second differences, over clusters of so many samples.
+/// Two series of second differences, over clusters of `shorter` and `longer` samples.
 struct Pair {
     n_samples: usize,
     shorter: usize,
@@ -60,12 +60,12 @@ struct Pair {
 impl Pair {
     /// The quadratic form of the covariance of the two variances.
     ///
-    /// Of Gaussian noise, the covariance of two squares is twice the squared covariance; it is
+    /// For Gaussian noise, the covariance of two squares is twice the squared covariance; it is
     /// summed over all pairs of second differences (‹greenhall2003›).
     fn form(&self, interval: f64) -> Matrix4<f64> {
         let terms = |cluster: usize| (self.n_samples + 1 - 2 * cluster) as f64;
         let (n_short, n_long) = (terms(self.shorter), terms(self.longer));
-        // So many second differences of the longer clusters start `lag` after one of the shorter.
+        // The number of second differences of the longer clusters that start `lag` after one of the shorter.
         let pairs = |lag: f64| (n_long.min(n_short - lag) - (-lag).max(0.0)).max(0.0);
         let stride = (self.shorter / SAMPLES_PER_CLUSTER).max(1);
         let farthest = (LARGEST_LAG * 2 * (self.shorter + self.longer)).min(self.n_samples);
@@ -74,7 +74,7 @@ impl Pair {
         for step in -n_steps..=n_steps {
             let lag = step as f64 * stride as f64;
             let mut covariances = self.covariances(lag, interval);
-            // That of quantisation is no smooth one.
+            // The covariance of quantization noise is not smooth.
             covariances[0] = 0.0;
             sum += covariances * covariances.transpose() * (pairs(lag) * stride as f64);
         }
@@ -88,7 +88,7 @@ impl Pair {
         sum * 2.0 / (n_short * n_long * square(self.shorter) * square(self.longer))
     }
 
-    /// The lags at which two of the six angles that the second differences take coincide.
+    /// The lags at which two of the six angles in the second differences coincide.
     fn knots(&self) -> Vec<f64> {
         let (shorter, longer) = (self.shorter as f64, self.longer as f64);
         let mut knots: Vec<f64> = (0..3)
@@ -100,7 +100,7 @@ impl Pair {
     }
 
     /// The covariance, for each law, of a second difference of the longer clusters and one of the
-    /// shorter that starts `lag` samples later, or earlier where it is negative.
+    /// shorter that starts `lag` samples later, or earlier if it is negative.
     fn covariances(&self, lag: f64, interval: f64) -> Vector4<f64> {
         const WEIGHTS: [f64; 3] = [1.0, -2.0, 1.0];
         let mut sums = Vector4::zeros();
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn neighbours_of_white_noise_scatter_as_counted_by_hand() {
-        // 99 differences of neighbours, of variance 2; 98 pairs of them share a sample: -1.
+        // 99 differences of neighbors, of variance 2; 98 pairs of them share a sample: -1.
         let by_hand = 2.0 / (99.0 * 99.0 * 4.0) * (99.0 * 4.0 + 2.0 * 98.0);
         let covariances = Covariances::new(100, 1.0, &[1]).of(&WHITE);
         assert_close!(covariances[(0, 0)], by_hand, 1e-12);

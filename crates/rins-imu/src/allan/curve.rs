@@ -9,10 +9,10 @@ use super::covariance::Covariances;
 use super::fit::{FEWEST_POINTS, NoiseSeen, noise_seen};
 use super::point::{AllanPoint, CONFIDENCE, degrees_of_freedom};
 
-/// A cluster is at most this part of a series: longer ones have too few neighbours to tell anything.
+/// The maximum length of a cluster as a fraction of the series: longer ones have too few neighbors to be informative.
 const LONGEST_CLUSTER: usize = 5;
 
-/// How the Allan deviations of series of one length are taken, and how they scatter.
+/// The averaging times for series of one length, and the covariances of their Allan variances.
 ///
 /// The averaging times are the interval times powers of two, up to a fifth of the series.
 ///
@@ -37,16 +37,16 @@ pub struct AllanPlan {
     covariances: Covariances,
 }
 
-/// Why a series shows no noise.
+/// The reason why a series gives no noise parameters.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AllanError {
-    /// There are too few samples for the laws to be told apart.
+    /// There are too few samples to distinguish the laws.
     #[error("{n_samples} samples are too few for an Allan deviation: {needed} are needed")]
     TooShort {
-        /// The samples that there are.
+        /// The number of samples.
         n_samples: usize,
-        /// The fewest that tell something.
+        /// The minimum number of samples.
         needed: usize,
     },
     /// The interval is not positive.
@@ -55,27 +55,27 @@ pub enum AllanError {
         /// The interval \[s\].
         interval: f64,
     },
-    /// The series has not the length that was planned for.
+    /// The length of the series differs from the planned one.
     #[error("{n_samples} samples where {planned} were planned for")]
     Length {
-        /// The samples that there are.
+        /// The number of samples.
         n_samples: usize,
-        /// Those that were planned for.
+        /// The planned number of samples.
         planned: usize,
     },
     /// A sample is not a finite number.
     #[error("sample {sample} is not a finite number")]
     NotFinite {
-        /// Its place in the series.
+        /// Its index in the series.
         sample: usize,
     },
-    /// All samples are alike, so that there is no noise at all.
+    /// All samples are equal, so that there is no noise.
     #[error("the reading never changes: its noise cannot be determined")]
     Constant,
 }
 
 impl AllanPlan {
-    /// For series of so many increments over `interval` \[s\] each.
+    /// A plan for series of `n_samples` increments over `interval` \[s\] each.
     ///
     /// # Errors
     /// [`AllanError::TooShort`] below 80 samples, and [`AllanError::Interval`].
@@ -101,7 +101,7 @@ impl AllanPlan {
         self.clusters.iter().map(|&cluster| cluster as f64 * self.interval).collect()
     }
 
-    /// The Allan deviation of these increments \[rad or m/s\], and the noise that makes it.
+    /// The Allan deviation of these increments \[rad or m/s\], and the noise parameters fitted to it.
     ///
     /// # Errors
     /// [`AllanError::Length`], [`AllanError::NotFinite`], [`AllanError::Constant`].
@@ -127,7 +127,7 @@ impl AllanPlan {
 }
 
 impl AllanPoint {
-    /// A point whose variance is chi-squared about `fitted`, with `scatter` for its own variance.
+    /// A point whose variance has a χ² distribution with mean `fitted` and variance `scatter`.
     pub(super) fn new(time: f64, variance: f64, fitted: f64, scatter: f64) -> Self {
         let (low, high) = bounds(degrees_of_freedom(fitted, scatter));
         let deviation = variance.sqrt();
@@ -135,7 +135,7 @@ impl AllanPoint {
     }
 }
 
-/// The factors by which a deviation of so many degrees of freedom is multiplied to its bounds.
+/// The factors by which a deviation with this number of degrees of freedom is multiplied to get its bounds.
 fn bounds(degrees: f64) -> (f64, f64) {
     let tail = (1.0 - CONFIDENCE) / 2.0;
     ChiSquared::new(degrees).map_or((0.0, f64::INFINITY), |law| {
@@ -144,8 +144,8 @@ fn bounds(degrees: f64) -> (f64, f64) {
     })
 }
 
-/// The sums of increments up to each sample, less what a constant rate makes of them: it does not
-/// count, and digits would be lost to it.
+/// The cumulative sums of the increments, minus the part of a constant rate, which has no effect but would
+/// cost digits.
 fn integral(increments: &[f64]) -> Vec<f64> {
     let mean = increments.iter().sum::<f64>() / increments.len() as f64;
     let sums = increments.iter().scan(0.0, |sum, increment| {
@@ -155,7 +155,7 @@ fn integral(increments: &[f64]) -> Vec<f64> {
     iter::once(0.0).chain(sums).collect()
 }
 
-/// The overlapping Allan variance, over clusters of so many samples of length one, of a rate with
+/// The overlapping Allan variance, over clusters of `cluster` samples of unit length, of a rate with
 /// this integral (‹riley2008›, chapter 5).
 pub(super) fn allan_variance(integral: &[f64], cluster: usize) -> f64 {
     let triples = integral.iter().zip(&integral[cluster..]).zip(&integral[2 * cluster..]);

@@ -1,4 +1,4 @@
-//! The laws whose sum explains Allan variances, those only that are significant.
+//! The fit of noise laws to Allan variances, with significant laws only.
 
 use nalgebra::{DMatrix, DVector, Matrix4, Matrix4xX, MatrixXx4, Vector4};
 
@@ -6,66 +6,66 @@ use super::covariance::Covariances;
 use super::law::NoiseLaw;
 use super::point::{AllanPoint, improbability};
 
-/// A law is seen if its squared strength is so many sigma of what chance would make of it.
+/// The significance of a law: the minimum ratio of its squared parameter to the standard deviation in its absence.
 const SIGNIFICANCE: f64 = 4.0;
 
-/// A law that is not seen is bounded so many sigma above what was found of it.
+/// The upper bound of an insignificant law, in sigmas above its estimate.
 const BOUND_SIGMAS: f64 = 2.0;
 
-/// How far real noise may be off the sum of laws, relative to the variance; the first that does.
-/// Beyond it, it is not the laws that rule, and the shortest times are left out.
+/// The disagreement of the variance with the sum of the laws, relative to the variance; the first sufficient value is used.
+/// If none is, the shortest times do not follow the laws and are excluded.
 const DISAGREEMENTS: [f64; 5] = [0.0, 0.01, 0.02, 0.05, 0.1];
 
-/// What is said where the laws explain the variances at no times.
+/// The disagreement that is reported if the laws do not explain the variances at any times.
 const NO_AGREEMENT: f64 = 1.0;
 
-/// At so many times at least, one more than there are laws, they are compared with variances.
+/// The minimum number of variances that are compared with the laws, one more than there are laws.
 pub(super) const FEWEST_POINTS: usize = NoiseLaw::ALL.len() + 1;
 
-/// The laws do not fit if one of the points is as improbable as this, all counted.
+/// The p-value of the worst point, corrected for the number of points, below which the laws do not fit.
 const MISFIT: f64 = 0.01;
 
-/// The weights hang on the strengths, and settle within so many rounds.
+/// The maximum number of iterations of the weights, which depend on the noise parameters.
 const ROUNDS: usize = 50;
 
-/// The noise that an Allan deviation shows.
+/// The noise parameters from an Allan deviation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseSeen {
     /// The deviation at each averaging time.
     pub points: Vec<AllanPoint>,
-    /// The strength of each of [`NoiseLaw::ALL`].
+    /// The noise parameter of each of [`NoiseLaw::ALL`].
     pub strengths: [NoiseTerm; 4],
-    /// What the Allan variance is off the sum of the laws beyond chance, relative to it: zero where
-    /// the laws explain it. All sigmas hold it.
+    /// The difference of the Allan variance from the sum of the laws beyond chance, relative to it: zero if
+    /// the laws explain it. All sigmas include it.
     pub disagreement: f64,
     /// The averaging time from which on the laws were compared with the variance \[s\]: the shortest,
-    /// if not something that follows none of them, such as a laser gyro's dither, rules there.
+    /// unless an effect that follows none of them, such as the dither of a laser gyro, dominates there.
     pub explained_from: f64,
 }
 
-/// How strong a noise is, in the unit of its [`NoiseLaw`].
+/// A noise parameter, in the unit of its [`NoiseLaw`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoiseTerm {
-    /// It shows.
+    /// The law is significant.
     Seen {
-        /// The strength.
+        /// The noise parameter.
         value: f64,
-        /// Its 1σ, the other laws that are seen being estimated along.
+        /// Its 1σ, with the other significant laws estimated.
         sigma: f64,
-        /// The laws that explain the same in its place: beside one of them it is not significant.
+        /// The laws that explain the variances equally well in its place: together with one of them it is not significant.
         rivals: Vec<NoiseLaw>,
     },
-    /// What shows of it may be chance.
+    /// The law is not significant.
     NotSeen {
-        /// It is not stronger than this, two sigma above what was found.
+        /// The upper bound, two sigma above the estimate.
         below: f64,
     },
 }
 
-/// Which of the laws may be there.
+/// The laws that may be present.
 type Laws = [bool; 4];
 
-/// Finds the laws in Allan variances at these times \[s\].
+/// Fits the laws to Allan variances at these times \[s\].
 pub(super) fn noise_seen(
     times: &[f64],
     variances: &DVector<f64>,
@@ -87,13 +87,13 @@ pub(super) fn noise_seen(
     NoiseSeen { points, strengths, disagreement: fit.disagreement, explained_from }
 }
 
-/// The variance that a unit of each squared strength makes at each time.
+/// The variance at each time for a unit of each squared noise parameter.
 fn design(times: &[f64]) -> MatrixXx4<f64> {
     MatrixXx4::from_fn(times.len(), |row, law| NoiseLaw::ALL[law].allan_variance(times[row]))
 }
 
 struct Fit<'a> {
-    /// Those from the place `first` on.
+    /// The variances from the index `first` on.
     variances: DVector<f64>,
     covariances: &'a Covariances,
     design: MatrixXx4<f64>,
@@ -113,7 +113,7 @@ impl<'a> Fit<'a> {
         Self { variances, covariances, design: design(&times[first..]), first, disagreement }
     }
 
-    /// How the variances scatter under noise of these squared strengths, and off its laws.
+    /// The covariance of the variances under noise with these squared parameters, including the disagreement with the laws.
     fn scatter(&self, squares: &Vector4<f64>) -> DMatrix<f64> {
         let all = self.covariances.of(squares);
         let mut scatter = all.view_range(self.first.., self.first..).into_owned();
@@ -124,10 +124,10 @@ impl<'a> Fit<'a> {
         scatter
     }
 
-    /// The squared strengths of these laws, none negative, by least squares whose weights are what
-    /// the strengths found make of the scatter.
+    /// The squared parameters of these laws, none negative, by iteratively reweighted least squares: the weights follow from
+    /// the covariance under the estimated parameters.
     fn solve(&self, laws: Laws) -> Vector4<f64> {
-        // Each law as strong as the median of what the points allow it alone.
+        // The initial value of each law: the median over the points of what explains the variance by this law alone.
         let mut squares = Vector4::from_fn(|law, _| {
             let mut alone: Vec<f64> = self
                 .variances
@@ -150,7 +150,7 @@ impl<'a> Fit<'a> {
         squares
     }
 
-    /// Of all mixtures of these laws without a negative one, that which fits best.
+    /// The best fit by a subset of these laws without a negative squared parameter.
     fn least_squares(&self, laws: Laws, scatter: &DVector<f64>) -> Vector4<f64> {
         let mixtures = (1_u8..16).map(|bits| std::array::from_fn(|law| bits >> law & 1 == 1));
         mixtures
@@ -166,13 +166,13 @@ impl<'a> Fit<'a> {
             .unwrap_or_default()
     }
 
-    /// What turns variances into the squared strengths of these laws, weighted by that scatter.
+    /// The gain from variances to the squared parameters of these laws, weighted by that scatter.
     fn gain(&self, laws: Laws, scatter: &DVector<f64>) -> Option<Matrix4xX<f64>> {
         let mut whitened = self.design.clone();
         for (mut row, scatter) in whitened.row_iter_mut().zip(scatter) {
             row /= scatter.sqrt();
         }
-        // To columns of length one, for the units differ; a law left out leaves a one behind.
+        // Columns are normalized, because the units differ; an excluded law gets a unit diagonal.
         let lengths =
             Vector4::from_fn(
                 |law, _| {
@@ -196,8 +196,8 @@ impl<'a> Fit<'a> {
         Some(gain)
     }
 
-    /// The squared strength of `law` that is found along with `laws`, negative ones too, and its 1σ
-    /// where the noise is of the squared strengths `squares`.
+    /// The estimated squared parameter of `law` together with `laws`, possibly negative, and its 1σ
+    /// under noise with the squared parameters `squares`.
     fn found(&self, laws: Laws, squares: &Vector4<f64>, law: usize) -> Option<(f64, f64)> {
         let scatter = self.scatter(squares);
         let gain = self.gain(laws, &scatter.diagonal())?;
@@ -206,7 +206,7 @@ impl<'a> Fit<'a> {
         Some((value, variance.max(0.0).sqrt()))
     }
 
-    /// Whether no point is improbable under these strengths.
+    /// Whether no point is improbable under these parameters.
     fn explains(&self, squares: &Vector4<f64>) -> bool {
         let mean = &self.design * squares;
         let scatter = self.scatter(squares).diagonal();
@@ -216,8 +216,8 @@ impl<'a> Fit<'a> {
         least * mean.len() as f64 > MISFIT
     }
 
-    /// The squared strengths of the laws that chance does not explain: the least significant is
-    /// left out until all are significant, or one is left.
+    /// The squared parameters of the significant laws: the least significant law is
+    /// removed until all are significant, or one is left.
     fn significant(&self) -> Vector4<f64> {
         let mut squares = self.solve([true; 4]);
         loop {
@@ -241,7 +241,7 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// How strong a law is where those of `squares` are there.
+    /// The noise parameter of a law in the presence of those of `squares`.
     fn strength(&self, squares: &Vector4<f64>, law: usize) -> NoiseTerm {
         let mut laws = present(squares);
         if laws[law] {
@@ -255,13 +255,13 @@ impl<'a> Fit<'a> {
             self.found(laws, squares, law)
                 .map_or(f64::INFINITY, |(value, sigma)| value.max(0.0) + BOUND_SIGMAS * sigma)
         };
-        // The stronger it is, the more it scatters itself.
+        // A larger parameter has a larger scatter.
         let mut with = *squares;
         with[law] = above(squares);
         NoiseTerm::NotSeen { below: above(&with).sqrt() }
     }
 
-    /// The laws that may stand in the place of `law` among `laws`.
+    /// The laws that can replace `law` among `laws`.
     fn rivals(&self, laws: Laws, law: usize) -> Vec<NoiseLaw> {
         let rivals = (0..4).filter(|rival| {
             let mut both = laws;

@@ -1,13 +1,13 @@
-//! The laws that the noise of a sensor follows, and how each correlates in time.
+//! The laws of sensor noise, with their Allan variances and correlations in time.
 
 use std::f64::consts::{LN_2, PI};
 
-/// A noise with a law of its own in the Allan variance (‹ieee952›, annex C).
+/// A kind of noise with its own dependence of the Allan variance on averaging time (‹ieee952›, annex C).
 ///
-/// A rate is in rad/s for gyros and in m/s² for accelerometers, its integral an angle or a velocity.
+/// A rate is in rad/s for gyros and in m/s² for accelerometers; its integral is an angle or a velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoiseLaw {
-    /// `Q`, white noise in the integral \[rad or m/s\]: 3 Q²/τ². Pulses of one bit make bit/√12.
+    /// `Q`, quantization noise: white noise in the integral \[rad or m/s\]: 3 Q²/τ². For pulses of one bit, Q = bit/√12.
     Quantisation,
     /// `N`, white noise in the rate \[rate/√Hz\]: N²/τ.
     White,
@@ -18,10 +18,10 @@ pub enum NoiseLaw {
 }
 
 impl NoiseLaw {
-    /// All of them, by their slope over the averaging time.
+    /// All laws, in the order of their slope over the averaging time.
     pub const ALL: [Self; 4] = [Self::Quantisation, Self::White, Self::Flicker, Self::RandomWalk];
 
-    /// The Allan variance of strength one at the averaging time `time` \[s\].
+    /// The Allan variance for a unit noise parameter at the averaging time `time` \[s\].
     pub fn allan_variance(self, time: f64) -> f64 {
         match self {
             Self::Quantisation => 3.0 / (time * time),
@@ -31,9 +31,9 @@ impl NoiseLaw {
         }
     }
 
-    /// The generalised autocovariance of the integrated rate at strength one, `lag` \[s\] apart.
+    /// The generalized autocovariance of the integrated rate for a unit noise parameter at the lag `lag` \[s\].
     ///
-    /// Only its fourth differences mean something: they are the covariances of second differences
+    /// Only its fourth differences are meaningful: they are the covariances of second differences
     /// (‹greenhall2003›).
     pub(super) fn autocovariance(self, lag: f64) -> f64 {
         let lag = lag.abs();

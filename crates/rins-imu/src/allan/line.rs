@@ -1,4 +1,4 @@
-//! Sinusoids in a rest, which no law of noise explains.
+//! Spectral lines over a static interval, which no noise law explains.
 
 use std::f64::consts::{LN_2, PI, TAU};
 use std::ops::Range;
@@ -6,55 +6,55 @@ use std::ops::Range;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rustfft::{FftPlanner, num_complex::Complex};
 
-/// Lines are looked for from so many cycles of a rest on: below, a random walk looks like one.
+/// The minimum number of cycles of a spectral line in a static interval: with fewer, a random walk looks like a line.
 const FEWEST_CYCLES: usize = 20;
 
-/// The level of the noise about a frequency is the median of the powers at so many frequencies on either side.
+/// The number of frequencies on either side of a frequency whose median power is the local noise level.
 const BESIDE: usize = 50;
 
-/// A line is one that noise makes in fewer than one of `e^16` rests, all frequencies counted.
+/// A spectral line is a peak that noise exceeds in fewer than one of `e^16` intervals, over all frequencies.
 const LN_IMPROBABLE: f64 = 16.0;
 
-/// Another sinusoid near it is a part of it that noise makes once in a thousand, all frequencies near it counted.
+/// A further component near a line is a peak that noise exceeds once in a thousand intervals, over all frequencies near it.
 const LN_PART: f64 = 7.0;
 
-/// The parts of a line are within one of so many parts of its frequency: what is wider is a colour of the noise.
+/// The components of a line are within this fraction of its frequency: wider ones are colored noise.
 const NEAR: usize = 20;
 
-/// The most sinusoids of which a line is made: more are a colour of the noise.
+/// The maximum number of sinusoidal components of a line: more are colored noise.
 const MOST_PARTS: usize = 64;
 
-/// The most lines of a sensor.
+/// The maximum number of lines of a sensor.
 const MOST: usize = 8;
 
-/// The parts of a rest over each of which a frequency is the nearest whole number of cycles.
+/// The number of blocks of an interval, in each of which a frequency is represented by an integer number of cycles.
 const BLOCKS: usize = 256;
 
-/// So often is a frequency mended, by no more than this \[cycles over the rest\].
+/// The maximum number of corrections of a frequency; the next constant limits each of them \[cycles over the interval\].
 const STEPS: usize = 3;
 const LONGEST_STEP: f64 = 0.5;
 
-/// A sinusoid in the readings of a sensor at rest.
+/// A spectral line: sinusoidal interference in the readings of a sensor at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpectralLine {
     /// Its frequency \[Hz\].
     pub frequency: f64,
-    /// The 1σ of that \[Hz\].
+    /// The 1σ of the frequency \[Hz\].
     pub frequency_sigma: f64,
-    /// The amplitude of the rate or the specific force, √2 times its root mean square over the rest \[rad/s or m/s²\].
+    /// The amplitude of the rate or the specific force, √2 times its root mean square over the interval \[rad/s or m/s²\].
     pub amplitude: f64,
-    /// The 1σ of that.
+    /// The 1σ of the amplitude.
     pub amplitude_sigma: f64,
-    /// The width of the even band that is spread as far as that within which it wanders \[Hz\]; zero of a frequency that stays.
+    /// The width of the uniform band with the standard deviation of the varying frequency \[Hz\]; zero for a constant frequency.
     pub width: f64,
 }
 
-/// Takes the lines out of increments over even intervals, and says which there were, the strongest first.
+/// Removes the spectral lines from increments over even intervals, and returns them, the strongest first.
 ///
-/// A line stands out of the noise about it in the periodogram so far that chance makes none in `e^16` rests. Where one sinusoid
-/// is not all of it, as of a motor or a base that sways, it wanders: the others near it are taken out with it, until what is left
-/// is what noise makes (the CLEAN algorithm; ‹roberts1987›). Readings with a resolution far coarser than their
-/// noise have lines of their own.
+/// A line exceeds the local noise level in the periodogram so far that noise alone would do so in fewer than one of `e^16`
+/// intervals. If the frequency varies, as that of a motor or a swaying base, one sinusoid is not sufficient: the others near it
+/// are removed with it, until the remainder agrees with noise (the CLEAN algorithm; ‹roberts1987›). Readings with a resolution
+/// far coarser than their noise have lines of their own.
 pub fn take_out_lines(increments: &mut [f64], interval: f64) -> Vec<SpectralLine> {
     let mut lines = Vec::new();
     while lines.len() < MOST
@@ -65,14 +65,14 @@ pub fn take_out_lines(increments: &mut [f64], interval: f64) -> Vec<SpectralLine
     lines
 }
 
-/// One of the sinusoids that make a line.
+/// One of the sinusoidal components of a line.
 struct Part {
-    /// Its cycles over the rest.
+    /// Its number of cycles over the interval.
     cycles: f64,
     power: f64,
 }
 
-/// Takes out the strongest line; `None` if there is none.
+/// Removes the strongest line; `None` if there is none.
 fn strongest(increments: &mut [f64], interval: f64) -> Option<SpectralLine> {
     let count = increments.len();
     let everywhere = FEWEST_CYCLES..count / 2;
@@ -108,7 +108,7 @@ fn strongest(increments: &mut [f64], interval: f64) -> Option<SpectralLine> {
     let spread = mean(&|part| (part.cycles - centre).powi(2)).sqrt();
     let number = parts.len() as f64;
     let duration = count as f64 * interval;
-    // Of one sinusoid in white noise (‹rife1974›); of several, as far as they scatter.
+    // The uncertainty of one sinusoid in white noise (‹rife1974›); of several, that from their scatter.
     let alone = (6.0 / count as f64).sqrt() * noise / (PI * amplitude);
     Some(SpectralLine {
         frequency: centre / duration,
@@ -119,7 +119,8 @@ fn strongest(increments: &mut [f64], interval: f64) -> Option<SpectralLine> {
     })
 }
 
-/// The place of these that is highest above the noise about it, if noise makes it so high in fewer than one rest of `e^improbable`.
+/// The index with the highest power relative to the local noise, if noise exceeds it in fewer than one of `e^improbable`
+/// intervals.
 fn above(readings: &[f64], places: Range<usize>, improbable: f64) -> Option<usize> {
     let powers = periodogram(readings);
     let levels = levels_about(&powers, places.clone());
@@ -131,11 +132,11 @@ fn above(readings: &[f64], places: Range<usize>, improbable: f64) -> Option<usiz
     (excess > least).then_some(place)
 }
 
-/// Takes the sinusoid near so many cycles out of readings, by least squares in its cosine, its sine and its frequency.
+/// Removes the sinusoid near this number of cycles from readings, by least squares in its cosine, its sine and its frequency.
 fn take_out(readings: &mut [f64], place: usize) -> Option<Part> {
     let count = readings.len();
     let mut cycles = refined(readings, place);
-    // Without a slope, the cosine and the sine alone.
+    // The first fit has a fixed frequency: cosine and sine only.
     let mut found = least_squares(readings, cycles, Vector3::zeros())?;
     for _ in 0..STEPS {
         found = least_squares(readings, cycles, found)?;
@@ -149,7 +150,8 @@ fn take_out(readings: &mut [f64], place: usize) -> Option<Part> {
     Some(Part { cycles, power: found.xy().norm_squared() })
 }
 
-/// The cosine and the sine of so many cycles, and how many cycles more there are if these were `about` before.
+/// The amplitudes of cosine and sine at this number of cycles, and the correction of the number of cycles, with `about` as
+/// previous solution.
 fn least_squares(readings: &[f64], cycles: f64, about: Vector3<f64>) -> Option<Vector3<f64>> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for (sample, reading) in readings.iter().enumerate() {
@@ -169,7 +171,7 @@ fn phase(sample: usize, cycles: f64, count: usize) -> f64 {
     TAU * (cycles * sample as f64 / count as f64).fract()
 }
 
-/// The squared magnitude of the Fourier transform at whole numbers of cycles, up to half as many as there are readings.
+/// The squared magnitude of the Fourier transform at integer numbers of cycles, up to half the number of readings.
 fn periodogram(readings: &[f64]) -> Vec<f64> {
     let mut values: Vec<Complex<f64>> =
         readings.iter().map(|reading| Complex::new(*reading, 0.0)).collect();
@@ -177,7 +179,7 @@ fn periodogram(readings: &[f64]) -> Vec<f64> {
     values[..readings.len() / 2].iter().map(Complex::norm_sqr).collect()
 }
 
-/// The mean power of the noise about each of these places, by the median of those beside it.
+/// The mean noise power at each of these indices, from the median of the powers on either side.
 fn levels_about(powers: &[f64], places: Range<usize>) -> Vec<f64> {
     let level = |place: usize| {
         let from = place.saturating_sub(BESIDE).max(1);
@@ -189,7 +191,7 @@ fn levels_about(powers: &[f64], places: Range<usize>) -> Vec<f64> {
     places.map(level).collect()
 }
 
-/// The number of cycles near `place` of which there is most, by golden sections.
+/// The number of cycles near `place` with the highest power, by golden-section search.
 fn refined(readings: &[f64], place: usize) -> f64 {
     let count = readings.len();
     let block = count.div_ceil(BLOCKS);

@@ -1,4 +1,4 @@
-//! Published deviations, and noise of known strength found again.
+//! Published deviations, and recovery of known noise parameters.
 
 use rins_testing::assert_close;
 
@@ -9,7 +9,7 @@ use crate::{Axis, NoiseModel, Quantisation, Seed, Sensor, Span, Triad, TriadNois
 const INTERVAL: f64 = 0.02;
 const N_SAMPLES: usize = 6000;
 
-/// What is seen in each of three axes of `n_runs` runs with this noise.
+/// The noise found in each of three axes of `n_runs` runs with this noise.
 fn seen(model: &NoiseModel, n_runs: u64) -> Vec<NoiseSeen> {
     let plan = AllanPlan::new(N_SAMPLES, INTERVAL).unwrap();
     let span = Span { interval: INTERVAL, duration: INTERVAL * N_SAMPLES as f64 };
@@ -26,7 +26,7 @@ fn seen(model: &NoiseModel, n_runs: u64) -> Vec<NoiseSeen> {
     (0..n_runs).flat_map(of_run).collect()
 }
 
-/// How many sigma each strength that was seen is off the truth.
+/// The errors of the significant noise parameters, in sigmas.
 fn scores(seen: &[NoiseSeen], law: NoiseLaw, truth: f64) -> Vec<f64> {
     let score = |seen: &NoiseSeen| match &seen.strengths[law as usize] {
         NoiseTerm::Seen { value, sigma, .. } => Some((value - truth) / sigma),
@@ -71,7 +71,7 @@ fn white_noise_is_found_within_its_sigma_and_nothing_beside() {
     let seen = seen(&NoiseModel::white(0.5), 100);
     let scores = scores(&seen, NoiseLaw::White, 0.5);
     assert_eq!(scores.len(), 300);
-    // Chi-squared over 300: four sigma of its mean are 0.33.
+    // χ² over 300: four sigma of its mean are 0.33.
     assert_close!(mean_square(&scores), 1.0, 4.0 * (2.0 / 300.0_f64).sqrt());
     let others = [NoiseLaw::Quantisation, NoiseLaw::Flicker, NoiseLaw::RandomWalk];
     let false_alarms: usize = others.iter().map(|law| self::scores(&seen, *law, 0.0).len()).sum();
@@ -87,7 +87,7 @@ fn bounds_hold_the_true_deviation_as_often_as_they_say() {
             let AllanPoint { time, bounds: (low, high), .. } = seen.points[place];
             (low..high).contains(&(0.5 / time.sqrt()))
         });
-        // Four sigma of 300 throws are 15.
+        // Four sigma of 300 trials are 15.
         let held = held.count();
         assert!((270..=299).contains(&held), "{held} of 300 at point {place}");
     }
@@ -98,7 +98,7 @@ fn flicker_alone_is_a_floor() {
     let seen = seen(&NoiseModel { flicker: Some(0.5), ..NoiseModel::default() }, 20);
     let scores = scores(&seen, NoiseLaw::Flicker, 0.5);
     assert_eq!(scores.len(), seen.len());
-    // The noise made is up to 6 % weaker in power at the highest frequencies than flicker noise is.
+    // The simulated noise has up to 6 % less power than flicker noise at the highest frequencies.
     assert!((0.5..5.0).contains(&mean_square(&scores)), "{}", mean_square(&scores));
     assert!(self::scores(&seen, NoiseLaw::White, 0.0).is_empty());
 }
@@ -114,7 +114,7 @@ fn random_walk_is_found_within_its_sigma() {
 
 #[test]
 fn pulses_are_quantisation() {
-    // A bit of twice the noise of a sample: rounding is white then.
+    // A bit of twice the noise of a sample: the rounding error is then white.
     let bit = 0.04;
     let quantisation = Some(Quantisation::Increment(bit));
     let seen = seen(&NoiseModel { quantisation, ..NoiseModel::white(0.14) }, 20);
@@ -136,7 +136,7 @@ fn weak_flicker_is_bounded_or_has_its_rival() {
             misnamed += usize::from(!rivals.contains(&NoiseLaw::Flicker));
         }
     }
-    // 2 sigma are 97.5 % of a normal scatter; the bound's own is skew.
+    // 2 sigma are 97.5 % of a normal distribution; that of the bound itself is skewed.
     assert!(bounded >= 80, "{bounded} of 90");
     assert!(misnamed <= 2, "{misnamed} of 90");
 }
@@ -145,7 +145,7 @@ fn weak_flicker_is_bounded_or_has_its_rival() {
 fn dither_hides_the_laws_at_its_own_times_only() {
     let plan = AllanPlan::new(N_SAMPLES, INTERVAL).unwrap();
     let mut noise = Seed::new(3).stream(Sensor::Inertial(Triad::Gyro, Axis::X));
-    // Noise of one in a second, and an angle that swings by twice a sample's at 11 Hz.
+    // Noise of one per second, and an angle that oscillates by twice that of a sample at 11 Hz.
     let angle = |k: usize| 1.4 * k as f64;
     let series: Vec<f64> = (0..N_SAMPLES)
         .map(|k| INTERVAL.sqrt() * (noise.sample() + 2.0 * (angle(k + 1).sin() - angle(k).sin())))
@@ -170,7 +170,7 @@ fn series_that_tell_nothing_are_refused() {
     assert_eq!(plan.noise(&gap), Err(AllanError::NotFinite { sample: 7 }));
 }
 
-/// Increments of one axis over a rest with this noise.
+/// Increments of one axis over a static interval with this noise.
 fn rest(model: &NoiseModel, run: u64, samples: usize) -> Vec<f64> {
     let span = Span { interval: INTERVAL, duration: INTERVAL * samples as f64 };
     let mut noise = TriadNoise::new(model, &span, Triad::Gyro, Seed { seed: 6, run }).unwrap();
@@ -182,7 +182,7 @@ fn rest(model: &NoiseModel, run: u64, samples: usize) -> Vec<f64> {
 fn lines_are_found_with_their_frequency_and_amplitude_and_leave_the_noise() {
     let (mut frequency, mut amplitude, mut white, mut seen) = (0.0, 0.0, 0.0, 0.0);
     for run in 0..200 {
-        // Spread over what there may be: 40 s to 4 min, 1 to 20 Hz, 1.5 to 150 times where a line begins to show.
+        // Spread over the possible range: 40 s to 4 min, 1 to 20 Hz, 1.5 to 150 times the detection limit of a line.
         let part = |step: f64| (0.5 + step * run as f64).fract();
         let samples = 2000 + 6180 * usize::try_from(run).unwrap() % 10_000;
         let (hertz, phase) = (1.0 + 19.0 * part(0.755), 6.0 * part(0.319));
@@ -229,7 +229,7 @@ fn noise_of_any_colour_has_no_lines() {
     }
 }
 
-/// A line that wanders within a hundredth of its frequency, as of a motor or of a base that sways.
+/// A line whose frequency varies by a hundredth, as of a motor or of a swaying base.
 #[test]
 fn line_that_wanders_is_found_with_its_band_and_is_no_quantisation() {
     let (mut noise, mut seen) = (Vec::new(), 0);
@@ -237,7 +237,7 @@ fn line_that_wanders_is_found_with_its_band_and_is_no_quantisation() {
         let samples = 12_000;
         let part = |step: f64| (0.5 + step * run as f64).fract();
         let hertz = 2.0 + 10.0 * part(0.618);
-        // From where it is well seen to ten times that.
+        // From a clearly detectable amplitude to ten times that.
         let size = 10_f64.powf(part(0.755));
         let mut increments = rest(&NoiseModel::white(0.5), run, samples);
         let wander = rest(&NoiseModel::white(0.03), run + 1000, samples);
@@ -252,7 +252,7 @@ fn line_that_wanders_is_found_with_its_band_and_is_no_quantisation() {
         let line = lines[0];
         assert!((line.frequency - hertz).abs() < 0.05, "{run}: {line:?}, not {hertz}");
         let off = line.amplitude - (2.0 * power).sqrt();
-        // Its skirts below the noise are not taken out.
+        // Its skirts below the noise are not removed.
         assert!(off.abs() < 4.0 * line.amplitude_sigma + 0.05 * size, "{run}: {off} {line:?}");
         let plan = AllanPlan::new(samples, INTERVAL).unwrap();
         let strengths = plan.noise(&increments).unwrap().strengths;

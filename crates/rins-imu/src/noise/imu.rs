@@ -1,4 +1,4 @@
-//! The random errors of a whole IMU.
+//! The random errors of an IMU.
 
 use rins_frames::Increments;
 
@@ -10,19 +10,19 @@ use crate::axis::Triad;
 /// The random errors of a gyro and an accelerometer triad. The default is none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImuNoise {
-    /// The gyros', in rad/s and its multiples.
+    /// The noise of the gyros, in rad/s and its multiples.
     pub gyro: NoiseModel,
-    /// The accelerometers', in m/s² and its multiples.
+    /// The noise of the accelerometers, in m/s² and its multiples.
     pub accel: NoiseModel,
 }
 
-/// Which triad's noise model describes no noise, and why.
+/// The error of a triad's invalid noise model.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("the {triad} noise parameters are invalid")]
 pub struct ImuNoiseError {
     /// The triad.
     pub triad: Triad,
-    /// What is wrong with it.
+    /// The reason.
     #[source]
     pub reason: NoiseError,
 }
@@ -35,10 +35,10 @@ pub struct ImuNoiseSource {
 }
 
 impl ImuNoise {
-    /// The source of this noise in the run of `seed`; flicker noise is made for times within `span`.
+    /// The source of this noise in the run of `seed`; flicker noise is approximated for times within `span`.
     ///
     /// # Errors
-    /// [`ImuNoiseError`] if a figure is negative, not finite, or zero where it must not be.
+    /// [`ImuNoiseError`] if a number is negative, not finite, or zero although it must be positive.
     pub fn source(&self, span: &Span, seed: Seed) -> Result<ImuNoiseSource, ImuNoiseError> {
         let of = |model, triad| {
             TriadNoise::new(model, span, triad, seed)
@@ -52,7 +52,7 @@ impl ImuNoise {
 }
 
 impl ImuNoiseSource {
-    /// What the IMU delivers over its next interval where a noiseless one delivers `increments`.
+    /// The output of the IMU over its next interval, of which `increments` is the noise-free output.
     #[must_use]
     pub fn corrupt(&mut self, increments: &Increments) -> Increments {
         let interval = increments.interval;

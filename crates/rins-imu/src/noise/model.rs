@@ -1,4 +1,4 @@
-//! What the random error of a triad is made of.
+//! The components of the random error of a triad.
 
 use crate::spec::TriadSpec;
 
@@ -8,13 +8,13 @@ use crate::spec::TriadSpec;
 /// those of IEEE Std 952-1997, appendix C: two-sided, so that the Allan variance of white noise is N²/τ.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NoiseModel {
-    /// `N`, the root power spectral density of white noise in the rate \[rate/√Hz\]; the same
+    /// `N`, the noise density: the root power spectral density of white noise in the rate \[rate/√Hz\]; the same
     /// number as angle or velocity random walk \[rad/√s, m/s/√s\]. Its Allan deviation is N/√τ.
     pub white_density: f64,
     /// `K`, the root density of the white noise whose integral is added to the rate \[rate/√s\];
-    /// the walk starts at zero. Its Allan deviation is K√(τ/3).
+    /// the random walk starts at zero. Its Allan deviation is K√(τ/3).
     pub bias_random_walk: f64,
-    /// Wandering biases that forget: each starts in its stationary distribution.
+    /// Gauss-Markov biases: each starts in its stationary distribution.
     pub gauss_markov: Vec<GaussMarkov>,
     /// `B`, the bias instability \[rate\]: flicker noise of density B²/(2πf), whose Allan
     /// deviation is flat at √(2 ln 2/π) B = 0.664 B.
@@ -23,22 +23,22 @@ pub struct NoiseModel {
     pub quantisation: Option<Quantisation>,
 }
 
-/// A first-order Gauss-Markov process: correlated as σ² exp(-|t|/T).
+/// A first-order Gauss-Markov process with the autocovariance σ² exp(-|t|/T).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GaussMarkov {
     /// Its standard deviation σ \[rate\].
     pub sigma: f64,
-    /// The time T over which its correlation falls by e \[s\].
+    /// The correlation time T, in which the correlation decreases by a factor e \[s\].
     pub correlation_time: f64,
 }
 
-/// The least significant bit of what a sensor delivers.
+/// The least significant bit of a sensor's output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantisation {
-    /// Of an increment \[rad or m/s\]. What is rounded off is delivered with a later increment, as
-    /// by a sensor that counts pulses, so that sums are never off by more than half a bit.
+    /// The LSB of an increment \[rad or m/s\]. The rounding remainder is carried to a later increment, as
+    /// by a sensor that counts pulses, so that the error of sums never exceeds half a bit.
     Increment(f64),
-    /// Of a mean rate \[rad/s or m/s²\]. What is rounded off is lost.
+    /// The LSB of a mean rate \[rad/s or m/s²\]. The rounding remainder is lost.
     Rate(f64),
 }
 
@@ -48,11 +48,11 @@ impl NoiseModel {
         Self { white_density: density, ..Self::default() }
     }
 
-    /// The flicker noise's Gauss-Markov processes, over a run of the given span.
+    /// The Gauss-Markov processes that approximate flicker noise, over a run of the given span.
     ///
-    /// Time constants four apart, from a sixteenth of an interval to four times the duration, each of
+    /// Time constants with a ratio of four, from a sixteenth of an interval to four times the duration, each of
     /// variance (ln 4/π) B²: their summed density is B²/(2πf) within 1 % between 1/duration and a
-    /// tenth of half the sampling rate, and 6 % short of it in power at half the sampling rate.
+    /// tenth of half the sampling rate, and its power is 6 % lower than that at half the sampling rate.
     pub(super) fn flicker_processes(&self, span: &Span) -> Vec<GaussMarkov> {
         const RATIO: f64 = 4.0;
         const LN_RATIO: f64 = 2.0 * core::f64::consts::LN_2;
@@ -66,7 +66,7 @@ impl NoiseModel {
         .collect()
     }
 
-    /// Whether every figure is one that noise can have.
+    /// Whether every number is valid for noise.
     pub(super) fn check(&self) -> Result<(), NoiseError> {
         let amplitudes = [self.white_density, self.bias_random_walk, self.flicker.unwrap_or(0.0)];
         let sigmas = self.gauss_markov.iter().map(|process| process.sigma);
@@ -93,7 +93,7 @@ impl NoiseModel {
 
 /// A data sheet's noise density, random walk and bias instability.
 ///
-/// Its resolution is left out, since a sheet does not say whether rates or increments are meant.
+/// Its resolution is omitted, because a data sheet does not state whether it refers to rates or increments.
 impl From<&TriadSpec> for NoiseModel {
     fn from(spec: &TriadSpec) -> Self {
         Self {
@@ -105,7 +105,7 @@ impl From<&TriadSpec> for NoiseModel {
     }
 }
 
-/// The times between which flicker noise is made: those of a run.
+/// The times for which flicker noise is approximated: those of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// The interval between samples \[s\].
@@ -125,7 +125,7 @@ impl Span {
     }
 }
 
-/// Why a noise model describes no noise.
+/// The reason why a noise model is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoiseError {
@@ -147,7 +147,7 @@ pub enum NoiseError {
         /// The bit, in the unit of its variant.
         bit: f64,
     },
-    /// The run has no length, or is shorter than one interval.
+    /// The duration of the run is not positive, or shorter than one interval.
     #[error("a run of {duration} s in intervals of {interval} s holds no sample")]
     Span {
         /// The interval \[s\].

@@ -1,17 +1,17 @@
-//! Standard normal numbers that are the same on every machine.
+//! Standard normal random numbers that are the same on every machine.
 //!
-//! The quantile function is evaluated in additions, multiplications, divisions, a square root and
-//! `libm`'s logarithm, whose roundings do not depend on the platform as those of a system's
-//! library do. One uniform number makes one normal number.
+//! The quantile function is evaluated by additions, multiplications, divisions, a square root and
+//! `libm`'s logarithm, whose rounding does not depend on the platform, unlike that of a system
+//! library. One uniform number gives one normal number.
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 use rins_lanes::{Arch, Lane, Real, Simd, WithSimd};
 
-/// How many numbers are made at once: whole vectors of any machine.
+/// The number of random numbers that are computed together: a multiple of the vector width of any machine.
 const BLOCK: usize = 64;
 
-/// Standard normal numbers, each from 52 random bits: at most 8.2 in magnitude.
+/// Standard normal numbers, each from 52 random bits: their magnitude is at most 8.2.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
     numbers: [f64; BLOCK],
@@ -19,12 +19,12 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// A block of which nothing is left.
+    /// A block without remaining numbers.
     pub(super) const fn spent() -> Self {
         Self { numbers: [0.0; BLOCK], taken: BLOCK }
     }
 
-    /// The next number; one step of the generator makes one.
+    /// The next number, from one step of the generator.
     #[inline]
     pub(super) fn next(&mut self, generator: &mut Pcg64) -> f64 {
         if self.taken == BLOCK {
@@ -38,11 +38,11 @@ impl Block {
     fn fill(&mut self, generator: &mut Pcg64) {
         let offsets: [f64; BLOCK] = core::array::from_fn(|_| {
             let bits = generator.next_u64() >> 12;
-            // The middle of one of 2⁵² equal parts of (-½, ½), without rounding.
+            // The center of one of 2⁵² equal parts of (-½, ½), without rounding.
             (bits as f64 + 0.5) * f64::EPSILON - 0.5
         });
         self.numbers = offsets;
-        // Five of six lie in the centre, whose quantiles are had in lanes.
+        // Five of six are central; their quantiles are computed in SIMD lanes.
         Arch::new().dispatch(Centre(&mut self.numbers));
         for (number, &offset) in self.numbers.iter_mut().zip(&offsets) {
             if offset.abs() > CENTRAL {
@@ -53,7 +53,7 @@ impl Block {
     }
 }
 
-/// Offsets that become quantiles, as far as they are central.
+/// Offsets that are replaced by their quantiles, if they are central.
 struct Centre<'a>(&'a mut [f64]);
 
 impl WithSimd for Centre<'_> {
@@ -66,10 +66,10 @@ impl WithSimd for Centre<'_> {
     }
 }
 
-/// The offset from ½ up to which a fraction is central.
+/// The maximum offset from ½ of a central fraction.
 const CENTRAL: f64 = 0.425;
 
-/// The normal deviate that a fraction of ½ + `offset` lies below, for |`offset`| up to 0.425
+/// The quantile of the normal distribution for a probability of ½ + `offset`, for |`offset`| up to 0.425
 /// (Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied Statistics
 /// 37 (1988) 477-484, routine PPND16, with a relative error of about 10⁻¹⁶).
 #[inline(always)]
@@ -89,7 +89,7 @@ fn tail_quantile(offset: f64) -> f64 {
     magnitude.copysign(offset)
 }
 
-/// A ratio of two polynomials: coefficients from the highest power to the constant.
+/// A ratio of two polynomials, with coefficients from the highest power to the constant.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "it is compiled with the machine's instructions")]
 fn ratio<T: Real>((numerator, denominator): &([f64; 8], [f64; 8]), x: T) -> T {
@@ -179,7 +179,7 @@ mod tests {
     use rand_pcg::rand_core::SeedableRng;
     use rins_testing::assert_close;
 
-    /// Offsets of which each is exact in binary, and their quantiles to 20 digits by
+    /// Offsets that are exact in binary, and their quantiles to 20 digits by
     /// mpmath 1.3 at 50 digits: `findroot(lambda x: ncdf(x) - (mpf(1)/2 + offset), x0)`.
     #[expect(clippy::excessive_precision, reason = "the digits of the source")]
     const REFERENCE: [(f64, f64); 8] = [
@@ -235,7 +235,7 @@ mod tests {
                 *moment += x.powi(power) / COUNT as f64;
             }
         }
-        // Five sigma of each moment: the variance of xᵏ is E x²ᵏ - (E xᵏ)² over the count.
+        // Five sigma of each moment: the variance of xᵏ is (E x²ᵏ - (E xᵏ)²) divided by the count.
         for (got, (want, variance)) in
             moments.iter().zip([(0.0, 1.0), (1.0, 2.0), (0.0, 15.0), (3.0, 96.0)])
         {

@@ -1,30 +1,30 @@
-//! Wandering biases, discretised exactly over an interval of any length.
+//! Random bias processes, discretized exactly over an interval of any length.
 
 use super::model::GaussMarkov;
 
-/// A bias that wanders.
+/// A random bias process.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Process {
     /// The integral of white noise of this root density \[rate/√s\].
     Walk { density: f64 },
-    /// One that forgets.
+    /// A Gauss-Markov process.
     Relaxing(GaussMarkov),
 }
 
-/// How a bias `x` moves over one interval, and what its integral is:
+/// The transition of a bias `x` over one interval, and its integral:
 /// `x₁ = decay x₀ + spread w` and `∫x dt = weight (x₀ + x₁) + √residual v`, with w and v
 /// independent and standard normal.
 ///
 /// Given both of its ends, the integral of such a process has the mean `weight (x₀ + x₁)`, by the
-/// symmetry of a bridge in time. What is left is independent of everything else, so that the
-/// residuals of many processes can be drawn as one.
+/// time-reversal symmetry of a bridge. The remainder is independent of everything else, so that the
+/// remainders of many processes can be drawn as one number.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub(super) decay: f64,
     pub(super) spread: f64,
-    /// \[s\].
+    /// The weight of the ends in the integral \[s\].
     pub(super) weight: f64,
-    /// The variance of the integral when both ends are known \[rate² s²\].
+    /// The variance of the integral given both ends \[rate² s²\].
     pub(super) residual: f64,
 }
 
@@ -59,9 +59,9 @@ impl Process {
     }
 }
 
-/// `h - 2 tanh(h/2)`, which is of third order in h.
+/// The function `h - 2 tanh(h/2)`, which is of third order in h.
 fn bridge(h: f64) -> f64 {
-    // Where the difference would cancel, its series: the first term left out is below 10⁻¹⁵ of it.
+    // Where the difference would cancel, the series is used: the first omitted term is below 10⁻¹⁵ of it.
     if h < 0.1 {
         const SERIES: [f64; 5] =
             [691.0 / 79833600.0, -31.0 / 362880.0, 17.0 / 20160.0, -1.0 / 120.0, 1.0 / 12.0];
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The covariance of (end, integral) when the start has variance `start`.
+    /// The covariance of (end, integral) if the start has the variance `start`.
     fn covariance(step: &Step, start: f64) -> [f64; 3] {
         let Step { decay, spread, weight, residual } = *step;
         let noise = spread * spread;
@@ -103,12 +103,12 @@ mod tests {
     }
 
     fn close(got: f64, want: f64) -> bool {
-        // `bridge` loses three digits of sixteen beside h = 0.1, and the sums a little.
+        // `bridge` loses three digits of sixteen near h = 0.1, and the sums a little.
         (got - want).abs() <= 1e-12 * want.abs()
     }
 
     proptest! {
-        /// The law that only the exact discretisation obeys: two intervals are as good as one.
+        /// A property of the exact discretization only: two intervals are equivalent to one.
         #[test]
         fn consecutive_steps_compose(process in any_process(), a in 0.01..2.0_f64, b in 0.01..2.0_f64) {
             let (first, second, whole) = (process.step(a), process.step(b), process.step(a + b));
@@ -140,7 +140,7 @@ mod tests {
     fn slow_process_integrates_to_its_bias_and_a_fast_one_to_white_noise() {
         let slow = Process::Relaxing(GaussMarkov { sigma: 2.0, correlation_time: 1e9 }).step(1.0);
         assert!(close(covariance(&slow, 4.0)[2] / 4.0, 1.0 - 1e-9 / 3.0));
-        // Density 2 σ² T, less the ends: (1 - T) of it over one second.
+        // Density 2 σ² T, minus the effect of the ends: (1 - T) of it over one second.
         let fast = Process::Relaxing(GaussMarkov { sigma: 2.0, correlation_time: 1e-4 }).step(1.0);
         assert!(close(covariance(&fast, 4.0)[2], 8e-4 * (1.0 - 1e-4)));
     }

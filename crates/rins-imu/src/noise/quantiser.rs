@@ -1,14 +1,14 @@
-//! Rounding to a least significant bit.
+//! Quantization: rounding to a least significant bit.
 
 use nalgebra::Vector3;
 
 use super::model::Quantisation;
 
-/// Rounds the increments of a triad.
+/// A quantizer of the increments of a triad.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quantiser {
     resolution: Quantisation,
-    /// What has been sensed but not delivered yet \[rad or m/s\].
+    /// The part of the sensed increments that is not yet in the output \[rad or m/s\].
     carry: Vector3<f64>,
 }
 
@@ -17,7 +17,7 @@ impl Quantiser {
         Self { resolution, carry: Vector3::zeros() }
     }
 
-    /// What is delivered where `increment` was sensed over `interval` \[s\].
+    /// The output for a sensed `increment` over `interval` \[s\].
     pub(super) fn quantise(&mut self, increment: &Vector3<f64>, interval: f64) -> Vector3<f64> {
         match self.resolution {
             Quantisation::Rate(bit) => increment.map(|x| rounded(x / interval, bit) * interval),
@@ -31,7 +31,7 @@ impl Quantiser {
     }
 }
 
-/// The multiple of `bit` nearest to `value`: itself, where a bit is so small that no number counts how many they are.
+/// The multiple of `bit` nearest to `value`; `value` itself if the bit is too small for the multiple to be represented.
 pub fn rounded(value: f64, bit: f64) -> f64 {
     let bits = (value / bit).round();
     if bits.is_finite() { bits * bit } else { value }

@@ -1,36 +1,36 @@
-//! Which random numbers belong to which sensor of which run.
+//! The assignment of random numbers to the sensors of a run.
 
 use rand_pcg::Pcg64;
 
 use super::normal::Block;
 use crate::axis::{Axis, Triad};
 
-/// What the random numbers of a run follow from.
+/// The seed from which all random numbers of a run follow.
 ///
 /// Each [`Sensor`] has a generator of its own: PCG64 (XSL-RR 128/64) on the stream
-/// `256 run + code`, so that no two sensors of one campaign ever share one, started from a state
-/// hashed out of seed, run and code. No numbers depend on which other sensors there are, on the order in
-/// which runs are made, or on the machine.
+/// `256 run + code`, so that no two sensors of one campaign share a stream. Its initial state is a
+/// hash of seed, run and code. The numbers do not depend on the presence of other sensors, on the order
+/// of the runs, or on the machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Seed {
-    /// Chosen once for a campaign.
+    /// The seed of the campaign.
     pub seed: u64,
-    /// The index of a run within it.
+    /// The index of a run in the campaign.
     pub run: u64,
 }
 
-/// One of the sensors that have random numbers of their own.
+/// A sensor with random numbers of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Sensor {
     /// A gyro or an accelerometer: codes 0 to 2 and 3 to 5.
     Inertial(Triad, Axis),
-    /// The table's angle encoder: code 6.
+    /// The angle encoder of the table: code 6.
     Encoder,
 }
 
 impl Sensor {
-    /// The number that tells this sensor's stream from the others'; it will not change.
+    /// The number that identifies this sensor's stream; it is stable across versions.
     pub const fn code(self) -> u8 {
         match self {
             Self::Inertial(Triad::Gyro, axis) => axis as u8,
@@ -41,12 +41,12 @@ impl Sensor {
 }
 
 impl Seed {
-    /// The first run of a campaign.
+    /// The seed of the first run of a campaign.
     pub const fn new(seed: u64) -> Self {
         Self { seed, run: 0 }
     }
 
-    /// The standard normal numbers of a sensor, from the first.
+    /// The standard normal numbers of a sensor, from the first on.
     ///
     /// ```
     /// use rins_imu::{Seed, Sensor};
@@ -81,7 +81,7 @@ pub struct NormalStream {
 }
 
 impl NormalStream {
-    /// The next number; one step of the generator makes one.
+    /// The next number, from one step of the generator.
     #[inline]
     pub fn sample(&mut self) -> f64 {
         self.block.next(&mut self.generator)
@@ -100,7 +100,7 @@ mod tests {
         of(Triad::Gyro).into_iter().chain(of(Triad::Accel)).chain([Sensor::Encoder])
     }
 
-    /// The first outputs for seed 42, run 7, made by a `PCG64` and a `SplitMix64` written in Python
+    /// The first outputs for seed 42, run 7, by independent implementations of `PCG64` and `SplitMix64` in Python
     /// from their papers (`tests/data/pcg64_reference.py`).
     #[test]
     fn bits_are_those_of_a_generator_written_apart() {
@@ -140,7 +140,7 @@ mod tests {
                 for lag in 0..3 {
                     let pairs = one.iter().zip(&other[lag..]);
                     let correlation = pairs.map(|(a, b)| a * b).sum::<f64>() / COUNT as f64;
-                    // Five sigma; 108 correlations are looked at.
+                    // Five sigma; 108 correlations are tested.
                     assert_close!(correlation, 0.0, 5.0 / (COUNT as f64).sqrt());
                 }
             }

@@ -1,4 +1,4 @@
-//! The random error of three sensors, one increment after the other.
+//! The random errors of three sensors, one increment after the other.
 
 use core::array;
 
@@ -13,8 +13,8 @@ use crate::axis::{Axis, Triad};
 
 /// A source of the random errors of a triad.
 ///
-/// The wandering biases move, and are integrated, by their exact discretisation, so that the
-/// statistics do not depend on how a time is cut into intervals.
+/// The random biases are propagated and integrated by their exact discretization, so that the
+/// statistics do not depend on the division of time into intervals.
 ///
 /// ```
 /// use rins_imu::{NoiseModel, Seed, Span, Triad, TriadNoise};
@@ -30,27 +30,27 @@ use crate::axis::{Axis, Triad};
 pub struct TriadNoise {
     streams: [NormalStream; 3],
     processes: Vec<Process>,
-    /// Each process's bias on each axis now.
+    /// The present bias of each process on each axis.
     biases: Vec<Vector3<f64>>,
     white_variance: f64,
     quantiser: Option<Quantiser>,
     steps: Steps,
 }
 
-/// The processes' discretisation for intervals of one length.
+/// The discretization of the processes for intervals of one length.
 #[derive(Clone, Debug)]
 struct Steps {
     interval: f64,
     each: Vec<Step>,
-    /// The standard deviation of what of an increment no bias explains \[rad or m/s\].
+    /// The standard deviation of the part of an increment that the biases do not explain \[rad or m/s\].
     remainder: f64,
 }
 
 impl TriadNoise {
-    /// The source for `triad` in the run of `seed`; flicker noise is made for times within `span`.
+    /// The source for `triad` in the run of `seed`; flicker noise is approximated for times within `span`.
     ///
     /// # Errors
-    /// [`NoiseError`] if a figure is negative, not finite, or zero where it must not be.
+    /// [`NoiseError`] if a number is negative, not finite, or zero although it must be positive.
     pub fn new(
         model: &NoiseModel,
         span: &Span,
@@ -77,9 +77,9 @@ impl TriadNoise {
         Ok(noise)
     }
 
-    /// The integral of the noise over the next `interval` \[rad or m/s\], without quantisation.
+    /// The integral of the noise over the next `interval` \[rad or m/s\], without quantization.
     ///
-    /// An interval that is negative or not a number makes NaN.
+    /// The result is NaN if the interval is negative or NaN.
     pub fn next(&mut self, interval: f64) -> InFrame<Body> {
         if interval.to_bits() != self.steps.interval.to_bits() {
             self.prepare(interval);
@@ -93,8 +93,8 @@ impl TriadNoise {
         InFrame::from_components(increment)
     }
 
-    /// What the triad delivers over the next `interval` \[s\] where a noiseless one accumulates
-    /// `increment` \[rad or m/s\]: noise is added, and the sum rounded to the resolution.
+    /// The output of the triad over the next `interval` \[s\], of which `increment` is the noise-free output
+    /// \[rad or m/s\]: noise is added, and the sum is rounded to the resolution.
     #[must_use]
     pub fn corrupt(&mut self, increment: &InFrame<Body>, interval: f64) -> InFrame<Body> {
         let noisy = *increment + self.next(interval);
@@ -106,12 +106,12 @@ impl TriadNoise {
         }
     }
 
-    /// The sum of the wandering biases now \[rad/s or m/s²\].
+    /// The present sum of the random biases \[rad/s or m/s²\].
     pub fn wander(&self) -> InFrame<Body> {
         InFrame::from_components(self.biases.iter().sum())
     }
 
-    /// Discretises the processes for intervals of another length.
+    /// Discretizes the processes for intervals of another length.
     fn prepare(&mut self, interval: f64) {
         self.steps.interval = interval;
         self.steps.each.clear();

@@ -1,4 +1,4 @@
-//! Laws of the triad error and its inverse.
+//! Laws of the triad error and its compensation.
 
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use rins_frames::{Body, InFrame};
 use super::{CompensationError, TriadError};
 use crate::axis::Axis;
 
-/// Six roundings of half a unit in the last place lie between a vector and its round trip.
+/// The round trip of a vector has six rounding errors of half a unit in the last place.
 const ROUND_TRIP: f64 = 1e-15;
 
 fn any_vector(size: f64) -> impl Strategy<Value = InFrame<Body>> {
@@ -35,7 +35,7 @@ proptest! {
     fn compensation_undoes_errors_as_large_as_the_signal(
         error in any_error(1.0), rate in any_vector(10.0),
     ) {
-        // A condition number up to 10⁸ may cost eight digits of sixteen, and a little.
+        // A condition number up to 10⁸ can cost eight digits of sixteen, and a little more.
         let Ok(compensation) = error.compensation() else { return Ok(()) };
         let undone = compensation.true_rate(&error.measured_rate(&rate));
         prop_assert!((undone - rate).norm() <= 1e-6 * (rate.norm() + error.bias.norm()));
@@ -90,7 +90,7 @@ fn misalignment_xz_puts_spin_rate_into_the_x_gyro() {
 
 #[test]
 fn sensors_that_swap_axes_can_be_undone() {
-    // Scale errors of -1 alone would be dead; here each sensor reads its neighbour.
+    // Scale errors of -1 alone would be dead axes; here each sensor measures along its neighbor.
     let error = TriadError {
         bias: Vector3::zeros(),
         matrix: Matrix3::new(-1.0, 1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0),

@@ -1,2 +1,2 @@
-//! The statistics of the noise against what its coefficients mean.
+//! The statistics of the noise against the meaning of its parameters.
 mod noise;

@@ -14,14 +14,14 @@ fn source(model: &NoiseModel, n_samples: usize, run: u64) -> TriadNoise {
         .expect("the tests' models are possible")
 }
 
-/// The Allan variance of rates at a cluster of a power of two samples.
+/// The Allan variance of rates for a cluster of a power of two samples.
 fn allan_variance(increments: &[f64], cluster: usize) -> f64 {
     let plan = AllanPlan::new(increments.len(), INTERVAL).expect("the series are long");
     let seen = plan.noise(increments).expect("the series are noise");
     seen.points[cluster.ilog2() as usize].deviation.powi(2)
 }
 
-/// The Allan deviation at each cluster size, its variance averaged over `n_runs` runs of three axes.
+/// The Allan deviation at each cluster size, from the variance averaged over `n_runs` runs of three axes.
 fn allan_deviations(
     model: &NoiseModel,
     n_samples: usize,
@@ -43,7 +43,7 @@ fn allan_deviations(
     sums.iter().map(|sum| (sum / (3 * n_runs) as f64).sqrt()).collect()
 }
 
-/// Checks deviations against `theory(τ)`; the tolerance covers four sigma of the estimate.
+/// Asserts deviations against `theory(τ)`; the tolerance covers four sigma of the estimate.
 fn assert_deviations(model: &NoiseModel, theory: impl Fn(f64) -> f64, relative: f64) {
     let clusters = [1, 4, 16, 64];
     let found = allan_deviations(model, 1 << 16, 8, &clusters);

@@ -1,4 +1,4 @@
-//! The covariance of what a calibration estimated: `[covariance]`.
+//! The covariance of the numbers that a calibration has estimated: `[covariance]`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -9,10 +9,10 @@ use crate::document::{Entry, Node, Value};
 use crate::error::IoError;
 use crate::section::{Section, quoted};
 
-/// How much two numbers that are perfectly correlated may seem to be more than that: rounding.
+/// The largest absolute correlation coefficient that is accepted: one, with a margin for rounding.
 const MOST_CORRELATION: f64 = 1.0 + 1e-6;
 
-/// How far a stated sigma may be from the covariance's, relative: it may have been rounded to two digits, or to one.
+/// The accepted relative difference of a stated sigma from that of the covariance: it may be rounded to one or two digits.
 const SIGMA_WITHIN: f64 = 0.1;
 
 /// The covariance of the numbers that a calibration estimated, in their units.
@@ -20,12 +20,11 @@ const SIGMA_WITHIN: f64 = 0.1;
 pub struct Covariance {
     /// The ids of its rows and columns.
     pub ids: Vec<String>,
-    /// Of row and column, in the product of their units.
+    /// The covariances, in the product of the units of row and column.
     pub matrix: DMatrix<f64>,
 }
 
-/// Reads `[covariance]`, whose ids are among `known`, and which has to agree with the sigmas that are `stated` beside it in the
-/// same units.
+/// Reads `[covariance]`, whose ids must be in `known`, and which must agree with the `stated` sigmas in the same units.
 pub(super) fn read(
     root: &Section<'_>,
     known: &[String],
@@ -86,7 +85,7 @@ pub(super) fn read(
     Ok(Some(Covariance { ids, matrix }))
 }
 
-/// The first place at which a variance is not positive, or a covariance larger than the variances allow.
+/// The first element whose variance is not positive, or whose covariance exceeds the limit of the variances.
 fn first_impossible(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
     let places = (0..matrix.nrows()).flat_map(|row| (0..=row).map(move |column| (row, column)));
     places.into_iter().find(|&(row, column)| {

@@ -1,4 +1,4 @@
-//! The scenarios of a grid: one for each combination of what `[grid]` lists.
+//! The scenarios of a grid: one for each combination of the values in `[grid]`.
 
 use std::path::Path;
 
@@ -6,16 +6,16 @@ use crate::document::{Document, Entry, Node, Value};
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::scenario::ScenarioFile;
 
-/// The most scenarios of a grid.
+/// The maximum number of scenarios of a grid.
 pub(super) const MOST_CELLS: usize = 100_000;
 
-/// The most text that all scenarios of a grid may be, which is held some ten times over \[bytes\].
+/// The maximum text of all scenarios of a grid, which occupies about ten times as much memory \[bytes\].
 const MOST_TEXT: usize = 1 << 27;
 
-/// A scenario file, and those that its `[grid]` makes of it.
+/// A scenario file, and the scenarios that its `[grid]` defines.
 ///
-/// Each key of `[grid]` names a key of the file, its sections and places in lists joined by points, and
-/// lists what stands there in turn, or gives a range:
+/// Each key of `[grid]` is a key of the file, with its sections and list indices joined by points. Its value is the list of
+/// values to be used, or a range:
 ///
 /// ```
 /// # use std::path::Path;
@@ -49,7 +49,7 @@ const MOST_TEXT: usize = 1 << 27;
 pub struct ScenarioGrid {
     /// The keys of the grid, in the order of the file.
     pub keys: Vec<String>,
-    /// The scenarios; one without a grid.
+    /// The scenarios; one if there is no grid.
     pub cells: Vec<GridCell>,
     /// The file's text.
     pub text: String,
@@ -58,13 +58,13 @@ pub struct ScenarioGrid {
 /// One scenario of a grid.
 #[derive(Clone, Debug)]
 pub struct GridCell {
-    /// What stands at each of the grid's keys, as it is written.
+    /// The value of each key of the grid, as written in the file.
     pub values: Vec<String>,
     /// The scenario.
     pub file: ScenarioFile,
 }
 
-/// A key of the grid and what stands there in turn.
+/// A key of the grid and the list of its values.
 struct Axis {
     key: String,
     line: usize,
@@ -75,15 +75,15 @@ impl ScenarioGrid {
     /// Reads the scenario file at `path`.
     ///
     /// # Errors
-    /// [`IoError::File`] if it cannot be read; else as [`ScenarioGrid::parse`].
+    /// [`IoError::File`] if it cannot be read; otherwise as for [`ScenarioGrid::parse`].
     pub fn read(path: &Path) -> Result<Self, IoError> {
         Self::parse(&Document::text(path)?, path)
     }
 
-    /// The scenarios that `text` describes, as if it stood in the file at `path`.
+    /// The scenarios in `text`, parsed as the content of the file at `path`.
     ///
     /// # Errors
-    /// [`IoError::Key`] if `[grid]` is not one, or any of its scenarios is wrong.
+    /// [`IoError::Key`] if `[grid]` is invalid, or any of its scenarios is.
     pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
         let document = Document::parse(text, path)?;
         let mut base = document.clone();
@@ -136,7 +136,7 @@ fn refusal(path: &Path, key: &str, line: Option<usize>, problem: KeyProblem) -> 
     Box::new(KeyError { path: path.into(), line, key, problem }).into()
 }
 
-/// A value as it is written, without the quotes of a text.
+/// A value as written in the file, without the quotes of a string.
 fn shown(value: &Value) -> String {
     match &value.node {
         Node::Text(text) => text.clone(),
@@ -144,7 +144,7 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// Collects the keys of `[grid]`; a table that is no range only joins its name to those in it.
+/// Collects the keys of `[grid]`; a table that is not a range only prefixes its name to the keys in it.
 fn collect(path: &Path, prefix: &str, entry: &Entry, axes: &mut Vec<Axis>) -> Result<(), IoError> {
     let wrong = |key: &str| {
         let expected = r#"a list, or a range { from = "1 deg", to = "5 deg", steps = 5 }"#;
@@ -177,7 +177,7 @@ fn collect(path: &Path, prefix: &str, entry: &Entry, axes: &mut Vec<Axis>) -> Re
     }
 }
 
-/// The values of a range whose ends have the same unit.
+/// The values of a range whose limits have the same unit.
 fn range(entries: &[Entry], line: usize) -> Option<Vec<Value>> {
     if entries.len() != 3 {
         return None;
@@ -199,7 +199,7 @@ fn range(entries: &[Entry], line: usize) -> Option<Vec<Value>> {
     }
     let value = |step: usize| {
         let part = step as f64 / (steps - 1) as f64;
-        // Both ends are what is written, to the last bit.
+        // Both limits are reproduced exactly.
         let number = if step + 1 == steps { to } else { from + (to - from) * part };
         let text = format!("{number} {unit}").trim_end().to_string();
         Value { line, source: format!("{text:?}"), node: Node::Text(text) }
@@ -207,7 +207,7 @@ fn range(entries: &[Entry], line: usize) -> Option<Vec<Value>> {
     Some((0..steps).map(value).collect())
 }
 
-/// Puts a value at a path of keys and places.
+/// Sets the value at a path of keys and indices.
 fn put(root: &mut Vec<Entry>, path: &str, value: &Value) -> Result<(), KeyProblem> {
     let missing = |part: &str| KeyProblem::Conflict {
         reason: format!("the scenario has no {part:?} to put it in"),
@@ -228,7 +228,7 @@ fn put(root: &mut Vec<Entry>, path: &str, value: &Value) -> Result<(), KeyProble
     put_in(&mut root[place].value, rest, value).ok_or_else(|| missing(path))?
 }
 
-/// Puts a value at a path into a table or a list; `None` if there is no such place.
+/// Sets the value at a path in a table or a list; `None` if the path does not exist.
 fn put_in(inside: &mut Value, path: &str, value: &Value) -> Option<Result<(), KeyProblem>> {
     match &mut inside.node {
         Node::Table(entries) => Some(put(entries, path, value)),

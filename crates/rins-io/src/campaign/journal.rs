@@ -1,4 +1,4 @@
-//! What is done of a campaign so far: lines that are added as chunks are finished.
+//! The journal of a campaign: the finished chunks, appended line by line.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -14,25 +14,24 @@ use super::table::Identity;
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
 
-/// A campaign's journal, which outlives an interruption.
+/// The journal of a campaign, with which an interrupted campaign can be resumed.
 ///
-/// The first line says which campaign it is. A chunk is a line that names it, a line for each run with
-/// the bits of its numbers, and a line that ends it with the CRC-32 of the others; a chunk without its end, or with another
-/// checksum, does not count. The runs
-/// stay on the disk; memory has the chunks' places only.
+/// The first line identifies the campaign. A chunk consists of a line with its index, a line for each run with
+/// the bits of its numbers, and a final line with the CRC-32 of the others. A chunk without final line, or with a wrong
+/// checksum, does not count. The runs stay on the disk; only the positions of the chunks are in memory.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     file: File,
     chunks: Places,
-    /// Where the next chunk goes \[bytes\].
+    /// The position of the next chunk \[bytes\].
     end: u64,
 }
 
-/// Where each finished chunk begins \[bytes\], and how many runs it has.
+/// The position of each finished chunk \[bytes\], and its number of runs.
 type Places = BTreeMap<u64, (u64, u64)>;
 
-/// The letters of a failure's reason that are kept.
+/// The maximum length of a stored failure reason \[characters\].
 const LONGEST_REASON: usize = 1 << 13;
 
 /// The longest line of a chunk \[bytes\].
@@ -42,11 +41,11 @@ const LONGEST_LINE: u64 = 1 << 16;
 const NUMBERS: usize = 13;
 
 impl Journal {
-    /// A new journal at `path`, in the place of one that is there if that may be replaced.
+    /// Creates a journal at `path`, and replaces an existing one if that is permitted.
     ///
     /// # Errors
-    /// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the system refuses; there is then none
-    /// of this campaign.
+    /// [`IoError::Output`] if an existing file must not be replaced, [`IoError::File`] on a system error; no journal of this
+    /// campaign exists then.
     pub fn create(path: &Path, identity: &Identity, overwrite: Overwrite) -> Result<Self, IoError> {
         let failed = || IoError::file("write", path);
         write_file(path, overwrite, |out| writeln!(out, "{}", identity.line()).map_err(failed()))?;
@@ -55,12 +54,12 @@ impl Journal {
         Ok(Self { path: path.into(), file, chunks: Places::new(), end })
     }
 
-    /// The journal at `path`, to be continued.
+    /// Opens the journal at `path` to be continued.
     ///
-    /// What follows its last finished chunk is cut off. `None` if it is another campaign's.
+    /// Data after its last finished chunk are cut off. `None` if the journal belongs to another campaign.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses.
+    /// [`IoError::File`] on a system error.
     pub fn resume(path: &Path, identity: &Identity) -> Result<Option<Self>, IoError> {
         let failed = || IoError::file("read", path);
         let file = OpenOptions::new().read(true).append(true).open(path).map_err(failed())?;
@@ -71,15 +70,15 @@ impl Journal {
         Ok(Some(Self { path: path.into(), file, chunks, end }))
     }
 
-    /// How many runs a finished chunk has; `None` if it is not finished.
+    /// The number of runs of a finished chunk; `None` if it is not finished.
     pub fn len_of(&self, chunk: u64) -> Option<u64> {
         self.chunks.get(&chunk).map(|(_, runs)| *runs)
     }
 
-    /// What the runs of a finished chunk found.
+    /// The results of the runs of a finished chunk.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses, or the chunk is not there any more.
+    /// [`IoError::File`] on a system error, or if the chunk no longer exists.
     pub fn runs(&mut self, chunk: u64) -> Result<Vec<RunResult>, IoError> {
         let failed = || IoError::file("read", &self.path);
         let lost = || failed()(io::Error::new(io::ErrorKind::InvalidData, "portion lost"));
@@ -91,10 +90,10 @@ impl Journal {
         }
     }
 
-    /// Adds a finished chunk.
+    /// Appends a finished chunk.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses.
+    /// [`IoError::File`] on a system error.
     pub fn add(&mut self, chunk: u64, runs: &[RunResult]) -> Result<(), IoError> {
         let mut text = format!("chunk {chunk} {}\n", runs.len());
         for run in runs {
@@ -124,10 +123,10 @@ impl Journal {
         Ok(())
     }
 
-    /// Makes sure that the disk has all that was added.
+    /// Synchronizes the journal with the disk.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses.
+    /// [`IoError::File`] on a system error.
     pub fn synchronise(&self) -> Result<(), IoError> {
         self.file.sync_data().map_err(IoError::file("write", &self.path))
     }
@@ -135,36 +134,36 @@ impl Journal {
     /// Removes the journal of a campaign whose results are written.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses.
+    /// [`IoError::File`] on a system error.
     pub fn remove(self) -> Result<(), IoError> {
         fs::remove_file(&self.path).map_err(IoError::file("remove", &self.path))
     }
 }
 
-/// The lines of a journal, and where the next of them begins \[bytes\].
+/// The lines of a journal, and the position of the next line \[bytes\].
 struct Lines<R> {
     reader: R,
     place: u64,
 }
 
 impl<'f> Lines<BufReader<&'f File>> {
-    /// From where the file stands.
+    /// The lines from the current position of the file.
     fn of(file: &'f File) -> Self {
         Self { reader: BufReader::new(file), place: 0 }
     }
 }
 
 impl<R: BufRead> Lines<R> {
-    /// The next line, with its end; what is longer is no line.
+    /// The next line, including its line end; a line longer than `longest` is truncated and therefore invalid.
     fn next(&mut self, longest: u64) -> io::Result<String> {
         let mut bytes = Vec::new();
         self.place += self.reader.by_ref().take(longest).read_until(b'\n', &mut bytes)? as u64;
-        // What was cut within a letter is no line, as what was cut elsewhere is none.
+        // A line that was cut within a character is invalid, like a line that was cut elsewhere.
         Ok(String::from_utf8(bytes).unwrap_or_default())
     }
 }
 
-/// The finished chunks, and where the last of them ends; `None` if the first line is another.
+/// The finished chunks, and the end of the last one; `None` if the first line belongs to another campaign.
 fn places(file: &File, identity: &str) -> io::Result<Option<(Places, u64)>> {
     let mut lines = Lines::of(file);
     let first = lines.next(LONGEST_LINE.max(identity.len() as u64 + 1))?;
@@ -180,7 +179,7 @@ fn places(file: &File, identity: &str) -> io::Result<Option<(Places, u64)>> {
     Ok(Some((chunks, end)))
 }
 
-/// The chunk that comes next, and its index; `None` if it is not whole.
+/// The next chunk with its index; `None` if it is incomplete.
 fn next_chunk(lines: &mut Lines<impl BufRead>) -> io::Result<Option<(u64, Vec<RunResult>)>> {
     let heading = lines.next(LONGEST_LINE)?;
     let mut words = heading.split_whitespace();

@@ -1,4 +1,4 @@
-//! Files of a campaign: the scenarios of a grid, the results, and what is done of them so far.
+//! The files of a campaign: the scenarios of a grid, the results, and the journal of finished chunks.
 
 mod grid;
 mod journal;

@@ -1,4 +1,4 @@
-//! The results of a campaign, read from Parquet.
+//! Reading the results of a campaign from Parquet.
 
 use std::fmt;
 use std::path::Path;
@@ -15,35 +15,34 @@ use super::table::{FAILURE, Heading, INTEGERS, Identity, NUMBERS, Record, Row, R
 use crate::error::IoError;
 use crate::sound_parquet::SoundParquet;
 
-/// The values that are held of all columns together while they are put into rows.
+/// The number of values of all columns together that are buffered while they are converted to rows.
 const BATCH: usize = 1 << 16;
 
-/// The most values, rows times columns, that any file may have, however small it is.
+/// The maximum number of values (rows times columns) of any file, however small it is.
 const MOST_VALUES: u64 = 1 << 28;
 
-/// The most that the grid's values and the reasons of failures may take in memory, however short
-/// the file is that repeats them \[bytes\].
+/// The maximum memory for the grid's values and the failure reasons, however small the file is that repeats them \[bytes\].
 const MOST_TEXT: usize = 1 << 28;
 
 /// The longest unit \[bytes\].
 const LONGEST_UNIT: usize = 32;
 
-/// The runs of a file of results, one after the other, in the order of scenarios and runs.
+/// The runs of a result file, one by one, in the order of scenarios and runs.
 ///
-/// Few of them are in memory at once. After an error there are no more.
+/// Only a few of them are in memory at a time. The iterator ends after an error.
 pub struct PartRuns {
     file: SoundParquet,
     heading: Heading,
-    /// The columns of the group that is read.
+    /// The columns of the current row group.
     readers: Vec<ColumnReader>,
-    /// How many groups were opened.
+    /// The number of row groups that were opened.
     groups: usize,
     batch: Vec<Values>,
     /// The next row of the batch.
     row: usize,
-    /// What more may be kept of texts \[bytes\].
+    /// The remaining memory for texts \[bytes\].
     room: usize,
-    /// The scenario and the number of the last run.
+    /// The scenario and the number of the previous run.
     last: Option<(u64, u64)>,
 }
 
@@ -54,11 +53,10 @@ impl fmt::Debug for PartRuns {
 }
 
 impl PartRuns {
-    /// Opens results.
+    /// Opens a result file.
     ///
     /// # Errors
-    /// [`IoError::File`] if the system refuses, [`IoError::Log`] if the file is no campaign's of this
-    /// version.
+    /// [`IoError::File`] on a system error, [`IoError::Log`] if the file is not a result file of a campaign in this version.
     pub fn open(path: &Path) -> Result<Self, IoError> {
         let file = SoundParquet::open(path)?;
         let damaged = |error| file.damaged(&error);
@@ -82,12 +80,12 @@ impl PartRuns {
         })
     }
 
-    /// What the runs are of, with the scenarios of those that were read.
+    /// The heading of the runs, with the scenarios that were read so far.
     pub fn heading(&self) -> &Heading {
         &self.heading
     }
 
-    /// Reads on where a batch ends; whether there is a row.
+    /// Reads the next batch at the end of the current one; returns whether there is a row.
     fn fill(&mut self) -> Result<bool, IoError> {
         let columns = self.file.columns().len();
         loop {
@@ -174,7 +172,7 @@ fn wrong(what: &str) -> ParquetError {
     ParquetError::General(what.into())
 }
 
-/// Which columns a file of results has.
+/// The columns of a result file.
 struct Layout {
     keys: Vec<String>,
 }
@@ -210,7 +208,7 @@ fn is(column: &ColumnDescriptor, name: &str, kind: Type) -> bool {
         && column.self_type().get_basic_info().repetition() == Repetition::REQUIRED
 }
 
-/// Values of a column, some rows of it.
+/// The values of a column in a batch of rows.
 enum Values {
     Integers(Vec<i64>),
     Numbers(Vec<f64>),
@@ -245,7 +243,7 @@ fn next<T: DataType>(
     Ok(values)
 }
 
-/// A row of some that were read.
+/// A row of a batch.
 struct Place<'b> {
     batch: &'b [Values],
     row: usize,
@@ -275,7 +273,7 @@ impl Place<'_> {
         }
     }
 
-    /// A text that may be long, and takes its length from the `room` that there is.
+    /// A text of any length, which is subtracted from the remaining `room`.
     fn long_text(&self, column: usize, room: &mut usize) -> Result<String, ParquetError> {
         let text = self.text(column)?;
         let left = room.checked_sub(text.len());
@@ -284,7 +282,7 @@ impl Place<'_> {
     }
 }
 
-/// The row at a place, whose scenario the heading then knows.
+/// The row at this place; its scenario is added to the heading.
 fn read_row(heading: &mut Heading, at: &Place<'_>, room: &mut usize) -> Result<Row, ParquetError> {
     let n_keys = heading.keys.len();
     let cell = at.whole(0)?;

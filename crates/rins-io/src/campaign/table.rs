@@ -1,4 +1,4 @@
-//! The results of a campaign, and how they are written as Parquet: a row for each run and parameter.
+//! The results of a campaign, and their Parquet format: a row for each run and parameter.
 
 use std::io::Write;
 use std::path::Path;
@@ -16,24 +16,24 @@ use rins_campaign::PARAMETERS;
 use crate::error::IoError;
 use crate::output::{Overwrite, write_file};
 
-/// The rows of a group, which are held in memory together.
+/// The number of rows in a row group, which are in memory together.
 const GROUP: usize = 1 << 14;
 
-/// Which campaign a file is of, and which part.
+/// The identity of a result file: the campaign and the shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Identity {
     /// The scenario file's text.
     pub scenario: String,
-    /// How many runs of each scenario.
+    /// The number of runs of each scenario.
     pub runs: u64,
     /// The seed.
     pub seed: u64,
-    /// Which shard, from 1, of how many.
+    /// The number of the shard, from 1, and the number of shards.
     pub shard: (u64, u64),
 }
 
 impl Identity {
-    /// The program's version, which may change numbers.
+    /// The version of the program, because numbers may change with it.
     const VERSION: &'static str = env!("CARGO_PKG_VERSION");
 
     /// The identity in one line.
@@ -43,7 +43,7 @@ impl Identity {
         format!("rins {} runs {runs} seed {seed} shard {shard}/{of} {scenario}", Self::VERSION)
     }
 
-    /// The same campaign as a whole.
+    /// The identity of the whole campaign.
     #[must_use]
     pub fn whole(&self) -> Self {
         Self { shard: (1, 1), ..self.clone() }
@@ -77,65 +77,65 @@ impl Identity {
     }
 }
 
-/// What one run found of one parameter, in the parameter's unit.
+/// The result of one run for one parameter, in the unit of the parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// The true value.
     pub truth: f64,
-    /// The estimate; not a number if the run failed.
+    /// The estimate; NaN if the run failed.
     pub estimate: f64,
     /// Its covariances with the three parameters.
     pub covariances: [f64; 3],
-    /// The run's mean normalised innovation squared over its degrees of freedom.
+    /// The run's mean normalized innovation squared divided by its degrees of freedom.
     pub nis_ratio: f64,
 }
 
-/// A row: which run of which scenario, which parameter, and what was found.
+/// A row: the scenario, the run, the parameter, and the result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The scenario's place in the grid, from 0.
+    /// The index of the scenario in the grid, from 0.
     pub cell: u64,
-    /// The run's number, from 0.
+    /// The index of the run, from 0.
     pub run: u64,
     /// The parameter's id.
     pub parameter: String,
     /// The unit of the numbers.
     pub unit: String,
-    /// What was found.
+    /// The result.
     pub record: Record,
-    /// Why the run failed; empty if it did not.
+    /// The failure reason; empty if the run did not fail.
     pub failure: String,
 }
 
 /// The rows of a run: its parameters in their order.
 pub type RunRows = [Row; PARAMETERS.len()];
 
-/// What a campaign's results, or a shard of them, are of.
+/// The heading of the results of a campaign or a shard.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heading {
-    /// Which campaign.
+    /// The identity of the campaign.
     pub identity: Identity,
     /// The keys of the grid.
     pub keys: Vec<String>,
-    /// What stands at the keys, for each scenario of the grid; nothing for one without rows.
+    /// The values of the keys, for each scenario of the grid; empty for a scenario without rows.
     pub values: Vec<Vec<String>>,
 }
 
-/// The columns of whole numbers.
+/// The integer columns.
 pub(super) const INTEGERS: [&str; 2] = ["cell", "run"];
-/// The columns of texts, which follow those of the grid.
+/// The text columns, which follow those of the grid.
 pub(super) const TEXTS: [&str; 2] = ["parameter", "unit"];
-/// The columns of numbers.
+/// The floating-point columns.
 pub(super) const NUMBERS: [&str; 7] =
     ["truth", "estimate", "sigma", "covariance_1", "covariance_2", "covariance_3", "nis_ratio"];
 /// The last column.
 pub(super) const FAILURE: &str = "failure";
 
-/// Writes results run by run, whole or not at all; the runs are taken as they are written.
+/// Writes results run by run and atomically; the runs are consumed as they are written.
 ///
 /// # Errors
-/// [`IoError::Output`] if something is there that must not be replaced, [`IoError::File`] if the
-/// system refuses, or the first error among the runs.
+/// [`IoError::Output`] if an existing file must not be replaced, [`IoError::File`] on a system error, or the first error among
+/// the runs.
 pub fn write_part(
     path: &Path,
     overwrite: Overwrite,
@@ -264,7 +264,7 @@ impl Row {
     }
 }
 
-/// The place of a parameter among the three.
+/// The index of a parameter among the three.
 fn place(parameter: &str) -> Option<usize> {
     PARAMETERS.iter().position(|id| *id == parameter)
 }

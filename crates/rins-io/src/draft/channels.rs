@@ -1,4 +1,4 @@
-//! The keys of the gyros and accelerometers, and how their units are known.
+//! The keys of the gyros and accelerometers in a draft, and the source of their units.
 
 use std::path::{Path, PathBuf};
 
@@ -22,9 +22,9 @@ use crate::quantity::{Dimension, Unit};
 pub(super) enum Measured {
     /// The header states it.
     Stated(String),
-    /// A guess, and why.
+    /// A guess, with its reason.
     Guess(String, String),
-    /// Not known; what the numbers show instead.
+    /// Unknown; the text describes what the numbers indicate.
     Unknown(String),
 }
 
@@ -48,14 +48,14 @@ impl Measured {
     }
 }
 
-/// What the columns measure.
+/// The columns of the gyros and accelerometers, with their units.
 #[derive(Clone, Debug)]
 pub(super) struct Channels {
     pub(super) gyro: Option<[usize; 3]>,
     pub(super) accel: Option<[usize; 3]>,
     gyro_unit: Measured,
     accel_unit: Measured,
-    /// Whether gravity turns against the gyros.
+    /// Whether gravity rotates opposite to the gyros' indication.
     contrary: bool,
     pub(super) table: Option<Table>,
 }
@@ -140,12 +140,12 @@ impl Channels {
     }
 }
 
-/// What one number adds from row to row, in SI units.
+/// The increment per row of one count, in SI units.
 fn per_row(unit: Unit, rate: Dimension, interval: Option<f64>) -> Option<f64> {
     if unit.dimension == rate { Some(unit.factor * interval?) } else { Some(unit.factor) }
 }
 
-/// The unit that the names of a triad's columns agree on, if it is of one of these dimensions.
+/// The unit that the names of all three columns state, if it has one of these dimensions.
 fn stated(labels: &[Label], triad: [usize; 3], kinds: [Dimension; 2]) -> Option<&Stated> {
     let [x, y, z] = triad.map(|column| labels[column].unit.as_ref());
     let agreed = x.filter(|_| x == y && y == z)?;
@@ -200,7 +200,7 @@ fn gyro_measured(
     )
 }
 
-/// A triad's keys.
+/// The keys of a triad.
 struct Triad<'l> {
     key: &'static str,
     role: Role,
@@ -251,7 +251,7 @@ impl Triad<'_> {
         if self.role == Role::Gyro { "gyros" } else { "accelerometers" }
     }
 
-    /// The keys of a triad that is not in this log.
+    /// Writes the keys of a triad that is not in this log.
     fn write_absent(&self, page: &mut Page, findings: Findings<'_>, units: &str) {
         let Findings { log, folder, sample, .. } = findings;
         let key = |name: &str| format!("{}.{name}", self.key);
@@ -272,13 +272,13 @@ impl Triad<'_> {
     }
 }
 
-/// Whether the triad's numbers are all whole.
+/// Whether all numbers of the triad are integers.
 fn is_raw(sample: &Sample, triad: [usize; 3]) -> bool {
     let whole = |number: &f64| number.fract() == 0.0 || number.is_nan();
     sample.runs.iter().all(|run| triad.iter().all(|&column| run[column].iter().all(whole)))
 }
 
-/// The only file beside `log` that has the same ending and is named after the other sensor.
+/// The only file beside `log` with the same extension and a name after the other sensor.
 fn beside(log: &Path, role: Role) -> Option<PathBuf> {
     let folder = log.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;

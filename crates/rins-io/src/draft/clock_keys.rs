@@ -1,13 +1,13 @@
-//! The keys of time: `rate`, `time` and `gaps`.
+//! The keys of time in a draft: `rate`, `time` and `gaps`.
 
 use super::pace::{Pace, PaceUnit};
 use super::page::{Page, short, text};
 use super::sample::Sample;
 
-/// A rate this near to a whole number is that \[relative\].
+/// The relative difference up to which a rate counts as an integer.
 const NEAR_WHOLE: f64 = 2e-4;
 
-/// The jitter up to which a rate is worth stating \[intervals\].
+/// The jitter up to which a rate is stated, in intervals.
 const EVEN: f64 = 0.01;
 
 const RATE: &str = r#""? Hz""#;
@@ -39,7 +39,7 @@ pub(super) fn write(page: &mut Page, sample: &Sample, pace: Option<&Pace>, has_t
     }
 }
 
-/// The key `rate`, and what the steps of time show.
+/// The key `rate`, and remarks on the time steps.
 pub(super) fn write_rate(page: &mut Page, pace: &Pace) {
     measured(page, pace);
     match pace.interval().map(|interval| 1.0 / interval) {
@@ -55,7 +55,7 @@ pub(super) fn write_rate(page: &mut Page, pace: &Pace) {
     }
 }
 
-/// Says what the steps of time show.
+/// Writes remarks on the time steps.
 fn measured(page: &mut Page, pace: &Pace) {
     let jitter = pace.jitter * 100.0;
     match pace.interval() {
@@ -81,7 +81,7 @@ fn measured(page: &mut Page, pace: &Pace) {
     }
 }
 
-/// What becomes of increments over a gap.
+/// The key `gaps`: the meaning of the increment after a gap.
 pub(super) fn gaps(page: &mut Page, pace: Option<&Pace>) {
     if pace.is_some_and(|pace| pace.gaps > 0) {
         let expected = r#""accumulated" if the increment after a gap covers it, "held" if not"#;

@@ -1,36 +1,36 @@
-//! What the numbers themselves show: gravity, its turning, the Earth's rotation, the table's.
+//! Units and axes from the numbers themselves: gravity and its rotation, the Earth rate, the table motion.
 
 use nalgebra::Vector3;
 
 use super::sample::{Run, Sample};
 
-/// How much the magnitude of a specific force may vary within a run at rest, relative.
+/// The maximum relative variation of the specific force in a run at rest.
 const STEADY: f64 = 0.02;
 
-/// A slope is believed if it is this many times its standard deviation.
+/// A slope is significant if it exceeds its standard deviation by this factor.
 const SIGNIFICANT: f64 = 8.0;
 
-/// How much the slopes of half the runs may differ, relative.
+/// The maximum relative difference between the slopes of half the runs.
 const AGREED: f64 = 0.05;
 
-/// The share of all turning that the spin axis must carry.
+/// The minimum fraction of all rotation that is about the spin axis.
 const SPIN_SHARE: f64 = 0.9;
 
-/// The magnitude of a triad's reading where that is steady, and its mean there.
+/// The magnitude of a triad's reading where it is constant, and its mean there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Steady {
     pub(super) norm: f64,
     pub(super) mean: Vector3<f64>,
 }
 
-/// The rows of a triad in a run; not a number where a field is none.
+/// The rows of a triad in a run; NaN where a field is not a number.
 fn rows(run: &Run, triad: [usize; 3]) -> Vec<Vector3<f64>> {
     let [x, y, z] = triad;
     let row = |index: usize| Vector3::new(run[x][index], run[y][index], run[z][index]);
     (0..run[x].len()).map(row).collect()
 }
 
-/// The magnitude that most runs with a steady one have; `None` if no run has.
+/// The constant magnitude that most runs share; `None` if it is not constant in any run.
 pub(super) fn steady(sample: &Sample, triad: [usize; 3]) -> Option<Steady> {
     let mut found: Vec<Steady> = sample
         .runs
@@ -50,12 +50,11 @@ pub(super) fn steady(sample: &Sample, triad: [usize; 3]) -> Option<Steady> {
     found.get(found.len() / 2).copied()
 }
 
-/// How far one of the gyros' numbers turns the body from row to row \[rad\], by how gravity turns
-/// against it: `f' = −ω × f`.
+/// The rotation of the body per row and per unit of the gyros' numbers \[rad\], from the rotation of gravity in the body:
+/// `f' = −ω × f`.
 ///
-/// It is negative if the axes of the two sensors do not belong together. A constant force along the
-/// body, such as that towards the axis of a wheel, makes it too small. `None` if runs disagree, as
-/// where a hand that turns the body also pushes it.
+/// It is negative if the axes of the two sensors do not agree. A constant force in the body frame, such as a centripetal
+/// force, makes it too small. `None` if the runs disagree, for instance if the body is rotated by hand and also accelerated.
 pub(super) fn turning_of_gravity(
     sample: &Sample,
     gyro: [usize; 3],
@@ -68,7 +67,7 @@ pub(super) fn turning_of_gravity(
     (slopes.len() > 1 && spread < AGREED * middle.abs()).then_some(middle)
 }
 
-/// The slope of gravity's turning over that which the gyros tell, if it stands out.
+/// The slope of the rotation of gravity against that of the gyros, if it is significant.
 fn slope(rates: &[Vector3<f64>], forces: &[Vector3<f64>]) -> Option<f64> {
     let pairs: Vec<(Vector3<f64>, Vector3<f64>)> = rates
         .iter()
@@ -84,7 +83,7 @@ fn slope(rates: &[Vector3<f64>], forces: &[Vector3<f64>]) -> Option<f64> {
     (slope.abs() > SIGNIFICANT * sigma).then_some(slope)
 }
 
-/// The magnitude of the gyros' mean reading in the quietest run, if it stands out from the noise.
+/// The magnitude of the gyros' mean reading in the quietest run, if it exceeds the noise.
 pub(super) fn least_rate(sample: &Sample, gyro: [usize; 3]) -> Option<f64> {
     let of_run = |run: &Run| {
         let rows: Vec<_> =
@@ -99,7 +98,7 @@ pub(super) fn least_rate(sample: &Sample, gyro: [usize; 3]) -> Option<f64> {
     (norm > 10.0 * sigma).then_some(norm)
 }
 
-/// What the table did in a run.
+/// The motion of the table in a run.
 struct TableRun {
     /// The median of the column's steps, or of its rates.
     table: f64,
@@ -107,7 +106,7 @@ struct TableRun {
     gyro: Vector3<f64>,
 }
 
-/// The runs in which the table turns steadily. Its column is an angle, or a rate.
+/// The runs in which the table rotates at a constant rate. Its column is an angle or a rate.
 fn table_runs(sample: &Sample, gyro: [usize; 3], column: usize, is_angle: bool) -> Vec<TableRun> {
     let of_run = |run: &Run| {
         let values: Vec<f64> = if is_angle {
@@ -128,7 +127,7 @@ fn table_runs(sample: &Sample, gyro: [usize; 3], column: usize, is_angle: bool) 
     runs.into_iter().filter(|run| run.table.abs() > 0.1 * fastest).collect()
 }
 
-/// The steps of the table's angle, or its rates, per one of the gyros' numbers.
+/// The steps of the table angle, or the table rate, per unit of the gyros' numbers.
 pub(super) fn turning_of_table(
     sample: &Sample,
     gyro: [usize; 3],
@@ -139,7 +138,7 @@ pub(super) fn turning_of_table(
     median(runs.iter().map(|run| run.table.abs() / run.gyro.norm()))
 }
 
-/// The size of the jumps by which an angle is wrapped, if it is.
+/// The size of the jumps at which an angle wraps around, if it does.
 pub(super) fn wrap(sample: &Sample, column: usize) -> Option<f64> {
     let steps = |run: &Run| -> Vec<f64> {
         run[column].windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect()
@@ -150,8 +149,8 @@ pub(super) fn wrap(sample: &Sample, column: usize) -> Option<f64> {
     median(jumps).filter(|_| usual > 0.0)
 }
 
-/// The axis that carries almost all turning, and its share of it; by the table's motion, with its
-/// sign, where there is a table, and else by the runs with the most turning.
+/// The axis with almost all of the rotation, and its fraction of it: from the table motion, with its sign, if there is a table,
+/// and otherwise from the runs with the most rotation.
 pub(super) fn spin_axis(
     sample: &Sample,
     gyro: [usize; 3],
@@ -192,7 +191,7 @@ pub(super) fn spin_axis(
     Some((format!("{sign}{}", ["x", "y", "z"][axis]), share))
 }
 
-/// The median of the numbers that are finite.
+/// The median of the finite numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     rins_motion::median(numbers.filter(|number| number.is_finite()))
 }

@@ -1,13 +1,13 @@
-//! What a column's name says: which sensor, which axis, which unit.
+//! The meaning of a column's name: sensor, axis, unit.
 
 use super::stated::{Stated, by_ending, in_brackets};
 use crate::quantity::Dimension;
 
-/// What a column holds.
+/// The content of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Time,
-    /// A counter of samples.
+    /// A sample counter.
     Counter,
     Gyro,
     Accel,
@@ -16,17 +16,17 @@ pub(super) enum Role {
     Temperature,
 }
 
-/// What a column's name says.
+/// The meaning of a column's name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Label {
     pub(super) role: Option<Role>,
-    /// Whether the name can hardly mean anything else.
+    /// Whether the name is unambiguous.
     pub(super) sure: bool,
-    /// Whether it speaks of increments.
+    /// Whether the name indicates increments.
     pub(super) increment: bool,
     /// The axis, from zero.
     pub(super) axis: Option<usize>,
-    /// The name without its axis and unit: the three columns of a triad share it.
+    /// The name without axis and unit, which the three columns of a triad have in common.
     pub(super) stem: String,
     pub(super) unit: Option<Stated>,
 }
@@ -36,7 +36,7 @@ const TABLE: &[&str] =
     &["table", "turntable", "ratetable", "encoder", "enc", "resolver", "spindle", "rotor", "stage"];
 const RATE: &[&str] = &["rate", "speed", "velocity", "vel", "omega"];
 const ANGLE: &[&str] = &["angle", "theta", "azimuth", "zeta"];
-/// Words of angles that are the result of somebody's navigation.
+/// Words of angles that are the result of a navigation solution.
 const ATTITUDE: &[&str] = &["roll", "pitch", "yaw", "heading", "course", "euler"];
 const TIME: &[&str] = &[
     "time",
@@ -81,7 +81,7 @@ const ACCEL: &[&str] = &[
     "dv",
     "deltav",
 ];
-/// Letters and words that mean a gyro or an accelerometer only by custom.
+/// Letters and words that mean a gyro or an accelerometer by convention only.
 const WEAK_GYRO: &[&str] = &["g", "w", "om", "rate"];
 const WEAK_ACCEL: &[&str] = &["a", "f", "sf", "fb"];
 const INCREMENT: &[&str] =
@@ -105,7 +105,7 @@ const OTHERS: &[&str] = &[
 ];
 
 impl Label {
-    /// What `name` says.
+    /// The meaning of `name`.
     pub(super) fn of(name: &str) -> Self {
         let (bracketed, bare) = match in_brackets(name) {
             Some((stated, bare)) => (Some(stated), bare),
@@ -154,7 +154,7 @@ impl Label {
     }
 }
 
-/// Which triad a column with an axis belongs to, and whether that is sure.
+/// The triad of a column with an axis, and whether that is certain.
 fn triad(words: &[String], dimension: Option<Dimension>) -> Option<(Role, bool)> {
     let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
     if has(OTHERS) || has(TABLE) {
@@ -179,7 +179,7 @@ fn triad(words: &[String], dimension: Option<Dimension>) -> Option<(Role, bool)>
     }
 }
 
-/// The words of a name in small letters: `GyroX`, `gyro_x` and `Gyro X` are the same two.
+/// The words of a name in lower case: `GyroX`, `gyro_x` and `Gyro X` are the same two words.
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = ' ';
@@ -198,7 +198,7 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// Takes the axis out of a name's words: a word of its own, or a letter at an end of a sensor's.
+/// Removes the axis from a name's words: a separate word, or a letter at an end of a sensor's name.
 fn take_axis(words: &mut Vec<String>) -> Option<usize> {
     let axis = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
     if let Some(place) = words.iter().rposition(|word| axis(word).is_some()) {

@@ -1,4 +1,4 @@
-//! Which column is what: by the columns' names or, where they have none, by their numbers.
+//! The assignment of columns, by their names or, if they have none, by their numbers.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::pace::Pace;
 use super::sample::Sample;
 use super::units::accel_unit;
 
-/// Which column is what.
+/// The assignment of columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Layout {
     pub(super) gyro: Option<Picked<[usize; 3]>>,
@@ -16,17 +16,17 @@ pub(super) struct Layout {
     pub(super) table_angle: Option<Picked<usize>>,
     pub(super) table_rate: Option<Picked<usize>>,
     pub(super) temperature: Option<Picked<usize>>,
-    /// A triad of which nothing tells whether it is gyros or accelerometers.
+    /// A triad that is either gyros or accelerometers.
     pub(super) unknown: Option<[usize; 3]>,
 }
 
-/// A column, or three, and how they were picked.
+/// A column, or three, and the reason for the selection.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Picked<T> {
     pub(super) column: T,
-    /// Why these, where their names alone do not say so.
+    /// The reason, if the names alone are not sufficient.
     pub(super) guess: Option<String>,
-    /// Whether the names speak of increments.
+    /// Whether the names indicate increments.
     pub(super) increment: bool,
 }
 
@@ -54,7 +54,7 @@ impl Layout {
         layout
     }
 
-    /// Finds gyros and accelerometers among columns whose names say nothing.
+    /// Finds gyros and accelerometers among columns without meaningful names.
     fn by_numbers(&mut self, path: &Path, sample: &Sample, labels: &[Label], pace: Option<&Pace>) {
         let time = pace.map(|pace| pace.column);
         let is_free = |column: &usize| {
@@ -80,7 +80,7 @@ impl Layout {
                 let (gyro, accel) = match (is_accel(first), is_accel(second)) {
                     (false, true) => (first, second),
                     (true, false) => (second, first),
-                    // Gyros come first in most logs, and at rest they tremble more.
+                    // Gyros come first in most logs, and have more relative noise at rest.
                     _ if steady(sample, *first).is_none() && steady(sample, *second).is_some() => {
                         (first, second)
                     }
@@ -94,7 +94,7 @@ impl Layout {
     }
 }
 
-/// The sensor whose name is part of a file's.
+/// The sensor that the name of a file contains.
 pub(super) fn sensor_by_file_name(path: &Path) -> Option<Role> {
     let name = path.file_stem()?.to_str()?.to_lowercase();
     match (name.contains("gyr"), name.contains("acc")) {
@@ -104,7 +104,7 @@ pub(super) fn sensor_by_file_name(path: &Path) -> Option<Role> {
     }
 }
 
-/// The first complete triad of a role, one whose names are sure before one whose are not.
+/// The first complete triad of a role; unambiguous names take precedence.
 fn three(sample: &Sample, labels: &[Label], role: Role) -> Option<Picked<[usize; 3]>> {
     let is_part = |column: &usize| {
         let label = &labels[*column];
@@ -117,7 +117,7 @@ fn three(sample: &Sample, labels: &[Label], role: Role) -> Option<Picked<[usize;
             let belongs = |column: &&usize| {
                 labels[**column].axis == Some(axis) && labels[**column].stem == labels[first].stem
             };
-            // Where names repeat, the nearest column after the x axis's belongs to it.
+            // If names repeat, each axis is the nearest column after the x axis.
             let mut after = columns.iter().filter(|column| **column >= first);
             after.find(belongs).or_else(|| columns.iter().find(belongs)).copied()
         };

@@ -1,4 +1,4 @@
-//! A rig file drafted from a log: what its columns are, as far as names and numbers tell.
+//! A draft of a rig file from a log: its columns, as far as names and numbers identify them.
 
 mod channels;
 mod clock_keys;
@@ -40,18 +40,17 @@ const HOW_TO_GO_ON: [&str; 3] = [
 
 /// Drafts the rig file of the log at `log`, for a rig file in `folder`.
 ///
-/// Columns are found by their names or, where these say nothing, by their numbers. Units are
-/// those of the header or, where it states none, those in which gravity, the Earth's rotation and
-/// the table's motion come out right. Every such guess is marked `# GUESS: …; confirm` on its
-/// line. What nothing tells is a comment marked `# TO FILL IN: …`, so that [`Rig::read`] names the
-/// key as long as it is missing; no value is ever made up.
+/// Columns are identified by their names or, if these are not meaningful, by their numbers. Units are those of the header or, if
+/// it states none, those that give plausible values of gravity, the Earth rate and the table motion. Every such guess is marked
+/// `# GUESS: …; confirm` on its line. What cannot be determined is a comment marked `# TO FILL IN: …`, so that [`Rig::read`]
+/// reports the key until it is filled in; no value is invented.
 ///
-/// At most some 2000 rows are read: the first, and others from places all through the log.
+/// At most about 2000 rows are read: the first ones, and others from positions distributed over the log.
 ///
 /// [`Rig::read`]: crate::Rig::read
 ///
 /// # Errors
-/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if it holds no columns of numbers.
+/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if it contains no columns of numbers.
 ///
 /// # Examples
 /// ```
@@ -74,7 +73,9 @@ pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
     for line in HOW_TO_GO_ON {
         page.remark(line);
     }
-    if let Some(header) = psins::header(log)? {
+    if let Some(sample) = Sample::of_binary(log)? {
+        columns(&mut page, log, folder, &sample);
+    } else if let Some(header) = psins::header(log)? {
         psins::write(&mut page, log, folder, &header);
     } else if let Some(messages) = novatel::messages(log)? {
         novatel::write(&mut page, log, folder, messages);
@@ -85,7 +86,7 @@ pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
     Ok(page.finish())
 }
 
-/// Drafts the rig of a log of columns.
+/// Drafts the rig file of a log with columns.
 fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
     let names = sample.names.as_deref().unwrap_or_default();
     let label = |column: usize| names.get(column).map(|name| Label::of(name)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The pace of a log: which column tells the time, in which unit, and how steadily it goes.
+//! The sampling of a log: the time column, its unit, and its jitter.
 
 use super::label::{Label, Role};
 use super::page::short;
@@ -9,38 +9,38 @@ use crate::quantity::Dimension;
 /// A step longer than this many median steps is a gap.
 const GAP: f64 = 1.5;
 
-/// How many steps it takes to call a column without a name a time.
+/// The minimum number of steps from which a column without a name can be recognized as time.
 const ENOUGH: usize = 9;
 
-/// The time column and what its steps show.
+/// The time column and the properties of its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pace {
     /// The column.
     pub(super) column: usize,
-    /// Why it should be the time, where its name does not say so.
+    /// The reason for the selection, if the column's name does not state it.
     pub(super) column_guess: Option<String>,
-    /// What it counts.
+    /// The unit of the column.
     pub(super) unit: PaceUnit,
-    /// How many steps were looked at.
+    /// The number of steps that were examined.
     pub(super) steps: usize,
     /// The median step, in the column's unit.
     pub(super) step: f64,
-    /// How much the steps that are not gaps differ from it, rms, relative to it.
+    /// The rms difference from the median of the steps that are not gaps, relative to the median.
     pub(super) jitter: f64,
-    /// How many of the steps that were looked at are gaps.
+    /// The number of examined steps that are gaps.
     pub(super) gaps: usize,
-    /// How many of them do not go on.
+    /// The number of examined steps in which time does not increase.
     pub(super) halts: usize,
 }
 
-/// What a time column counts.
+/// The unit of a time column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum PaceUnit {
-    /// Its name says so in brackets.
+    /// The name states it in brackets.
     Stated(&'static str),
-    /// A guess, and why.
+    /// A guess, with its reason.
     Guess(&'static str, String),
-    /// Nothing tells.
+    /// Unknown.
     Unknown,
 }
 
@@ -53,13 +53,13 @@ impl PaceUnit {
     }
 }
 
-/// The units of time, the seconds in each, and the steps in them between 10 Hz and 5 kHz.
+/// The units of time, their values in seconds, and the step sizes in them between 10 Hz and 5 kHz.
 const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 const SLOWEST: f64 = 0.1;
 const FASTEST: f64 = 2e-4;
 
 impl Pace {
-    /// Finds the time column: by its name, or as the first that rises steadily.
+    /// Finds the time column: by its name, or as the first column that increases in even steps.
     pub(super) fn find(sample: &Sample, labels: &[Label]) -> Option<Self> {
         let named = |role| {
             let named = (0..sample.count).filter(move |&column| labels[column].role == Some(role));
@@ -78,7 +78,7 @@ impl Pace {
         Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
     }
 
-    /// The interval from row to row \[s\], where the unit is known and not samples.
+    /// The interval between rows \[s\], if the unit is known and is not samples.
     pub(super) fn interval(&self) -> Option<f64> {
         let name = self.unit.name()?;
         let (_, seconds) = UNITS.iter().find(|(unit, _)| *unit == name)?;
@@ -89,7 +89,7 @@ impl Pace {
         self.unit.name() == Some("sample")
     }
 
-    /// What the steps of a column show; `None` if it does not go on.
+    /// The properties of a column's steps; `None` if it does not increase.
     fn of(sample: &Sample, column: usize) -> Option<Self> {
         let steps = |run: &Vec<Vec<f64>>| -> Vec<f64> {
             let mut times = run[column].clone();
@@ -136,7 +136,7 @@ impl Pace {
         }
         let step = self.step;
         if (step - 1.0).abs() < f64::EPSILON && self.jitter < f64::EPSILON {
-            // A time in ms at 1 kHz, or in s at 1 Hz, steps by one too.
+            // A time in ms at 1 kHz, or in s at 1 Hz, has steps of one too.
             return if label.role == Some(Role::Counter) {
                 PaceUnit::Guess(
                     "sample",

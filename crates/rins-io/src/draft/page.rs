@@ -1,15 +1,15 @@
-//! The page that a draft is written on: keys that are known, guessed, or left to the user.
+//! The text of a draft: keys that are known, guessed, or left to the user.
 
 use std::fmt::Write as _;
 
-/// A rig file drafted from a log, and what in it awaits its user.
+/// A rig file drafted from a log, with the keys that the user must confirm or fill in.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Draft {
     /// The rig file, with comments.
     pub text: String,
     /// The keys whose values are guesses.
     pub guesses: Vec<Guess>,
-    /// The keys that stand there as comments, because nothing tells their values.
+    /// The keys that are comments, because their values cannot be determined.
     pub to_fill_in: Vec<ToFillIn>,
 }
 
@@ -20,7 +20,7 @@ pub struct Guess {
     pub key: String,
     /// The value, as TOML.
     pub value: String,
-    /// Why this value.
+    /// The reason for this value.
     pub why: String,
 }
 
@@ -29,7 +29,7 @@ pub struct Guess {
 pub struct ToFillIn {
     /// The key with its section, as in `log.gyro.unit`.
     pub key: String,
-    /// What it should be.
+    /// The expected value.
     pub expected: String,
 }
 
@@ -47,7 +47,7 @@ impl Page {
         let _ = write!(self.draft.text, "\n[{name}]\n");
     }
 
-    /// Opens the section `name` as a comment, which its user uncomments with its keys.
+    /// Opens the section `name` as a comment, which the user uncomments together with its keys.
     pub(super) fn closed_section(&mut self, name: &'static str) {
         self.section = name;
         let _ = writeln!(self.draft.text, "# [{name}]  # to be uncommented with its keys");
@@ -74,8 +74,8 @@ impl Page {
         self.draft.guesses.push(Guess { key, value: value.into(), why });
     }
 
-    /// A key that only the user knows. `form` is a value that is refused as it stands, so that
-    /// the mark cannot be taken off without writing one.
+    /// A key that only the user knows. `form` is a placeholder that the reader refuses, so that the mark cannot be removed
+    /// without writing a value.
     pub(super) fn leave(&mut self, key: &str, form: &str, expected: &str) {
         let expected = one_line(expected);
         let _ = writeln!(self.draft.text, "# {key} = {form}  # TO FILL IN: {expected}");
@@ -115,7 +115,7 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
-/// What a log says may hold what TOML does not allow in a comment.
+/// A text from the log as one line, without characters that TOML does not allow in a comment.
 fn one_line(text: &str) -> String {
     text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
 }

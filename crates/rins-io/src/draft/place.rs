@@ -1,4 +1,4 @@
-//! How a rig file names its log: relative to itself.
+//! The path of a log in a rig file: relative to the rig file.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -13,8 +13,8 @@ pub(super) fn path(page: &mut Page, log: &Path, folder: &Path) {
 
 /// The path from `folder` to the file `log`.
 ///
-/// Links are followed first, because `..` means something else behind one; the file's own name is
-/// kept. A folder that is not there yet cannot be compared, so that the path is then absolute.
+/// Symbolic links are resolved first, because `..` has another meaning after one; the file's own name is
+/// kept. If the folder does not exist yet, the path is absolute.
 pub(super) fn between(folder: &Path, log: &Path) -> PathBuf {
     let current = |path: &Path| {
         let here = path.as_os_str().is_empty();
@@ -28,7 +28,7 @@ pub(super) fn between(folder: &Path, log: &Path) -> PathBuf {
     let is_root = |component: Option<Component<'_>>| {
         component.is_none_or(|c| matches!(c, Component::Prefix(_)))
     };
-    // Folders with nothing but the root in common are better told from the root.
+    // If the folders have only the root in common, an absolute path is clearer.
     if shared < 2 && is_root(from.components().nth(shared).filter(|_| shared == 0)) {
         return to.join(name);
     }

@@ -1,4 +1,4 @@
-//! PSINS text logs, known by their header, which says almost all that a rig needs.
+//! Drafts for PSINS text logs, whose header states almost everything that a rig needs.
 
 use std::io::Read;
 use std::path::Path;
@@ -11,15 +11,14 @@ use crate::error::IoError;
 use crate::log::{Lines, PsinsHeader, psins_header};
 use crate::source;
 
-/// Where comments that name the format are looked for \[bytes\].
+/// The length of the beginning that is searched for comments that name the format \[bytes\].
 const BEGINNING: u64 = 4096;
 
-/// The header of the log at `path`, if it is a PSINS log: by its comments, or by three rows of six
-/// numbers that make sense as a header.
+/// The header of the log at `path`, if it is a PSINS log: if its comments say so, or if it begins with three rows of six
+/// numbers that are a plausible header.
 ///
 /// # Errors
-/// [`IoError`] if it cannot be read, or if its comments speak of PSINS but its header makes no
-/// sense.
+/// [`IoError`] if it cannot be read, or if its comments mention PSINS but its header is implausible.
 pub(super) fn header(path: &Path) -> Result<Option<PsinsHeader>, IoError> {
     let says_so = says_so(path)?;
     match psins_header(&mut Lines::open(path)?) {
@@ -29,7 +28,7 @@ pub(super) fn header(path: &Path) -> Result<Option<PsinsHeader>, IoError> {
     }
 }
 
-/// Whether a comment near the beginning of the log speaks of PSINS.
+/// Whether a comment near the beginning of the log mentions PSINS.
 fn says_so(path: &Path) -> Result<bool, IoError> {
     let failed = || IoError::file("read", path);
     let mut beginning = Vec::new();
@@ -39,7 +38,7 @@ fn says_so(path: &Path) -> Result<bool, IoError> {
     Ok(text.lines().any(|line| line.starts_with('%') && line.contains("PSINS")))
 }
 
-/// Drafts the rig of a PSINS log.
+/// Drafts the rig file of a PSINS log.
 pub(super) fn write(page: &mut Page, log: &Path, folder: &Path, header: &PsinsHeader) {
     let PsinsHeader { site, attitude, angle_scale, velocity_scale, .. } = header;
     page.section("log");
@@ -86,7 +85,7 @@ pub(super) fn write(page: &mut Page, log: &Path, folder: &Path, header: &PsinsHe
     sections::default_spin(page);
 }
 
-/// A number of a header, without what unit conversions add to it.
+/// A number of a header, without rounding errors of the unit conversion.
 fn decimals(value: f64) -> String {
     let rounded = (value * 1e9).round() / 1e9;
     // Adding zero makes a negative zero positive.

@@ -1,50 +1,48 @@
-//! A few rows of a log: its first, and some from places all through it.
+//! A sample of the rows of a log: the first ones, and others from positions distributed over it.
 
 use std::io::{BufReader, Seek, SeekFrom};
 use std::path::Path;
 
 use crate::error::{IoError, LogError};
-use crate::log::{Delimiter, Fields, Head, Lines, LogProblem, all_columns, nanoseconds};
+use crate::log::{
+    BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, nanoseconds,
+};
 use crate::source;
 
-/// The rows of a run.
+/// The number of rows in a run.
 const RUN: usize = 128;
 
-/// The runs from the beginning of a log.
+/// The number of runs at the beginning of a log.
 const FIRST_RUNS: usize = 8;
 
-/// The runs from places all through the rest of it.
+/// The number of runs from positions distributed over the rest of it.
 const OTHER_RUNS: u64 = 8;
 
-/// What a log's header and some of its rows say.
+/// The header of a log and some of its rows.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sample {
     /// The format of its file, as a rig file names it.
     pub(super) format: &'static str,
     pub(super) delimiter: Delimiter,
-    /// The columns' names, where there are any.
+    /// The columns' names, if there are any.
     pub(super) names: Option<Vec<String>>,
     /// The number of columns.
     pub(super) count: usize,
-    /// Runs of rows that follow each other.
+    /// Runs of consecutive rows.
     pub(super) runs: Vec<Run>,
     /// Whether these are all rows of the log.
     pub(super) whole: bool,
 }
 
-/// Rows that follow each other: the numbers of each column, not a number where there is none.
+/// Consecutive rows: the numbers of each column, NaN where a field is not a number.
 pub(super) type Run = Vec<Vec<f64>>;
 
 impl Sample {
-    /// Looks at the log at `path`.
+    /// Reads a sample of the log at `path`.
     ///
     /// # Errors
-    /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if its first rows are no columns of
-    /// numbers.
+    /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if its first rows are not columns of numbers.
     pub(super) fn read(path: &Path) -> Result<Self, IoError> {
-        if let Some((format, names, numbers)) = all_columns(path)? {
-            return Ok(Self::of_columns(format, names, &numbers));
-        }
         let mut lines = Lines::open(path)?;
         let head = Head::read(&mut lines)?;
         let mut first = Rows::new(&head);
@@ -72,8 +70,16 @@ impl Sample {
         Ok(Self { format: "csv", delimiter, names, count, runs, whole })
     }
 
-    /// Of the columns of a binary file.
-    fn of_columns(format: &'static str, names: Vec<String>, numbers: &[Vec<f64>]) -> Self {
+    /// Reads a sample of a Parquet or MATLAB file; none of a file of another format.
+    ///
+    /// # Errors
+    /// [`IoError`] if it cannot be read.
+    pub(super) fn of_binary(path: &Path) -> Result<Option<Self>, IoError> {
+        let all = all_columns(path)?;
+        Ok(all.map(Self::of_columns))
+    }
+
+    fn of_columns(BinaryColumns { format, names, numbers }: BinaryColumns) -> Self {
         let rows = numbers.first().map_or(0, Vec::len);
         let run = |start: usize| -> Run {
             let end = (start + RUN).min(rows);
@@ -89,8 +95,7 @@ impl Sample {
         Self { format, delimiter, names: Some(names), count, runs, whole }
     }
 
-    /// What to call a column in a rig file: by its name or, where that is not its own, by its
-    /// place.
+    /// The name of a column in a rig file: its own name or, if that is not unique, its number.
     pub(super) fn name(&self, column: usize) -> String {
         let names = self.names.as_deref().unwrap_or_default();
         match names.get(column) {
@@ -104,13 +109,13 @@ impl Sample {
         self.runs.iter().any(|run| run[column].iter().any(|number| number.is_finite()))
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub(super) fn rows(&self) -> usize {
         self.runs.iter().map(|run| run.first().map_or(0, Vec::len)).sum()
     }
 }
 
-/// Runs from places all through the log; fewer where it cannot be read there.
+/// Runs from positions distributed over the log; fewer if it cannot be read there.
 fn others(path: &Path, head: &Head) -> Vec<Run> {
     let length = source::length(path).unwrap_or_default();
     let places = (1..=OTHER_RUNS).map(|index| length / (OTHER_RUNS + 1) * index);
@@ -121,11 +126,11 @@ fn run_at(path: &Path, head: &Head, place: u64) -> Option<Run> {
     let mut file = source::open(path).ok()?;
     file.seek(SeekFrom::Start(place)).ok()?;
     let mut lines = Lines::new(BufReader::new(file), path);
-    // The first line is most likely the end of one.
+    // The first line is probably only the end of one.
     lines.next().ok()??;
     let mut rows = Rows::new(head);
     while rows.length < RUN {
-        // Reading the whole log names the line that is wrong; a draft makes do with the rest.
+        // Reading the whole log reports the invalid line; a draft uses the remaining rows.
         let Ok(Some((_, text))) = lines.next() else { break };
         if rows.push(text).is_err() {
             break;
@@ -142,12 +147,12 @@ fn number(field: &str) -> Option<f64> {
     }
 }
 
-/// Rows that are being read.
+/// The rows while they are read.
 struct Rows {
     delimiter: Delimiter,
     columns: Run,
     length: usize,
-    /// What stands in place of a number in the first rows.
+    /// Texts in the first rows where numbers are expected.
     texts: Vec<Option<(u64, String)>>,
 }
 
@@ -161,7 +166,7 @@ impl Rows {
         }
     }
 
-    /// Adds a row, unless it has another number of fields than the first line.
+    /// Adds a row, unless its number of fields differs from that of the first line.
     fn push(&mut self, text: &str) -> Result<(), LogProblem> {
         let expected = self.columns.len();
         let fields: Vec<_> = Fields::of(text, self.delimiter).take(expected + 2).collect();
@@ -186,8 +191,8 @@ impl Rows {
         }
     }
 
-    /// Refuses a column of numbers that begins with a text, most likely that of a second header,
-    /// and a log that has no column of numbers.
+    /// Refuses a column of numbers that begins with a text, probably from a second header,
+    /// and a log without any column of numbers.
     fn refuse_text(&self, path: &Path, names: Option<&[String]>) -> Result<(), IoError> {
         let has_numbers = |column: &Vec<f64>| column.iter().any(|number| !number.is_nan());
         let hopeless = !self.columns.iter().any(has_numbers);

@@ -1,4 +1,4 @@
-//! The parts of a draft that a log says little of: place, format, attitude, data sheet, axis.
+//! The parts of a draft for which a log has little information: site, format, attitude, data sheet, axis.
 
 use super::page::{Page, text};
 use super::sample::Sample;
@@ -20,7 +20,7 @@ pub(super) fn kf_gins(page: &mut Page) {
     page.remark("Columns: time in s, angles about front, right, down in rad, velocities in m/s.");
 }
 
-/// Says how the log's columns stand.
+/// Writes the layout of the log's columns.
 pub(super) fn shape(page: &mut Page, sample: &Sample) {
     let between = match sample.delimiter {
         Delimiter::Tab => "tabs",

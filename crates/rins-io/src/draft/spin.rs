@@ -1,4 +1,4 @@
-//! The section `[axis]` of a draft, by what the log shows.
+//! The section `[axis]` of a draft, from the evidence in the log.
 
 use super::channels::Channels;
 use super::evidence::spin_axis;
@@ -6,7 +6,7 @@ use super::page::{Page, text};
 use super::sample::Sample;
 use super::sections::default_spin;
 
-/// Which axis the IMU was turned about.
+/// Writes the axis about which the IMU was rotated.
 pub(super) fn spin(page: &mut Page, sample: &Sample, channels: &Channels) {
     let table = channels.table.as_ref().map(|table| (table.column, table.is_angle));
     let found = channels.gyro.and_then(|gyro| spin_axis(sample, gyro, table));

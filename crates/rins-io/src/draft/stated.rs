@@ -1,18 +1,18 @@
-//! The unit that a column's name states: in brackets, or as its ending.
+//! The unit in a column's name: in brackets, or as its ending.
 
 use crate::quantity::{Dimension, Unit};
 
-/// A unit that a column's name states.
+/// A unit in a column's name.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stated {
-    /// As a rig file spells it.
+    /// The unit in the spelling of a rig file.
     pub(super) text: String,
     pub(super) unit: Unit,
-    /// Whether it is only the ending of the name, as in `gyro_x_dps`, not in brackets.
+    /// Whether it is only the ending of the name, as in `gyro_x_dps`, and not in brackets.
     pub(super) by_ending: bool,
 }
 
-/// Spellings of units in headers, and how a rig file spells them.
+/// Spellings of units in headers, with the spelling of a rig file.
 const SPELLINGS: &[(&str, &str)] = &[
     ("sec", "s"),
     ("secs", "s"),
@@ -48,7 +48,7 @@ const SPELLINGS: &[(&str, &str)] = &[
     ("Kelvin", "K"),
 ];
 
-/// Endings of names in small letters, and the units that they stand for.
+/// Endings of names in lower case, with their units.
 const ENDINGS: &[(&[&str], &str)] = &[
     (&["m", "s", "2"], "m/s^2"),
     (&["deg", "per", "s"], "deg/s"),
@@ -99,7 +99,7 @@ pub(super) fn in_brackets(name: &str) -> Option<(Stated, String)> {
     Some((Stated { text, unit, by_ending: false }, rest))
 }
 
-/// The unit that the last of a name's words stand for, and how many they are.
+/// The unit of the last words of a name, and the number of these words.
 pub(super) fn by_ending(words: &[String]) -> Option<(Stated, usize)> {
     let ends = |ending: &[&str]| {
         words.len() > ending.len()
@@ -113,7 +113,7 @@ pub(super) fn by_ending(words: &[String]) -> Option<(Stated, usize)> {
     Some((Stated { text: (*text).into(), unit, by_ending: true }, ending.len()))
 }
 
-/// A unit of a header as a rig file spells it.
+/// A unit of a header in the spelling of a rig file.
 fn spelt(text: &str) -> Option<String> {
     let plain = text.trim().replace(['µ', 'μ'], "u").replace('²', "^2").replace('³', "^3");
     let plain = plain.replace("°C", "degC").replace("deg C", "degC").replace('°', "deg");

@@ -1,4 +1,4 @@
-//! The keys of the table and of the temperature.
+//! The keys of the table and of the temperature in a draft.
 
 use super::findings::Findings;
 use super::label::Label;
@@ -16,12 +16,12 @@ pub(super) struct Table {
     pub(super) column: usize,
     pub(super) is_angle: bool,
     column_guess: Option<String>,
-    /// The unit and, unless the header states it, why it is this one.
+    /// The unit and, unless the header states it, the reason for it.
     unit: Option<(String, Option<String>)>,
 }
 
 impl Table {
-    /// The table's column whose unit the header states, with the SI units in one of its numbers,
+    /// The table's column whose unit the header states, with the value of its unit in SI units,
     /// and whether it is an angle.
     pub(super) fn stated(labels: &[Label], layout: &Layout) -> Option<(usize, f64, bool)> {
         let (picked, is_angle) = picked(layout)?;
@@ -29,8 +29,8 @@ impl Table {
         Some((picked.column, unit.unit.factor, is_angle))
     }
 
-    /// The table's column, with a unit by the header or by gyros one of whose numbers turns the
-    /// body by so much \[rad\] from row to row.
+    /// The table's column, with its unit from the header or from the gyros; `gyro` has their columns and the rotation of the body
+    /// per row and per unit of their numbers \[rad\].
     pub(super) fn find(findings: Findings<'_>, gyro: Option<([usize; 3], f64)>) -> Option<Self> {
         let Findings { sample, labels, layout, .. } = findings;
         let (picked, is_angle) = picked(layout)?;
@@ -53,7 +53,7 @@ impl Table {
     }
 }
 
-/// The table's angle or, without one, its rate.
+/// The table's angle or, if there is none, its rate.
 fn picked(layout: &Layout) -> Option<(&Picked<usize>, bool)> {
     let angle = layout.table_angle.as_ref().map(|picked| (picked, true));
     angle.or(layout.table_rate.as_ref().map(|picked| (picked, false)))

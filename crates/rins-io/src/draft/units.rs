@@ -1,4 +1,4 @@
-//! Units that no header states, found by what the numbers must mean.
+//! Units that no header states, determined from the magnitude of the numbers.
 
 use std::f64::consts::TAU;
 
@@ -8,10 +8,10 @@ use super::evidence::{least_rate, steady, turning_of_gravity, turning_of_table, 
 use super::page::short;
 use super::sample::Sample;
 
-/// The Earth's rate, which any gyro at rest sees \[rad/s\].
+/// The Earth rate, which a gyro triad at rest measures \[rad/s\].
 const EARTH_RATE: f64 = 15.041 * DEG_PER_HOUR;
 
-/// A unit, and the SI units in it.
+/// A unit, and its value in SI units.
 type Candidate = (&'static str, f64);
 
 const FORCES: [Candidate; 4] = [
@@ -25,17 +25,17 @@ const RATES: [Candidate; 3] = [("rad/s", 1.0), ("deg/s", DEG), ("deg/h", DEG_PER
 const ANGLES: [Candidate; 3] = [("rad", 1.0), ("deg", DEG), ("arcsec", ARCSEC)];
 const TABLE_ANGLES: [Candidate; 4] = [("rad", 1.0), ("deg", DEG), ("arcsec", ARCSEC), ("rev", TAU)];
 
-/// A unit that was found, and why it is this one.
+/// A unit that was determined, with the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct UnitFound {
     pub(super) text: &'static str,
     pub(super) why: String,
 }
 
-/// The unit of the accelerometers' numbers, by the magnitude of gravity.
+/// The unit of the accelerometers' numbers, from the magnitude of gravity.
 ///
 /// # Errors
-/// What the numbers show instead, in words.
+/// A description of what the numbers indicate instead.
 pub(super) fn accel_unit(
     sample: &Sample,
     accel: [usize; 3],
@@ -46,7 +46,7 @@ pub(super) fn accel_unit(
         return Err("no row with a steady magnitude to compare with gravity".into());
     };
     let candidates = candidates(&FORCES, &VELOCITIES, interval, increment);
-    // Biases of a tenth of gravity are seen in small sensors.
+    // Small sensors can have biases of a tenth of gravity.
     match unique(&candidates, STANDARD_GRAVITY * interval.unwrap_or(1.0) / seen.norm, &[1.03, 1.15])
     {
         Some(text) => {
@@ -60,35 +60,34 @@ pub(super) fn accel_unit(
     }
 }
 
-/// What is known where the gyros' unit is sought.
+/// The findings that are used to determine the gyros' unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surroundings<'s> {
     pub(super) sample: &'s Sample,
     pub(super) interval: Option<f64>,
     pub(super) accel: Option<[usize; 3]>,
-    /// The table's column, the SI units in one of its numbers, and whether it is an angle.
+    /// The table's column, the value of its unit in SI units, and whether it is an angle.
     pub(super) table: Option<(usize, f64, bool)>,
 }
 
 impl Surroundings<'_> {
-    /// The angle by which one of the gyros' numbers turns the body from row to row \[rad\], by the
-    /// table.
+    /// The rotation of the body per row and per unit of the gyros' numbers \[rad\], from the table motion.
     pub(super) fn by_table(&self, gyro: [usize; 3]) -> Option<f64> {
         let (column, factor, is_angle) = self.table?;
         let ratio = turning_of_table(self.sample, gyro, column, is_angle)?;
         if is_angle { Some(ratio * factor) } else { Some(ratio * factor * self.interval?) }
     }
 
-    /// The same, by how gravity turns.
+    /// The same from the rotation of gravity.
     pub(super) fn by_gravity(&self, gyro: [usize; 3]) -> Option<f64> {
         turning_of_gravity(self.sample, gyro, self.accel?)
     }
 
-    /// The unit of the gyros' numbers: by the table's motion, by how gravity turns, or by the
-    /// Earth's rotation.
+    /// The unit of the gyros' numbers: from the table motion, from the rotation of gravity, or from the
+    /// Earth rate.
     ///
     /// # Errors
-    /// What the numbers show instead, in words.
+    /// A description of what the numbers indicate instead.
     pub(super) fn gyro_unit(&self, gyro: [usize; 3], increment: bool) -> Result<UnitFound, String> {
         let candidates = candidates(&RATES, &ANGLES, self.interval, increment);
         let found = |text, why: &str| Ok(UnitFound { text, why: why.into() });
@@ -130,8 +129,8 @@ impl Surroundings<'_> {
     }
 }
 
-/// The unit of the table's angle, by the turns that it leaves out or by gyros whose unit is known:
-/// one of their numbers turns the body by `turn` \[rad\] from row to row.
+/// The unit of the table angle, from the jumps at which it wraps around, or from gyros whose unit is known:
+/// `turn` is the rotation of the body per row and per unit of their numbers \[rad\].
 pub(super) fn angle_unit(
     sample: &Sample,
     column: usize,
@@ -149,7 +148,7 @@ pub(super) fn angle_unit(
     Some(UnitFound { text, why: "the rotation of the table then equals that of the gyros".into() })
 }
 
-/// The unit of the table's rate, by gyros as in [`angle_unit`].
+/// The unit of the table rate, from gyros as in [`angle_unit`].
 pub(super) fn rate_unit(
     sample: &Sample,
     column: usize,
@@ -162,7 +161,7 @@ pub(super) fn rate_unit(
     Some(UnitFound { text, why: "the rotation of the table then equals that of the gyros".into() })
 }
 
-/// The units of rates and increments, each with what one number adds from row to row in SI units.
+/// The units of rates and increments, each with its increment per row in SI units.
 fn candidates(
     rates: &[Candidate],
     increments: &[Candidate],
@@ -170,7 +169,7 @@ fn candidates(
     only_increments: bool,
 ) -> Vec<Candidate> {
     match interval {
-        // Without the interval nothing tells rates from increments; gravity is then taken over 1 s.
+        // Without the interval, rates and increments cannot be distinguished; gravity is then integrated over 1 s.
         None if only_increments => Vec::new(),
         None => rates.to_vec(),
         Some(interval) => {
@@ -181,7 +180,7 @@ fn candidates(
     }
 }
 
-/// The only candidate whose factor is within a tolerance of `factor`; the tolerances are tried in
+/// The only candidate whose factor is within a tolerance of `factor`; the tolerances are applied in
 /// order until a candidate is found.
 fn unique(candidates: &[Candidate], factor: f64, tolerances: &[f64]) -> Option<&'static str> {
     for tolerance in tolerances {
@@ -203,7 +202,7 @@ mod tests {
 
     #[test]
     fn an_ambiguous_unit_is_not_chosen() {
-        // At 10 Hz, 0.98 is gravity in g less 2 %, or in m/s over an interval.
+        // At 10 Hz, 0.98 is gravity in g minus 2 %, or in m/s over an interval.
         let at = |interval| candidates(&FORCES, &VELOCITIES, Some(interval), false);
         let unit = |interval: f64, norm: f64| {
             unique(&at(interval), STANDARD_GRAVITY * interval / norm, &[1.03, 1.15])
@@ -218,7 +217,7 @@ mod tests {
     #[test]
     fn rates_and_increments_are_told_apart_where_they_can_be() {
         let at = |interval| candidates(&RATES, &ANGLES, Some(interval), false);
-        // At 50 Hz a degree an interval is 0.87 rad/s: the closer tolerance decides.
+        // At 50 Hz a degree per interval is 0.87 rad/s: the closer tolerance decides.
         assert_eq!(unique(&at(0.02), DEG, &[1.05, 1.6]), Some("deg"));
         assert_eq!(unique(&at(0.02), 0.02 / 1.07, &[1.05, 1.6]), None);
         assert_eq!(unique(&at(0.0025), 0.6 * 0.0025 * DEG, &[1.05]), None);

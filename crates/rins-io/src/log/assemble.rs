@@ -1,4 +1,4 @@
-//! From a log's columns to a recording.
+//! Conversion of a log's columns to a recording.
 
 use std::mem;
 use std::ops::Range;
@@ -21,7 +21,7 @@ use crate::rig::{
 };
 use crate::shown::shown;
 
-/// How many of its own intervals a temperature may be held before its first and after its last.
+/// The time, in temperature intervals, over which a temperature is held before its first and after its last reading.
 const HELD_TEMPERATURES: f64 = 2.0;
 
 /// Reads the recording that a rig's columns describe.
@@ -74,9 +74,9 @@ pub(super) fn read(
     clock.keep(kept.clone());
     let increments = joined([angles, velocities], mem::take(&mut clock.intervals));
 
-    // A signal's values at the ends of the samples' intervals, which lie among its own times.
+    // Interpolates a signal to the ends of the samples' intervals.
     let at_ends = |mut values: Vec<f64>, between: Between| match &times {
-        // The rows' times are those ends.
+        // Without a time column, the rows' times are those ends.
         None => {
             cut(&mut values, &kept);
             values
@@ -127,20 +127,20 @@ fn cut(list: &mut Vec<f64>, range: &Range<usize>) {
     list.drain(..range.start);
 }
 
-/// A signal's value at a time between those at which it was read.
+/// An interpolation of a signal at a time between its readings.
 type Between = fn(&[f64], &[f64], f64) -> Option<f64>;
 
-/// A signal's values at the ends of the samples' intervals, which lie among its own times.
+/// A signal's values at the ends of the samples' intervals, which must be within its own times.
 fn at(between: Between, times: &[f64], values: &[f64], ends: &[f64]) -> Vec<f64> {
-    // The last values for a time that rounding has put beyond the last.
+    // Rounding can put an end after the last time: the last value is then used.
     let last = values.last().copied().unwrap_or_default();
     ends.iter().map(|&end| between(times, values, end).unwrap_or(last)).collect()
 }
 
 /// Increments from the components of their angles and velocities, and from their intervals.
 ///
-/// Of a day at 100 Hz either is half a gigabyte, and what is joined is given up meanwhile: from the
-/// end, where lists can be cut.
+/// For a day at 100 Hz each of these is half a gigabyte, so the inputs are released during the conversion: from the
+/// end, where lists can be truncated.
 fn joined(mut parts: [TriadValues; 2], mut intervals: Vec<f64>) -> Vec<Increments> {
     const SHARES: usize = 32;
     let mut increments = Vec::with_capacity(intervals.len());
@@ -166,7 +166,7 @@ fn joined(mut parts: [TriadValues; 2], mut intervals: Vec<f64>) -> Vec<Increment
     increments
 }
 
-/// The numbers of a triad along the sensors' axes in SI units, and what they are.
+/// The numbers of a triad along the sensors' axes in SI units, with their kind.
 struct Channel<'s> {
     spec: &'s TriadColumns,
     values: TriadValues,
@@ -200,7 +200,7 @@ impl Channel<'_> {
     }
 }
 
-/// The file that holds the temperature, where it is not the log, and what it says at the ends of the
+/// The file of the temperature, if it is not the log, and the temperatures at the ends of the
 /// intervals.
 fn temperature(
     TemperatureColumn { file, column, offset }: &TemperatureColumn,

@@ -1,4 +1,4 @@
-//! From time stamps to the intervals that samples cover.
+//! The intervals of samples from their time stamps.
 
 use std::ops::Range;
 use std::path::Path;
@@ -11,16 +11,16 @@ use super::table::RowLines;
 use crate::error::{IoError, LogError};
 use crate::rig::Stamp;
 
-/// By how much the measured sampling rate may differ from the stated one, relative.
+/// The maximum relative difference of the measured sampling rate from the stated one.
 const RATE_WITHIN: f64 = 0.01;
 
 /// A step longer than this many nominal intervals is a gap.
 const GAP: f64 = 1.5;
 
-/// The mean step is taken over those of at most this many medians.
+/// Steps longer than this number of medians are excluded from the mean step.
 const MEAN_OVER: f64 = 2.5;
 
-/// The least and the most seconds from one sample to the next that are believed.
+/// The minimum and maximum sample interval that are plausible \[s\].
 const PACE: (f64, f64) = (1e-7, 1e4);
 
 /// The intervals of a log's samples.
@@ -49,19 +49,19 @@ impl Clock {
     }
 }
 
-/// What a log's rows say of time.
+/// The time information in a log's rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stamps<'l> {
     pub(super) path: &'l Path,
     /// The line of each row.
     pub(super) lines: &'l RowLines,
     pub(super) stamp: Stamp,
-    /// The nominal interval, where the rig states it \[s\].
+    /// The nominal interval, if the rig states it \[s\].
     pub(super) nominal: Option<f64>,
 }
 
 impl Stamps<'_> {
-    /// Intervals of rows without a time column: one nominal interval after another from zero.
+    /// Intervals of rows without a time column: consecutive nominal intervals from zero.
     pub(super) fn counted(&self, interval: f64) -> Result<Clock, IoError> {
         self.need_two()?;
         let count = self.lines.len();
@@ -74,9 +74,9 @@ impl Stamps<'_> {
 
     /// Intervals of rows with these times \[s\].
     ///
-    /// A sample stamped at its end covers the time since the stamp before, and the first one
-    /// nominal interval. Stamps of the start or the middle tell the interval's end only together
-    /// with the next stamp, so that the last row is not a sample of its own.
+    /// A sample stamped at its end covers the time since the previous stamp, and the first sample one nominal interval. Stamps of
+    /// the start or the middle define the end of the interval only together with the next stamp, so that the last row is not a
+    /// sample.
     pub(super) fn timed(&self, times: &[f64], policy: LogPolicy) -> Result<Clock, IoError> {
         self.need_two()?;
         let steps = self.steps(times)?;
@@ -87,7 +87,7 @@ impl Stamps<'_> {
             return Err(LogError::of(self.path, problem));
         }
         if let Some(nominal) = self.nominal {
-            // Missing samples spoil the mean, and coarse time stamps the median.
+            // Missing samples distort the mean, and coarse time stamps the median.
             let fits = |interval: f64| (interval / nominal - 1.0).abs() <= RATE_WITHIN;
             if !(fits(median) || fits(mean_below(&steps, MEAN_OVER * median))) {
                 let (measured, stated) = (1.0 / median, 1.0 / nominal);
@@ -133,8 +133,8 @@ impl Stamps<'_> {
         }
     }
 
-    /// The steps from each time to the next, with those that are nominal to within the rounding
-    /// of the times made exactly so.
+    /// The steps between consecutive times; steps that equal the nominal interval within the rounding
+    /// of the times are set to it exactly.
     fn steps(&self, times: &[f64]) -> Result<Vec<f64>, IoError> {
         let mut steps = Vec::with_capacity(times.len() - 1);
         for (row, pair) in times.windows(2).enumerate() {

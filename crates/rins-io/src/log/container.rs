@@ -1,6 +1,6 @@
-//! File formats that are known by their first bytes, and are not columns of text.
+//! File formats that are identified by their first bytes and are not columns of text.
 
-/// A file format, as far as an error message needs it.
+/// A file format, for an error message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Container {
     /// Its name.
@@ -9,7 +9,7 @@ pub(crate) struct Container {
     pub(crate) remedy: &'static str,
 }
 
-/// Where a format's signature stands, the signature, and the format.
+/// The offset of a format's signature, the signature, and the format.
 type Signature = (usize, &'static [u8], Container);
 
 const fn signature(
@@ -23,7 +23,7 @@ const fn signature(
 
 const DECOMPRESS: &str = "decompress it";
 
-/// The signatures of the formats' own specifications.
+/// The signatures in the specifications of the formats.
 const SIGNATURES: &[Signature] = &[
     signature(0, b"ULog\x01\x12\x35", "a PX4 ULog file", "convert it with ulog2csv of pyulog"),
     signature(0, b"#ROSBAG V", "a ROS 1 bag", "export the IMU topic with rostopic echo -p"),
@@ -88,12 +88,12 @@ const SIGNATURES: &[Signature] = &[
 ];
 
 impl Container {
-    /// The format of a file that begins with these bytes, if it is one of those that are not text.
+    /// The format of a file with these first bytes, if it is one of these formats.
     pub(crate) fn of(beginning: &[u8]) -> Option<Self> {
         let fits = |(place, bytes, _): &&Signature| {
             beginning.get(*place..).is_some_and(|rest| rest.starts_with(bytes))
         };
-        // A MATLAB 7.3 file begins like one of level 5, with another version.
+        // A MATLAB 7.3 file begins like one of level 5, except for the version.
         SIGNATURES.iter().find(fits).map(|(.., container)| *container)
     }
 }

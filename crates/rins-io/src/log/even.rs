@@ -4,24 +4,24 @@ use rins_motion::median;
 
 use super::summary::Rounded;
 
-/// The finest decimal of a second that stamps are rounded to, as a power of ten.
+/// The smallest decimal unit of a second to which stamps are rounded, as a power of ten.
 const FINEST: i32 = 9;
 
-/// How far, in units of the last decimal, rounded stamps may be from those of an even clock: half a unit at most, and
-/// 0.29 rms, or 0.36 of a clock whose every other tick is half a unit off. Those of a clock that jumps to and fro by a unit
-/// are half a unit off, all of them.
+/// The maximum difference between rounded stamps and those of an even clock, as peak and rms, in units of the last decimal.
+/// Rounding gives at most half a unit, and 0.29 rms, or 0.36 rms if every second tick is half a unit off. The stamps of a clock
+/// that alternates by a unit are all half a unit off.
 const APART: (f64, f64) = (0.6, 0.4);
 
-/// Steps that differ by less than this, in the same units, are even.
+/// Steps with a smaller difference, in the same units, count as even.
 const EVEN: f64 = 0.01;
 
-/// Of steps longer than this many medians the mean step says nothing.
+/// If a step is longer than this number of medians, the mean step is not meaningful.
 const GAP: f64 = 2.5;
 
-/// Puts the stamps of an even clock in the place of `times` \[s\], if these are the same but for rounding.
+/// Replaces `times` \[s\] by the stamps of an even clock, if they differ from these by rounding only.
 ///
-/// Rounded, a stamp of 1/123.4 s is now early and now late by a pattern, and intervals are twice as far off: a turn that
-/// is made of a rate and an interval would have lines of it. A clock of `nominal` intervals \[s\] is believed if it fits.
+/// Rounded stamps of, say, 1/123.4 s are early and late in a periodic pattern, and the intervals have twice the error: an angle
+/// computed from a rate and an interval would have spectral lines. A clock with the `nominal` interval \[s\] is used if it fits.
 pub(super) fn undo_rounding(times: &mut [f64], nominal: Option<f64>) -> Option<Rounded> {
     let unit = last_decimal(times)?;
     let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
@@ -37,7 +37,7 @@ pub(super) fn undo_rounding(times: &mut [f64], nominal: Option<f64>) -> Option<R
         };
         std::iter::once(0.0).chain(steps().scan(0.0, tick))
     };
-    // Twice the same tick would be no time at all; and steps that are multiples of one were not rounded.
+    // A step below half the mean would repeat a tick; and steps that are multiples of the median were not rounded.
     let multiple = |step: f64| (step - (step / median).round() * median).abs() < EVEN * unit;
     let kept = |step: f64| step >= GAP * median || multiple(step);
     if steps().any(|step| step < 0.5 * mean) || steps().all(kept) {
@@ -56,7 +56,7 @@ pub(super) fn undo_rounding(times: &mut [f64], nominal: Option<f64>) -> Option<R
     Some(Rounded { unit, interval })
 }
 
-/// The decimal \[s\] of which all times are multiples, to within what a double holds.
+/// The decimal unit \[s\] of which all times are multiples, to double precision.
 fn last_decimal(times: &[f64]) -> Option<f64> {
     let largest = times.iter().fold(0.0, |most: f64, time| most.max(time.abs()));
     let is_multiple = |time: f64, per_second: f64| {
@@ -68,11 +68,11 @@ fn last_decimal(times: &[f64]) -> Option<f64> {
         times.iter().all(|&time| is_multiple(time, per_second))
     })?;
     let unit = 10_f64.powi(-decimals);
-    // Of late stamps a double does not hold enough for that to say anything.
+    // For large times, double precision is not sufficient for this conclusion.
     (times.len() > 2 && 8.0 * f64::EPSILON * largest < EVEN * unit).then_some(unit)
 }
 
-/// Start and interval \[s\] of the clock of this interval that is nearest to `times`.
+/// Start and interval \[s\] of the clock with this interval that is nearest to `times`.
 fn clock<I: Iterator<Item = f64>>(
     times: &[f64],
     ticks: impl Fn() -> I,
@@ -82,7 +82,7 @@ fn clock<I: Iterator<Item = f64>>(
     (sum / times.len() as f64, interval)
 }
 
-/// Start and interval \[s\] of the clock that is nearest to `times` in least squares.
+/// Start and interval \[s\] of the least-squares clock of `times`.
 fn fitted<I: Iterator<Item = f64>>(times: &[f64], ticks: impl Fn() -> I) -> Option<(f64, f64)> {
     let count = times.len() as f64;
     let middle = ticks().sum::<f64>() / count;
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     fn stamps(rate: f64, unit: f64, count: u32) -> Vec<f64> {
-        // As text has them: the double next to a decimal.
+        // As parsed from text: the double nearest to a decimal.
         let per_second = unit.recip().round();
         let rounded = |tick| (f64::from(tick) / rate / unit).round_ties_even() / per_second;
         (0..count).map(rounded).collect()
@@ -138,7 +138,7 @@ mod tests {
             assert_eq!(undo_rounding(&mut times, None), None);
             assert_eq!(times, before);
         }
-        // One that was never rounded.
+        // A clock that was never rounded.
         let mut exact: Vec<f64> = (0..500).map(|tick| f64::from(tick) / 123.4).collect();
         assert_eq!(undo_rounding(&mut exact, None), None);
     }

@@ -1,8 +1,8 @@
-//! The fields of a line, between delimiters that are found out from the first lines.
+//! The fields of a line, whose delimiter is determined from the first lines.
 
 use std::borrow::Cow;
 
-/// What stands between two fields.
+/// The delimiter between two fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
     /// A tab.
@@ -13,15 +13,15 @@ pub enum Delimiter {
     Comma,
     /// Any number of blanks.
     Blanks,
-    /// Another character, which a line `sep=` has named.
+    /// Another character, stated by a line `sep=`.
     Other(char),
 }
 
 impl Delimiter {
     /// The delimiter that divides the first lines into the same number of fields, at least two.
     ///
-    /// Where several do, the first of tab, semicolon, comma and blanks is taken: blanks may
-    /// surround a comma, and commas may stand inside a number between semicolons.
+    /// If several do, the first of tab, semicolon, comma and blanks is used: blanks may
+    /// surround a comma, and a comma may be the decimal mark of a number between semicolons.
     pub(super) fn sniff(first: &str, second: Option<&str>) -> Self {
         let all = [Self::Tab, Self::Semicolon, Self::Comma, Self::Blanks];
         let fields = |line| all.map(|delimiter| Fields::of(line, delimiter).count());
@@ -34,7 +34,7 @@ impl Delimiter {
         chosen.map_or(Self::Comma, |index| all[index])
     }
 
-    /// The delimiter that a first line such as `sep=;` names, as spreadsheets write it.
+    /// The delimiter that a first line such as `sep=;` states, as written by spreadsheets.
     pub(super) fn stated(line: &str) -> Option<Self> {
         let line = line.trim_matches(['"', '\r']);
         let rest = line.get(..4).filter(|start| start.eq_ignore_ascii_case("sep="));
@@ -50,7 +50,7 @@ impl Delimiter {
         letters.next().is_none().then_some(delimiter)
     }
 
-    /// What stands before the first delimiter and, if there is one, what stands after it.
+    /// The text before the first delimiter and, if there is one, the text after it.
     fn cut(self, text: &str) -> (&str, Option<&str>) {
         match text.split_once(|letter| self.divides(letter)) {
             Some((field, rest)) => (field, Some(rest)),
@@ -125,7 +125,7 @@ fn undoubled(inside: &str) -> Cow<'_, str> {
     }
 }
 
-/// The place of the quotation mark that closes a field; a doubled one stands for itself.
+/// The position of the quotation mark that closes a field; a doubled one stands for itself.
 fn closing_quote(quoted: &str) -> Option<usize> {
     let mut from = 0;
     while let Some(place) = quoted[from..].find('"').map(|place| from + place) {
@@ -167,7 +167,7 @@ mod tests {
         assert_eq!(fields("1,,3,", Delimiter::Comma), ["1", "", "3", ""]);
         assert_eq!(fields(" 1 2\t 3  ", Delimiter::Blanks), ["1", "2", "3"]);
         assert_eq!(fields("a\t\tb", Delimiter::Tab), ["a", "", "b"]);
-        // A blank of three bytes.
+        // A blank character of three bytes.
         assert_eq!(fields("\"a\"\u{3000}b", Delimiter::Blanks), ["a", "b"]);
     }
 

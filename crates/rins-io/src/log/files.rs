@@ -1,4 +1,4 @@
-//! The files of a run, and of each the columns that are asked for.
+//! The files of a run, with the requested columns of each.
 
 use std::mem;
 use std::path::{Path, PathBuf};
@@ -14,40 +14,40 @@ use crate::error::{IoError, LogError};
 use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, TimeUnit, TriadColumns};
 use crate::shown::shown;
 
-/// How far the times of two files may be apart, in intervals.
+/// The maximum difference between the times of two files, in intervals.
 const TOGETHER_WITHIN: f64 = 0.1;
 
-/// How many samples it takes to call a channel stuck.
+/// The minimum number of samples from which a constant channel counts as stuck.
 const ENOUGH_TO_BE_STUCK: usize = 10;
 
-/// No sensor reads more than this, in SI units or radians: the squares and sums of what is less are
-/// finite, and an angle is still told to a tenth of an arcsecond.
+/// The maximum plausible reading of any sensor, in SI units or radians: squares and sums of smaller numbers are
+/// finite, and an angle is still resolved to a tenth of an arcsecond.
 pub(super) const BEYOND_REASON: f64 = 1e9;
 
-/// The temperatures that there are \[°C\].
+/// The plausible temperatures \[°C\].
 const TEMPERATURES: std::ops::RangeInclusive<f64> = -273.15..=2000.0;
 
 /// The files of a run.
 pub(super) struct Files {
-    /// Those that were sampled together, the gyros' first.
+    /// Files that were sampled together, the gyros' first.
     together: Vec<OneFile>,
-    /// That of accelerometers with a clock of their own.
+    /// The file of accelerometers with a clock of their own.
     accel: Option<OneFile>,
     pub(super) instants: Option<Instants>,
-    /// What became of the stamps of the gyros' file.
+    /// The rounding that was removed from the stamps of the gyros' file.
     pub(super) rounded: Option<Rounded>,
     /// The overflows of the time column of the gyros' file.
     pub(super) overflows: Vec<Overflow>,
 }
 
-/// One file, and of its columns those that are asked for.
+/// One file with its requested columns.
 pub(super) struct OneFile {
     pub(super) path: PathBuf,
     asked: Asked,
     pub(super) columns: Columns,
 }
 
-/// The columns of a file that are asked for, and how often each is.
+/// The requested columns of a file, with the number of requests of each.
 #[derive(Default)]
 struct Asked {
     names: Vec<String>,
@@ -76,17 +76,17 @@ impl Asked {
     }
 }
 
-/// A triad's values along its three axes, a list an axis.
+/// A triad's values along its three axes, one list for each axis.
 pub(super) type TriadValues = [Vec<f64>; 3];
 
 impl OneFile {
-    /// The lines that are no samples.
+    /// The lines that are not samples.
     pub(super) fn left_out(&self) -> impl Iterator<Item = LeftOut> {
         let named = |&(line, reason): &_| LeftOut { path: self.path.clone(), line, reason };
         self.columns.left_out.iter().map(named)
     }
 
-    /// The file at `path`, of which one column was asked for.
+    /// The file at `path`, of which one column was requested.
     pub(super) fn of_column(path: &Path, name: &String, columns: Columns) -> Self {
         Self { path: path.into(), asked: Asked::of([name]), columns }
     }
@@ -100,7 +100,7 @@ impl OneFile {
         &self.columns.numbers[self.place(name)]
     }
 
-    /// The numbers of a column, each as `read` has it, without a copy where nobody else asks for them.
+    /// The numbers of a column, converted by `read`, without a copy at the last request.
     fn take(&mut self, name: &str, read: impl Fn(f64) -> f64) -> Vec<f64> {
         let place = self.place(name);
         let (left, numbers) = (&mut self.asked.times[place], &mut self.columns.numbers[place]);
@@ -112,7 +112,7 @@ impl OneFile {
         taken
     }
 
-    /// The numbers of a column in units of `factor` times an SI `unit`.
+    /// The numbers of a column whose unit is `factor` times an SI `unit`.
     pub(super) fn column(
         &mut self,
         name: &str,
@@ -124,7 +124,7 @@ impl OneFile {
         Ok(self.take(name, read))
     }
 
-    /// The temperatures \[°C\] of a column that tells them less `offset`.
+    /// The temperatures \[°C\] of a column with numbers that are lower by `offset`.
     pub(super) fn temperatures(&mut self, name: &str, offset: f64) -> Result<Vec<f64>, IoError> {
         let read = |number| number + offset;
         self.refuse_unless(name, "degC", read, |value| TEMPERATURES.contains(&value))?;
@@ -205,7 +205,7 @@ impl Files {
         Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
 
-    /// The lines of any of the files that are no samples.
+    /// The lines of all files that are not samples.
     pub(super) fn left_out(&self) -> Vec<LeftOut> {
         self.together.iter().chain(&self.accel).flat_map(OneFile::left_out).collect()
     }
@@ -214,7 +214,7 @@ impl Files {
         &self.together[0]
     }
 
-    /// The times of the rows \[s\], which are not asked for again; none of a log without a time column.
+    /// The times of the rows \[s\], which can be taken once; `None` for a log without a time column.
     pub(super) fn take_times(&mut self) -> Vec<f64> {
         mem::take(&mut self.together[0].columns.time)
     }
@@ -224,7 +224,7 @@ impl Files {
         found.expect("every file in use was read")
     }
 
-    /// Refuses files that were not sampled together with the gyros'.
+    /// Refuses files that were not sampled together with the gyros' file.
     pub(super) fn compare(&self, interval: f64) -> Result<(), IoError> {
         let (main, others) = (self.main(), &self.together[1..]);
         for file in others {
@@ -245,7 +245,7 @@ impl Files {
         Ok(())
     }
 
-    /// The gyros' values, none of them stuck.
+    /// The gyros' values, after a check for stuck channels.
     pub(super) fn gyro(&mut self, spec: &ColumnSpec) -> Result<TriadValues, IoError> {
         self.file(&spec.gyro.path).triad(&spec.gyro, "gyro")
     }
@@ -270,7 +270,7 @@ impl Files {
         let stamp = own.time.stamp;
         let (path, lines) = (&file.path, &file.columns.lines);
         let stamps = Stamps { path, lines, stamp, nominal: None };
-        // A gap in the one is as long as in the other, however often it is sampled.
+        // A gap is equally long in both, whatever their sampling rates.
         let largest_gap = policy.largest_gap.max(gyro.summary.nominal_interval);
         stamps.timed(&file.columns.time, LogPolicy { largest_gap, ..policy }).map(Some)
     }
@@ -298,7 +298,7 @@ fn own_clock(
 }
 
 impl OneFile {
-    /// A triad's values in SI units along the sensors' axes, none of them stuck.
+    /// A triad's values in SI units along the sensors' axes, after a check for stuck channels.
     fn triad(&mut self, spec: &TriadColumns, sensor: &str) -> Result<TriadValues, IoError> {
         let (Reading::Rate(factor) | Reading::Increment(factor)) = spec.reading;
         let unit = match (sensor, spec.reading) {
@@ -322,7 +322,7 @@ impl OneFile {
             }
             self.refuse_unless(name, unit, read(axis), |value| value.abs() <= BEYOND_REASON)?;
         }
-        // At rest a coarse accelerometer may well say the same all along, but not all three zero.
+        // At rest a coarse accelerometer may give a constant number, but not all three zero.
         let dead = sensor == "gyro" || stuck.len() == 3 && stuck.iter().all(|(_, n)| *n == 0.0);
         match stuck.into_iter().next().filter(|_| dead) {
             Some((channel, value)) => {
@@ -333,7 +333,7 @@ impl OneFile {
     }
 }
 
-/// Turns a counter of samples into seconds.
+/// Converts a sample counter to seconds.
 fn count(path: &Path, name: &str, columns: &mut Columns, interval: f64) -> Result<(), IoError> {
     for (row, time) in columns.time.iter_mut().enumerate() {
         if time.fract() != 0.0 {

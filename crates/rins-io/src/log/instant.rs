@@ -1,25 +1,25 @@
-//! Time stamps, read without losing what a double cannot hold.
+//! Time stamps, parsed without the loss of digits that a double cannot represent.
 
 use super::date_time::nanoseconds;
 
-/// Stamps beyond this \[s\] (48 days) are counted from a whole second near the first: a double
-/// near it steps by a nanosecond, and near the seconds since 1970 by a quarter of a microsecond.
+/// Stamps beyond this \[s\] (48 days) are counted from an integer second near the first: near this limit the spacing of doubles
+/// is a nanosecond, and near the seconds since 1970 a quarter of a microsecond.
 const LARGEST: f64 = 4194304.0;
 
-/// Decimals of a stamp that are kept when it is counted from an origin.
+/// The decimals of a stamp that are kept when it is counted from an origin.
 const DECIMALS: i32 = 12;
 
-/// Reads time stamps in one unit.
+/// A parser of time stamps in one unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Instants {
-    /// Units in a second: dividing by a power of ten rounds once, multiplying by its inverse twice.
+    /// Units per second: division by a power of ten rounds once, multiplication by its inverse twice.
     per_second: f64,
-    /// From where stamps are counted, in units of 10⁻¹²; `None` until the first is read.
+    /// The origin of the stamps, in units of 10⁻¹² s; `None` until the first is read.
     origin: Option<i128>,
 }
 
 impl Instants {
-    /// Of stamps in units of so many seconds.
+    /// A parser of stamps in units of `unit` seconds.
     pub(super) fn new(unit: f64) -> Self {
         let per_second = unit.recip();
         let whole = per_second.round();
@@ -39,26 +39,26 @@ impl Instants {
         Some(self.after_origin(nanoseconds as f64 * 1e-9, || nanoseconds.checked_mul(scale)))
     }
 
-    /// The same of a stamp that is a number.
+    /// The same for a stamp that is a number.
     pub(super) fn of_number(&mut self, stamp: f64) -> f64 {
         self.after_origin(stamp, || None)
     }
 
-    /// The same of a stamp that is a whole number.
+    /// The same for a stamp that is an integer.
     pub(super) fn of_integer(&mut self, stamp: i64) -> f64 {
         self.after_origin(stamp as f64, || {
             i128::from(stamp).checked_mul(10_i128.pow(DECIMALS.unsigned_abs()))
         })
     }
 
-    /// The same of a stamp of `whole` units and, written out, a part of `text` units.
+    /// The same for a stamp of `whole` units plus the decimal number of units in `text`.
     pub(super) fn of_sum(&mut self, whole: i64, text: &str) -> Option<f64> {
         let plain = whole as f64 + text.parse::<f64>().ok()?;
         let whole = i128::from(whole) * 10_i128.pow(DECIMALS.unsigned_abs());
         Some(self.after_origin(plain, || fixed(text)?.checked_add(whole)))
     }
 
-    /// The time after the origin of a stamp that is nearly `plain`, and to 10⁻¹² `fixed`.
+    /// The time after the origin of a stamp whose double is `plain`, and whose value to 10⁻¹² is `fixed`.
     fn after_origin(&mut self, plain: f64, fixed: impl Fn() -> Option<i128>) -> f64 {
         if !plain.is_finite() {
             return plain;
@@ -66,7 +66,7 @@ impl Instants {
         let origin = *self.origin.get_or_insert_with(|| match fixed() {
             Some(stamp) if (plain / self.per_second).abs() > LARGEST => {
                 let second = self.per_second.round() * 10_f64.powi(DECIMALS);
-                // A second is at most 10²¹ of these units.
+                // A second has at most 10²¹ of these units.
                 #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2⁷⁰")]
                 let second = second as i128;
                 stamp.div_euclid(second) * second

@@ -1,4 +1,4 @@
-//! A log's lines, one at a time, in bounded memory.
+//! The lines of a log, one by one, in bounded memory.
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
 use crate::source::{self, Source};
 
-/// The longest line that is read \[bytes\].
+/// The maximum length of a line \[bytes\].
 const LONGEST: u64 = 1 << 20;
 
-/// The lines of a log that carry numbers or names; blank lines and comments are passed over.
+/// The lines of a log with numbers or names; blank lines and comments are skipped.
 #[derive(Debug)]
 pub(crate) struct Lines<R> {
     reader: R,
@@ -36,7 +36,7 @@ impl Lines<BufReader<Source>> {
         Ok(Self::new(reader, path))
     }
 
-    /// The lines of a log whose messages begin as elsewhere comments do.
+    /// The lines of a log whose messages begin with a character that elsewhere marks a comment.
     pub(crate) fn messages(path: &Path) -> Result<Self, IoError> {
         Ok(Self { commented: false, ..Self::open(path)? })
     }
@@ -57,7 +57,7 @@ impl<R: BufRead> Lines<R> {
 
     /// The next line's number, from 1, and its text; `None` at the end.
     ///
-    /// A last line without a line end is not told: what stands there may have been cut short.
+    /// A last line without a line end is not returned: it may be truncated.
     pub(crate) fn next(&mut self) -> Result<Option<(u64, &str)>, IoError> {
         while self.fill()? {
             let text = self.text()?;
@@ -72,14 +72,14 @@ impl<R: BufRead> Lines<R> {
                 self.comment = Some(comment.trim().to_string());
             } else if !trimmed.is_empty() {
                 let number = self.number;
-                // Found once more, because a borrow cannot leave a loop that goes on.
+                // Read again from the buffer, because a borrow cannot be returned from a loop that continues.
                 return Ok(Some((number, self.text()?)));
             }
         }
         Ok(None)
     }
 
-    /// The last comment so far, without its mark.
+    /// The last comment so far, without its comment mark.
     pub(super) fn comment(&self) -> Option<&str> {
         self.comment.as_deref()
     }
@@ -88,12 +88,12 @@ impl<R: BufRead> Lines<R> {
         &self.path
     }
 
-    /// The last line, if it carries something but has no line end.
+    /// The last line, if it has content but no line end.
     pub(super) fn unfinished(&self) -> Option<u64> {
         self.unfinished
     }
 
-    /// Why a log has no line that is read.
+    /// The reason why a log has no readable line.
     pub(super) fn emptiness(&self) -> LogProblem {
         match self.unfinished {
             Some(_) => LogProblem::NoLineEnd,
@@ -101,7 +101,7 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    /// How many lines there have been.
+    /// The number of lines so far.
     pub(super) fn number(&self) -> u64 {
         self.number
     }

@@ -1,4 +1,4 @@
-//! Logs: what a rig recorded, read into increments over intervals.
+//! Logs: the recorded data of a rig, converted to increments over intervals.
 
 mod assemble;
 mod clock;
@@ -31,46 +31,45 @@ pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
 pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded};
-pub(crate) use table::{Head, MOST_COLUMNS, all as all_columns, most_rows};
+pub(crate) use table::{BinaryColumns, Head, MOST_COLUMNS, all as all_columns, most_rows};
 pub use table::{LogHead, peek};
 
 use crate::error::{IoError, LogError};
 use crate::rig::{LogFormat, Rig};
 
-/// A run: its rig and what was recorded, in SI units and radians.
+/// A run: its rig and its recording, in SI units and radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
-    /// What the rig file says.
+    /// The content of the rig file.
     pub rig: Rig,
-    /// Site of the table: of the rig file or else of the header of the log.
+    /// The site of the table, from the rig file or otherwise from the header of the log.
     pub station: Station,
-    /// What was recorded, along the body axes whose z is the spin axis.
+    /// The recording, along the body axes whose z is the spin axis.
     pub recording: Recording,
-    /// What reading it has shown.
+    /// The findings while reading it.
     pub summary: LogSummary,
-    /// What a PSINS log says of itself.
+    /// The header of a PSINS log.
     pub psins_header: Option<PsinsHeader>,
 }
 
-/// Reads a rig file and the log that it names.
+/// Reads a rig file and its log.
 ///
 /// # Errors
-/// [`IoError`] if either cannot be read or says something wrong.
+/// [`IoError`] if either cannot be read or is invalid.
 pub fn read(rig: &Path) -> Result<Loaded, IoError> {
     read_log(Rig::read(rig)?, LogPolicy::default())
 }
 
-/// Reads the log that `rig` names.
+/// Reads the log of `rig`.
 ///
-/// Mean rates are turned into increments over the time since the sample before; increments are
-/// taken as they are. Where only the commanded [`TableSpec`](crate::TableSpec) is known, its mean
-/// rate over each interval becomes the table rate; the profile begins with the first interval.
+/// Mean rates are multiplied by the time since the previous sample; increments are unchanged. If only the commanded
+/// [`TableSpec`](crate::TableSpec) is known, its mean rate over each interval becomes the table rate; the profile begins with the
+/// first interval.
 ///
 /// # Errors
-/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if it holds anything but finite
-/// numbers in the columns that are asked for, if its times do not increase, have longer gaps or
-/// more of them than `policy` accepts or do not fit the stated rate, if a gyro never moves, or if the table angle
-/// steps by about half a turn.
+/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if a requested column contains anything but finite numbers, if
+/// its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
+/// stuck, or if a step of the table angle is about half a turn.
 pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     let (mut recording, mut summary, psins_header) = match &rig.log.format {
         LogFormat::Columns(columns) => {
@@ -98,9 +97,9 @@ pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     Ok(Loaded { rig, station, recording, summary, psins_header })
 }
 
-/// Keeps the part of a recording that the rig's window names, and refuses static intervals of which it holds nothing.
+/// Keeps the part of a recording in the rig's window, and refuses static intervals without any sample in it.
 ///
-/// Where a log counts from so long ago that its times are counted from an origin, both are understood.
+/// If the times of a log are counted from an origin, both may be stated in the time of the log or from the origin.
 fn window(
     rig: &mut Rig,
     recording: &mut Recording,
@@ -116,7 +115,7 @@ fn window(
         let last = recording.times.last().copied().unwrap_or_default();
         LogError::of(&rig.log.path, LogProblem::OutsideLog { key, from, to, first, last })
     };
-    // A sample's interval may begin a rounding error before the window.
+    // A sample's interval may begin before the window by a rounding error.
     let slack = 0.01 * summary.nominal_interval;
     let samples = |[from, to]: [f64; 2], recording: &Recording| {
         let mut samples = recording.times.iter().zip(&recording.increments);
@@ -144,7 +143,7 @@ fn window(
     }
 }
 
-/// The commanded table rate over each interval, if the rig tells the profile, which begins `late`
+/// The commanded table rate over each interval, if the rig has a profile, which begins `late`
 /// seconds before the recording.
 fn commanded(rig: &Rig, recording: &Recording, late: f64) -> Result<Option<Vec<f64>>, IoError> {
     let Some(profile) = rig.table.as_ref().and_then(|table| table.profile.as_ref()) else {

@@ -1,27 +1,27 @@
-//! What can be wrong with a log.
+//! The problems of a log.
 
 use crate::quantity::did_you_mean;
 
-/// What is wrong with a log, or with one line of it.
+/// The problem of a log, or of one line of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogProblem {
-    /// There is nothing in it.
+    /// The log is empty.
     #[error("the file is empty")]
     Empty,
-    /// No line of it has an end.
+    /// No line has a line end.
     #[error("no line ends in a line feed; is the file cut short, or written on an old Mac?")]
     NoLineEnd,
-    /// There is a header and nothing else.
+    /// The log has a header only.
     #[error("only a header, no samples")]
     OnlyHeader,
-    /// There are too few samples to tell an interval.
+    /// There are too few samples to determine an interval.
     #[error("{samples} sample, at least 2 are needed")]
     TooShort {
-        /// How many there are.
+        /// The number of samples.
         samples: usize,
     },
-    /// It is a file of another format.
+    /// The log is a file of another format.
     #[error("this is {name}, which is not read: {remedy}")]
     Container {
         /// The format's name, with its article.
@@ -29,43 +29,43 @@ pub enum LogProblem {
         /// How to read or to convert it.
         remedy: &'static str,
     },
-    /// It is not UTF-8 text.
+    /// The log is not UTF-8 text.
     #[error("not UTF-8 text; is it binary or UTF-16?")]
     NotText,
-    /// A line is longer than any log's.
+    /// A line is longer than permitted.
     #[error("a line of more than {most} bytes")]
     LongLine {
-        /// The most that is read.
+        /// The maximum length.
         most: u64,
     },
-    /// A line has more columns than any log's.
+    /// A line has more columns than permitted.
     #[error("more than {most} columns")]
     ManyColumns {
-        /// The most that is read.
+        /// The maximum number.
         most: usize,
     },
     /// A quotation mark is not closed.
     #[error("a quotation mark is not closed")]
     OpenQuote,
-    /// A line has another number of fields than the first.
+    /// A line has a different number of fields than the first.
     #[error("{got} fields, expected {expected}{}", cut(*.got, *.expected))]
     FieldCount {
-        /// How many it has.
+        /// Its number of fields.
         got: usize,
-        /// How many the first line has.
+        /// The number of fields of the first line.
         expected: usize,
     },
-    /// A column is not there.
+    /// A column does not exist.
     #[error("no column {column:?}; the columns are {present}{}", did_you_mean(.suggestion.as_deref()))]
     NoColumn {
-        /// The column that is wanted.
+        /// The requested column.
         column: String,
-        /// What may have been meant.
+        /// The most similar existing column.
         suggestion: Option<String>,
-        /// The columns that are there.
+        /// The existing columns.
         present: String,
     },
-    /// Two columns have the name that is wanted.
+    /// Two columns have the requested name.
     #[error("two columns are called {column:?}")]
     TwoColumns {
         /// The name.
@@ -85,7 +85,7 @@ pub enum LogProblem {
         /// The field.
         text: String,
     },
-    /// A field is infinite or not a number.
+    /// A field is infinite or NaN.
     #[error("column {column:?}: {text:?} is not finite")]
     NotFinite {
         /// The column.
@@ -93,17 +93,17 @@ pub enum LogProblem {
         /// The field.
         text: String,
     },
-    /// A number is larger than any that is measured.
+    /// A number is larger than any plausible reading.
     #[error("column {column:?}: {value:e} {unit} is not plausible; check this line and the unit")]
     BeyondReason {
         /// The column.
         column: String,
         /// The number in SI units, radians or degrees Celsius.
         value: f64,
-        /// Which of these.
+        /// The unit.
         unit: &'static str,
     },
-    /// Samples follow each other as no log's do.
+    /// The sample interval is implausible.
     #[error(
         "samples are {interval:.3e} s apart, expected from {least:e} s to {most:e} s; check the time \
          column and its unit"
@@ -111,12 +111,12 @@ pub enum LogProblem {
     Pace {
         /// The median interval \[s\].
         interval: f64,
-        /// The least that is believed \[s\].
+        /// The minimum plausible interval \[s\].
         least: f64,
-        /// The most \[s\].
+        /// The maximum plausible interval \[s\].
         most: f64,
     },
-    /// A sample counter is not whole.
+    /// A sample counter is not an integer.
     #[error("column {column:?}: {count} is not a whole number of samples")]
     PartOfASample {
         /// The column.
@@ -124,59 +124,59 @@ pub enum LogProblem {
         /// The number.
         count: f64,
     },
-    /// Time does not go on.
+    /// Time does not increase.
     #[error("time goes from {before} s to {now} s, it must increase")]
     TimeNotIncreasing {
-        /// The time of the line before \[s\].
+        /// The time of the previous line \[s\].
         before: f64,
         /// The time of this line \[s\].
         now: f64,
     },
-    /// Too much time passes between two samples.
+    /// A gap between two samples is too long.
     #[error("a gap of {length:.6} s after {after} s, more than {largest} s; cut the log there")]
     LongGap {
-        /// How long it is \[s\].
+        /// The length of the gap \[s\].
         length: f64,
-        /// The time of the line before \[s\].
+        /// The time of the previous line \[s\].
         after: f64,
-        /// The longest that is accepted \[s\].
+        /// The maximum accepted length \[s\].
         largest: f64,
     },
-    /// The gaps are too much of a log's time.
+    /// The gaps make up too much of a log's time.
     #[error(
         "{count} gaps are {lost:.6} s of the log's {lasting:.6} s, more than {:.0} %; are its time \
          stamps those of samples, or of packets?", most * 100.0
     )]
     ManyGaps {
-        /// How many there are.
+        /// The number of gaps.
         count: usize,
-        /// How long they are in all \[s\].
+        /// The total length of the gaps \[s\].
         lost: f64,
-        /// How long the log is \[s\].
+        /// The duration of the log \[s\].
         lasting: f64,
-        /// The largest share that is accepted.
+        /// The maximum accepted fraction.
         most: f64,
     },
-    /// Increments are missing, and nothing says what became of them.
+    /// Increments are missing, and the rig file does not state the meaning of the increment after the gap.
     #[error(
         "a gap of {length:.6} s after {after} s in a log of increments; state in [log] whether the next \
          increment covers it: gaps = \"accumulated\" or gaps = \"held\""
     )]
     LostIncrements {
-        /// How long it is \[s\].
+        /// The length of the gap \[s\].
         length: f64,
-        /// The time of the line before \[s\].
+        /// The time of the previous line \[s\].
         after: f64,
     },
-    /// The samples do not follow each other at the rate that the rig says.
+    /// The sampling rate differs from that in the rig file.
     #[error("the rate is {measured:.3} Hz in the time column and {stated:.3} Hz in [log] rate")]
     WrongRate {
-        /// The rate of the samples \[Hz\].
+        /// The measured rate \[Hz\].
         measured: f64,
         /// The rate in the rig file \[Hz\].
         stated: f64,
     },
-    /// A channel never moves.
+    /// A channel is stuck.
     #[error("{channel} is {value} in every sample: the channel is stuck or the wrong column")]
     Stuck {
         /// The channel, as in `gyro x ("gx")`.
@@ -184,7 +184,7 @@ pub enum LogProblem {
         /// The number in its column.
         value: f64,
     },
-    /// The table angle steps so far that its direction cannot be told.
+    /// A step of the table angle is too large for its direction to be determined.
     #[error(
         "the table angle moves by {turns:.3} of a turn in one sample, so its direction is ambiguous; log \
          it at a higher rate, or unwrapped"
@@ -193,14 +193,14 @@ pub enum LogProblem {
         /// The step, in turns.
         turns: f64,
     },
-    /// Two files of one run do not belong together sample by sample.
+    /// Two files of one run have different numbers of samples.
     #[error("{samples} samples, but {other} has {expected}; they must be sampled together")]
     UnequalLength {
-        /// How many samples this file has.
+        /// The number of samples of this file.
         samples: usize,
         /// The other file.
         other: String,
-        /// How many that has.
+        /// The number of samples of the other file.
         expected: usize,
     },
     /// Two files of one run have different times.
@@ -229,101 +229,101 @@ pub enum LogProblem {
         first: f64,
         /// The last temperature's time \[s\].
         last: f64,
-        /// The time without one \[s\].
+        /// The time without a temperature \[s\].
         time: f64,
     },
-    /// The log goes on after the table profile has ended.
+    /// The log continues after the end of the table profile.
     #[error("the log lasts {log:.3} s, the [table] profile only {profile:.3} s")]
     BeyondProfile {
-        /// How long the log lasts \[s\].
+        /// The duration of the log \[s\].
         log: f64,
-        /// How long the profile lasts \[s\].
+        /// The duration of the profile \[s\].
         profile: f64,
     },
-    /// The stated window or static interval holds none of the log.
+    /// The stated window or static interval contains no sample of the log.
     #[error(
         "[log] {key} is from {from} to {to} s, and the log from {first} to {last} s; times are those of its time column"
     )]
     OutsideLog {
         /// The key.
         key: &'static str,
-        /// From when \[s\].
+        /// The start of the stated span \[s\].
         from: f64,
-        /// To when \[s\].
+        /// The end of the stated span \[s\].
         to: f64,
-        /// When the log begins \[s\].
+        /// The start of the log \[s\].
         first: f64,
-        /// When it ends \[s\].
+        /// The end of the log \[s\].
         last: f64,
     },
     /// A binary file ends within a row.
     #[error("the last row is cut short: rows have {bytes} bytes")]
     PartOfARow {
-        /// How many bytes a row has.
+        /// The number of bytes of a row.
         bytes: usize,
     },
-    /// A file says of few bytes that they are very many rows.
+    /// A small file claims a very large number of rows.
     #[error("more than {most} rows, the most that are read of a log of this size")]
     ManyRows {
-        /// The most that are read.
+        /// The maximum number of rows.
         most: u64,
     },
-    /// A file is not what its format demands.
+    /// A file violates its format.
     #[error("not a {format} file, or a damaged one: {message}")]
     Damaged {
         /// The format.
         format: &'static str,
-        /// What is wrong.
+        /// The violation.
         message: String,
     },
-    /// Pages are compressed with a codec that is not read.
+    /// Pages are compressed with an unsupported codec.
     #[error("compressed with {codec}; write it uncompressed, or with snappy or gzip")]
     Codec {
         /// The codec.
         codec: String,
     },
-    /// The same row over and over, as where a file has a hole or a logger hangs.
+    /// The same row is repeated very often, for example because of a hole in the file or a logger that hangs.
     #[error("equal to the previous row, as are {times} rows after it; does the file have a gap?")]
     SameRow {
-        /// How many more there are, at least.
+        /// The minimum number of repetitions.
         times: u64,
     },
-    /// A column holds no numbers, or not one a row.
+    /// A column does not contain one number per row.
     #[error("column {column:?} is {found}, expected one number per row")]
     WrongColumn {
         /// The column.
         column: String,
-        /// What it is.
+        /// The content of the column.
         found: String,
     },
-    /// None of a log's messages is one of the IMU's.
+    /// A log contains no IMU message.
     #[error("no RAWIMUA, RAWIMUSA, RAWIMUXA or RAWIMUSXA message")]
     NoMessages,
     /// A message has no checksum.
     #[error("a message without a checksum; is the line cut short?")]
     NoChecksum,
-    /// A message is not what was sent.
+    /// The checksum of a message is wrong.
     #[error("the checksum is {found:08x}, but {stated:?} in the line; the line is damaged")]
     Checksum {
-        /// What the message says it is.
+        /// The checksum in the message.
         stated: String,
-        /// What it is.
+        /// The computed checksum.
         found: u32,
     },
-    /// A PSINS header's number makes no sense.
+    /// A number of a PSINS header is implausible.
     #[error("the header's {name} is {value}, expected {expected}")]
     Header {
-        /// What the number is.
+        /// The meaning of the number.
         name: &'static str,
         /// The number.
         value: f64,
-        /// What it should be.
+        /// The expected value.
         expected: &'static str,
     },
     /// A PSINS log ends within its header.
     #[error("the header has {rows} of its 3 rows")]
     ShortHeader {
-        /// How many rows there are.
+        /// The number of rows.
         rows: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! PSINS text logs: three rows of header, then six integer increments a sample.
+//! PSINS text logs: three rows of header, then six integer increments per sample.
 
 use std::io::BufRead;
 
@@ -18,28 +18,28 @@ use crate::error::{IoError, LogError};
 use crate::quantity::kinds;
 use crate::rig::{Rig, Stamp};
 
-/// What a PSINS log says of itself, in SI units and radians.
+/// The header of a PSINS log, in SI units and radians.
 ///
-/// Its frames are ours: body right, front, up; navigation east, north, up; and
-/// `C_b^n = Rz(yaw) Rx(pitch) Ry(roll)`. The attitude comes without an uncertainty, and is
-/// therefore never taken for that of the rig.
+/// Its frames are those of rins: body right, front, up; navigation east, north, up; and
+/// `C_b^n = Rz(yaw) Rx(pitch) Ry(roll)`. The attitude has no stated uncertainty, and is
+/// therefore never used as the attitude of the rig.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PsinsHeader {
-    /// The attitude at the start \[rad\].
+    /// The initial attitude \[rad\].
     pub attitude: EulerAngles,
-    /// The velocity at the start, east, north, up \[m/s\].
+    /// The initial velocity, east, north, up \[m/s\].
     pub velocity: Vector3<f64>,
-    /// The place.
+    /// The site.
     pub site: Site,
-    /// The time at the start \[s\].
+    /// The start time \[s\].
     pub start: f64,
     /// The sampling interval \[s\].
     pub interval: f64,
-    /// The gravity that its unit ug is a millionth of \[m/s²\].
+    /// The gravity in the definition of its unit ug \[m/s²\].
     pub gravity: f64,
-    /// One of the gyros' numbers \[rad\].
+    /// The scale of the gyros' counts \[rad\].
     pub angle_scale: Vector3<f64>,
-    /// One of the accelerometers' numbers \[m/s\].
+    /// The scale of the accelerometers' counts \[m/s\].
     pub velocity_scale: Vector3<f64>,
 }
 
@@ -58,7 +58,7 @@ const HEADER: [[&str; 6]; 3] = [
 
 const NUMBERS: [&str; 6] = ["gyro x", "gyro y", "gyro z", "accel x", "accel y", "accel z"];
 
-/// Reads the log of a rig whose format is `psins`. A sample ends one interval after the one before.
+/// Reads the log of a rig whose format is `psins`. The ends of the samples are one interval apart.
 pub(super) fn read(rig: &Rig) -> Result<(Recording, LogSummary, PsinsHeader), IoError> {
     read_from(&mut Lines::open(&rig.log.path)?, rig)
 }

@@ -1,4 +1,4 @@
-//! Increments over the intervals of one clock, divided anew at the ticks of another.
+//! Resampling of increments from the intervals of one clock to those of another.
 
 use std::ops::Range;
 
@@ -7,15 +7,13 @@ use nalgebra::Vector3;
 use super::clock::Clock;
 use super::files::TriadValues;
 
-/// By how much of an interval two files may miss each other where they begin and end: the rounding
+/// The maximum mismatch of two files at their beginning and end, as a fraction of an interval: the rounding
 /// of their stamps.
 const ROUNDING: f64 = 1e-6;
 
-/// The increments over those intervals of `onto` that the intervals of `from` cover, and which these
-/// are.
+/// The increments over those intervals of `onto` that the intervals of `from` cover, with the range of these intervals.
 ///
-/// The mean rate of each of `from`'s intervals is held over it, so that whatever is divided, the
-/// sum stays what it was.
+/// The mean rate is held over each interval of `from`, so that the sum of the increments is preserved.
 pub(super) fn redivide(
     from: &Clock,
     increments: &TriadValues,
@@ -69,7 +67,7 @@ mod tests {
     use proptest::prelude::*;
     use rins_testing::assert_close;
 
-    /// Intervals one after another from `start`.
+    /// Consecutive intervals from `start`.
     fn clock(start: f64, intervals: Vec<f64>) -> Clock {
         let mut end = start;
         let ends = intervals.iter().map(|interval| {
@@ -95,7 +93,7 @@ mod tests {
             let (range, divided) = redivide(&from, &increments, &onto);
             prop_assert!(divided.iter().all(|list| list.len() == range.len()));
             prop_assume!(!range.is_empty());
-            // The sum over the common time is that of the whole less what sticks out.
+            // The sum over the common time is that of the whole minus the parts outside.
             let begin = onto.ends[range.start] - onto.intervals[range.start];
             let end = onto.ends[range.end - 1];
             let up_to = |list: &[f64], time: f64| {
@@ -127,7 +125,7 @@ mod tests {
         let (from, onto) = (clock(0.0, vec![0.3; 20]), clock(0.1, vec![0.25; 40]));
         let (range, divided) =
             redivide(&from, &[1.0, 2.0, 3.0].map(|axis| vec![0.6 * axis; 20]), &onto);
-        // The one ends after 6 s, and the other reaches 5.85 s in 23 intervals.
+        // One ends at 6 s, and the other reaches 5.85 s with 23 intervals.
         assert_eq!(range, 0..23);
         for (axis, list) in (1..).zip(divided) {
             assert_eq!(list.len(), 23);

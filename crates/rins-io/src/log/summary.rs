@@ -1,17 +1,17 @@
-//! What reading a log has shown.
+//! The findings while reading a log.
 
 use std::path::PathBuf;
 
 use super::overflow::Overflow;
 
-/// What a log may do.
+/// The limits that a log must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogPolicy {
-    /// The longest gap between two samples that is accepted \[s\].
+    /// The longest accepted gap between two samples \[s\].
     ///
-    /// Over a shorter one the mean rate of the sample that ends it is held.
+    /// Over a shorter gap the mean rate of the sample at its end is held.
     pub largest_gap: f64,
-    /// The largest share of a log's time that its gaps may be.
+    /// The maximum accepted fraction of the gaps in a log's time.
     pub largest_loss: f64,
 }
 
@@ -21,89 +21,89 @@ impl Default for LogPolicy {
     }
 }
 
-/// What reading a log has shown.
+/// The findings while reading a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogSummary {
     /// The number of samples.
     pub samples: usize,
-    /// The nominal interval \[s\]: the rig's, or else the median.
+    /// The nominal interval \[s\]: that of the rig, otherwise the median.
     pub nominal_interval: f64,
-    /// How much the intervals that are not gaps differ from it, rms \[s\].
+    /// The rms difference of the intervals that are not gaps from the nominal interval \[s\].
     pub jitter_rms: f64,
     /// The steps longer than one and a half nominal intervals.
     pub gaps: Vec<Gap>,
-    /// The lines that are left out, file by file.
+    /// The omitted lines, file by file.
     pub left_out: Vec<LeftOut>,
-    /// What is to be added to a recording's times to have those of the log \[s\]. It is zero
-    /// unless the log counts from so long ago that a double would lose nanoseconds.
+    /// The origin that is added to a recording's times to get those of the log \[s\]. It is zero
+    /// unless the log's times are so large that a double would lose nanoseconds.
     pub time_origin: f64,
-    /// What became of accelerometers that have a clock of their own.
+    /// The resampling of accelerometers with a clock of their own.
     pub redivided: Option<Redivided>,
     /// The overflows of the time column over which it is continued.
     pub overflows: Vec<Overflow>,
-    /// The even clock whose stamps stand in the place of rounded ones.
+    /// The even clock whose stamps replace rounded ones.
     pub rounded: Option<Rounded>,
-    /// How many ramps between the rates of a commanded profile are shaped as the gyro about the axis shows them, and not
-    /// as the profile says.
+    /// The number of ramps between the rates of a commanded profile whose shape is taken from the gyro about the axis instead of
+    /// the profile.
     pub ramps: usize,
 }
 
-/// Time stamps that are those of an even clock, rounded.
+/// The rounded time stamps of an even clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
-    /// What they were rounded to \[s\].
+    /// The rounding unit \[s\].
     pub unit: f64,
     /// The interval of the clock \[s\].
     pub interval: f64,
 }
 
-/// Samples of one clock that were divided anew at the ticks of another.
+/// The resampling of one clock's samples to the intervals of another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Redivided {
-    /// How many samples there were.
+    /// The number of samples before.
     pub samples: usize,
-    /// How many samples of the other clock are left out, because they lie outside of these.
+    /// The number of samples of the other clock that are omitted because they are outside of these.
     pub left_out: usize,
-    /// How long those last that are left out at the start \[s\].
+    /// The duration of the omitted samples at the start \[s\].
     pub late: f64,
 }
 
-/// A line that is no sample of the recording.
+/// A line that is not a sample of the recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// The file.
+    /// The line, from 1; the row if a file has no lines.
     pub path: PathBuf,
     /// The line, from 1; the row where a file has no lines.
     pub line: u64,
-    /// Why it is left out.
+    /// The reason.
     pub reason: Omission,
 }
 
-/// Why a line is left out.
+/// The reason why a line is omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Omission {
-    /// It repeats, time stamp and all, the one before it, as some loggers do.
+    /// It repeats the previous line including its time stamp, as some loggers do.
     Repeated,
-    /// It is the last one and has no line end: its last number may be cut short and still be one.
+    /// It is the last line and has no line end: its last number may be truncated.
     Unfinished,
 }
 
 /// A gap in a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// The index of the sample whose interval holds it.
+    /// The index of the sample whose interval contains it.
     pub sample: usize,
-    /// The line that ends it.
+    /// The line at its end.
     pub line: u64,
-    /// The time of the line before \[s\].
+    /// The time of the previous line \[s\].
     pub after: f64,
-    /// From there to the line that ends it \[s\].
+    /// The time from the previous line to the line at its end \[s\].
     pub length: f64,
 }
 
 impl LogSummary {
-    /// Of samples without jitter or gaps.
+    /// A summary of samples without jitter or gaps.
     pub(super) fn even(samples: usize, nominal_interval: f64) -> Self {
         Self {
             samples,

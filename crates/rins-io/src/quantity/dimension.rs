@@ -1,20 +1,20 @@
-//! Dimensions: what kind of thing a quantity measures.
+//! Dimensions of quantities.
 
 use core::fmt;
 
-/// The largest exponent of a base, in halves; beyond it a unit is a slip of the pen.
+/// The largest exponent of a base, in halves; a larger one is a typing error.
 const LARGEST_EXPONENT: i32 = 40;
 
 /// A product of powers of the base quantities angle, time, length, temperature and magnetic flux density.
 ///
-/// Exponents are counted in halves, because noise densities carry square roots. Angle is a base of
-/// its own, so that an angle is not taken for a ratio nor `rad/s` for a frequency.
+/// Exponents are counted in halves, because noise densities contain square roots. Angle is a base
+/// dimension, so that an angle is not confused with a ratio nor `rad/s` with a frequency.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dimension {
     halves: [i32; 5],
 }
 
-/// Names of the dimensions that occur in rig files; the first that fits is used.
+/// Names of the dimensions in rig files; the first match is used.
 const NAMES: &[(Dimension, &str)] = &[
     (Dimension::RATIO, "a ratio"),
     (Dimension::ANGLE, "an angle"),
@@ -35,44 +35,44 @@ const NAMES: &[(Dimension, &str)] = &[
 ];
 
 impl Dimension {
-    /// Of a pure number.
+    /// The dimension of a pure number.
     pub const RATIO: Self = Self::halves(0, 0, 0, 0);
-    /// Of an angle.
+    /// The dimension of an angle.
     pub const ANGLE: Self = Self::halves(2, 0, 0, 0);
-    /// Of a time.
+    /// The dimension of a time.
     pub const TIME: Self = Self::halves(0, 2, 0, 0);
-    /// Of a length.
+    /// The dimension of a length.
     pub(crate) const LENGTH: Self = Self::halves(0, 0, 2, 0);
-    /// Of a temperature.
+    /// The dimension of a temperature.
     pub const TEMPERATURE: Self = Self::halves(0, 0, 0, 2);
-    /// Of a temperature that changes.
+    /// The dimension of a rate of change of temperature.
     pub(crate) const TEMPERATURE_RATE: Self = Self::halves(0, -2, 0, 2);
-    /// Of a magnetic flux density.
+    /// The dimension of a magnetic flux density.
     pub(crate) const MAGNETIC_FIELD: Self = Self { halves: [0, 0, 0, 0, 2] };
-    /// Of a frequency, which is not a rate: it has no angle.
+    /// The dimension of a frequency, which contains no angle and thus differs from a rate.
     pub const FREQUENCY: Self = Self::halves(0, -2, 0, 0);
-    /// Of an angular rate.
+    /// The dimension of an angular rate.
     pub(crate) const ANGULAR_RATE: Self = Self::halves(2, -2, 0, 0);
-    /// Of an angular acceleration.
+    /// The dimension of an angular acceleration.
     pub(crate) const ANGULAR_ACCELERATION: Self = Self::halves(2, -4, 0, 0);
-    /// Of a velocity, or an increment of one.
+    /// The dimension of a velocity or velocity increment.
     pub const VELOCITY: Self = Self::halves(0, -2, 2, 0);
-    /// Of an acceleration or a specific force.
+    /// The dimension of an acceleration or specific force.
     pub const ACCELERATION: Self = Self::halves(0, -4, 2, 0);
-    /// Of a rate's root power density, which is also that of an angle random walk.
+    /// The dimension of the noise density of a rate, which is also that of an angle random walk.
     pub(crate) const RATE_NOISE: Self = Self::halves(2, -1, 0, 0);
-    /// Of an acceleration's root power density, which is also that of a velocity random walk.
+    /// The dimension of the noise density of an acceleration, which is also that of a velocity random walk.
     pub(crate) const ACCELERATION_NOISE: Self = Self::halves(0, -3, 2, 0);
-    /// Of a rate random walk.
+    /// The dimension of a rate random walk.
     pub(crate) const RATE_RANDOM_WALK: Self = Self::halves(2, -3, 0, 0);
-    /// Of an acceleration random walk.
+    /// The dimension of an acceleration random walk.
     pub(crate) const ACCELERATION_RANDOM_WALK: Self = Self::halves(0, -5, 2, 0);
 
     const fn halves(angle: i32, time: i32, length: i32, temperature: i32) -> Self {
         Self { halves: [angle, time, length, temperature, 0] }
     }
 
-    /// The dimension of a product; `None` if an exponent gets absurd.
+    /// The dimension of a product; `None` if an exponent exceeds its limit.
     pub(super) fn times(self, other: Self) -> Option<Self> {
         let mut halves = self.halves;
         for (sum, exponent) in halves.iter_mut().zip(other.halves) {
@@ -81,8 +81,8 @@ impl Dimension {
         Self::checked(halves)
     }
 
-    /// The dimension of a power whose exponent is `halves`/2; `None` if it is not a whole number
-    /// of halves or gets absurd.
+    /// The dimension of a power whose exponent is `halves`/2; `None` if the result is not an integer number
+    /// of halves or exceeds the limit.
     pub(super) fn power(self, halves: i32) -> Option<Self> {
         let mut powered = self.halves;
         for exponent in &mut powered {
@@ -100,7 +100,7 @@ impl Dimension {
     }
 }
 
-/// A name such as "an angular rate" or, where none is common, the SI units.
+/// Prints a name such as "an angular rate" or, if there is none, the SI units.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| dimension == self) {

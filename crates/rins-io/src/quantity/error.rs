@@ -1,66 +1,66 @@
-//! What can be wrong with a quantity.
+//! Errors of quantities.
 
 use super::dimension::Dimension;
 
-/// Why a text is not the quantity that is wanted.
+/// The reason why a text is not the expected quantity.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum QuantityError {
-    /// It does not begin with a number.
+    /// The text does not begin with a number.
     #[error("{text:?} does not begin with a number")]
     NotANumber {
         /// The text.
         text: String,
     },
-    /// The number, or its value in SI units, is infinite or not a number.
+    /// The number, or its value in SI units, is infinite or NaN.
     #[error("{text:?} is not finite")]
     NotFinite {
         /// The text.
         text: String,
     },
-    /// Nothing follows the number.
+    /// The number has no unit.
     #[error("{text:?} has no unit")]
     NoUnit {
         /// The text.
         text: String,
     },
-    /// A unit is not known.
+    /// A unit is unknown.
     #[error("{text:?}: unknown unit {unit:?}{}", did_you_mean(*.suggestion))]
     UnknownUnit {
         /// The text.
         text: String,
-        /// The unit in it that is not known.
+        /// The unknown unit.
         unit: String,
-        /// What may have been meant.
+        /// The most similar unit.
         suggestion: Option<&'static str>,
     },
-    /// The unit is not a product of units.
+    /// The unit is not a valid product of units.
     #[error("{text:?} is not a product of units such as \"deg/h/sqrt(Hz)\"")]
     Malformed {
         /// The text.
         text: String,
     },
-    /// It measures something else.
+    /// The dimension is wrong.
     #[error("{text:?} is {got}, expected {expected} such as {example:?}")]
     WrongDimension {
         /// The text.
         text: String,
-        /// What it measures.
+        /// Its dimension.
         got: Dimension,
-        /// What it should measure.
+        /// The expected dimension.
         expected: &'static str,
-        /// A text that would do.
+        /// A valid example.
         example: &'static str,
     },
-    /// It lies outside the range in which it makes sense.
+    /// The value is out of range.
     #[error("{text:?} is out of range, expected {expected}")]
     OutOfRange {
         /// The text.
         text: String,
-        /// The range, in words.
+        /// The permitted range.
         expected: &'static str,
     },
-    /// It is too long to be a quantity.
+    /// The text is too long.
     #[error("a text of {length} characters is too long for a quantity")]
     TooLong {
         /// Its length.

@@ -1,4 +1,4 @@
-//! What the keys of a file stand for: a dimension, a range, and an example to show.
+//! Kinds of quantities that keys of files expect: dimension, range, and example.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -6,14 +6,14 @@ use rins_frames::units::DEG;
 
 use super::{Dimension, Quantity, QuantityError};
 
-/// A kind of quantity that a key of a file stands for.
+/// A kind of quantity that a key of a file expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kind {
-    /// With its article: "a rate noise density".
+    /// The name with its article: "a rate noise density".
     pub name: &'static str,
     /// Its dimension.
     pub dimension: Dimension,
-    /// A text that would do.
+    /// A valid example.
     pub example: &'static str,
     range: Range,
 }
@@ -27,7 +27,7 @@ enum Range {
     Within { low: f64, high: f64, words: &'static str },
 }
 
-/// The largest number in SI units and the least positive one: their squares are still numbers.
+/// The largest number in SI units; the next constant is the smallest positive one. Their squares neither overflow nor underflow.
 const LARGEST: f64 = 1e12;
 const LEAST: f64 = 1e-30;
 
@@ -80,9 +80,9 @@ impl Kind {
     }
 }
 
-/// The latitude up to which east is told from north \[deg\].
+/// The maximum absolute latitude, up to which east and north are defined \[deg\].
 pub(crate) const MOST_LATITUDE: f64 = 89.9;
-/// What a latitude should be.
+/// The permitted latitudes.
 pub(crate) const LATITUDE_RANGE: &str = "a latitude from -89.9 to 89.9 deg; the poles at -90 and \
                                          90 deg are excluded: east is not defined there";
 
@@ -128,7 +128,7 @@ pub(crate) const PITCH: Kind = Kind::new(
     "20 deg",
     Range::Within { low: -FRAC_PI_2, high: FRAC_PI_2, words: "a pitch from -90 to 90 deg" },
 );
-/// The standard deviation of an attitude that an alignment need not find.
+/// The standard deviation of a given attitude, which replaces an alignment.
 pub const ATTITUDE_SIGMA: Kind = Kind::new(
     "an angle",
     Dimension::ANGLE,
@@ -142,7 +142,7 @@ pub const ATTITUDE_SIGMA: Kind = Kind::new(
 /// The standard deviation of a small angle.
 pub(crate) const ANGLE_SIGMA: Kind =
     Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
-/// The resolution of an angle; zero is none.
+/// The resolution of an angle; zero means none.
 pub(crate) const ANGLE_RESOLUTION: Kind =
     Kind::new("an angle", Dimension::ANGLE, "0.1 arcsec", Range::NotNegative);
 /// A small angle of either sign.
@@ -160,89 +160,89 @@ pub const SAMPLE_RATE: Kind = Kind::new(
     "50 Hz",
     Range::Within { low: 1e-3, high: 1e6, words: "a sampling rate from 0.001 Hz to 1 MHz" },
 );
-/// A time by which one signal is late.
+/// The latency of a signal.
 pub(crate) const LATENCY: Kind = Kind::new(
     "a time",
     Dimension::TIME,
     "1 ms",
     Range::Within { low: -10.0, high: 10.0, words: "a latency from -10 to 10 s" },
 );
-/// By how much one clock is ahead of another.
+/// The offset of one clock from another.
 pub(crate) const CLOCK_OFFSET: Kind = Kind::new("a time", Dimension::TIME, "12 ms", Range::Any);
-/// A time of a log.
+/// A time in a log.
 pub(crate) const LOG_TIME: Kind = Kind::new("a time", Dimension::TIME, "10 s", Range::Any);
 /// A time span.
 pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::Positive);
-/// A table's rate.
+/// A table rate.
 pub const TABLE_RATE: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "10 deg/s", Range::Any);
-/// A table's acceleration.
+/// A table acceleration.
 pub const TABLE_ACCELERATION: Kind = Kind::new(
     "an angular acceleration",
     Dimension::ANGULAR_ACCELERATION,
     "5 deg/s^2",
     Range::Positive,
 );
-/// A ratio's standard deviation.
+/// The standard deviation of a ratio.
 pub(crate) const RATIO_SIGMA: Kind =
     Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Positive);
 /// A ratio of either sign.
 pub const RATIO: Kind = Kind::new("a ratio", Dimension::RATIO, "300 ppm", Range::Any);
-/// The root power density of a gyro's noise.
+/// The noise density of a gyro.
 pub const GYRO_NOISE: Kind = Kind::new(
     "a rate noise density",
     Dimension::RATE_NOISE,
     "0.02 deg/h/sqrt(Hz)",
     Range::Positive,
 );
-/// A gyro's bias.
+/// A gyro bias.
 pub const GYRO_BIAS: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Any);
-/// The standard deviation of a gyro's bias.
+/// The standard deviation of a gyro bias.
 pub(crate) const GYRO_BIAS_SIGMA: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.05 deg/h", Range::Positive);
-/// A gyro's bias instability.
+/// The bias instability of a gyro.
 pub const GYRO_BIAS_INSTABILITY: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.005 deg/h", Range::NotNegative);
-/// A gyro's range or resolution.
+/// The range or resolution of a gyro.
 pub(crate) const GYRO_READING: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "300 deg/s", Range::Positive);
-/// A gyro's rate random walk.
+/// The rate random walk of a gyro.
 pub(crate) const GYRO_RANDOM_WALK: Kind = Kind::new(
     "a rate random walk density",
     Dimension::RATE_RANDOM_WALK,
     "0.01 deg/h/sqrt(h)",
     Range::NotNegative,
 );
-/// The root power density of an accelerometer's noise.
+/// The noise density of an accelerometer.
 pub const ACCEL_NOISE: Kind = Kind::new(
     "an acceleration noise density",
     Dimension::ACCELERATION_NOISE,
     "30 ug/sqrt(Hz)",
     Range::Positive,
 );
-/// An accelerometer's bias.
+/// An accelerometer bias.
 pub const ACCEL_BIAS: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Any);
-/// The standard deviation of an accelerometer's bias.
+/// The standard deviation of an accelerometer bias.
 pub(crate) const ACCEL_BIAS_SIGMA: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "100 ug", Range::Positive);
-/// An accelerometer's bias instability.
+/// The bias instability of an accelerometer.
 pub const ACCEL_BIAS_INSTABILITY: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "10 ug", Range::NotNegative);
-/// An accelerometer's range or resolution.
+/// The range or resolution of an accelerometer.
 pub(crate) const ACCEL_READING: Kind =
     Kind::new("an acceleration", Dimension::ACCELERATION, "10 g", Range::Positive);
-/// An accelerometer's random walk.
+/// The acceleration random walk of an accelerometer.
 pub(crate) const ACCEL_RANDOM_WALK: Kind = Kind::new(
     "an acceleration random walk density",
     Dimension::ACCELERATION_RANDOM_WALK,
     "10 ug/sqrt(h)",
     Range::NotNegative,
 );
-/// How far a temperature rises or leaves its mean.
+/// A rise of temperature, or its amplitude.
 pub(crate) const TEMPERATURE_DIFFERENCE: Kind =
     Kind::new("a temperature difference", Dimension::TEMPERATURE, "5 K", Range::Any);
-/// How fast a temperature rises.
+/// A rate of change of temperature.
 pub(crate) const TEMPERATURE_RATE: Kind =
     Kind::new("a rate of temperature", Dimension::TEMPERATURE_RATE, "2 K/h", Range::Any);

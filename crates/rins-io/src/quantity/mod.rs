@@ -1,4 +1,4 @@
-//! Quantities: a number and its unit, as text, turned into SI units and radians.
+//! Quantities: a number with its unit, parsed from text to SI units and radians.
 
 mod dimension;
 mod error;
@@ -11,7 +11,7 @@ pub(crate) use error::did_you_mean;
 pub use kinds::Kind;
 pub use unit::Unit;
 
-/// The longest text of a quantity \[bytes\], which also bounds how deep its parentheses can be.
+/// The maximum length of a quantity's text \[bytes\], which also limits the nesting of its parentheses.
 const LONGEST: usize = 120;
 
 /// A number with its dimension, in SI units and radians.
@@ -33,12 +33,12 @@ const LONGEST: usize = 120;
 pub struct Quantity {
     /// The value in SI units and radians.
     pub value: f64,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
 }
 
 impl Quantity {
-    /// The quantity that `text` spells: a number, then a unit ([`Unit::parse`]).
+    /// The quantity in `text`: a number, then a unit ([`Unit::parse`]).
     ///
     /// # Errors
     /// [`QuantityError`] if there is no finite number or no known unit.
@@ -71,7 +71,7 @@ impl Quantity {
 }
 
 impl QuantityError {
-    /// The same error of a unit, shown with the whole quantity's text.
+    /// The same error of a unit, with the text of the whole quantity.
     fn within(self, whole: &str) -> Self {
         match self {
             Self::UnknownUnit { unit, suggestion, .. } => {
@@ -83,7 +83,7 @@ impl QuantityError {
     }
 }
 
-/// The length of the decimal number that opens `text`.
+/// The length of the decimal number at the beginning of `text`.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();

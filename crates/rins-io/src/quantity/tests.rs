@@ -60,7 +60,7 @@ proptest! {
 
     #[test]
     fn half_powers_add(a in any_unit(), m in -5..6_i32, n in -5..6_i32) {
-        // The square makes every half of an exponent a whole one.
+        // The square makes every half-integer exponent an integer.
         let half = |halves: i32| format!("({a}^2)^{}", f64::from(halves) / 2.0);
         let split = Unit::parse(&format!("{}*{}", half(m), half(n))).unwrap();
         let whole = Unit::parse(&half(m + n)).unwrap();
@@ -93,7 +93,7 @@ proptest! {
 
 #[test]
 fn published_conversions_hold() {
-    // Defining relations of SI 8, and those of data sheets.
+    // Definitions in the SI Brochure, table 8, and units of data sheets.
     assert_close!(value("180 deg"), core::f64::consts::PI, 1e-15);
     assert_close!(value("3600 arcsec"), value("1 deg"), 1e-17);
     assert_close!(value("60 arcmin"), value("1 deg"), 1e-17);
@@ -113,7 +113,7 @@ fn published_conversions_hold() {
     assert_close!(value("-7e-1deg"), -value("0.7 deg"), 1e-17);
 }
 
-/// Prefixes and sizes of the SI Brochure, table 8 and section 3: what one of each unit is in SI units and radians.
+/// The value of each unit in SI units and radians: prefixes and units of the SI Brochure, table 8 and section 3.
 #[test]
 fn units_have_the_size_of_their_definition() {
     const RIGHT_ANGLE: f64 = core::f64::consts::FRAC_PI_2;
@@ -148,7 +148,7 @@ fn units_have_the_size_of_their_definition() {
     }
 }
 
-/// A density may be written with the root in the denominator or as a power.
+/// A noise density can be written with the root in the denominator or as a power.
 #[test]
 fn a_density_is_the_same_with_a_root_and_with_a_power() {
     for (root, power) in [
@@ -162,7 +162,7 @@ fn a_density_is_the_same_with_a_root_and_with_a_power() {
     }
 }
 
-/// Each factor is a number and each exponent within bounds, but not what they multiply to.
+/// Each factor is a finite number and each exponent within its limit, but not their product.
 #[test]
 fn a_unit_too_large_or_too_small_for_a_number_is_refused() {
     let large = "ns^-20/us^20/um^20";

@@ -1,4 +1,4 @@
-//! Units: products, quotients, powers and roots of the known ones.
+//! Units: products, quotients, powers and roots of known units.
 
 use rins_frames::units::{ARCMIN, ARCSEC, DEG, STANDARD_GRAVITY};
 
@@ -6,12 +6,12 @@ use super::dimension::Dimension;
 use super::error::QuantityError;
 use crate::suggestion::nearest;
 
-/// A unit: its size in SI units and radians, and its dimension.
+/// A unit: its value in SI units and radians, and its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
-    /// How many SI units one of it is.
+    /// Its value in SI units.
     pub factor: f64,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
 }
 
@@ -49,7 +49,7 @@ const KNOWN: &[(&str, f64, Dimension)] = &[
     ("G", 1e-4, Dimension::MAGNETIC_FIELD),
 ];
 
-/// Spellings that are refused, because a file should read one way, and what they stand for.
+/// Refused spellings with their accepted equivalents: files should be uniform.
 const MEANT: &[(&str, &str)] = &[
     ("sec", "s"),
     ("second", "s"),
@@ -72,14 +72,14 @@ const MEANT: &[(&str, &str)] = &[
 ];
 
 impl Unit {
-    /// The unit that `text` spells, such as `deg/h/sqrt(Hz)`, `m/s^2` or `ug*s`.
+    /// The unit in `text`, such as `deg/h/sqrt(Hz)`, `m/s^2` or `ug*s`.
     ///
-    /// `*` and `/` are read from left to right; an exponent is a whole number or half of one.
+    /// `*` and `/` are evaluated from left to right; an exponent is an integer or half of one.
     ///
     /// # Errors
-    /// [`QuantityError`] if a unit is not known or the text is not a product of units.
+    /// [`QuantityError`] if a unit is unknown or the text is not a product of units.
     pub fn parse(text: &str) -> Result<Self, QuantityError> {
-        // Micro has two code points, and a degree sign is an angle, as people write them.
+        // Micro has two code points, and a degree sign means an angle.
         let plain = text.trim().replace(['µ', 'μ'], "u").replace('²', "^2").replace('³', "^3");
         let plain = plain.replace("°C", "degC").replace('°', "deg");
         let mut parser = Parser { rest: &plain, whole: text };
@@ -144,7 +144,7 @@ impl Parser<'_> {
             .unwrap_or(self.rest.len());
         let (exponent, rest) = self.rest.split_at(end);
         let halves = exponent.parse::<f64>().map_or(f64::NAN, |exponent| 2.0 * exponent);
-        // A finite number beyond an i32 saturates, and is then refused as absurd.
+        // A finite number outside the range of `i32` saturates, and is then refused because of its size.
         #[expect(clippy::cast_possible_truncation, reason = "a whole number, or refused")]
         let halves = if halves.fract() == 0.0 { Some(halves as i32) } else { None };
         self.rest = rest;

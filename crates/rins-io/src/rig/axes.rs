@@ -1,14 +1,14 @@
-//! Which sensor axis is which body axis.
+//! The assignment of sensor axes to body axes.
 
 use nalgebra::Vector3;
 use rins_frames::SignedAxes;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// Three axes picked from three others, each once, with signs.
+/// Three axes selected from three others, each once, with signs.
 ///
-/// `["-y", "x", "z"]` says that body x is minus sensor y, body y is sensor x, and body z is
-/// sensor z. A left-handed choice is allowed, because some sensors are wired so: accelerometers
+/// `["-y", "x", "z"]` means that body x is minus sensor y, body y is sensor x, and body z is
+/// sensor z. A left-handed assignment is allowed, because some sensors have one: accelerometers
 /// that report gravity instead of specific force need `["-x", "-y", "-z"]`.
 ///
 /// ```
@@ -20,14 +20,14 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 pub struct Axes(SignedAxes);
 
 impl Axes {
-    /// The axes as they are.
+    /// The identity: the axes unchanged.
     pub const IDENTITY: Self = Self(SignedAxes::IDENTITY);
 
-    /// From front, right, down to right, front, up; and back.
+    /// From front, right, down to right, front, up; it is its own inverse.
     pub(crate) const FRONT_RIGHT_DOWN: Self =
         Self(SignedAxes { source: [1, 0, 2], sign: [1.0, 1.0, -1.0] });
 
-    /// The axes that three texts name; `None` unless each of x, y and z occurs once.
+    /// The axes with these three names; `None` unless each of x, y and z occurs once.
     pub fn parse(names: [&str; 3]) -> Option<Self> {
         let mut axes = SignedAxes::IDENTITY;
         for (index, name) in names.into_iter().enumerate() {
@@ -40,15 +40,16 @@ impl Axes {
 
     /// The proper rotation that makes the axis `name` the new z; `None` if it is not an axis.
     ///
-    /// x, y and z are carried round in a circle until the spin axis is z; for a negative axis the
-    /// whole is then turned by half a turn about its new x.
+    /// x, y and z are permuted cyclically until the spin axis is z; for a negative axis, a rotation by
+    /// half a turn about the new x follows.
     pub fn spin(name: &str) -> Option<Self> {
         let (source, sign) = axis(name)?;
         let source = [(source + 1) % 3, (source + 2) % 3, source];
         Some(Self(SignedAxes { source, sign: [1.0, sign, sign] }))
     }
 
-    /// The axis that has become z, as a rig file names it; [`Axes::spin`] gives these axes of it, if they are of a spin axis.
+    /// The name of the axis that becomes z, as in a rig file; [`Axes::spin`] of it returns these axes, if they are those of a
+    /// spin axis.
     pub fn spin_name(&self) -> String {
         let [_, _, spin] = self.names();
         spin
@@ -60,7 +61,7 @@ impl Axes {
         self.0.apply(vector)
     }
 
-    /// The axes by which what these have mixed up is as it was.
+    /// The inverse assignment.
     #[must_use]
     pub fn inverse(&self) -> Self {
         Self(self.0.inverse())
@@ -75,7 +76,7 @@ impl Axes {
         })
     }
 
-    /// These axes picked from `first`, not from the sensor's.
+    /// The composition: these axes selected from `first` instead of the sensor's axes.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         Self(self.0.after(&first.0))

@@ -1,4 +1,4 @@
-//! Logs whose format fixes what stands in which column, in which unit and along which axes.
+//! Log formats with fixed columns, units and axes.
 
 use super::axes::Axes;
 use super::log_spec::{ColumnSpec, Reading, Stamp, Table, TimeColumn, TimeUnit, TriadColumns};
@@ -8,21 +8,21 @@ use crate::error::IoError;
 use crate::section::{Section, quoted};
 use std::path::Path;
 
-/// A format that fixes its columns.
+/// A format with fixed columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fixed {
-    /// KF-GINS' increments as text: time, angles and velocities; front, right, down.
+    /// KF-GINS increments as text: time, angles and velocities; front, right, down.
     KfGins,
-    /// PSINS' increments as doubles: angles, velocities, time; right, front, up.
+    /// PSINS increments as doubles: angles, velocities, time; right, front, up.
     PsinsBinary,
-    /// The EuRoC data set's rates as text, which Kalibr reads too: time in ns, rates, forces.
+    /// Rates of the EuRoC data set as text, which Kalibr also reads: time in ns, rates, forces.
     Euroc,
-    /// NovAtel's RAWIMU messages: counts.
+    /// NovAtel RAWIMU messages: counts.
     NovAtel,
 }
 
 impl Fixed {
-    /// How a rig file calls it.
+    /// The name in a rig file.
     fn name(self) -> &'static str {
         match self {
             Self::KfGins => "kf-gins",
@@ -41,7 +41,7 @@ impl Fixed {
         }
     }
 
-    /// From the axes of its numbers to right, front, up.
+    /// From the axes of the log to right, front, up.
     pub(super) fn axes(self) -> Axes {
         match self {
             Self::KfGins => Axes::FRONT_RIGHT_DOWN,
@@ -101,7 +101,7 @@ impl Fixed {
     }
 }
 
-/// What a NovAtel log's counts are: those of an IMU that is known, or as the rig file says.
+/// The scale of a NovAtel log's counts: that of a known IMU, or that in the rig file.
 fn counts(
     log: &Section<'_>,
     triads: [Option<&Section<'_>>; 2],

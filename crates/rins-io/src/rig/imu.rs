@@ -1,4 +1,4 @@
-//! What a data sheet says: `[imu.gyro]` and `[imu.accel]`.
+//! The data sheet in a rig file: `[imu.gyro]` and `[imu.accel]`.
 
 use rins_imu::{ImuSpec, TriadSpec};
 
@@ -6,7 +6,7 @@ use crate::error::IoError;
 use crate::quantity::{Kind, kinds};
 use crate::section::Section;
 
-/// The kinds of one triad's figures.
+/// The kinds of one triad's data-sheet values.
 struct Figures {
     noise: &'static Kind,
     bias_sigma: &'static Kind,

@@ -1,4 +1,4 @@
-//! Reading `[log]`: which column of which file is what.
+//! Reading of `[log]`: the files and columns of a log.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -44,17 +44,17 @@ const FORMATS: [(&str, Format); 8] = [
     ("novatel", Format::Fixed(Fixed::NovAtel)),
 ];
 
-/// The formats in words.
+/// The formats, for an error message.
 const ANY_FORMAT: &str =
     r#""csv", "parquet", "mat", "psins", "psins-bin", "kf-gins", "euroc" or "novatel""#;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Format {
-    /// Columns that the rig file tells.
+    /// Columns that the rig file defines.
     Table(Table),
-    /// Columns that the format tells.
+    /// Columns that the format defines.
     Fixed(Fixed),
-    /// Columns of which the log's header tells.
+    /// Columns that the log's header defines.
     Psins,
 }
 
@@ -98,7 +98,7 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
     Ok(LogSpec { window: clock.window()?, static_spans: clock.static_spans()?, ..spec })
 }
 
-/// What the keys that depend on the format say.
+/// Reads the keys that depend on the format.
 fn of_format(
     log: &Section<'_>,
     folder: &Path,
@@ -195,7 +195,7 @@ fn time_column(time: &Section<'_>) -> Result<TimeColumn, IoError> {
     Ok(TimeColumn { column, unit, stamp })
 }
 
-/// The accelerometers' own clock, if the rig file gives them one.
+/// The accelerometers' own clock, if the rig file defines one.
 fn own_clock(
     accel: &Section<'_>,
     log_time: Option<&TimeColumn>,
@@ -277,7 +277,7 @@ impl ColumnSpec {
     }
 }
 
-/// The columns besides the IMU's.
+/// Adds the columns other than the IMU's.
 fn others(log: &Section<'_>, folder: &Path, imu: ColumnSpec) -> Result<ColumnSpec, IoError> {
     let table_angle = table_columns::angle(log)?;
     let table_rate = table_columns::rate(log)?;

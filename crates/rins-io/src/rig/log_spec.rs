@@ -1,16 +1,16 @@
-//! Where a log is and how it is to be read.
+//! The place and format of a log.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::axes::Axes;
 
-/// Where a log is and how it is to be read.
+/// The place and format of a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogSpec {
-    /// The log, or the gyros' part of it.
+    /// The log file, or that of the gyros.
     pub path: PathBuf,
-    /// How it is written.
+    /// The format.
     pub format: LogFormat,
     /// The nominal sampling rate \[Hz\].
     pub rate: Option<f64>,
@@ -18,49 +18,49 @@ pub struct LogSpec {
     pub gyro_axes: Axes,
     /// From the accelerometers' axes to the body's.
     pub accel_axes: Axes,
-    /// The times from and to which the log is read, if not all of it is \[s\]: those of its time column.
+    /// The start and end time of the part that is read, in the time of its time column; `None` for the whole log \[s\].
     pub window: Option<[f64; 2]>,
-    /// The static intervals that are stated, in order of time \[s\].
+    /// The stated static intervals, in order of time \[s\].
     pub static_spans: Vec<[f64; 2]>,
 }
 
-/// How a log is written.
+/// The format of a log.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LogFormat {
     /// Columns of numbers.
     Columns(Box<ColumnSpec>),
-    /// A PSINS text log, whose header says what its columns are.
+    /// A PSINS text log, whose header defines its columns.
     Psins,
 }
 
-/// How columns of numbers are written.
+/// The format of columns of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Table {
     /// Text, with any delimiter.
     Text,
-    /// The same without names of columns.
+    /// The same without column names.
     Numbers,
     /// A Parquet file.
     Parquet,
     /// Matrices in a MATLAB level 5 file.
     Mat,
-    /// Rows of so many little-endian doubles.
+    /// Rows of this number of little-endian doubles.
     Doubles(usize),
-    /// NovAtel's RAWIMU messages.
+    /// NovAtel RAWIMU messages.
     NovAtel,
 }
 
-/// What stands in which column.
+/// The assignment of columns.
 ///
-/// A column is named by its header or, where there is none, by its place from "1"; in a MATLAB
+/// A column is named by its header or, if there is none, by its number from "1"; in a MATLAB
 /// file as `imu(:,1)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnSpec {
-    /// How the columns are written.
+    /// The format of the columns.
     pub table: Table,
-    /// The time; without it samples follow each other at the nominal rate.
+    /// The time; without it, the sampling rate is the nominal rate.
     pub time: Option<TimeColumn>,
     /// The gyros.
     pub gyro: TriadColumns,
@@ -70,11 +70,11 @@ pub struct ColumnSpec {
     pub accel_clock: Option<OwnClock>,
     /// The measured table angle.
     pub table_angle: Option<AngleColumn>,
-    /// The table's mean rate over each interval \[rad/s\]; its factor's sign as the angle's.
+    /// The table's mean rate over each interval \[rad/s\]; the sign of its factor as for the angle.
     pub table_rate: Option<ScaledColumn>,
     /// The temperature.
     pub temperature: Option<TemperatureColumn>,
-    /// What the increment after a gap stands for; needed only if increments have gaps.
+    /// The meaning of the increment after a gap; needed only if increments have gaps.
     pub gaps: Option<Gaps>,
 }
 
@@ -83,34 +83,34 @@ pub struct ColumnSpec {
 pub struct TimeColumn {
     /// Its name.
     pub column: String,
-    /// What it counts.
+    /// Its unit.
     pub unit: TimeUnit,
-    /// Which instant of a sample's interval it tells.
+    /// The instant of a sample's interval that it refers to.
     pub stamp: Stamp,
 }
 
-/// The clock of a file that was not sampled together with the gyros'.
+/// The clock of a file that was not sampled together with the gyros' file.
 ///
-/// Its increments are divided anew at the ends of the gyros' intervals.
+/// Its increments are resampled to the gyros' intervals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OwnClock {
     /// Its time column.
     pub time: TimeColumn,
-    /// What it shows when the gyros' clock shows zero \[s\].
+    /// Its reading when the gyros' clock reads zero \[s\].
     pub offset: f64,
 }
 
-/// What a time column counts.
+/// The unit of a time column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TimeUnit {
-    /// So many seconds.
+    /// This number of seconds.
     Seconds(f64),
     /// Samples at the nominal rate.
     Samples,
 }
 
 impl TimeUnit {
-    /// One unit \[s\]; `None` where samples are counted.
+    /// One unit \[s\]; `None` if it is samples.
     pub fn seconds(self) -> Option<f64> {
         match self {
             Self::Seconds(seconds) => Some(seconds),
@@ -120,7 +120,7 @@ impl TimeUnit {
 }
 
 impl Table {
-    /// How the columns of a file of this name are most likely written.
+    /// The most likely format of the columns of a file with this name.
     pub(crate) fn of(path: &Path) -> Self {
         let ending = path.extension().map(OsStr::to_ascii_lowercase);
         match ending.as_ref().and_then(|ending| ending.to_str()) {
@@ -131,30 +131,30 @@ impl Table {
     }
 }
 
-/// Which instant of a sample's interval a time stamp tells.
+/// The instant of a sample's interval that a time stamp refers to.
 ///
-/// What the IMU measured does not depend on it, only what the table angle was at that time: a row
-/// says what the angle was at its stamp, and a recording wants it at the end of the interval.
+/// It does not affect the IMU's increments, only the table angle: a row
+/// gives the angle at its stamp, and a recording needs it at the end of the interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stamp {
-    /// Its start.
+    /// The start.
     Start,
-    /// Its middle.
+    /// The middle.
     Middle,
-    /// Its end.
+    /// The end.
     End,
 }
 
-/// What the increment after a gap stands for.
+/// The meaning of the increment after a gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gaps {
-    /// The whole gap: the sensor went on summing.
+    /// The increment over the whole gap: the sensor continued to accumulate.
     Accumulated,
-    /// Its own interval; its mean is then held over the gap.
+    /// The increment over its own interval; its mean rate is then held over the gap.
     Held,
 }
 
-/// What a sensor's numbers are, with the SI units in one of them.
+/// The kind of a sensor's numbers, with the value of their unit in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
     /// Mean rates over an interval: angular rate or specific force.
@@ -166,31 +166,31 @@ pub enum Reading {
 /// The three columns of a triad: value = (number − offset) × scale, in the reading's unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriadColumns {
-    /// The file they stand in.
+    /// The file with these columns.
     pub path: PathBuf,
     /// Their names.
     pub columns: [String; 3],
-    /// What the numbers are.
+    /// The kind and unit of the numbers.
     pub reading: Reading,
     /// Subtracted from the numbers.
     pub offset: [f64; 3],
-    /// What the differences are multiplied by.
+    /// The factor of the differences.
     pub scale: [f64; 3],
 }
 
 /// The table angle's column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleColumn {
-    /// Its name; empty where there is no column to read, as in a scenario.
+    /// Its name; empty if there is no column to read, as in a scenario.
     pub column: String,
-    /// One of its numbers \[rad\]; less than zero if the table counts against the body's turn.
+    /// The value of its unit \[rad\]; negative if the table counts opposite to the body's rotation.
     pub factor: f64,
     /// The standard deviation of the angle's white noise \[rad\].
     pub noise: Option<f64>,
     /// The angle's least significant bit \[rad\].
     pub resolution: Option<f64>,
-    /// By how much it is late \[s\]: the angle told at t is that of t − latency. The reader does
-    /// not undo this.
+    /// The latency \[s\]: the angle in a row at time t is that at t − latency. The reader does
+    /// not correct it.
     pub latency: Option<f64>,
 }
 
@@ -199,23 +199,23 @@ pub struct AngleColumn {
 pub struct ScaledColumn {
     /// Its name.
     pub column: String,
-    /// The SI units in one of its numbers.
+    /// The value of its unit in SI units.
     pub factor: f64,
 }
 
-/// The temperature's column, perhaps in a file of its own.
+/// The temperature column, optionally in a file of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TemperatureColumn {
-    /// The file and its time column, where they are not the log's.
+    /// The file and its time column, if they are not those of the log.
     pub file: Option<(PathBuf, TimeColumn)>,
     /// The name of the column.
     pub column: String,
-    /// Added to the numbers to have degrees Celsius.
+    /// The offset added to the numbers to get degrees Celsius.
     pub offset: f64,
 }
 
 impl LogSpec {
-    /// A log that is not yet anywhere.
+    /// A log without file or columns.
     pub(crate) fn nowhere() -> Self {
         Self {
             path: PathBuf::new(),
@@ -228,7 +228,7 @@ impl LogSpec {
         }
     }
 
-    /// The table angle's column, with what is known of its errors.
+    /// The table angle's column, with its errors.
     pub fn table_angle(&self) -> Option<&AngleColumn> {
         match &self.format {
             LogFormat::Columns(columns) => columns.table_angle.as_ref(),

@@ -1,4 +1,4 @@
-//! Times that a rig file says of its log: `static` and `window` of `[log]`.
+//! Times in a rig file that refer to its log: `static` and `window` of `[log]`.
 
 use super::log_spec::{TimeColumn, TimeUnit};
 use crate::document::{Node, Value};
@@ -6,15 +6,15 @@ use crate::error::{IoError, KeyProblem};
 use crate::quantity::kinds;
 use crate::section::Section;
 
-/// The most spans that are read.
+/// The maximum number of spans.
 const MOST_SPANS: usize = 100_000;
 
 const SPAN: &str = r#"a span of two times, such as ["10 s", "40 s"], the later one last"#;
 
-/// How times of one log are written.
+/// The format of times that refer to a log.
 pub(super) struct Clock<'l> {
     log: &'l Section<'l>,
-    /// The seconds in a number of the time column, if there is one.
+    /// The unit of the time column \[s\], if there is one.
     unit: Option<f64>,
 }
 
@@ -69,7 +69,7 @@ impl<'l> Clock<'l> {
         Err(self.log.error(key, problem))
     }
 
-    /// A quantity, or a number as the time column has it \[s\].
+    /// A time \[s\], from a quantity or from a number in the unit of the time column.
     fn time(&self, key: &str, value: &Value) -> Result<f64, IoError> {
         let number = match value.node {
             Node::Number(number) if number.is_finite() => number,

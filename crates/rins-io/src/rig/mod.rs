@@ -1,4 +1,4 @@
-//! A rig: where a run was measured, with what, and what the data sheets say.
+//! The rig file: site, log, table and data sheets of a measurement.
 
 mod axes;
 mod formats;
@@ -33,7 +33,7 @@ use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::section::Section;
 
-/// What a rig file says, in SI units and radians.
+/// The content of a rig file, in SI units and radians.
 ///
 /// ```
 /// # use std::path::Path;
@@ -61,20 +61,20 @@ use crate::section::Section;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
-    /// The rig file.
+    /// The path of the rig file.
     pub path: PathBuf,
-    /// Where the table stands. A PSINS log says so itself; its rig file need not.
+    /// The site of the table. A PSINS log has it in its header, so its rig file may omit it.
     pub station: Option<Station>,
-    /// Where the log is and how it is to be read.
+    /// The place and format of the log.
     pub log: LogSpec,
     /// The attitude of the table axis frame at table angle zero.
     pub attitude: Option<InitialAttitude>,
-    /// What the data sheet says of the IMU.
+    /// The data sheet of the IMU.
     pub imu: Option<ImuSpec>,
-    /// What the table was told to do, and how true its axis runs.
+    /// The commanded motion of the table, and the wobble of its axis.
     pub table: Option<TableSpec>,
-    /// From the axes that `[log]` calls the body's to those with z along the spin axis, which is
-    /// what body means everywhere else ([`Axes::spin`]).
+    /// From the axes that `[log]` calls the body's to those with z along the spin axis, which are
+    /// the body axes everywhere else ([`Axes::spin`]).
     pub spin: Axes,
 }
 
@@ -91,10 +91,10 @@ impl Rig {
         Self::from_document(&Document::read(path)?)
     }
 
-    /// The rig that `text` describes, as if it stood in the file at `path`.
+    /// The rig in `text`, parsed as the content of the file at `path`.
     ///
     /// # Errors
-    /// [`IoError::Key`], as [`Rig::read`].
+    /// [`IoError::Key`], as for [`Rig::read`].
     pub fn parse(text: &str, path: &Path) -> Result<Self, IoError> {
         Self::from_document(&Document::parse(text, path)?)
     }
@@ -109,7 +109,7 @@ impl Rig {
         Ok(Self { station, log, ..Self::without_log(document, &root)? })
     }
 
-    /// All but the station and the log, which a scenario reads in its own way.
+    /// All sections except the station and the log, which a scenario reads differently.
     pub(crate) fn without_log(document: &Document, root: &Section<'_>) -> Result<Self, IoError> {
         Ok(Self {
             path: document.path.clone(),
@@ -122,7 +122,7 @@ impl Rig {
         })
     }
 
-    /// The data sheet's figures.
+    /// The data sheet.
     ///
     /// # Errors
     /// [`IoError::Key`] if the rig has no `[imu]` section.
@@ -140,7 +140,7 @@ impl Rig {
         self.attitude.as_ref().ok_or_else(|| self.missing("[attitude]", "roll, pitch, yaw, sigma"))
     }
 
-    /// Where the table stands.
+    /// The site of the table.
     ///
     /// # Errors
     /// [`IoError::Key`] if the rig has no `[site]` section.
@@ -156,7 +156,7 @@ impl Rig {
     }
 }
 
-/// The folder that paths in the file at `path` are relative to.
+/// The folder to which paths in the file at `path` are relative.
 pub(crate) fn folder(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }

@@ -1,10 +1,10 @@
-//! What one count of an IMU behind a NovAtel receiver stands for.
+//! Scale factors of the raw counts of IMUs behind a NovAtel receiver.
 
 use rins_frames::units::{ARCSEC, DEG, STANDARD_GRAVITY};
 
 use super::log_spec::Reading;
 
-/// Metres in a foot.
+/// One foot \[m\].
 const FOOT: f64 = 0.3048;
 
 /// Two to the power of −`digits`.
@@ -12,7 +12,7 @@ fn bit(digits: i32) -> f64 {
     2.0_f64.powi(-digits)
 }
 
-/// The IMUs whose counts are known.
+/// The IMUs with known scale factors.
 pub(super) const IMUS: [&str; 15] = [
     "HG1700-AG11",
     "HG1700-AG17",
@@ -56,10 +56,10 @@ pub(crate) fn of_type(number: u32) -> Option<&'static str> {
     Some(name)
 }
 
-/// One count of the gyros and one of the accelerometers of an IMU; `None` if it is not known.
+/// The scales of the gyro and accelerometer counts of an IMU; `None` if they are unknown.
 ///
-/// ‹novatel-oem7›, table "Raw IMU Scale Factors". Counts are of angle and velocity over a sample but
-/// for Epson's, which are of mean rate and specific force.
+/// ‹novatel-oem7›, table "Raw IMU Scale Factors". Counts are increments of angle and velocity over a sample, except
+/// for Epson IMUs, whose counts are mean rate and specific force.
 pub(super) fn counts(imu: &str) -> Option<(Reading, Reading)> {
     let increments =
         |angle, velocity| Some((Reading::Increment(angle), Reading::Increment(velocity)));
@@ -101,10 +101,10 @@ mod tests {
         assert_eq!(counts("HG1700"), None);
     }
 
-    /// Figures of GearBox's decoder, given there with 21 digits.
+    /// Constants of the GearBox decoder, given there with 21 digits.
     #[test]
     fn counts_are_those_of_another_decoder() {
-        // Its foot is longer, by 2 ppm, than that which all have agreed on.
+        // Its foot is longer than the international foot by 2 ppm.
         const FOOT: f64 = 3e-6;
         let increments = |imu| match counts(imu) {
             Some((Reading::Increment(angle), Reading::Increment(velocity))) => (angle, velocity),

@@ -1,4 +1,4 @@
-//! Where a table stands and how its axis is tilted: `[site]` and `[attitude]`.
+//! The site of a table and the attitude of its axis: `[site]` and `[attitude]`.
 
 use rins_frames::{EulerAngles, Site};
 use rins_motion::Station;
@@ -7,7 +7,7 @@ use crate::error::IoError;
 use crate::quantity::kinds;
 use crate::section::Section;
 
-/// The attitude of the table axis frame s at table angle zero, `C_s^n`, and how well it is known.
+/// The attitude of the table axis frame s at table angle zero, `C_s^n`, with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InitialAttitude {
     /// `C_s^n = Rz(yaw) Rx(pitch) Ry(roll)` \[rad\].

@@ -1,10 +1,10 @@
-//! Keys that say how numbers of a log are read: units, factors, columns.
+//! Keys for the interpretation of a log's numbers: units, factors, columns.
 
 use crate::error::IoError;
 use crate::quantity::{Dimension, QuantityError, Unit};
 use crate::section::Section;
 
-/// The two dimensions of a triad's numbers, and how an error calls them.
+/// The two possible dimensions of a triad's numbers, with their names in an error message.
 pub(super) struct Readings {
     pub(super) rate: Dimension,
     pub(super) increment: Dimension,

@@ -1,4 +1,4 @@
-//! What the table was told to do: `[table]`.
+//! The commanded motion of the table: `[table]`.
 
 use rins_motion::{Profile, Segment};
 
@@ -7,22 +7,22 @@ use crate::error::IoError;
 use crate::quantity::kinds;
 use crate::section::Section;
 
-/// The most segments of a profile that are read.
+/// The maximum number of segments of a profile.
 const MOST_SEGMENTS: usize = 100_000;
 
-/// What is known of the table besides what it reports in the log.
+/// The data of the table that are not in the log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableSpec {
     /// The commanded motion; it begins with the log.
     pub profile: Option<Profile>,
     /// The segments of the profile.
     pub segments: Vec<Segment>,
-    /// By what the profile's rates were multiplied: -1 for a table that counts against the sense in
-    /// which the body turns about its axis, otherwise 1.
+    /// The factor that was applied to the profile's rates: -1 for a table that counts opposite to the body's
+    /// direction of rotation, otherwise 1.
     pub sense: f64,
-    /// The table's acceleration at each change of rate \[rad/s²\]; without one the rate is commanded to jump.
+    /// The table's acceleration at each change of rate \[rad/s²\]; `None` if the commanded rate changes in a step.
     pub acceleration: Option<f64>,
-    /// The standard deviation of the direction of the axis as it turns \[rad\].
+    /// The wobble: the standard deviation of the direction of the axis during rotation \[rad\].
     pub wobble: Option<f64>,
 }
 
@@ -38,7 +38,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
     for segment in profile.iter().flatten().take(MOST_SEGMENTS + 1) {
         let rate = segment.require_quantity("rate", &kinds::TABLE_RATE)?;
         segments.push(Segment {
-            // A rest has no sign.
+            // Avoids a negative zero.
             rate: if rate == 0.0 { 0.0 } else { sense * rate },
             duration: segment.require_quantity("duration", &kinds::DURATION)?,
         });

@@ -1,4 +1,4 @@
-//! Reading `table_angle` and `table_rate` of `[log]`.
+//! Reading of `table_angle` and `table_rate` in `[log]`.
 
 use super::log_spec::{AngleColumn, ScaledColumn};
 use super::readings::{Readings, column, unit};
@@ -36,12 +36,12 @@ pub(super) fn rate(log: &Section<'_>) -> Result<Option<ScaledColumn>, IoError> {
     Ok(Some(ScaledColumn { column: column(&section, "column")?, factor }))
 }
 
-/// 1, or -1 for a table that counts against the sense in which the body turns about its axis.
+/// 1, or -1 for a table that counts opposite to the body's direction of rotation.
 pub(super) fn sense(section: &Section<'_>) -> Result<f64, IoError> {
     Ok(section.choice("sense", &[("forward", 1.0), ("reversed", -1.0)])?.unwrap_or(1.0))
 }
 
-/// The section `table_angle`, and what it says besides column and unit.
+/// The section `table_angle`, with its keys other than column and unit.
 pub(crate) fn angle_figures<'d>(
     log: &Section<'d>,
 ) -> Result<Option<(Section<'d>, AngleColumn)>, IoError> {

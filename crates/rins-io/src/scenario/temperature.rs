@@ -1,4 +1,4 @@
-//! How warm it is in a scenario: `[truth] temperature`.
+//! The temperature in a scenario: `[truth] temperature`.
 
 use rins_simulation::Temperature;
 
@@ -7,7 +7,7 @@ use crate::error::IoError;
 use crate::quantity::kinds;
 use crate::section::{CELSIUS, Section};
 
-/// Reads a temperature such as `"20 degC"`, or a table that says how it goes.
+/// Reads a temperature such as `"20 degC"`, or a table that describes its profile.
 pub(super) fn read(truth: &Section<'_>) -> Result<Option<Temperature>, IoError> {
     let Some(Entry { value, .. }) = truth.get("temperature") else { return Ok(None) };
     if !matches!(value.node, Node::Table(_)) {

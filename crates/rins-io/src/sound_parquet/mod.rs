@@ -1,4 +1,4 @@
-//! Parquet files that are held against what the parser takes for granted of them.
+//! Parquet files that are checked for the properties which the parser assumes.
 
 mod pages;
 mod runs;
@@ -19,13 +19,13 @@ use crate::error::{IoError, LogError};
 use crate::log::{LogProblem, MOST_COLUMNS, most_rows};
 use crate::source;
 
-/// By how much a page may grow when it is decompressed, over what any file may have.
+/// The maximum growth of a page by decompression, beyond the size that any file may have.
 const MOST_GROWTH: u64 = 256;
 
-/// A Parquet file, of which no page is read that is not what it says.
+/// A Parquet file whose pages are checked before they are parsed.
 pub(crate) struct SoundParquet {
     path: PathBuf,
-    /// In bytes.
+    /// The length \[bytes\].
     length: u64,
     reader: SerializedFileReader<Whole<source::Chunks>>,
 }
@@ -34,8 +34,8 @@ impl SoundParquet {
     /// Opens the file at `path`.
     ///
     /// # Errors
-    /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is no Parquet file, or has more
-    /// rows or columns than any may have.
+    /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is not a Parquet file, or has more
+    /// rows or columns than permitted.
     pub(crate) fn open(path: &Path) -> Result<Self, IoError> {
         let failed = || IoError::file("read", path);
         let file = source::chunks(path).map_err(failed())?;
@@ -62,37 +62,37 @@ impl SoundParquet {
         self.length
     }
 
-    /// The most rows that a file of this length may have.
+    /// The maximum number of rows of a file of this length.
     pub(crate) fn most_rows(&self) -> u64 {
         most_rows(self.length)
     }
 
-    /// How many rows it says it has.
+    /// The number of rows according to its metadata.
     pub(crate) fn rows(&self) -> u64 {
         let groups = self.reader.metadata().row_groups().iter();
         groups.fold(0, |rows, group| rows.saturating_add(group.num_rows().max(0).unsigned_abs()))
     }
 
-    /// How many groups its rows are in.
+    /// The number of row groups.
     pub(crate) fn groups(&self) -> usize {
         self.reader.metadata().num_row_groups()
     }
 
-    /// What its columns are.
+    /// The descriptions of its columns.
     pub(crate) fn columns(&self) -> &[ColumnDescPtr] {
         self.reader.metadata().file_metadata().schema_descr().columns()
     }
 
-    /// What stands beside its columns.
+    /// The key-value metadata.
     pub(crate) fn key_values(&self) -> &[KeyValue] {
         let pairs = self.reader.metadata().file_metadata().key_value_metadata();
         pairs.map_or(&[], Vec::as_slice)
     }
 
-    /// What reads the part of a column that is in one group.
+    /// A reader of a column's part in one row group.
     ///
     /// # Errors
-    /// [`IoError::Log`] if it lies nowhere, or says that a few bytes hold very many values.
+    /// [`IoError::Log`] if its position is outside the file, or a few bytes are said to hold a very large number of values.
     pub(crate) fn column(&self, group: usize, place: usize) -> Result<ColumnReader, IoError> {
         let damaged = |error| self.damaged(&error);
         let part =
@@ -112,7 +112,7 @@ impl SoundParquet {
         Ok(get_column_reader(column.clone(), Box::new(pages)))
     }
 
-    /// What the parser says, as an error of this file.
+    /// The error of the parser as an error of this file.
     pub(crate) fn damaged(&self, error: &ParquetError) -> IoError {
         LogError::of(&self.path, damage(error))
     }
@@ -123,21 +123,21 @@ fn is_readable(compression: Compression) -> bool {
     matches!(compression, Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::GZIP(_))
 }
 
-/// What the parser says, as one line.
+/// The error message of the parser as one line.
 fn damage(error: &ParquetError) -> LogProblem {
     let text = error.to_string();
     LogProblem::Damaged { format: "Parquet", message: text.lines().collect::<Vec<_>>().join(", ") }
 }
 
-/// The most bytes that a column of a file of this length may be decompressed to.
+/// The maximum number of bytes to which a column of a file of this length may be decompressed.
 fn most_bytes(length: u64) -> u64 {
     length.saturating_mul(MOST_GROWTH).max(1 << 24)
 }
 
-/// Refuses a column that lies nowhere, or that says that a few bytes hold very many.
+/// Refuses a column whose position is outside the file, or whose few bytes are said to hold a very large number of values.
 fn refuse_unsound(part: &ColumnChunkMetaData, length: u64) -> Result<(), LogProblem> {
     let start = part.dictionary_page_offset().unwrap_or(part.data_page_offset());
-    // The parser takes these for granted.
+    // The parser assumes these properties.
     if start < 0 || part.compressed_size() < 0 {
         let message = "a column's place in the file is negative".into();
         return Err(LogProblem::Damaged { format: "Parquet", message });

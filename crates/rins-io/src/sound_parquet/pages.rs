@@ -1,4 +1,4 @@
-//! Pages of a column, held against what the parser takes for granted of them.
+//! Pages of a column, checked for the properties which the parser assumes.
 
 use parquet::basic::{Encoding, Type};
 use parquet::column::page::{Page, PageMetadata, PageReader};
@@ -7,22 +7,22 @@ use parquet::schema::types::ColumnDescriptor;
 
 use super::runs::{Endless, walk_differences, walk_runs};
 
-/// Pages of which each is what the parser relies upon.
+/// An iterator over pages, each of which is checked.
 pub(super) struct SoundPages {
     pages: Box<dyn PageReader>,
     has_dictionary: bool,
-    /// Whether they hold texts and no numbers.
+    /// Whether they contain texts instead of numbers.
     texts: bool,
-    /// The bytes of a number, and the bits of a level, none where nothing may be missing.
+    /// The bytes of a number, and the bits of a level, zero if values cannot be missing.
     number: usize,
     level: usize,
-    /// The most values that all pages may hold.
+    /// The maximum number of values that the remaining pages may contain.
     left: u64,
 }
 
-/// The parts of a page of data.
+/// The parts of a data page.
 struct Parts<'p> {
-    /// Which values are there, if that is told in runs.
+    /// The definition levels, if they are encoded in runs.
     levels: Option<&'p [u8]>,
     values: &'p [u8],
 }
@@ -38,7 +38,7 @@ impl SoundPages {
         Self { pages, has_dictionary: false, texts, number, level, left: most }
     }
 
-    /// The parts of a page of data; `None` if its levels are longer than it is.
+    /// The parts of a data page; `None` if its levels are longer than the page.
     fn parts<'p>(&self, page: &'p Page) -> Option<Parts<'p>> {
         let bytes = &page.buffer()[..];
         let (before, length, in_runs) = match page {
@@ -57,7 +57,7 @@ impl SoundPages {
         Some(Parts { levels: in_runs.then_some(levels), values })
     }
 
-    /// Goes through all of a page of data whose length is told by itself.
+    /// Checks the parts of a data page whose length follows from their own content.
     fn walk(&self, page: &Page, parts: &Parts<'_>) -> Result<(), Endless> {
         let count = usize::try_from(page.num_values()).unwrap_or(usize::MAX);
         if let Some(levels) = parts.levels {
@@ -72,7 +72,7 @@ impl SoundPages {
         }
     }
 
-    /// Whether the `rest` of a page is long enough for the numbers that it says it has.
+    /// Whether the `rest` of a page is long enough for the stated number of numbers.
     fn holds_its_numbers(&self, page: &Page, rest: &[u8]) -> bool {
         (rest.len() / self.number) as u64 >= u64::from(page.num_values())
     }
@@ -133,7 +133,7 @@ fn is_of_dictionary(encoding: Encoding) -> bool {
     matches!(encoding, Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY)
 }
 
-/// Whether a page holds as many texts as it says, each behind its length, in the `rest` of it.
+/// Whether the `rest` of a page contains the stated number of texts, each after its length.
 fn holds_its_texts(page: &Page, mut rest: &[u8]) -> bool {
     matches!(page.encoding(), Encoding::PLAIN | Encoding::PLAIN_DICTIONARY)
         && (0..page.num_values()).all(|_| {

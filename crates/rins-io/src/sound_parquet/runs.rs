@@ -1,20 +1,19 @@
-//! Numbers of variable length within a page, of which the parser takes for granted that they end.
+//! Variable-length integers in a page, which the parser assumes to be terminated.
 
-/// The most bytes of such a number: the parser gives up, for good, where there are more.
+/// The maximum number of bytes of such an integer: the parser panics if there are more.
 const LONGEST: usize = 10;
 
-/// A number that goes on for longer than any.
+/// The error of an integer that is longer than permitted.
 pub(super) struct Endless;
 
-/// Goes through runs of `count` values of so many bits (the format's "RLE / bit-packing hybrid"), up to
-/// the end of the values or of the `bytes`. The first run is looked at even for no values, as the parser
-/// does.
+/// Walks through runs of `count` values of `bits` bits (the format's "RLE / bit-packing hybrid"), up to
+/// the end of the values or of the `bytes`. The first run is examined even if there are no values, as in the parser.
 pub(super) fn walk_runs(mut bytes: &[u8], bits: usize, mut count: usize) -> Result<(), Endless> {
     loop {
         let Some(head) = number(&mut bytes)? else { return Ok(()) };
         let run = usize::try_from(head >> 1).unwrap_or(usize::MAX);
         let (values, length) = match head {
-            // Nothing but padding follows.
+            // Only padding follows.
             0 => return Ok(()),
             _ if head & 1 == 1 => (run.saturating_mul(8), run.saturating_mul(bits)),
             _ => (run, bits.div_ceil(8)),
@@ -27,8 +26,8 @@ pub(super) fn walk_runs(mut bytes: &[u8], bits: usize, mut count: usize) -> Resu
     }
 }
 
-/// Goes through `count` numbers as differences (the format's "delta binary packed"), up to the end of the
-/// numbers or of the `bytes`.
+/// Walks through `count` integers as differences (the format's "delta binary packed"), up to the end of the
+/// integers or of the `bytes`.
 pub(super) fn walk_differences(mut bytes: &[u8], count: usize) -> Result<(), Endless> {
     let mut head = [0; 4];
     for part in &mut head {
@@ -54,7 +53,7 @@ pub(super) fn walk_differences(mut bytes: &[u8], count: usize) -> Result<(), End
     Ok(())
 }
 
-/// The number that `bytes` begin with, seven bits a byte; `None` if they end within it.
+/// The integer at the beginning of `bytes`, seven bits per byte; `None` if they end within it.
 pub(super) fn number(bytes: &mut &[u8]) -> Result<Option<u64>, Endless> {
     let mut read = 0;
     for (place, byte) in bytes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A file of which nothing is read behind its end, and no page that says it is huge.
+//! A file that is not read beyond its end, and without pages of excessive stated size.
 
 use std::io::{self, Chain, Cursor, Read};
 
@@ -8,34 +8,34 @@ use parquet::file::reader::{ChunkReader, Length};
 
 use super::runs::number;
 
-/// Before each of the first fields of a page's head: one more, of a whole number.
+/// The byte before each of the first fields of a page header: the next field, an integer.
 const NEXT_NUMBER: u8 = 0x15;
 
-/// A file whose readers fail at its end, and do not begin with a page that would grow beyond `most` bytes.
+/// A file whose readers fail at its end, and refuse a first page that would be decompressed to more than `most` bytes.
 ///
-/// The parser skips lists that are said to have billions of items, and goes on to the last of them
-/// where reading ends without an error. And it makes room for all that a page says it will be
-/// decompressed to.
+/// The parser skips lists with a stated length of billions of items, and continues to the last of them
+/// if reading at the end returns no error. It also allocates the full size to which a page is said
+/// to be decompressed.
 pub(super) struct Whole<R> {
     pub(super) file: R,
     pub(super) most: u64,
 }
 
-/// How many bytes of a page's head tell its size.
+/// The number of bytes of a page header that contain its size.
 const HEAD: usize = 12;
 
-/// What the page that begins so says it is decompressed to \[bytes\].
+/// The decompressed size that the page with this header states \[bytes\].
 fn grown(mut head: &[u8]) -> Result<u64> {
     let mut next = || {
         head = head.strip_prefix(&[NEXT_NUMBER])?;
         number(&mut head).ok()?
     };
-    // Its kind is told first. The last bit is the sign.
+    // The kind comes first. The last bit is the sign.
     let size = next().and_then(|_kind| next()).map(|size| size >> 1);
     size.ok_or_else(|| ParquetError::General("a page without its sizes".into()))
 }
 
-/// What reads such a file: what was looked at, and then the rest.
+/// A reader of such a file: the bytes that were examined, then the rest.
 pub(super) struct Ended<T>(Chain<Cursor<Vec<u8>>, T>);
 
 impl<R: Length> Length for Whole<R> {
@@ -48,7 +48,7 @@ impl<R: ChunkReader> ChunkReader for Whole<R> {
     type T = Ended<R::T>;
 
     fn get_read(&self, start: u64) -> Result<Self::T> {
-        // All else that is read in this way is the heads of pages, each followed by its page.
+        // All other reads of this kind are page headers, each followed by its page.
         let is_footer = start.saturating_add(FOOTER_SIZE as u64) >= self.len();
         let mut rest = self.file.get_read(start)?;
         let mut head = vec![0; if is_footer { 0 } else { HEAD }];
@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_page_grows_to_what_a_file_may_have_at_most() {
-        // A page of the first kind, of 3000 bytes, and of 2^31 - 1.
+        // A page of the first kind, with 3000 bytes and with 2^31 - 1 bytes.
         let page = |size: &[u8]| [&[0x15, 0x00, 0x15], size, &[0; 20]].concat();
         let read = |head: Vec<u8>| {
             let whole = Whole { file: Bytes::from(head), most: 3000 };

@@ -1,4 +1,4 @@
-//! Files in memory, which a fuzzer reads a million times a minute.
+//! Files in memory, for fuzzing at a million reads per minute.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ thread_local! {
     static FILES: RefCell<BTreeMap<PathBuf, Bytes>> = const { RefCell::new(BTreeMap::new()) };
 }
 
-/// Puts a file of these bytes where this thread reads it.
+/// Sets the content of a file for reads by this thread.
 pub fn put(path: &Path, bytes: &[u8]) {
     FILES.with_borrow_mut(|files| files.insert(path.into(), Bytes::copy_from_slice(bytes)));
 }

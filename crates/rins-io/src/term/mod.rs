@@ -1,4 +1,4 @@
-//! Terms in files: an id, settings, values, which of them are estimated, and how well they are known.
+//! Terms in files: id, settings, values, estimated parameters, and sigmas.
 
 mod read;
 mod write;

@@ -9,14 +9,14 @@ use crate::quantity::{self, Quantity};
 use crate::section::{Section, quoted};
 use crate::suggestion::nearest;
 
-/// What a term in a file is for.
+/// The purpose of a term in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
-    /// To be simulated: its values are true, and one at least is given.
+    /// Simulation: its values are true, and at least one is given.
     Effect,
-    /// To be estimated: all of it, unless it says otherwise.
+    /// Estimation: all parameters are estimated, unless the file states otherwise.
     Model,
-    /// To be undone: what has a sigma was estimated.
+    /// Compensation: parameters with a sigma were estimated.
     Calibration,
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn tables<'d>(section: &Section<'d>, key: &str) -> Result<Vec<Section
     Ok(section.any_tables(key, expected)?.unwrap_or_default())
 }
 
-/// Refuses a bias, scale error or misalignment, which has a key of its own in the section that `place` tells.
+/// Refuses a bias, scale error or misalignment, which has a key of its own in the section named by `place`.
 pub(crate) fn refuse_triads(
     section: &Section<'_>,
     chosen: &TermInstance,
@@ -41,14 +41,14 @@ pub(crate) fn refuse_triads(
     }
 }
 
-/// The term that a table describes along the sensors' own axes, in a run with these axes.
+/// The term in a table along the sensors' own axes, converted to a run with these axes.
 pub(crate) fn read(
     section: &Section<'_>,
     use_: Use,
     axes: &SignedAxes,
 ) -> Result<TermInstance, IoError> {
     let term = named(section)?;
-    // Noise and what happens to a log are no signals, and cannot be estimated.
+    // Noise and events of the log are not signals, and cannot be estimated.
     let estimated = use_ != Use::Effect && term.is_signal();
     let more: &[&str] = if estimated { &["id", "estimate", "sigma"] } else { &["id"] };
     let settings = term.settings.iter().map(|setting| setting.name);
@@ -62,7 +62,7 @@ pub(crate) fn read(
         .chain(more.iter().copied())
         .collect();
     if let Some(stray) = section.keys().find(|key| !known.contains(key)) {
-        // All that there is in a term is little enough to be told.
+        // A term has few keys, so that all of them can be listed.
         let problem = KeyProblem::Unknown { suggestion: None, known: known.join(", ") };
         return Err(section.error(stray, problem));
     }
@@ -99,7 +99,7 @@ pub(crate) fn read(
     Ok(chosen)
 }
 
-/// The same about another temperature \[°C\], where the table itself says nothing of it.
+/// The same with this reference temperature \[°C\], if the table does not state its own.
 pub(crate) fn read_about(
     section: &Section<'_>,
     use_: Use,
@@ -126,7 +126,7 @@ fn named(section: &Section<'_>) -> Result<&'static Term, IoError> {
     })
 }
 
-/// Which parameters are estimated, and how well they are known before or after.
+/// The roles of the parameters: which are estimated, and their sigma before or after.
 fn roles(
     section: &Section<'_>,
     (term, names): (&Term, &[&str]),
@@ -158,7 +158,7 @@ fn roles(
     Ok(roles)
 }
 
-/// The parameters that `estimate` names, if it is there.
+/// The parameters in `estimate`, if the key exists.
 fn estimated<'n>(
     section: &Section<'_>,
     names: &[&'n str],
@@ -188,8 +188,7 @@ fn sigma_of(table: &Section<'_>, name: &str, unit: Unit) -> Result<Option<f64>, 
     }
 }
 
-/// The number behind `key` in SI units: a quantity of the dimension of `unit`, or a bare number where
-/// that is none.
+/// The number behind `key` in SI units: a quantity of the dimension of `unit`, or a bare number if the unit is a plain number.
 fn number(section: &Section<'_>, key: &str, unit: Unit) -> Result<Option<f64>, IoError> {
     if unit == Unit::CELSIUS {
         return section.celsius(key);

@@ -36,7 +36,7 @@ pub(crate) fn written(chosen: &TermInstance, use_: Use, axes: &SignedAxes) -> St
     for &place in &order {
         let ((_, sign), value) = (chosen.own(place, axes), chosen.values[place]);
         if use_ == Use::Calibration || value != 0.0 {
-            // No zero is written as less than nothing.
+            // Adding zero avoids a negative zero.
             let value = quantity(sign * value + 0.0, term.parameters[place].unit);
             let _ = writeln!(text, "{} = {value}", own[place]);
         }
@@ -58,7 +58,7 @@ fn quantity(value: f64, unit: Unit) -> String {
     if unit == Unit::ONE { format!("{number}") } else { format!("\"{number} {}\"", unit.symbol) }
 }
 
-/// The parameters of the term at place `term` of a model, in their units.
+/// The parameters of the term at index `term` of a model, in their units.
 pub(crate) fn parameters(model: &Model, term: usize) -> Vec<Parameter> {
     let chosen = &model.terms[term];
     let pairs = chosen.term.parameters.iter().zip(&chosen.values).enumerate();

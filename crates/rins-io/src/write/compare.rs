@@ -1,29 +1,29 @@
-//! Whether what was written is read as the same.
+//! Comparison of a written log with the original recording.
 
 use rins_frames::Increments;
 use rins_motion::Recording;
 
 use super::LogFile;
 
-/// How far a signal that was written and read is from what it was.
+/// The difference of a signal after writing and reading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// The signal, with its unit.
     pub signal: &'static str,
-    /// How many numbers differ.
+    /// The number of numbers that differ.
     pub numbers: usize,
-    /// By how much at most, in SI units; infinite if some are missing.
+    /// The largest difference, in SI units; infinite if numbers are missing.
     pub largest: f64,
 }
 
-/// What is not the same to the last bit. `commanded` is the table rate that a profile tells.
+/// The signals that are not bit-identical. `commanded` is the table rate of the profile.
 pub(super) fn differences(
     old: &Recording,
     new: &Recording,
     commanded: Option<&[f64]>,
     format: LogFile,
 ) -> Vec<Difference> {
-    // EuRoC's stamps are counted again from a whole second near the first of them.
+    // EuRoC stamps get a new origin, an integer second near the first of them.
     let origin = match (old.times.first(), new.times.first()) {
         (Some(old), Some(new)) if format == LogFile::Euroc => (old - new).round(),
         _ => 0.0,
@@ -72,7 +72,7 @@ fn difference(
         let off = match (old.next(), new.next()) {
             (None, None) => break,
             (Some(old), Some(new)) => (new - old).abs(),
-            // One is missing.
+            // One of the signals is missing.
             _ => f64::INFINITY,
         };
         if off > 0.0 {

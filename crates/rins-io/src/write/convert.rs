@@ -1,4 +1,4 @@
-//! A log of one format turned into one of another, with the rig file that reads it.
+//! Conversion of a log to another format, with a new rig file.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -19,35 +19,35 @@ use crate::log::{Loaded, LogPolicy, LogSummary, read_log};
 use crate::output::{Overwrite, write_files};
 use crate::rig::{Axes, LogFormat, Rig};
 
-/// What became of a conversion.
+/// The outcome of a conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Converted {
-    /// The rig file that reads the new log.
+    /// The rig file of the new log.
     pub rig: PathBuf,
-    /// What was read: its rig file ...
+    /// The original rig file.
     pub old: Rig,
-    /// ... and what reading it has shown.
+    /// The findings while reading the original log.
     pub summary: LogSummary,
     /// The number of samples.
     pub samples: usize,
-    /// What the format has no room for.
+    /// The signals that the format cannot contain.
     pub left_out: Vec<&'static str>,
-    /// What is not the same, to the last bit, once the new log is read.
+    /// The signals that are not bit-identical when the new log is read.
     pub differences: Vec<Difference>,
-    /// What is to be added to the new log's times to have those of the old \[s\].
+    /// The offset that is added to the new log's times to get those of the original \[s\].
     pub time_origin: f64,
 }
 
-/// Writes the log that the rig file at `rig` names anew, to `log` and in this format, and beside it,
-/// with the ending `toml`, the rig file that reads it.
+/// Writes the log of the rig file at `rig` to `log` in another format, and its new rig file beside it,
+/// with the extension `toml`.
 ///
-/// The axes of the new log are the sensors' own body axes, right, front and up, or what its format demands, whatever axis the
-/// table turns about: `[axis]` goes with them. The new log is read before it is put in its place, and whatever is not the same to
-/// the last bit is told.
+/// The axes of the new log are the sensors' own body axes, right, front and up, or those of its format, whatever the spin axis;
+/// the new rig file keeps `[axis]`. The new log is read before it is moved to its place, and every signal that is not
+/// bit-identical is reported.
 ///
 /// # Errors
-/// [`IoError`] if the run cannot be read, if the format cannot hold it, or if the files cannot be put
-/// where they should go. Nothing has then changed.
+/// [`IoError`] if the run cannot be read, if the format cannot represent it, or if the files cannot be
+/// written to their destination. Nothing has then changed.
 pub fn convert(
     rig: &Path,
     log: &Path,
@@ -57,12 +57,12 @@ pub fn convert(
     convert_changed(rig, log, format, overwrite, |_| Ok("Written by `rins convert`.".into()))
 }
 
-/// The same with what is done to the run by `change`, which says in a line what the new rig file begins with.
+/// The same after a modification of the run by `change`, which returns the first line of the new rig file.
 ///
-/// What is not the same to the last bit is told against the run as it was changed.
+/// Signals are compared with the run after its modification.
 ///
 /// # Errors
-/// As [`convert`], and what `change` refuses.
+/// As for [`convert`], and the errors of `change`.
 pub fn convert_changed<E: From<IoError>>(
     rig: &Path,
     log: &Path,
@@ -96,7 +96,7 @@ pub fn convert_changed<E: From<IoError>>(
             let again = Rig::read(&staged).and_then(|rig| read_log(rig, LogPolicy::default()));
             let again = match (again, &least) {
                 (Ok(again), _) => again,
-                // A rate of another kind is no more than a second try.
+                // The other rate is only a second attempt.
                 (Err(_), Some(_)) => continue,
                 (Err(error), None) => return Err(error),
             };
@@ -129,7 +129,7 @@ pub fn convert_changed<E: From<IoError>>(
     })
 }
 
-/// The run with its readings along the sensors' own axes: exactly, since axes are but exchanged and reversed.
+/// The run with its readings along the sensors' own axes: exact, because axes are only permuted and reversed.
 fn along_own_axes(loaded: &Loaded) -> Cow<'_, Loaded> {
     if loaded.rig.spin == Axes::IDENTITY {
         return Cow::Borrowed(loaded);
@@ -143,7 +143,7 @@ fn along_own_axes(loaded: &Loaded) -> Cow<'_, Loaded> {
     Cow::Owned(own)
 }
 
-/// Refuses to write over what is read.
+/// Refuses outputs that would overwrite inputs.
 fn refuse_inputs(loaded: &Loaded, outputs: &[&Path]) -> Result<(), IoError> {
     let mut inputs = vec![loaded.rig.path.as_path(), loaded.rig.log.path.as_path()];
     if let LogFormat::Columns(columns) = &loaded.rig.log.format {
@@ -161,29 +161,29 @@ fn refuse_inputs(loaded: &Loaded, outputs: &[&Path]) -> Result<(), IoError> {
     Ok(())
 }
 
-/// The run without rates that its rig file's profile tells again, and these.
+/// The run without table rates that the profile of its rig file repeats, and these rates.
 fn without_commanded(mut loaded: Loaded) -> (Loaded, Option<Vec<f64>>) {
     let measured = match &loaded.rig.log.format {
         LogFormat::Columns(columns) => columns.table_rate.is_some(),
         LogFormat::Psins => false,
     };
-    // A profile begins with its log, from which something may have been cut.
+    // A profile begins with its log, whose start may have been cut off.
     let whole = loaded.summary.redivided.is_none_or(|redivided| redivided.late <= 0.0);
     let commanded = if measured || !whole { None } else { loaded.recording.table_rate.take() };
     (loaded, commanded)
 }
 
-/// A run, and what of it a new rig file says.
+/// A run with the content of its new rig file.
 struct Description<'d> {
     document: &'d Document,
     loaded: &'d Loaded,
     format: LogFile,
-    /// What its rig file begins with, in a line.
+    /// The first line of its rig file.
     opening: String,
 }
 
 impl Description<'_> {
-    /// The rates that the new rig file may state, so that the first interval is what it was \[Hz\].
+    /// The rates that the new rig file may state so that the first interval is unchanged \[Hz\].
     fn rates(&self) -> Vec<Option<f64>> {
         let first = self.loaded.recording.increments.first().map(|sample| sample.interval);
         let of_first = first.and_then(|interval| inverted(interval, 1.0 / interval, f64::recip));
@@ -253,7 +253,7 @@ impl Description<'_> {
         if !(self.loaded.summary.gaps.is_empty() || holds_rates || self.format == LogFile::Psins) {
             keys.push_str("gaps = \"accumulated\"\n");
         }
-        // A format without a time column counts from where the log begins.
+        // A format without a time column counts from the start of the log.
         let spans = &self.loaded.rig.log.static_spans;
         if matches!(self.format, LogFile::Csv | LogFile::Parquet | LogFile::Mat)
             && !spans.is_empty()

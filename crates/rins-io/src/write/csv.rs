@@ -9,11 +9,11 @@ use super::signals::{COLUMNS, others};
 /// Writes `recording` as CSV, in SI units and radians.
 ///
 /// The columns are `time`, the increments `gyro_x` … `accel_z`, and `table_angle`, `table_rate`
-/// and `temperature` where the recording has them. Every number is written with the fewest digits
-/// that read back as the same number.
+/// and `temperature` if the recording has them. Every number has the smallest number of digits
+/// that is parsed to the same double.
 ///
 /// # Errors
-/// What `out` returns.
+/// The errors of `out`.
 pub fn write_recording(recording: &Recording, out: &mut dyn Write) -> io::Result<()> {
     let others = others(recording);
     write!(out, "time,{}", COLUMNS.join(","))?;

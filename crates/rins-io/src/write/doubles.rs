@@ -1,4 +1,4 @@
-//! PSINS' rows of seven doubles: angle increments, velocity increments, time (‹psins›).
+//! PSINS rows of seven doubles: angle increments, velocity increments, time (‹psins›).
 
 use std::io::{self, Write};
 

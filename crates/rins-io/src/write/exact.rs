@@ -1,9 +1,9 @@
-//! Numbers to be written such that, once they are multiplied or divided, they are what they were.
+//! Numbers that give the original value when they are multiplied or divided after reading.
 
-/// How many neighbours of a quotient are tried.
+/// The number of neighbors of a quotient that are tried.
 const NEIGHBOURS: usize = 4;
 
-/// A number whose image under `read` is `value`, near `guess`; `None` if no neighbour's is.
+/// A number near `guess` that `read` maps to `value`; `None` if none of its neighbors is.
 pub(super) fn inverted(value: f64, guess: f64, read: impl Fn(f64) -> f64) -> Option<f64> {
     let is_value = |number: &f64| read(*number).to_bits() == value.to_bits();
     let (mut up, mut down) = (guess, guess);
@@ -15,7 +15,7 @@ pub(super) fn inverted(value: f64, guess: f64, read: impl Fn(f64) -> f64) -> Opt
         .find(is_value)
 }
 
-/// A number that is `value` when multiplied by `factor`, or else the nearest to it.
+/// A number that gives `value` when multiplied by `factor`, or the nearest to it.
 pub(super) fn quotient(value: f64, factor: f64) -> f64 {
     let guess = value / factor;
     inverted(value, guess, |number| number * factor).unwrap_or(guess)
@@ -36,7 +36,7 @@ mod tests {
 
     #[test]
     fn what_is_no_product_is_told() {
-        // Doubles just above one are three times as far apart, thrice taken, as just above three.
+        // The spacing of doubles just above one, multiplied by three, exceeds the spacing just above three.
         let mut value = 3.0_f64;
         let found = (0..6).filter(|_| {
             value = value.next_up();

@@ -1,8 +1,8 @@
-//! Why writing has failed.
+//! Errors of writing a log.
 
 use crate::error::WriteProblem;
 
-/// Why writing has failed, before the file is known.
+/// The error of writing a log, before the file name is added.
 pub(super) enum Failure {
     System(std::io::Error),
     Problem(WriteProblem),

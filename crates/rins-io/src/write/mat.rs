@@ -15,9 +15,9 @@ const WORDS: u32 = 6;
 const CHARACTERS: u32 = 1;
 const DOUBLE_CLASS: u32 = 6;
 
-/// Writes `time` and, as columns of matrices, `gyro` and `accel`; and what else there is.
+/// Writes `time`, the matrices `gyro` and `accel`, and the other signals.
 pub(super) fn write(recording: &Recording, out: &mut dyn Write) -> Result<(), Failure> {
-    // An element's length is a word of 32 bits.
+    // The length of an element is a 32-bit word.
     if recording.len() > (u32::MAX / 32) as usize {
         let why = "a matrix has less than 4 GB; choose parquet";
         return Err(WriteProblem::TooMuch { what: "so long a log", format: "mat", why }.into());

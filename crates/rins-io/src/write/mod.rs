@@ -1,4 +1,4 @@
-//! Recordings written as the logs that other software reads, with the rig file that reads them.
+//! Output of recordings as logs in the formats of other software, with their rig files.
 
 mod compare;
 mod convert;
@@ -26,7 +26,7 @@ use self::failure::Failure;
 use crate::error::IoError;
 use crate::log::Loaded;
 
-/// A format that logs are written in.
+/// A format for the output of logs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LogFile {
@@ -38,16 +38,16 @@ pub enum LogFile {
     Mat,
     /// A PSINS text log.
     Psins,
-    /// PSINS' rows `[wm vm t]` of doubles.
+    /// PSINS rows `[wm vm t]` of doubles.
     PsinsBinary,
-    /// KF-GINS' text.
+    /// KF-GINS text.
     KfGins,
-    /// The EuRoC data set's text, which is Kalibr's too.
+    /// Text of the EuRoC data set, which Kalibr also uses.
     Euroc,
 }
 
 impl LogFile {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 7] = [
         Self::Csv,
         Self::Parquet,
@@ -58,7 +58,7 @@ impl LogFile {
         Self::Euroc,
     ];
 
-    /// How a rig file calls it.
+    /// Its name in a rig file.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Csv => "csv",
@@ -71,12 +71,12 @@ impl LogFile {
         }
     }
 
-    /// The format that a rig file calls `name`.
+    /// The format with this name in a rig file.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|format| format.name() == name)
     }
 
-    /// The format that a file's name tells; `None` if it could be of several.
+    /// The format that follows from a file's name; `None` if it is ambiguous.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension().map(OsStr::to_ascii_lowercase);
         match ending.as_ref().and_then(|ending| ending.to_str())? {
@@ -89,18 +89,18 @@ impl LogFile {
         }
     }
 
-    /// Whether it has room for a table's angle or rate, and for a temperature.
+    /// Whether it can contain a table angle or rate, and a temperature.
     pub const fn holds_more_than_the_imu(self) -> bool {
         matches!(self, Self::Csv | Self::Parquet | Self::Mat)
     }
 }
 
-/// Writes what was recorded as a log of this format.
+/// Writes a recording as a log of this format.
 ///
-/// Every number is written such that it is read as the same, where the format can hold it.
+/// Every number is written such that it is read as the same number, if the format can represent it.
 ///
 /// # Errors
-/// [`IoError::Write`] if the format cannot hold it, [`IoError::File`] if the system refuses.
+/// [`IoError::Write`] if the format cannot represent it, [`IoError::File`] on a system error.
 pub fn write_log(
     loaded: &Loaded,
     format: LogFile,

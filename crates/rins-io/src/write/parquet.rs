@@ -15,10 +15,10 @@ use super::failure::Failure;
 use super::signals::{COLUMNS, channel, others};
 use crate::error::WriteProblem;
 
-/// The rows of a group: what is held in memory twice.
+/// The number of rows in a row group, of which two copies are in memory.
 const GROUP: usize = 1 << 20;
 
-/// Writes a double a signal, under the names that a CSV has.
+/// Writes one double column for each signal, with the names of the CSV columns.
 pub(super) fn write(recording: &Recording, out: &mut (dyn Write + Send)) -> Result<(), Failure> {
     encode(recording, out).map_err(|error| match error {
         ParquetError::External(inner) => match inner.downcast::<std::io::Error>() {

@@ -1,4 +1,4 @@
-//! PSINS text logs (‹psins›): three rows of header, then six numbers a sample.
+//! PSINS text logs (‹psins›): three rows of header, then six numbers per sample.
 
 use std::io::Write;
 
@@ -11,16 +11,16 @@ use super::signals::channel;
 use crate::error::WriteProblem;
 use crate::log::Loaded;
 
-/// How far a time may be from even steps, in intervals.
+/// The maximum difference of a time from even steps, in intervals.
 const EVEN_WITHIN: f64 = 1e-6;
 
-/// The fewest and the most bits behind the point of an increment's unit, if it is ours to choose.
+/// The minimum and maximum number of binary fraction digits of the increments' unit, if rins chooses it.
 const BITS: std::ops::RangeInclusive<i32> = 10..=40;
 
 /// Writes increments as multiples of the header's scales.
 ///
-/// Where the log came with scales of which every increment is a whole multiple, they are kept. Else
-/// a scale is a power of two, of which every double is a multiple by a double.
+/// If the log has scales of which every increment is an integer multiple, they are kept. Otherwise
+/// the scale is a power of two, of which every double is a multiple by a double.
 pub(super) fn write(loaded: &Loaded, out: &mut dyn Write) -> Result<(), Failure> {
     let recording = &loaded.recording;
     let header = loaded.psins_header;
@@ -114,7 +114,7 @@ fn refuse_uneven(recording: &Recording, start: f64, interval: f64) -> Result<(),
     Ok(())
 }
 
-/// A scale as it is written, the same in SI units, and whether all increments are whole multiples.
+/// A scale as written, its value in SI units, and whether all increments are integer multiples.
 fn scale(recording: &Recording, place: usize, known: &[f64], factor: f64) -> (f64, f64, bool) {
     for &scale in known {
         let whole = |number: f64| (number / scale).round() * scale;

@@ -1,4 +1,4 @@
-//! Rig files as text: sections as they were written, and what describes a log that is new.
+//! Text of rig files: copied sections, and the description of a new log.
 
 use std::fmt::Write as _;
 
@@ -7,9 +7,9 @@ use rins_motion::Recording;
 use super::signals::COLUMNS;
 use crate::document::{Entry, Node, Value as Written};
 
-/// The keys of `[log]` that describe what [`write_recording`](super::write_recording) writes, but for `path` and `rate`.
+/// The keys of `[log]` for the output of [`write_recording`](super::write_recording), except `path` and `rate`.
 ///
-/// `angle` is put behind the table angle's column and unit, as in `, noise = "0.3 arcsec"`.
+/// `angle` is appended to the table angle's column and unit, as in `, noise = "0.3 arcsec"`.
 pub(crate) fn column_keys(recording: &Recording, angle: &str) -> String {
     let triad = |names: &[&str], unit: &str| {
         let names: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
@@ -32,7 +32,7 @@ pub(crate) fn column_keys(recording: &Recording, angle: &str) -> String {
     keys
 }
 
-/// The same of what a MATLAB file of ours holds.
+/// The same for a MATLAB file written by rins.
 pub(crate) fn matrix_keys(recording: &Recording, angle: &str) -> String {
     let mut keys = column_keys(recording, angle);
     for name in ["gyro", "accel"] {
@@ -43,7 +43,7 @@ pub(crate) fn matrix_keys(recording: &Recording, angle: &str) -> String {
     keys
 }
 
-/// What a table angle's keys say besides column, unit and sense.
+/// The keys of a table angle other than column, unit and sense.
 pub(crate) fn figures(angle: &Written) -> String {
     let Node::Table(entries) = &angle.node else { return String::new() };
     let mut figures = String::new();

@@ -1,4 +1,4 @@
-//! A recording's signals by name.
+//! The signals of a recording by name.
 
 use rins_motion::Recording;
 
@@ -6,7 +6,7 @@ use rins_motion::Recording;
 pub(crate) const COLUMNS: [&str; 6] =
     ["gyro_x", "gyro_y", "gyro_z", "accel_x", "accel_y", "accel_z"];
 
-/// The signals besides the IMU's that a recording has, and their names.
+/// The signals of a recording other than the IMU's, with their names.
 pub(super) fn others(recording: &Recording) -> Vec<(&'static str, &[f64])> {
     let all = [
         ("table_angle", &recording.table_angle),

@@ -11,7 +11,7 @@ use rins_testing::{assert_rows, says};
 
 use crate::support::{assert_refused, replaced};
 
-/// What writing in deg/h, ug, ppm and arcsec and reading again may change: a rounding each way.
+/// The relative change by writing in deg/h, ug, ppm and arcsec and reading again: one rounding error each way.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 fn any_triad(size: f64) -> impl Strategy<Value = TriadError> {
@@ -58,7 +58,7 @@ proptest! {
     }
 }
 
-/// As a person might write it.
+/// A file as a user might write it.
 const TEXT: &str = r#"
 schema = 1
 
@@ -78,7 +78,7 @@ fn rows_and_columns_are_those_of_the_equation() {
     let calibration = Calibration::parse(TEXT, Path::new("c.toml")).unwrap();
     assert_eq!(calibration.error.gyro.matrix[(1, 2)], 1e-3);
     assert_eq!(calibration.error.gyro.matrix[(2, 1)], 0.0);
-    // A rate of 1 rad/s about z, seen by gyro y as 1 mrad/s too much.
+    // For a rate of 1 rad/s about z, the output of gyro y is too large by 1 mrad/s.
     let measured = calibration.error.gyro.measured_rate(&rins_frames::InFrame::new(0.0, 0.0, 1.0));
     assert_eq!(measured.components().y, 1e-3);
 }
@@ -138,7 +138,7 @@ fn a_file_says_what_its_numbers_mean() {
     assert_eq!(Calibration::read(&path).unwrap().error, ImuError::default());
 }
 
-/// Two terms, one of them not wholly estimated, and a covariance.
+/// Two terms, one of them only partly estimated, and a covariance.
 const BEYOND: &str = r#"
 [covariance]
 ids = ["gyro.scale.z", "accel_lever_arm.r_x", "encoder_harmonic#2.sin"]

@@ -22,7 +22,7 @@ struct Part {
     runs: Vec<RunRows>,
 }
 
-/// Two runs of each of some scenarios.
+/// Two runs of each of these scenarios.
 fn part(cells: &[u64]) -> Part {
     let row = |cell: u64, run: u64, place: usize| Row {
         cell,
@@ -143,7 +143,7 @@ fn what_is_no_campaign_is_refused() {
     }
 }
 
-/// Whatever byte of a file is another, and wherever it ends, it is read or refused, at once.
+/// A file with any byte changed or truncated anywhere is read or refused, without delay.
 #[test]
 fn damaged_results_are_read_or_refused() {
     let folder = tempdir().unwrap();
@@ -168,7 +168,7 @@ fn damaged_results_are_read_or_refused() {
     assert!(refused > whole.len() / 4, "{refused} of {}", whole.len());
 }
 
-/// Which of the first ten portions the journal holds.
+/// The chunks, among the first ten, that are in the journal.
 fn journal(path: &Path) -> Vec<u64> {
     let journal = Journal::resume(path, &identity()).unwrap().unwrap();
     (0..10).filter(|chunk| journal.len_of(*chunk).is_some()).collect()
@@ -199,13 +199,13 @@ fn a_journal_gives_back_what_was_added_in_any_order() {
         made.add(*chunk, runs).unwrap();
     }
     same(&mut made);
-    // What is added after reading goes behind the last portion.
+    // Chunks added after a resume are appended to the last one.
     made.add(9, &[failed()]).unwrap();
     drop(made);
     let mut resumed = Journal::resume(&path, &identity()).unwrap().unwrap();
     same(&mut resumed);
     assert_eq!(resumed.runs(9).unwrap(), [failed()]);
-    // Made again, the later one counts.
+    // If a chunk is repeated, the later one counts.
     resumed.add(2, &[run(3.0), failed()]).unwrap();
     drop(resumed);
     let mut resumed = Journal::resume(&path, &identity()).unwrap().unwrap();
@@ -223,11 +223,11 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
     }
     drop(made);
     assert_eq!(journal(&path), [4, 7]);
-    // Cut anywhere, be it within a letter of the reason, it has what was whole before.
+    // If it is cut anywhere, even within a character of the reason, the complete chunks before remain.
     let whole = fs::read(&path).unwrap();
     let lines: Vec<usize> =
         (0..).zip(&whole).filter(|(_, byte)| **byte == b'\n').map(|(place, _)| place + 1).collect();
-    // A line says whose it is, and each portion has three.
+    // The first line identifies the campaign, and each chunk has three lines.
     let (first, second) = (lines[0], lines[3]);
     for length in first..whole.len() {
         fs::write(&path, &whole[..length]).unwrap();
@@ -236,11 +236,11 @@ fn a_journal_goes_on_behind_its_last_whole_portion() {
         let left = fs::read(&path).unwrap();
         assert!(left.is_empty() || whole.starts_with(&left) && left.ends_with(b"\n"), "{length}");
     }
-    // A second one is never put in the place of the first.
+    // An existing journal is never replaced by a new one.
     assert!(Journal::create(&path, &identity(), Overwrite::Refuse).is_err());
 }
 
-/// Whatever bit is flipped, no run comes back as another one: a portion is as it was, or it is made again.
+/// If a bit is flipped, no run is changed: a chunk is unchanged, or it is repeated.
 #[test]
 fn a_journal_with_a_flipped_bit_gives_back_no_other_run() {
     let folder = tempdir().unwrap();

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use crate::support::{SITE, folder, without};
 
-/// The rig of a log of increments at 64 Hz with all that a log can have.
+/// The rig of a log of increments at 64 Hz with all possible signals.
 const RIG: &str = r#"
 [log]
 path = "run.csv"
@@ -30,7 +30,7 @@ sigma = "0.1 deg"
 spin = "x"
 "#;
 
-/// Increments with all their bits in use; a simple generator makes them.
+/// Increments in which all bits are used, from a simple generator.
 fn log(rows: u32) -> String {
     let mut state = 88172645463325252_u64;
     let mut random = || {
@@ -84,7 +84,7 @@ fn every_pair_of_formats_is_exact() {
     for first in LogFile::ALL {
         let name = format!("{}.{}", first.name(), ending(first));
         let done = converted(&folder, "rig.toml", &name, first).unwrap();
-        // EuRoC's rates too: the interval is a power of two, and a whole number of nanoseconds.
+        // This includes the rates of EuRoC: the interval is a power of two, and an integer number of nanoseconds.
         assert!(done.differences.is_empty(), "{}: {:?}", first.name(), done.differences);
         assert_eq!(done.left_out.is_empty(), first.holds_more_than_the_imu());
         let once = read(&done.rig).unwrap();
@@ -108,7 +108,7 @@ fn every_pair_of_formats_is_exact() {
     }
 }
 
-/// The columns of text of a converted log whose every increment is another.
+/// The text columns of a converted log whose increments all differ.
 fn columns_of(format: LogFile, name: &str) -> Vec<Vec<f64>> {
     let folder = run();
     converted(&folder, "rig.toml", name, format).unwrap();
@@ -118,9 +118,9 @@ fn columns_of(format: LogFile, name: &str) -> Vec<Vec<f64>> {
     text.lines().filter(|line| !line.starts_with(['#', '%'])).map(numbers).collect()
 }
 
-/// A sample of [`run`] along right, front and up, the sensors' own body axes, from its text.
+/// A sample of [`run`] along right, front and up, the sensors' own body axes, computed from its text.
 ///
-/// The rig file has body x = −y, y = x, z = z of the accelerometers; that body x is the axis of rotation changes nothing.
+/// The rig file has body x = −y, y = x, z = z of the accelerometers; the fact that body x is the spin axis has no effect.
 fn expected(sample: usize) -> ([f64; 3], [f64; 3]) {
     let text = log(40);
     let row: Vec<f64> =
@@ -161,7 +161,7 @@ fn psins_gets_right_front_up_and_its_units() {
     assert_close!(place[0], 34.25, 1e-12);
     assert_close!(place[1], 108.9, 1e-12);
     assert_close!(place[2], 400.0, 1e-9);
-    // An interval in ms, and 1 g as a latitude of 34 degrees has it.
+    // An interval in ms, and 1 g as gravity at a latitude of 34 degrees.
     assert_close!(place[4], 15.625, 1e-12);
     assert_close!(place[5], 9.7955, 1e-3);
     for (sample, row) in rows[3..].iter().enumerate() {
@@ -207,7 +207,7 @@ fn a_psins_log_keeps_its_integers() {
     );
     let done = converted(&folder, "rig.toml", "c.parquet", LogFile::Parquet).unwrap();
     assert!(done.differences.is_empty(), "{:?}", done.differences);
-    // The place came from the header, and now stands in the rig file.
+    // The site came from the header, and is now in the rig file.
     let (old, new) = (read(&folder.path().join("rig.toml")).unwrap(), read(&done.rig).unwrap());
     assert_eq!(old.station, new.station);
     assert_eq!(old.recording, new.recording);
@@ -256,7 +256,7 @@ fn nothing_that_is_there_is_replaced_unasked() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4);
 }
 
-/// A table that counts the other way is read with its sign, and written with it.
+/// A table that counts in the opposite direction is read with its sign, and written with it.
 #[test]
 fn a_reversed_table_is_read_once() {
     let reversed =

@@ -1,4 +1,4 @@
-//! Files that fuzzing has made, each of which once was a panic or had no end.
+//! Files found by fuzzing, each of which once caused a panic or an endless loop.
 
 use std::time::{Duration, Instant};
 
@@ -32,7 +32,7 @@ fn damaged_parquet_files_are_refused() {
     );
 }
 
-/// A page's header holds a list of two billion items, and the file ends.
+/// A page header contains a list of two billion items, and the file ends.
 #[test]
 fn a_list_without_an_end_is_not_skipped_item_by_item() {
     let start = Instant::now();
@@ -41,7 +41,7 @@ fn a_list_without_an_end_is_not_skipped_item_by_item() {
     assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
 }
 
-/// A MATLAB file of one matrix of doubles, which is `data`.
+/// A MATLAB file with one matrix of doubles, `data`.
 fn matrix(name: &str, rows: u32, columns: u32, data: &[u8]) -> Vec<u8> {
     let mut file = [b' '; 124].to_vec();
     file.extend([0, 1, b'I', b'M']);

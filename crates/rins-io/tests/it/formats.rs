@@ -1,4 +1,4 @@
-//! Logs that other software has written: `tests/data/logs.py` says which, and how.
+//! Logs written by other software, as described in `tests/data/logs.py`.
 
 use std::fs;
 use std::path::Path;
@@ -26,7 +26,7 @@ fn load_bytes(log: &str, name: &str, bytes: &[u8]) -> Result<Loaded, String> {
     read(&folder.path().join("rig.toml")).map_err(|error: IoError| without(&error, folder.path()))
 }
 
-/// Whether a recording is the run that `logs.py` describes, along right, front and up.
+/// Asserts that a recording is the run in `logs.py`, along right, front and up.
 fn is_the_run(loaded: &Loaded, within: f64) {
     let recording = &loaded.recording;
     assert_eq!(recording.len(), 24);
@@ -45,7 +45,7 @@ fn is_the_run(loaded: &Loaded, within: f64) {
     }
 }
 
-/// Doubles that were rounded once or twice.
+/// The tolerance for doubles that were rounded once or twice.
 const ROUNDING: f64 = 1e-14;
 
 #[test]
@@ -68,7 +68,7 @@ fn doubles_that_are_not_seven_a_row_are_refused() {
     let refused = load_bytes(log, "psins.bin", &bytes[..bytes.len() - 3]).unwrap_err();
     assert_eq!(refused, "psins.bin:24: the last row is cut short: rows have 56 bytes");
     assert_eq!(load_bytes(log, "psins.bin", &[]).unwrap_err(), "psins.bin: the file is empty");
-    // Of the other byte order not even time goes on.
+    // In the other byte order, not even time increases.
     let swapped: Vec<u8> =
         bytes.chunks(8).flat_map(|double| double.iter().rev().copied()).collect();
     let refused = load_bytes(log, "psins.bin", &swapped).unwrap_err();
@@ -86,7 +86,7 @@ fn file_with_a_hole_is_refused_where_the_hole_begins() {
             ),
             ("run.bin", &bytes[..rows * 56]),
         ]);
-        // A terabyte, of which nothing is on the disk.
+        // A terabyte, as a sparse file.
         let file = fs::OpenOptions::new().write(true).open(folder.path().join("run.bin")).unwrap();
         file.set_len((rows * 56) as u64 + (1 << 40)).unwrap();
         let refused = read(&folder.path().join("rig.toml")).unwrap_err();
@@ -104,7 +104,7 @@ fn kf_gins_text_is_read() {
 #[test]
 fn euroc_text_is_read() {
     let loaded = load("format = \"euroc\"\n", "euroc.csv").unwrap();
-    // Nanoseconds since 1970 are whole ones again once they are counted from a nearby second.
+    // Nanoseconds since 1970 are integers again when they are counted from a nearby second.
     is_the_run(&loaded, 1e-12);
     assert_close!(loaded.summary.time_origin, 1403636579.0, 1e-6);
     assert_close!(loaded.recording.times[0], 0.768555392, 1e-12);
@@ -113,7 +113,7 @@ fn euroc_text_is_read() {
 #[test]
 fn novatel_messages_are_read() {
     let loaded = load("format = \"novatel\"\nimu = \"HG1700-AG58\"\n", "novatel.asc").unwrap();
-    // A count is 1.2e-8 rad/s, or 2.3e-7 m/s^2, over ten milliseconds; a week ends among them.
+    // A count is 1.2e-8 rad/s, or 2.3e-7 m/s^2, over ten milliseconds; the run includes the end of a GNSS week.
     is_the_run(&loaded, 3e-8);
     let loaded = load("format = \"novatel\"\nimu = \"EG320N\"\n", "novatel_epson.asc").unwrap();
     is_the_run(&loaded, 3e-9);
@@ -240,12 +240,12 @@ fn parquet_columns_that_are_no_numbers_are_refused() {
     }
 }
 
-/// Two files as a NaveGo-like logger writes them: raw counts, each sensor with its own clock.
+/// Two files as from a logger like NaveGo: raw counts, each sensor with its own clock.
 fn own_clocks(accel_clock: &str, accel_rows: std::ops::Range<u32>) -> Result<Loaded, String> {
     let gyro: String = (1..=40)
         .map(|k| format!("{}.{:03} {} 32760 32770\n", k / 50, k % 50 * 20, 32768 + k))
         .collect();
-    // Gravity that grows by 0.1 m/s^2 each second, sampled each 30 ms, 5 ms before.
+    // A specific force that increases by 0.1 m/s^2 per second, sampled every 30 ms, 5 ms earlier.
     let accel: String = accel_rows
         .map(|k| {
             let end = f64::from(k) * 0.03;
@@ -279,11 +279,11 @@ fn accelerometers_with_a_clock_of_their_own_are_divided_anew() {
     assert_eq!((redivided.samples, redivided.left_out, loaded.recording.len()), (39, 0, 40));
     for (time, increments) in loaded.recording.times.iter().zip(&loaded.recording.increments) {
         assert_close!(increments.interval, 0.02, 1e-12);
-        // The mean over the interval, but for the steps of 3 mm/s^2 in what was sampled.
+        // The mean over the interval, within the steps of 3 mm/s^2 in the samples.
         let force = increments.velocity.components().z / 0.02;
         assert_close!(force, 9.8 + 0.1 * (time - 0.01), 2e-3);
     }
-    // The sum is the same: 9.8 T + 0.05 T^2 over the first 0.78 s, where both clocks tick.
+    // The sum is preserved: 9.8 T + 0.05 T^2 over the first 0.78 s, at which samples of both clocks end.
     let sum: f64 =
         loaded.recording.increments[..39].iter().map(|i| i.velocity.components().z).sum();
     assert_close!(sum, 9.8 * 0.78 + 0.05 * 0.78 * 0.78, 1e-9);
@@ -293,7 +293,7 @@ fn accelerometers_with_a_clock_of_their_own_are_divided_anew() {
 fn samples_that_the_other_clock_does_not_cover_are_left_out_and_counted() {
     let loaded = own_clocks(CLOCK, 5..20).unwrap();
     let redivided = loaded.summary.redivided.unwrap();
-    // They cover 0.12 s to 0.57 s, which hold 22 whole intervals of 0.02 s.
+    // They cover 0.12 s to 0.57 s, which contain 22 complete intervals of 0.02 s.
     assert_eq!((redivided.samples, redivided.left_out), (15, 18));
     assert_eq!(loaded.recording.len(), 22);
     assert_close!(redivided.late, 0.12, 1e-12);
@@ -327,7 +327,7 @@ fn separators_and_units_on_lines_of_their_own_are_understood() {
         let loaded = load_bytes(log, "run.csv", text.as_bytes()).unwrap();
         assert_eq!(loaded.recording.len(), 12, "{separator}");
     }
-    // One row of words between numbers is a mistake and no unit.
+    // A row of words between numbers is an error, not a row of units.
     let late = text.replacen("\n0.02|2|2", "\ns|x|y", 1);
     let refused = load_bytes(log, "run.csv", late.as_bytes()).unwrap_err();
     assert!(refused.starts_with("run.csv:5: column \"t\": \"s\" is not a number"), "{refused}");

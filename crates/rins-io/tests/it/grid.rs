@@ -22,7 +22,7 @@ noise = { gyro = "off", accel = "off" }
 "#
 );
 
-/// A grid of `axes` keys that have 65,536 values each.
+/// A grid of `axes` keys with 65,536 values each.
 fn of(axes: usize) -> String {
     let mut text = SCENARIO.to_owned();
     for axis in 0..axes {
@@ -31,7 +31,7 @@ fn of(axes: usize) -> String {
     text
 }
 
-/// Four of them are 2⁶⁴ scenarios, which is none to whoever counts in 64 bits.
+/// Four keys give 2⁶⁴ scenarios, which is zero in 64-bit arithmetic.
 #[test]
 fn more_scenarios_than_can_be_counted_are_refused() {
     for axes in [2, 4, 5] {
@@ -40,7 +40,7 @@ fn more_scenarios_than_can_be_counted_are_refused() {
     }
 }
 
-/// A few values of long scenarios are as much as many of short ones.
+/// A few values of long scenarios need as much memory as many of short ones.
 #[test]
 fn scenarios_that_fill_memory_together_are_refused() {
     let comment = format!("# {}\n", "x".repeat(1 << 19));

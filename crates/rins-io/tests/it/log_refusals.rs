@@ -1,11 +1,11 @@
-//! Logs that are refused, and what is said of them.
+//! Refused logs, with their error messages.
 
 use rins_io::{LogPolicy, Rig, read_log};
 use rins_testing::{assert_rows, is};
 
 use crate::support::{RIG, folder, log, plain_rig, refusal, replaced, with_line, without};
 
-/// The rig, the log, and what is said.
+/// Asserts that this log with this rig is refused with this message.
 fn check(rig: &str, log: impl AsRef<[u8]>, message: &str) {
     assert_eq!(said(rig, log), message);
 }
@@ -14,7 +14,7 @@ fn said(rig: &str, log: impl AsRef<[u8]>) -> String {
     refusal(&[("rig.toml", rig.as_bytes()), ("run.csv", log.as_ref())])
 }
 
-/// One line of a log of 40 rows, what stands there instead, and what is said.
+/// The number of a line in a log of 40 rows, its replacement, and the message.
 #[rustfmt::skip]
 const LINES: &[(usize, &str, &str)] = &[
     // Fields.
@@ -47,7 +47,7 @@ const LINES: &[(usize, &str, &str)] = &[
     (17, "0.29,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to 0.29 s, it must increase"),
     (17, "-0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: time goes from 0.3 s to -0.32 s, it must increase"),
     (41, "3.25,1e-6,1e-6,1e-6,0.1,0.2,9.8,40", "run.csv:41: a gap of 2.470000 s after 0.78 s, more than 1 s; cut the log there"),
-    // Beyond reason.
+    // Implausible values.
     (17, "0.32,1e300,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": 1e300 rad/s is not \
           plausible; check this line and the unit"),
     (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,-2e9,16", "run.csv:17: column \"az\": -2e9 m/s^2 is not plausible; \
@@ -125,7 +125,7 @@ fn a_rate_that_does_not_fit_is_refused() {
         log(40),
         "run.csv: the rate is 50.000 Hz in the time column and 51.000 Hz in [log] rate",
     );
-    // Taking milliseconds for seconds is the same mistake.
+    // Milliseconds that are declared as seconds give the same error.
     check(
         &replaced(RIG, "unit = \"s\"", "unit = \"ms\""),
         log(40),
@@ -192,7 +192,7 @@ fn stamps_that_are_no_samples_are_refused() {
         };
         log(40).lines().enumerate().map(row).collect()
     };
-    // Four samples come with each packet, a microsecond apart.
+    // Four samples come with each packet, one microsecond apart.
     check(
         &plain,
         stamped(&|index| (index / 4) as f64 * 0.08 + (index % 4) as f64 * 1e-6),
@@ -263,7 +263,7 @@ fn a_log_may_not_outlast_its_table_profile() {
     );
 }
 
-/// What stands in a PSINS log, what should rather, and what is said.
+/// A text in a PSINS log, its replacement, and the message.
 const PSINS_CASES: &[(&str, &str, &str)] = &[
     (
         "34.2 108.9",

@@ -1,4 +1,4 @@
-//! Logs that are read, however they are written.
+//! Valid logs in all variants.
 
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, STANDARD_GRAVITY};
@@ -64,7 +64,7 @@ fn all_ways_to_write_one_table_say_the_same() {
 fn a_last_line_that_does_not_end_is_left_out_and_told() {
     let right = log(40);
     let all = load(RIG, &right).recording;
-    // Whatever is cut off, down to the line before: a number that is cut may still be one.
+    // Whatever is cut off, down to the line before: a truncated number may still be a valid one.
     for cut in 1..right.lines().last().unwrap().len() {
         let loaded = load(RIG, &right[..right.len() - cut]);
         assert_eq!(loaded.recording, all.slice(0, 39), "{cut}");
@@ -98,7 +98,7 @@ fn short_gaps_are_kept_and_counted() {
     assert_eq!((gap.sample, gap.line, gap.after), (19, 21, 0.38));
     assert_close!(gap.length, 0.06, 1e-15);
     assert_close!(loaded.recording.increments[19].interval, 0.06, 1e-15);
-    // The mean of the sample that ends the gap is held over it.
+    // The mean rate of the sample at the end of the gap is held over it.
     assert_close!(vectors(&loaded.recording, 19).0.x, 22e-6 * 0.06, 1e-20);
 }
 
@@ -152,7 +152,7 @@ fn counters_and_missing_times_follow_the_rate() {
 
 #[test]
 fn stamps_of_start_and_middle_move_the_interval_and_not_the_table() {
-    // The table turns by a degree a row, at 50 deg/s, and each row says where it is at its stamp.
+    // The table rotates by one degree per row, at 50 deg/s, and each row has the angle at its stamp.
     let stamped = |stamp: &str| {
         let rig = replaced(RIG, "unit = \"s\"", &format!("unit = \"s\", stamp = \"{stamp}\""));
         load(&rig, &log(40)).recording
@@ -202,7 +202,7 @@ fn raw_counts_axes_and_the_spin_axis() {
     let scale = 0.5 * DEG * 0.02;
     assert_close!((angle - Vector3::new(-71.0, -9.0, 91.0) * scale).norm(), 1e-30, 1e-15);
     assert_close!((velocity - Vector3::new(1.0, 2.0, 3.0) * 0.02).norm(), 1e-30, 1e-15);
-    // With the spin axis along what was body y, that becomes z; z becomes x and x becomes y.
+    // With the spin axis along the former body y, y becomes z; z becomes x and x becomes y.
     let (angle, velocity) = vectors(&load(&(rig + "[axis]\nspin = \"y\"\n"), &text).recording, 0);
     assert_close!((angle - Vector3::new(91.0, -71.0, -9.0) * scale).norm(), 1e-30, 1e-15);
     assert_close!((velocity - Vector3::new(3.0, 1.0, 2.0) * 0.02).norm(), 1e-30, 1e-15);
@@ -228,12 +228,12 @@ fn the_commanded_profile_stands_in_for_the_table() {
                  profile = [{ rate = \"5 deg/s\", duration = \"0.8 s\" }]\n";
     let recording = load(&(plain_rig() + table), &log(40)).recording;
     let rates = recording.table_rate.unwrap();
-    // Half a second of ramp, then 5 deg/s.
+    // Half a second of acceleration, then 5 deg/s.
     assert_close!(rates[0], 0.1 * DEG, 1e-14);
     assert_close!(rates[39], 5.0 * DEG, 1e-12);
     let turned: f64 = rates.iter().map(|rate| rate * 0.02).sum();
     assert_close!(turned, (4.0 - 1.25) * DEG, 1e-13);
-    // A measured angle comes first.
+    // A measured angle takes precedence.
     assert_eq!(load(&format!("{RIG}{table}"), &log(40)).recording.table_rate, None);
 }
 

@@ -1,4 +1,4 @@
-//! Files as users write them, right and wrong.
+//! Files of users, valid and invalid.
 #![expect(
     clippy::float_cmp,
     clippy::format_collect,

@@ -10,7 +10,7 @@ use rins_terms::{Model, Role, TermInstance};
 
 use crate::support::assert_refused;
 
-/// What writing a number in its unit and reading it again may change: a rounding each way.
+/// The relative change by writing a number in its unit and reading it again: one rounding error each way.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 const TEXT: &str = r#"
@@ -41,7 +41,7 @@ fn a_model_is_its_base_and_what_is_listed() {
     let model = parse(TEXT).unwrap();
     let ids: Vec<&str> = model.terms.iter().map(|chosen| chosen.term.id).collect();
     assert_eq!(ids, ["gyro.scale", "gyro.misalignment", "gyro.bias", "mounting"]);
-    // What is listed again is as it is listed: S_z, which the base estimates, is held.
+    // A term that is listed again has the listed roles: S_z, which the base estimates, is held.
     assert_eq!(model.terms[0].roles, [Role::Held; 3]);
     assert!((model.terms[0].values[0] - 1e-4).abs() < 1e-18);
     assert_eq!(model.terms[1], Model::paper12().terms[1]);
@@ -64,7 +64,7 @@ fn presets_are_bases_alone() {
     }
 }
 
-/// A term of the catalogue with any settings, values and roles that it may have.
+/// A term of the catalogue with any valid settings, values and roles.
 fn any_chosen() -> impl Strategy<Value = TermInstance> {
     let numbers = || prop::collection::vec(0.0..1.0_f64, MOST_PARAMETERS);
     (

@@ -1,4 +1,4 @@
-//! Results are written whole or not at all, and nothing of the user's is lost.
+//! Results are written atomically, and no file of the user is lost.
 
 use std::fs;
 use std::path::Path;
@@ -96,7 +96,7 @@ fn a_folder_appears_with_all_its_files() {
     assert_eq!(names(folder.path()), ["run"]);
 }
 
-/// Two programs write one folder: what the other has put there, or taken away, while this one works.
+/// Two programs write one folder: the other one creates or removes files while this one works.
 #[test]
 fn a_folder_that_another_program_writes_is_not_replaced() {
     let overtaken =
@@ -138,7 +138,7 @@ fn what_is_not_ours_is_never_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
     fs::create_dir(&run).unwrap();
-    // A measured run: its files have our names, but no result is among them.
+    // A measured run: its files have names of rins results, but no result is among them.
     for name in ["run.csv", "rig.toml"] {
         fs::write(run.join(name), "measured").unwrap();
     }

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use crate::support::{RIG, log, read_files};
 
-/// A line of a preamble: fewer fields than the log has, whatever its delimiter is.
+/// A line of a preamble, which has fewer fields than the log for any delimiter.
 fn preamble_line() -> impl Strategy<Value = String> {
     prop_oneof![
         "[A-Z][a-z]{1,8} [a-z]{1,8}: [0-9]{1,4}(\\.[0-9])?",
@@ -20,7 +20,7 @@ fn preamble_line() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    /// What stands above the header, or above the first row, changes nothing.
+    /// Text above the header, or above the first row, has no effect.
     #[test]
     fn preambles_are_passed_over(
         above in prop::collection::vec(preamble_line(), 0..12),
@@ -57,7 +57,7 @@ proptest! {
     }
 }
 
-/// A first row that is cut short is a damaged row, not a preamble.
+/// A truncated first row is a damaged row, not a preamble.
 #[test]
 fn damaged_first_row_is_no_preamble() {
     let right = log(40);

@@ -1,4 +1,4 @@
-//! Rig files: what they mean, and what is said of wrong ones.
+//! Rig files: their meaning, and the error messages of invalid ones.
 
 use std::path::Path;
 
@@ -79,7 +79,7 @@ fn a_table_profile_is_counted_in_the_sense_that_is_stated() {
     assert!(error.contains("[table] sense") && error.contains("reversed"), "{error}");
 }
 
-/// What a rig file says, what it should rather say, and what is said of it.
+/// A text in a rig file, its replacement, and the message.
 #[rustfmt::skip]
 const CASES: &[(&str, &str, &str)] = &[
     // Syntax.
@@ -180,7 +180,7 @@ fn wrong_rigs_are_refused_with_file_line_key_and_expectation() {
     assert!(CASES.len() >= 60);
 }
 
-/// What no filter can use is refused; what may well not be there may be zero.
+/// Values that no filter can use are refused; quantities that may be absent may be zero.
 #[test]
 fn zero_is_refused_where_a_filter_divides_by_it_and_nowhere_else() {
     let figures = [

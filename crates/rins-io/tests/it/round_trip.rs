@@ -1,11 +1,11 @@
-//! What is written as a log is read again, to the last bit.
+//! A recording that is written as a log is bit-identical when it is read.
 
 use proptest::prelude::*;
 use rins_frames::{InFrame, Increments};
 use rins_io::{read, write_recording};
 use rins_motion::Recording;
 
-/// The rig of what [`write_recording`] writes; an interval of 1/64 s has no rounding.
+/// The rig of the output of [`write_recording`]; an interval of 1/64 s has no rounding error.
 const RIG: &str = r#"
 [site]
 latitude = "0 deg"
@@ -33,7 +33,7 @@ fn any_number() -> impl Strategy<Value = f64> {
     .prop_map(|number| number % 1e3)
 }
 
-/// A recording at 64 Hz whose steps are a little uneven.
+/// A recording at 64 Hz with slightly uneven intervals.
 fn any_recording() -> impl Strategy<Value = Recording> {
     let sample = (prop::array::uniform6(any_number()), -0.1..0.1_f64, any_number());
     let samples = prop::collection::vec(sample, 2..40);
@@ -102,7 +102,7 @@ proptest! {
 
 #[test]
 fn even_steps_are_exactly_nominal() {
-    // A tenth of a second cannot be had in binary, so that differences of times are off by bits.
+    // A tenth of a second is not exact in binary, so that differences of times have rounding errors.
     let interval = 1.0 / 10.0;
     let increments = Increments {
         angle: InFrame::new(1e-3, 2e-3, 3e-3),

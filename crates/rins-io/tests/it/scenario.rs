@@ -1,4 +1,4 @@
-//! Scenario files: what they mean, what is written of them, and what is said of wrong ones.
+//! Scenario files: their meaning, their output, and the error messages of invalid ones.
 
 use std::path::Path;
 
@@ -187,7 +187,7 @@ fn noise_can_be_switched_off() {
     assert_eq!(scenario.noise, None);
     let TableRecord::Angle(encoder) = scenario.table else { panic!("an angle") };
     assert_eq!((encoder.noise, encoder.resolution), (0.0, None));
-    // Without a data sheet all noise must be off.
+    // Without a data sheet all noise must be switched off.
     let imu = &text[text.find("[imu.gyro]").unwrap()..text.find("[truth]").unwrap()];
     let bare = replaced(&text, imu, "");
     assert!(parse(&format!("{bare}{off}")).is_ok());
@@ -217,7 +217,7 @@ fn a_simulated_run_is_read_back_to_the_last_bit() {
         file.write_run(&recording, folder.path()).unwrap();
         let mut again = read(&folder.path().join("rig.toml")).unwrap();
         if log.is_empty() {
-            // The rig's profile then stands in for the table.
+            // The rig's profile then replaces the recorded table rate.
             assert!(again.recording.table_rate.take().is_some());
         }
         assert_eq!(again.recording, recording);

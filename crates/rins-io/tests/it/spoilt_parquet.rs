@@ -1,4 +1,4 @@
-//! Parquet files in every encoding of their numbers, whole and spoilt.
+//! Parquet files in every encoding of their numbers, valid and damaged.
 
 use std::fs;
 use std::sync::Arc;
@@ -19,16 +19,16 @@ const COLUMNS: &str = "[log]\npath = \"run.parquet\"\nrate = \"100 Hz\"\n\
     gyro = { columns = [\"gx\", \"gy\", \"gz\"], unit = \"rad/s\" }\n\
     accel = { columns = [\"ax\", \"ay\", \"az\"], unit = \"m/s^2\" }\n";
 
-/// How the columns of a file are kept.
+/// The encoding of the columns of a file.
 #[derive(Clone, Copy)]
 struct Kept {
     version: WriterVersion,
     repetition: Repetition,
-    /// That of the times, which are whole numbers; through a dictionary if there is none.
+    /// That of the times, which are integers; a dictionary if it is `None`.
     times: Option<Encoding>,
 }
 
-/// All that differ in which decoders read them.
+/// All combinations that differ in the decoders that read them.
 fn kinds() -> Vec<Kept> {
     let mut kinds = Vec::new();
     for version in [WriterVersion::PARQUET_1_0, WriterVersion::PARQUET_2_0] {
@@ -41,12 +41,12 @@ fn kinds() -> Vec<Kept> {
     kinds
 }
 
-/// What a column of a sensor holds: a few numbers that come again.
+/// The content of a sensor's column: a few numbers that repeat.
 fn values(column: usize) -> Vec<f64> {
     (0..ROWS as usize).map(|row| (column * 100 + row % (5 + column)) as f64 * 1e-3).collect()
 }
 
-/// Times that go on unevenly \[ns\].
+/// Times at uneven intervals \[ns\].
 fn times() -> Vec<i64> {
     (1..=i64::from(ROWS)).map(|row| row * 10_000_000 + (row * row) % 1_000).collect()
 }
@@ -94,7 +94,7 @@ fn file(kept: Kept) -> Vec<u8> {
     bytes
 }
 
-/// A folder with a rig in it, whose log is written anew for each of some ten thousand readings.
+/// A folder with a rig, whose log is written again for each of about ten thousand reads.
 struct Rig(tempfile::TempDir);
 
 impl Rig {
@@ -106,7 +106,7 @@ impl Rig {
         let path = self.0.path().join("run.parquet");
         fs::write(&path, log).unwrap();
         let loaded = read(&self.0.path().join("rig.toml"));
-        // What is written over a file that was there goes to the disk at once, and that takes most of the time.
+        // Data written over an existing file go to the disk at once, which takes most of the time.
         fs::remove_file(path).unwrap();
         loaded
     }
@@ -127,7 +127,7 @@ fn all_encodings_are_read_alike() {
     }
 }
 
-/// Numbers of variable length, in the heads of runs and of differences, that go on for longer than any.
+/// Variable-length integers, in the headers of runs and of differences, that are longer than permitted.
 #[test]
 fn numbers_without_an_end_are_refused_wherever_they_begin() {
     let rig = Rig::new();
@@ -145,10 +145,10 @@ fn numbers_without_an_end_are_refused_wherever_they_begin() {
     assert!(endless > 100, "{endless}");
 }
 
-/// The parser makes room for as many numbers as a dictionary says it has, before it looks for them.
+/// The parser allocates memory for the number of values that a dictionary states, before it reads them.
 #[test]
 fn a_dictionary_has_the_numbers_that_it_says() {
-    // The head of a dictionary's page: a structure, and the count in it.
+    // The header of a dictionary page: a structure with the count.
     let (said, more) = ([0x4c, 0x15, 0xac, 0x02], [0x4c, 0x15, 0xfe, 0x7f]);
     let mut spoilt = file(kinds()[0]);
     let place = spoilt.windows(said.len()).position(|bytes| bytes == said).unwrap();

@@ -1,4 +1,4 @@
-//! Rigs and logs to be spoilt.
+//! Rigs and logs for tests of invalid input.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use tempfile::TempDir;
 /// The section of a site.
 pub(crate) const SITE: &str = concat!(site!(), "\n");
 
-/// A rig file that is right.
+/// A valid rig file.
 pub(crate) const RIG: &str = concat!(
     "\n",
     site!(),
@@ -39,14 +39,14 @@ pub(crate) fn plain_rig() -> String {
     replaced(RIG, angle, "")
 }
 
-/// `text` with the one place where it says `from` saying `to`.
+/// `text` with the only occurrence of `from` replaced by `to`.
 pub(crate) fn replaced(text: &str, from: &str, to: &str) -> String {
     assert_eq!(text.matches(from).count(), 1, "{from:?} must occur once");
     text.replace(from, to)
 }
 
-/// That files which say something wrong are refused: of each case what stands in a file that is `right`, what stands there
-/// instead, and all of the message.
+/// Asserts that invalid files are refused: each case has a text in the file `right`, its replacement,
+/// and the complete message.
 pub(crate) fn assert_refused<T>(
     right: &str,
     cases: &[(&str, &str, &str)],
@@ -61,7 +61,7 @@ pub(crate) fn assert_refused<T>(
     }));
 }
 
-/// A log of `rows` rows at 50 Hz that is right.
+/// A valid log of `rows` rows at 50 Hz.
 pub(crate) fn log(rows: usize) -> String {
     let mut text = String::from("t,gx,gy,gz,ax,ay,az,table\n");
     for row in 1..=rows {
@@ -69,11 +69,11 @@ pub(crate) fn log(rows: usize) -> String {
         let small = row as f64 * 1e-6;
         text.push_str(&format!("{time:.2},{small},2e-6,{small:e},0.1,0.2,{},{row}\n", 9.8 + small));
     }
-    // A gyro that says the same all along would be taken for dead.
+    // A gyro with constant output would be treated as stuck.
     text.replace(",2e-6,", ",2.5e-6,").replacen(",2.5e-6,", ",3e-6,", 1)
 }
 
-/// `text` with line `line` (from 1) being `to`.
+/// `text` with line `line` (from 1) replaced by `to`.
 pub(crate) fn with_line(text: &str, line: usize, to: &str) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
     lines[line - 1] = to;
@@ -86,14 +86,14 @@ pub(crate) fn read_files(files: &[(&str, &[u8])]) -> Result<Loaded, IoError> {
     read(&folder.path().join("rig.toml"))
 }
 
-/// What is wrong with `files`, without the folder's name.
+/// The error of reading `files`, without the folder's name.
 pub(crate) fn refusal(files: &[(&str, &[u8])]) -> String {
     let folder = folder(files);
     let error = read(&folder.path().join("rig.toml")).unwrap_err();
     without(&error, folder.path())
 }
 
-/// A temporary folder that holds `files`.
+/// A temporary folder with `files`.
 pub(crate) fn folder(files: &[(&str, &[u8])]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {

@@ -1,4 +1,4 @@
-//! Every term of the catalogue can be written in a file: its units are known, its keys do not clash.
+//! Every term of the catalogue can be written to a file: its units are known, and its keys do not conflict.
 
 use std::collections::BTreeSet;
 

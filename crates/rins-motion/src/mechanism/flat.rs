@@ -7,9 +7,9 @@ use super::errors::{ConstantTurn, NavErrors, SpinAxisErrors, attitude_error};
 
 /// The errors of attitude and velocity after `time` \[s\], exact for errors of any size.
 ///
-/// The gyros measure the constant rate `ω (z + m)`, with the spin axis errors `m`, so that `C~ = exp(-φ(0)×) C_s^n exp(ω t (z
-/// + m)×)`; the accelerometers measure `Rz(ωt)ᵀ f^s`. The velocity is the integral of products of the two rotations' sines
-/// and cosines, here in closed form. The vertical channel is held. Position is not calculated.
+/// The gyros measure the constant rate `ω (z + m)`, with the spin axis errors `m`, so that
+/// `C~ = exp(-φ(0)×) C_s^n exp(ω t (z + m)×)`; the accelerometers measure `Rz(ωt)ᵀ f^s`. The velocity is the integral of products
+/// of the two rotations' sines and cosines, here in closed form. The vertical velocity is held. Position is not calculated.
 pub fn flat_navigation(
     turn: &ConstantTurn,
     errors: &SpinAxisErrors,

@@ -1,4 +1,4 @@
-//! What reaches the page's script.
+//! The data that the page's script receives.
 
 use super::*;
 use crate::{Band, Reference, Series};

@@ -1,9 +1,9 @@
-//! What a page promises, whatever it is given.
+//! Properties of the page for any content.
 
 use super::*;
 use crate::{Band, Cell, Column, Matrix, Reference, Series, Style, Table};
 
-/// Tries to leave an element, an attribute, a script and a style.
+/// Text that tries to leave an element, an attribute, a script and a style.
 const HOSTILE: &str = "\"'><script>alert(1)</script><img src=http://evil.test/x onerror=alert(1)>\
                        </style></title>--><!--${x}`\u{2028}\u{2029}\u{202E}&amp;";
 
@@ -56,7 +56,7 @@ fn nothing_from_a_file_becomes_markup_or_code() {
         let count = |what: &str| page.matches(what).count();
         (count("<script"), count("</script"), count("<img"), count("</style"), count("<!--"))
     };
-    // Two programs and one block of data a plot; nothing else.
+    // Two scripts, and one block of data per plot; nothing else.
     assert_eq!(tame(&hostile_report()), (5, 5, 0, 1, 0));
     let page = render(&hostile_report());
     assert!(!page.contains(['\u{2028}', '\u{2029}', '\u{202E}']), "a hidden character got through");

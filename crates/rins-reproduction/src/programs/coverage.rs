@@ -1,4 +1,4 @@
-//! Prints how honest the estimator of `Model::full()` is; fails where it is not.
+//! Prints the coverage of the estimator of `Model::full()`; fails if it is not consistent.
 
 use std::error::Error;
 
@@ -7,10 +7,10 @@ use crate::model_coverage::{Colour, Coverage, Schedule, coverage};
 use indicatif::ProgressBar;
 use rins_frames::units::DEG_PER_HOUR;
 
-/// How many runs of each kind, where nothing is said.
+/// The default number of runs of each kind.
 pub(super) const RUNS: usize = 200;
 
-/// Prints a table; whether all figures are what they should be.
+/// Prints a table; returns whether all figures are within their bounds.
 pub(super) fn run(n_runs: usize) -> Result<bool, Box<dyn Error>> {
     let faults = table(n_runs)?;
     if faults > 0 {
@@ -19,7 +19,7 @@ pub(super) fn run(n_runs: usize) -> Result<bool, Box<dyn Error>> {
     Ok(faults == 0)
 }
 
-/// Prints a table and returns how many figures are not what they should be.
+/// Prints a table and returns the number of figures out of bounds.
 fn table(n_runs: usize) -> Result<usize, ReproductionError> {
     println!(
         "| schedule | noise | pooled 95 % | each | NEES of 27 | variance / bound, at most | B found [deg/h] |"

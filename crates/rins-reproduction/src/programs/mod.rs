@@ -1,4 +1,4 @@
-//! The three commands: each prints, and ends with whether all is as it should be.
+//! The three commands: each prints its results and returns whether they are as expected.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
 use std::error::Error;

@@ -1,4 +1,4 @@
-//! Runs the paper's experiments and writes, or with `--check` compares, the page that shows them.
+//! Runs the paper's experiments and writes, or with `--check` compares, the page of their results.
 
 use std::error::Error;
 use std::fs;
@@ -8,7 +8,7 @@ use crate::report::{FIGURES, File, Results, Scale, files};
 use crate::stale::differences;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// How many differences are shown before it is clear that the page is old.
+/// The maximum number of differences that are shown.
 const SHOWN: usize = 20;
 
 fn root() -> &'static Path {
@@ -35,7 +35,7 @@ pub(super) fn write() -> Result<bool, Box<dyn Error>> {
     Ok(true)
 }
 
-/// Whether the files kept say what is made now.
+/// Whether the stored files agree with the present results.
 pub(super) fn check() -> Result<bool, Box<dyn Error>> {
     let mut fresh = true;
     for File { path, text } in made()? {

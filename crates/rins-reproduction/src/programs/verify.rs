@@ -1,4 +1,4 @@
-//! Prints eqs. (6), (8), (9) and (A.5) against numerical integration; fails if a bound is broken.
+//! Prints eqs. (6), (8), (9) and (A.5) against numerical integration; fails if a bound is violated.
 
 use std::error::Error;
 
@@ -7,7 +7,7 @@ use crate::error::ReproductionError;
 use crate::experiment::Experiment;
 use crate::grid::{ATTITUDES, Errors, RATES, Row, TIMES, grid};
 
-/// Prints the grid; whether it keeps all bounds.
+/// Prints the grid; returns whether all bounds are kept.
 pub(super) fn run() -> Result<bool, Box<dyn Error>> {
     let broken = print()?;
     if broken > 0 {
@@ -16,7 +16,7 @@ pub(super) fn run() -> Result<bool, Box<dyn Error>> {
     Ok(broken == 0)
 }
 
-/// Prints the grid and returns how many bounds it breaks.
+/// Prints the grid and returns the number of violated bounds.
 fn print() -> Result<usize, ReproductionError> {
     let rows = grid(&TIMES, &ATTITUDES, &RATES)?;
     println!(
@@ -62,7 +62,7 @@ fn print() -> Result<usize, ReproductionError> {
     Ok(broken.len())
 }
 
-/// Prints what whole turns leave of all of Table 1 together, and the largest differences over each error alone.
+/// Prints the effect of all of Table 1 together after whole turns, and the largest differences over each error alone.
 fn print_accelerometers(left: &[Left]) {
     println!(
         "\neq. (A.5): velocity [m/s] that the accelerometer errors of Table 1 leave after {TURNS} turns; mean = the mean over a turn\n\

@@ -1,4 +1,4 @@
-//! Eq. (A.5): what whole turns leave of accelerometer errors.
+//! Eq. (A.5): the velocity errors due to accelerometer errors after whole turns.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! The read-out lag in Table 4's attitudes.
+//! The read-out lag in the attitudes of Table 4.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Line charts as SVG: panels side by side, with axes, units and a legend, legible light and dark.
+//! Line charts as SVG: panels side by side, with axes, units and a legend, legible in light and dark mode.
 
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ text { fill: #e6edf3; }
 }
 ";
 
-/// How a series is drawn.
+/// The style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Mark {
     Line,
@@ -46,18 +46,18 @@ pub(super) enum Mark {
     Cross,
 }
 
-/// Points of one kind.
+/// A series of points.
 #[derive(Clone, Debug)]
 pub(super) struct Series {
-    /// Its name in the legend; one without a name has no place there.
+    /// Its name in the legend; a series without a name is not in the legend.
     pub(super) label: Option<&'static str>,
     pub(super) mark: Mark,
-    /// Which of the colours, from 0 to 3.
+    /// The index of its color, from 0 to 3.
     pub(super) colour: usize,
     pub(super) points: Vec<(f64, f64)>,
 }
 
-/// How values become places along an axis.
+/// The mapping of values to positions along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scale {
     Linear,
@@ -78,7 +78,7 @@ impl Axis {
         Self { label: label.into(), scale, from, to }
     }
 
-    /// Where `value` lies, 0 at the start and 1 at the end.
+    /// The position of `value`, from 0 at the start to 1 at the end.
     fn place(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.from) / (self.to - self.from),
@@ -86,7 +86,7 @@ impl Axis {
         }
     }
 
-    /// The values that are marked, with their names.
+    /// The values of the tick marks, with their labels.
     fn ticks(&self) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Linear => {
@@ -138,7 +138,7 @@ pub(super) struct Panel {
     pub(super) series: Vec<Series>,
 }
 
-/// The panels in a row, as an SVG file; `description` is what a reader hears who cannot see it.
+/// The panels in a row, as an SVG file; `description` is the text for screen readers.
 pub(super) fn svg(description: &str, panels: &[Panel]) -> String {
     let width = LEFT.mul_add(panels.len() as f64, (PANEL_WIDTH + RIGHT) * panels.len() as f64);
     let height = TOP + PANEL_HEIGHT + BOTTOM + LEGEND;
@@ -213,7 +213,7 @@ fn draw(out: &mut String, panel: &Panel, left: f64) {
         push_marks(out, series, places(series).into_iter());
     }
     out.push_str("</g>\n");
-    // A cross on the frame is drawn whole.
+    // A cross on the frame is drawn completely.
     for series in crosses {
         push_marks(out, series, places(series).into_iter());
     }
@@ -256,7 +256,7 @@ fn push_marks(out: &mut String, series: &Series, places: impl Iterator<Item = (f
     let _ = writeln!(out, "\"/>");
 }
 
-/// One entry for each name that the panels' series have.
+/// One entry for each name of the panels' series.
 fn legend(out: &mut String, panels: &[Panel], top: f64) {
     let mut names: Vec<&Series> = Vec::new();
     for series in panels.iter().flat_map(|panel| &panel.series) {

@@ -1,4 +1,4 @@
-//! "Converges quickly": convergence times and sigmas beside what gyro noise allows.
+//! "Converges quickly": convergence times and sigmas, compared with the limit of gyro noise.
 
 use std::fmt::Write;
 

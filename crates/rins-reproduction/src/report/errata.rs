@@ -1,4 +1,4 @@
-//! What the printed paper holds that the model does not: each claim with its figures, cause and evidence.
+//! Discrepancies between the printed paper and the model: each claim with its figures, cause and evidence.
 
 use super::number::{Table, fixed, tuple};
 use super::results::Results;
@@ -101,7 +101,7 @@ fn computed(results: &Results) -> Vec<[String; 5]> {
     rows.into()
 }
 
-/// The rows of what the paper claims or measured.
+/// The rows on claims and measurements of the paper.
 fn measured(results: &Results) -> Vec<[String; 5]> {
     let (before, after) = (printed::TABLE_6_BEFORE.figures(), printed::TABLE_6_AFTER.figures());
     let change = [0, 1].map(|place| before[place] - after[place]);
@@ -134,7 +134,7 @@ fn measured(results: &Results) -> Vec<[String; 5]> {
     rows.into()
 }
 
-/// The rows that compare the paper with itself.
+/// The rows on contradictions within the paper.
 fn stated() -> Vec<[String; 5]> {
     [
         [

@@ -1,4 +1,4 @@
-//! Section 5: Tables 5 and 6 beside an emulation, and named causes for what it leaves.
+//! Section 5: Tables 5 and 6 compared with an emulation, and possible causes of the remaining differences.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ use crate::printed;
 use crate::real_test::{self, Emulated};
 use crate::statistics::Sample;
 
-/// The decimals of each figure that are larger than the emulation's spread.
+/// The decimals of each figure that exceed the spread of the emulation.
 const DECIMALS: [usize; 5] = [2, 2, 4, 4, 4];
 
 pub(super) fn section(results: &Results) -> String {
@@ -98,7 +98,7 @@ fn table_6(out: &mut String, results: &Results) {
     );
 }
 
-/// A table of causes: the size that each needs for one figure alone, over what it is allowed.
+/// A table of causes: the ratio of the size that each needs for one figure to its permitted size.
 fn sizes(out: &mut String, causes: &[Graded], wanted: [f64; 5]) {
     let titles = ["cause", "allowed>", "$V_x$>", "$V_y$>", "roll>", "pitch>", "yaw>"];
     let mut table = Table::new(&titles);
@@ -151,7 +151,7 @@ fn after(out: &mut String, results: &Results) {
     let early = needed(Cause::Readout, 4);
     let rate = needed(Cause::TableRate, 4);
     let of_yaw = |printed: &printed::Navigation, model: f64| {
-        // What is not the model's is the table's: its rate is the cause that makes yaw alone.
+        // The part that the model does not explain is that of the table: its rate is the only cause of a pure yaw error.
         (printed.figures()[4] - model) / wanted[4] * -rate
     };
     let before = of_yaw(&printed::TABLE_6_BEFORE, results.predicted.figures()[4]);

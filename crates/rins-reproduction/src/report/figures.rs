@@ -1,4 +1,4 @@
-//! The charts, each the paper's figure with what it should have shown beside it.
+//! The charts: each figure of the paper with the expected result.
 
 use super::chart::{Axis, Mark, Panel, Scale, Series, svg};
 use super::results::Results;
@@ -12,7 +12,7 @@ use rins_motion::mechanism::{ClosedForm, Sign};
 const NAMES: [(&str, &str); 3] = [("Mxz", "arcsec"), ("Myz", "arcsec"), ("Sz", "ppm")];
 const TRUTH: [f64; 3] = [60.0, 60.0, 300.0];
 
-/// The most points of a curve.
+/// The maximum number of points of a curve.
 const POINTS: usize = 80;
 
 /// The charts' file names and texts.
@@ -27,7 +27,7 @@ pub(super) fn all(results: &Results) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The places of a history that are drawn, evenly apart in the logarithm of time.
+/// The indices of a history that are drawn, evenly spaced in the logarithm of time.
 fn places(run: &Calibrated) -> Vec<usize> {
     let count = run.history.len();
     let mut places: Vec<usize> = (0..POINTS)
@@ -95,7 +95,7 @@ fn figure_3(campaign: &Campaign) -> String {
     )
 }
 
-/// Whole decades around some values.
+/// The range of whole decades around these values.
 fn sigma_range(points: &[(f64, f64)]) -> (f64, f64) {
     let least = points.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
     let most = points.iter().map(|point| point.1).fold(0.0, f64::max);

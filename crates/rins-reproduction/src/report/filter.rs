@@ -1,4 +1,4 @@
-//! Tables 1 to 3, Figures 3 and 4: the filter, and whether it may be so sure.
+//! Tables 1 to 3, Figures 3 and 4: the filter, and the consistency of its covariance.
 
 use std::fmt::Write;
 

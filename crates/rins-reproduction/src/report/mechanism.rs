@@ -63,7 +63,7 @@ pub(super) fn section(results: &Results) -> String {
     out
 }
 
-/// Whether two lists hold the same numbers, bit by bit.
+/// Whether two lists contain bit-identical numbers.
 fn is(one: &[f64], other: &[f64]) -> bool {
     one.iter().map(|number| number.to_bits()).eq(other.iter().map(|number| number.to_bits()))
 }

@@ -1,4 +1,4 @@
-//! Table 4 and Figure 5: pure navigation before and after, and the velocities that are not explained.
+//! Table 4 and Figure 5: pure navigation before and after compensation, and the unexplained velocities.
 
 use std::fmt::Write;
 
@@ -20,7 +20,7 @@ pub(super) fn section(results: &Results) -> String {
     let mut row = |name: &str, cell: &dyn Fn(usize) -> String| {
         table.row(&[name.to_owned(), cell(0), cell(1), cell(2), cell(3), cell(4)]);
     };
-    // As many digits as the paper prints.
+    // As many digits as in the paper.
     let printed_cell = |navigation: &printed::Navigation, digits: usize| {
         let figures = navigation.figures();
         move |place: usize| {
@@ -70,7 +70,7 @@ fn figure_5(out: &mut String, results: &Results) {
     choices(out, results);
 }
 
-/// What the choices that a model of this run leaves open are worth.
+/// The effects of the modeling choices that the paper leaves open.
 fn choices(out: &mut String, results: &Results) {
     let three = &results.variants[0].outcome.velocity;
     let noise = |figure| results.without_bias.navigated(|run| run.before, figure).deviation;

@@ -1,8 +1,8 @@
-//! Numbers and tables as the page writes them.
+//! Numbers and tables in the format of the page.
 
 use std::fmt::Write;
 
-/// A number with so many decimals and a proper minus; a zero has none.
+/// A number with this number of decimals and a minus sign (U+2212); zero has no sign.
 pub(super) fn fixed(number: f64, decimals: usize) -> String {
     let text = format!("{number:.decimals$}");
     match text.strip_prefix('-') {
@@ -12,7 +12,7 @@ pub(super) fn fixed(number: f64, decimals: usize) -> String {
     }
 }
 
-/// The same with a plus where it is positive.
+/// The same with a plus sign for positive numbers.
 pub(super) fn signed(number: f64, decimals: usize) -> String {
     let text = fixed(number, decimals);
     if number > 0.0 && text.bytes().any(|byte| (b'1'..=b'9').contains(&byte)) {
@@ -22,7 +22,7 @@ pub(super) fn signed(number: f64, decimals: usize) -> String {
     }
 }
 
-/// A number with so many significant digits, however large.
+/// A number with this number of significant digits, however large.
 pub(super) fn significant(number: f64, digits: i32) -> String {
     if number == 0.0 || !number.is_finite() {
         return fixed(number, 0);
@@ -33,23 +33,23 @@ pub(super) fn significant(number: f64, digits: i32) -> String {
     fixed(number, decimals)
 }
 
-/// A number with its unit, which stay on one line.
+/// A number with its unit, without a line break between them.
 pub(super) fn with_unit(number: &str, unit: &str) -> String {
     format!("{number}\u{a0}{unit}")
 }
 
-/// `mean ± deviation` with so many decimals.
+/// `mean ± deviation` with this number of decimals.
 pub(super) fn spread(sample: &crate::statistics::Sample, decimals: usize) -> String {
     [fixed(sample.mean, decimals), fixed(sample.deviation, decimals)].join("\u{a0}±\u{a0}")
 }
 
-/// Some numbers with so many decimals, in brackets.
+/// Numbers with this number of decimals, in brackets.
 pub(super) fn tuple(numbers: &[f64], decimals: usize) -> String {
     let numbers: Vec<String> = numbers.iter().map(|number| fixed(*number, decimals)).collect();
     format!("({})", numbers.join(", "))
 }
 
-/// A table in Markdown; a column whose title ends with `>` is set to the right.
+/// A table in Markdown; a column whose title ends with `>` is aligned right.
 #[derive(Debug)]
 pub(super) struct Table {
     text: String,
@@ -68,7 +68,7 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// If it has another number of cells than the table has titles.
+    /// If its number of cells differs from the number of titles of the table.
     pub(super) fn row<S: AsRef<str>>(&mut self, cells: &[S]) {
         assert_eq!(cells.len(), self.columns, "a row of {:?}", cells[0].as_ref());
         let cells: Vec<&str> = cells.iter().map(AsRef::as_ref).collect();

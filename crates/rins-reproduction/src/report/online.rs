@@ -1,4 +1,4 @@
-//! Online compensation beside batch compensation and none.
+//! Online compensation compared with batch compensation and none.
 
 use std::fmt::Write;
 
@@ -47,7 +47,7 @@ pub(super) fn section(results: &Results) -> String {
     out
 }
 
-/// The largest share, over the five figures of section 4's runs, of what batch compensation gains that online
+/// The largest fraction, over the five figures of section 4's runs, of the gain of batch compensation that online
 /// compensation loses: root mean squares.
 pub(super) fn lost(results: &Results) -> f64 {
     let rms = |of: &dyn Fn(&Followed) -> f64| {

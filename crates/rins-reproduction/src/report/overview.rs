@@ -1,4 +1,4 @@
-//! The page's head: every table, figure and equation of the paper, and how it fared.
+//! The head of the page: every table, figure and equation of the paper, with the result of its reproduction.
 
 use super::number::{Table, fixed, significant, spread, tuple};
 use super::results::Results;

@@ -1,23 +1,23 @@
-//! Causes in order of what they can make of an error, and whether that is enough.
+//! Causes in the order of the fraction of an error that they explain, and whether that is sufficient.
 
 use super::number::{Table, fixed, significant, with_unit};
 use crate::causes::{Basis, Cause, Graded, ranked, share_of_all};
 
-/// How many deviations from the emulation's mean still pass for chance.
+/// The number of standard deviations from the emulation's mean that counts as chance.
 pub(super) const CHANCE: f64 = 3.0;
 
-/// Causes that need more than this multiple of the size allowed them are not listed.
+/// Causes that need more than this multiple of their permitted size are not listed.
 pub(super) const HOPELESS: f64 = 1000.0;
 
 /// The names of the five figures.
 pub(super) const FIGURES: [&str; 5] =
     ["$V_x$ [m/s]", "$V_y$ [m/s]", "roll [°]", "pitch [°]", "yaw [°]"];
 
-/// How many causes a figure is given.
+/// The number of causes that are listed for a figure.
 const SHOWN: usize = 3;
 
-/// A table of the five figures: what is to be explained, the causes that make most of it at the sizes
-/// allowed them, and a verdict.
+/// A table of the five figures: the error to be explained, the causes with the largest fractions at their
+/// permitted sizes, and a verdict.
 pub(super) fn table(causes: &[Graded], wanted: [f64; 5], title: &str) -> String {
     let title = format!("{title}>");
     let titles =
@@ -59,7 +59,7 @@ fn verdict(stated: &[Graded], all: &[Graded], figure: usize, wanted: f64) -> &'s
     }
 }
 
-/// A cause's name, and whether the size allowed it is assumed.
+/// A cause's name, with a mark if its permitted size is assumed.
 pub(super) fn cause_name(graded: &Graded) -> String {
     match graded.basis {
         Basis::Stated => graded.cause.name(),
@@ -67,12 +67,12 @@ pub(super) fn cause_name(graded: &Graded) -> String {
     }
 }
 
-/// A share as per cent, with two digits.
+/// A fraction in per cent, with two digits.
 pub(super) fn percent(share: f64) -> String {
     with_unit(&significant(100.0 * share, 2), "%")
 }
 
-/// How large a cause must be to make the error `wanted` in a figure, in its unit.
+/// The size of a cause, in its unit, that causes the error `wanted` in a figure.
 pub(super) fn needed(causes: &[Graded], cause: Cause, figure: usize, wanted: f64) -> f64 {
     let found = causes.iter().find(|graded| graded.cause == cause);
     found.map_or(f64::NAN, |graded| graded.needed(figure, wanted))

@@ -1,4 +1,4 @@
-//! Everything that the page tells, computed once.
+//! All results of the page, computed once.
 
 use nalgebra::{Vector2, Vector3};
 use rins_frames::units::{ARCSEC, PPM};
@@ -24,46 +24,46 @@ use crate::real_test::{self, Emulated};
 use crate::rotation::{AttitudeHistory, histories};
 use crate::running::{Followed, followed};
 
-/// How much is run.
+/// The numbers of runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
     /// The runs of each Monte Carlo of section 4.
     pub(crate) runs: u64,
-    /// The runs in which each filter's intervals are counted.
+    /// The runs from which the coverage of each filter's intervals is counted.
     pub(crate) honesty_runs: u64,
-    /// How long those are \[s\].
+    /// The duration of those runs \[s\].
     pub(crate) honesty_duration: f64,
     /// The emulated runs of section 5.
     pub(crate) emulated: u64,
-    /// The runs of section 4 that are followed sample by sample.
+    /// The number of runs of section 4 that are processed sample by sample.
     pub(crate) followed: u64,
 }
 
 impl Scale {
-    /// What the page is made of: the paper's 30 runs, and enough of the rest for 1 % of coverage.
+    /// The scale of the page: the paper's 30 runs, and enough of the others for a coverage within 1 %.
     pub(crate) const FULL: Self =
         Self { runs: 30, honesty_runs: 240, honesty_duration: 72.0, emulated: 200, followed: 200 };
 
-    /// How often `progress` is told of a run.
+    /// The number of calls of `progress`.
     pub(crate) const fn total(&self) -> u64 {
         3 * self.runs + 6 * self.honesty_runs + self.emulated + self.followed
     }
 }
 
-/// A navigation of Table 4's run with some of its errors.
+/// A navigation of Table 4's run with a subset of its errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Variant {
     pub(super) name: &'static str,
     pub(super) outcome: Outcome,
 }
 
-/// The velocities that Table 4 or its text prints, and what might have made them.
+/// The velocities in Table 4 or its text, and their possible causes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VelocityCase {
-    /// Printed less model \[m/s\].
+    /// Printed minus model \[m/s\].
     pub(super) misfit: [f64; 2],
     pub(super) explanations: Vec<Explanation>,
-    /// Where on the way the model's velocity comes nearest to the printed one: time \[s\], distance \[m/s\].
+    /// The minimum difference of the model's velocity history from the printed one: time \[s\], difference \[m/s\].
     pub(super) nearest: (f64, f64),
 }
 
@@ -74,21 +74,21 @@ pub(super) struct LagCase {
     pub(super) none: Disagreement,
     pub(super) half_sample: Disagreement,
     pub(super) fitted: Disagreement,
-    /// From the model's attitude to the printed one, before and after, in the axis frame \[deg\].
+    /// The rotation from the model's attitude to the printed one, before and after, in the axis frame \[deg\].
     pub(super) rotations: [Vector3<f64>; 2],
 }
 
-/// Everything that the page tells.
+/// All results of the page.
 #[derive(Clone, Debug)]
 pub(crate) struct Results {
     pub(super) scale: Scale,
     pub(super) simulation: Experiment,
     pub(super) real_test: Experiment,
-    /// Runs of the simulation with the biases of Table 2, followed sample by sample.
+    /// Runs of the simulation with the biases of Table 2, processed sample by sample.
     pub(super) followed: Vec<Followed>,
     /// The attitude errors of the simulation's IMU, static and rotating.
     pub(super) histories: Vec<AttitudeHistory>,
-    /// What ten turns leave of Table 1's errors on Table 4's axis, and on a level one.
+    /// The effects of Table 1's errors after ten turns about Table 4's axis, and about a vertical one.
     pub(super) accelerometers: [Vec<Left>; 2],
     pub(super) with_bias: Campaign,
     pub(super) without_bias: Campaign,
@@ -98,11 +98,11 @@ pub(crate) struct Results {
     pub(super) after_variants: Vec<Variant>,
     pub(super) swapped: Outcome,
     pub(super) lags: Vec<LagCase>,
-    /// What a start attitude 1 ms too old does to the velocity at the end \[m/s\].
+    /// The effect of an initial attitude that is 1 ms too old on the final velocity \[m/s\].
     pub(super) start_lag: [f64; 2],
-    /// The velocity by the model written apart, for each choice.
+    /// The velocity by the independent model, for each choice.
     pub(super) plain: Vec<(Choice, Vector2<f64>)>,
-    /// Before, after by the table, after by the text.
+    /// Before compensation, after it by the table, after it by the text.
     pub(super) velocities: [VelocityCase; 3],
     pub(super) predicted: Outcome,
     pub(super) emulated: Vec<Emulated>,
@@ -116,10 +116,10 @@ pub(crate) struct Results {
 }
 
 impl Results {
-    /// Runs everything; `progress` is told of each run that is done, from any thread.
+    /// Runs all experiments; `progress` is called after each run, from any thread.
     ///
     /// # Errors
-    /// [`ReproductionError`] of the first thing that fails.
+    /// [`ReproductionError`] of the first failure.
     pub(crate) fn compute(
         scale: Scale,
         progress: impl Fn() + Sync,
@@ -176,14 +176,14 @@ impl Results {
     }
 }
 
-/// The sensor errors that a set of `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\] stands for.
+/// The sensor errors with these `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\].
 pub(super) fn spin_axis(parameters: [f64; 3]) -> ImuError {
     let [m_xz, m_yz, s_z] = parameters;
     let column = Vector3::new(m_xz * ARCSEC, m_yz * ARCSEC, s_z * PPM);
     ImuError { gyro: spin_axis_error(&column), accel: TriadError::default() }
 }
 
-/// What ten turns leave of Table 1's errors at Table 4's attitude and on a level axis.
+/// The effects of Table 1's errors after ten turns, at Table 4's attitude and with a vertical axis.
 fn accelerometers(simulation: &Experiment) -> Result<[Vec<Left>; 2], ReproductionError> {
     let all = simulation.scenario.imu_error.accel;
     let of = |attitude| {
@@ -196,7 +196,7 @@ fn accelerometers(simulation: &Experiment) -> Result<[Vec<Left>; 2], Reproductio
     Ok([of(ATTITUDES[0])?, of(ATTITUDES[2])?])
 }
 
-/// What one constant rate shows of `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\]: each with its bias over
+/// The observable combinations of `M_xz`, `M_yz` \[arcsec\] and `S_z` \[ppm\] at one constant rate: each with its bias divided by
 /// the rate about the spin axis.
 pub(super) fn observed(simulation: &Experiment) -> [f64; 3] {
     let Scenario { station, nav_from_table, profile, imu_error, .. } = &simulation.scenario;
@@ -231,12 +231,12 @@ fn variants(simulation: &Experiment) -> Result<Vec<Variant>, ReproductionError> 
     .collect()
 }
 
-/// What the paper's compensation, and a full one, leave of some errors.
+/// The remaining effect of some errors after the paper's compensation and after a full one.
 fn after_variants(simulation: &Experiment) -> Result<Vec<Variant>, ReproductionError> {
     let table_3 = spin_axis(printed::TABLE_3);
-    // M + B/w, which is what the data show.
+    // M + B/w, the observable combination.
     let observed = spin_axis(observed(simulation));
-    // A compensation that multiplies the measured rate takes out M / (1 + S).
+    // A compensation that multiplies the measured rate removes M / (1 + S).
     let scale = 1.0 + printed::TABLE_3[2] * PPM;
     let measured_rate = spin_axis(printed::TABLE_3.map(|parameter| parameter * scale));
     [
@@ -255,7 +255,7 @@ fn after_variants(simulation: &Experiment) -> Result<Vec<Variant>, ReproductionE
     .collect()
 }
 
-/// The spin-axis errors with roll and pitch as section 4.1 prints them.
+/// The spin-axis errors with roll and pitch as printed in section 4.1.
 fn swapped(simulation: &Experiment) -> Result<Outcome, ReproductionError> {
     let scenario = &simulation.with(Sensors::SpinAxis).scenario;
     let EulerAngles { roll, pitch, yaw } = scenario.nav_from_table.euler_angles();

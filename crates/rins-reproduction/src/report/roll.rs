@@ -1,4 +1,4 @@
-//! The roll that stays after compensation, which nothing that the paper states makes.
+//! The roll error that remains after compensation, which no statement of the paper explains.
 
 use std::fmt::Write;
 
@@ -10,10 +10,10 @@ use super::results::Results;
 use crate::causes::{Cause, ranked};
 use crate::{printed, real_test};
 
-/// The place of roll among the five figures.
+/// The index of roll among the five figures.
 const ROLL: usize = 2;
 
-/// What could have made the roll, and what else each of these would have made.
+/// The possible causes of the roll error, and the other effects of each.
 pub(super) fn section(results: &Results) -> String {
     let mut out = causes(results);
     out.push_str(&conclusion(results));
@@ -52,7 +52,7 @@ fn causes(results: &Results) -> String {
             size = size.abs();
         }
         let made = graded.effect * size;
-        // Random causes make each figure by itself.
+        // Random causes affect each figure independently.
         let excluded = graded.cause != Cause::GyroNoise
             && (0..5).any(|figure| {
                 let spread =
@@ -82,12 +82,12 @@ fn causes(results: &Results) -> String {
     out
 }
 
-/// What the table leaves possible.
+/// The causes that the table does not exclude.
 fn conclusion(results: &Results) -> String {
     let mut out = String::new();
     let (before, after) = (printed::TABLE_6_BEFORE.figures(), printed::TABLE_6_AFTER.figures());
     let wanted = after[ROLL];
-    // Schuler's loop turns a tilt φ at the start into sqrt(g R) sin(ω t) φ of velocity, and one that grows to φ into
+    // The Schuler oscillation converts an initial tilt φ to a velocity of sqrt(g R) sin(ω t) φ, and one that grows to φ to
     // sqrt(g R) tan(ω t / 2) φ.
     let scenario = &results.real_test.scenario;
     let site = scenario.station.site;
@@ -99,7 +99,7 @@ fn conclusion(results: &Results) -> String {
     let reference = scenario.nav_from_table.euler_angles();
     let (start_roll, start_pitch) = (reference.roll / DEG, reference.pitch / DEG);
     let misfit = before[ROLL] - results.predicted.figures()[ROLL];
-    // Both rows are differences from the roll at the start.
+    // Both rows are differences from the initial roll.
     let other_sign = [misfit, wanted].map(|roll| roll + 2.0 * start_roll);
     let deviation = real_test::spread(&results.emulated, |run| run.after.figures(), ROLL).deviation;
     let _ = write!(

@@ -1,4 +1,4 @@
-//! Attitude errors static and rotating: one figure and a table.
+//! Attitude errors of a static and a rotating IMU: one figure and a table.
 
 use std::fmt::Write;
 
@@ -10,7 +10,7 @@ use super::number::{Table, significant};
 use super::results::Results;
 use crate::rotation::{AttitudeHistory, GyroErrors, Motion};
 
-/// The most points of a curve.
+/// The maximum number of points of a curve.
 const POINTS: usize = 120;
 
 fn history(results: &Results, motion: Motion, errors: GyroErrors) -> Option<&AttitudeHistory> {
@@ -80,8 +80,8 @@ fn largest(results: &Results, motion: Motion, errors: GyroErrors) -> [f64; 2] {
     })
 }
 
-/// How much smaller rotation makes the largest error across the axis where the spin-axis errors are compensated, and
-/// how much larger it makes that along the axis where they are not.
+/// The factor by which rotation reduces the largest error across the axis if the spin-axis errors are compensated, and
+/// the factor by which it increases that along the axis if they are not.
 pub(super) fn restrained(results: &Results) -> [f64; 2] {
     let [fixed, static_along] = largest(results, Motion::Static, GyroErrors::All);
     let [modulated, _] = largest(results, Motion::Rotating, GyroErrors::AllButSpinAxis);
@@ -89,7 +89,7 @@ pub(super) fn restrained(results: &Results) -> [f64; 2] {
     [fixed / modulated, along / static_along]
 }
 
-/// The largest error so far against time, about each axis.
+/// The running maximum of the error about each axis, against time.
 pub(super) fn figure(results: &Results) -> String {
     let curves = [
         (Motion::Static, GyroErrors::All, "static", Mark::Line, 3),
@@ -123,7 +123,7 @@ pub(super) fn figure(results: &Results) -> String {
     svg("Attitude errors of one IMU static and rotating, about each axis of the table", &panels)
 }
 
-/// Points evenly apart in the logarithm of time, from one second on \[s, arcsec\].
+/// Points evenly spaced in the logarithm of time, from one second on \[s, arcsec\].
 fn thinned(points: &[(f64, nalgebra::Vector3<f64>)], axis: usize) -> Vec<(f64, f64)> {
     let last = points.last().map_or(1.0, |point| point.0);
     let mut places: Vec<usize> = (0..=POINTS)

@@ -1,4 +1,4 @@
-//! Table 5 with its uncertainty by JCGM 100: the table's rate, the gyros' biases, noise.
+//! Table 5 with its uncertainty by JCGM 100: the table rate, the gyro biases, noise.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use crate::uncertainty::{Budget, Distribution, alone, table_5};
 /// The coverage factor of an expanded uncertainty.
 const COVERAGE_FACTOR: f64 = 2.0;
 
-/// The three estimates as far as their uncertainty supports them, with their units.
+/// The three estimates with the digits that their uncertainty supports, with their units.
 pub(super) fn supported(results: &Results) -> [String; 3] {
     let budgets = table_5(&results.real_test, Distribution::Rectangular);
     let mut units = ["″", "″", " ppm"].into_iter();
@@ -106,7 +106,7 @@ fn contributions(budgets: &[Budget; 3]) -> String {
     table.finish()
 }
 
-/// The scale error for each meaning that "accuracy" may have.
+/// The scale error for each possible meaning of "accuracy".
 fn readings(results: &Results) -> String {
     let mut table = Table::new(&[
         "0.0001 °/s is",

@@ -1,4 +1,4 @@
-//! Table 3, and whether the covariances behind it are honest.
+//! Table 3, and the consistency of its covariances.
 
 use crate::bias_filter::BiasFilter;
 use crate::coverage::{Model, Schedule, coverage};
@@ -12,7 +12,7 @@ use rins_testing::{assert_close, chi_squared_mean_bounds};
 
 const RUNS: u64 = 6;
 
-/// 1σ of one run, which gyro noise alone decides: `N / (ω √T)`, 0.006 arcsec and 0.029 ppm.
+/// The 1σ of one run, from gyro noise only: `N / (ω √T)`, 0.006 arcsec and 0.029 ppm.
 const SIGMA: [f64; 3] = [0.00604, 0.00604, 0.0293];
 
 /// Four sigma of a mean of six runs.
@@ -26,12 +26,12 @@ fn assert_mean(campaign: &Campaign, parameter: usize, want: f64) {
 fn table_3_holds_the_biases_and_the_filter_does_not_know() {
     let simulation = Experiment::simulation().unwrap();
     let campaign = Campaign::of(&simulation, RUNS, || ()).unwrap();
-    // 0.05 deg/h over 10 deg/s and the Earth's 11.7 deg/h along the axis: 0.2866 arcsec, 1.3893 ppm.
+    // 0.05 deg/h divided by 10 deg/s plus the Earth's 11.7 deg/h along the axis: 0.2866 arcsec, 1.3893 ppm.
     for (parameter, want) in [60.2866, 60.2866, 301.389].into_iter().enumerate() {
         assert_mean(&campaign, parameter, want);
         assert_close!(campaign.overconfidence(parameter), 47.4, 1.0);
     }
-    // 3 × 47.4² = 6740, and no honest NEES of three parameters.
+    // 3 × 47.4² = 6740, far above a consistent NEES of three parameters.
     assert_close!(campaign.nees(), 6740.0, 200.0);
 }
 
@@ -74,7 +74,7 @@ fn intervals_hold_the_truth_where_the_bias_is_a_state_or_cancels() {
         let honesty = honesty(model, schedule);
         let (low, high) = chi_squared_mean_bounds(honesty.dof as f64, 80);
         assert!((low..=high).contains(&honesty.nees), "{model:?}, {schedule:?}: {honesty:?}");
-        // 95 % of 80 runs are 76; 69 or fewer has a probability of 0.004 for each.
+        // 95 % of 80 runs are 76; 69 or fewer have a probability of 0.004 for each.
         assert!(honesty.coverage.iter().all(|share| *share > 0.86), "{schedule:?}: {honesty:?}");
     }
     for schedule in [Schedule::ConstantRate, Schedule::TwoRates] {
@@ -100,7 +100,7 @@ fn the_two_filters_agree_where_there_is_no_bias() {
     let start = rins_calibration::layout::SPIN_AXIS_ERRORS.start();
     for parameter in 0..3 {
         let sigma = paper.covariance()[(start + parameter, start + parameter)].sqrt();
-        // A hundredth of sigma: position and height, which one takes as known.
+        // A hundredth of sigma: position and height, which one filter treats as known.
         assert_close!(other.estimate()[parameter], paper.estimate()[parameter], 0.01 * sigma);
         let claimed = other.covariance()[(parameter, parameter)].sqrt();
         assert_close!(claimed, sigma, 1e-3 * sigma);

@@ -1,4 +1,4 @@
-//! Eqs. (6), (8), (9) over a small grid, and that its bounds can break.
+//! Eqs. (6), (8), (9) over a small grid, and the sensitivity of its bounds.
 
 use crate::grid::{Errors, Row, grid};
 
@@ -20,7 +20,7 @@ fn each_bound_breaks_for_a_form_that_is_wrong() {
     };
     let broken = |row: Row| row.broken().len();
     assert_eq!(broken(row), 0);
-    // The printed sign would be right.
+    // As if the printed sign were right.
     assert_eq!(broken(Row { printed: row.corrected, ..row }), 1);
     assert_eq!(broken(Row { extended: scaled(row.extended, 1.01), ..row }), 1);
     assert_eq!(broken(Row { flat: scaled(row.flat, 1.01), ..row }), 1);

@@ -1,4 +1,4 @@
-//! The paper's experiments, small enough for every test run.
+//! The paper's experiments, at a scale for every test run.
 mod filter;
 mod mechanism;
 mod model_coverage;

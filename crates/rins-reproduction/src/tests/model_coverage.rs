@@ -1,4 +1,4 @@
-//! A dozen runs with random truth: the estimator's intervals hold it.
+//! A dozen runs with random truth: the coverage of the estimator's intervals.
 
 use crate::model_coverage::{Colour, Schedule, coverage};
 
@@ -15,7 +15,7 @@ fn intervals_hold_the_truth() {
     }
 }
 
-/// The same figures see an estimator that trusts white noise where there is flicker.
+/// The same statistics detect an estimator that assumes white noise in the presence of flicker noise.
 #[test]
 fn flicker_taken_for_white_noise_is_seen() {
     let colour = Colour { knowledge: rins_estimation::NoiseKnowledge::Given, ..Colour::STRONG };

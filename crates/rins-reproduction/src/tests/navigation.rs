@@ -24,8 +24,8 @@ fn table_3() -> ImuError {
     ImuError { gyro, ..ImuError::default() }
 }
 
-/// The figures of a model written apart, which prints three decimals of a metre a second; it
-/// integrates to first order, which is worth 0.004 m/s in the east velocity.
+/// The figures of an independent model, which are given with three decimals of a meter per second; it
+/// integrates to first order, which causes an error of 0.004 m/s in the east velocity.
 #[test]
 fn velocities_and_attitudes_are_those_of_an_independent_model() {
     let three = noiseless(Sensors::SpinAxis).outcome().unwrap();
@@ -56,7 +56,7 @@ fn half_a_sample_of_lag_explains_six_attitudes() {
     ];
     assert!(Disagreement::of(&pairs, &turning, 0.0).root_mean_square() > 0.06);
     assert!(Disagreement::of(&pairs, &turning, 0.01).largest() < 0.003);
-    // Whole samples do not, nor does half a sample the other way.
+    // A lag of a whole sample does not fit, nor does half a sample with the other sign.
     assert!(Disagreement::of(&pairs, &turning, 0.02).largest() > 0.05);
     assert!(Disagreement::of(&pairs, &turning, -0.01).largest() > 0.1);
     assert_close!(Disagreement::least(&pairs, &turning).lag, 0.01, 0.0005);

@@ -1,4 +1,4 @@
-//! The page: complete, and in the repository as the code makes it.
+//! The page: complete, and in agreement with the code.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use crate::report::{FIGURES, File, PAGE, Results, Scale, files};
 use crate::stale::differences;
 
-/// So little that only what does not depend on the runs can be compared.
+/// A scale so small that only results which do not depend on the runs can be compared.
 const SMALL: Scale =
     Scale { runs: 2, honesty_runs: 3, honesty_duration: 4.0, emulated: 2, followed: 2 };
 
@@ -21,7 +21,7 @@ fn kept(path: &str) -> String {
     fs::read_to_string(root.join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// The lines from a heading to the next of its level or of a higher one.
+/// The lines from a heading to the next one of its level or of a higher one.
 fn section<'t>(page: &'t str, heading: &str) -> &'t str {
     let start = page.find(heading).unwrap_or_else(|| panic!("no {heading:?}"));
     let depth = heading.find(' ').expect("a heading has a level");
@@ -38,7 +38,7 @@ fn every_table_figure_and_equation_is_at_a_glance() {
     for item in tables.iter().chain(&figures) {
         assert!(head.contains(item), "{item}");
     }
-    // The rows of equations follow each other without a gap.
+    // The rows of equations are contiguous.
     let first_and_last = |cell: &str| -> Vec<u32> {
         let numbers = cell.split(|c: char| !c.is_ascii_digit()).filter(|part| !part.is_empty());
         numbers.map(|number| number.parse().unwrap()).collect()

@@ -1,4 +1,4 @@
-//! What cannot be simulated is refused, with its figure.
+//! Invalid scenarios are refused, with the invalid quantity.
 
 use proptest::prelude::*;
 use rins_imu::{Axis, ImuNoise, NoiseModel, Quantisation, TriadError};
@@ -116,12 +116,12 @@ fn rest(duration: f64) -> Profile {
     Profile::new(&[Segment { rate: 0.0, duration }], None).expect("a rest is a profile")
 }
 
-/// A plausible figure or any bit pattern.
+/// A plausible number or any bit pattern.
 fn any_figure() -> impl Strategy<Value = f64> {
     prop_oneof![-1.0..1.0_f64, prop::num::f64::ANY, Just(0.0)]
 }
 
-/// A realistic scenario of two seconds in which the figure at place `which` is `value`.
+/// A realistic scenario of two seconds in which the quantity with index `which` is `value`.
 fn changed(which: usize, value: f64) -> Option<Scenario> {
     let mut scenario = realistic();
     let mut rates = [0.0, 1.0];
@@ -174,7 +174,7 @@ proptest! {
             prop_assert_eq!(run.recording.len(), run.truth.table_angle.len());
             prop_assert!(!run.recording.is_empty());
             let nan = |x: &rins_frames::Increments| x.angle.norm().is_nan() || x.velocity.norm().is_nan();
-            // Figures near the largest double may overflow, but nothing else makes a NaN.
+            // Quantities near the largest double may overflow, but nothing else gives NaN.
             prop_assert!(value.abs() > 1e100 || !run.recording.increments.iter().any(nan));
         }
     }

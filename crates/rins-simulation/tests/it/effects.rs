@@ -1,4 +1,4 @@
-//! What effects make of a run, against the same run described another way.
+//! Effects in a run, compared with an equivalent description of the same run.
 
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G};
 use rins_frames::{Dcm, Increments, Table};
@@ -9,7 +9,7 @@ use rins_testing::assert_close;
 
 use crate::{perfect, realistic};
 
-/// 1e-15 of a turn of 10 deg/s, and of gravity, over an interval of 0.02 s.
+/// 1e-15 of a rotation at 10 deg/s, and of gravity, over an interval of 0.02 s.
 const ROUNDING: (f64, f64) = (4e-18, 4e-16);
 
 fn assert_same(found: &[Increments], expected: &[Increments], (angle, velocity): (f64, f64)) {
@@ -20,7 +20,7 @@ fn assert_same(found: &[Increments], expected: &[Increments], (angle, velocity):
     }
 }
 
-/// With all errors large, rest, ramps, a turn forth and one back.
+/// With all errors large, standstill, ramps, and a rotation in each direction.
 #[test]
 fn the_terms_of_eq_1_are_eq_1() {
     let imu_error = realistic().imu_error;
@@ -34,7 +34,7 @@ fn the_terms_of_eq_1_are_eq_1() {
     assert_eq!(terms.truth.effects.value("gyro.scale.z"), Some(300e-6));
 }
 
-/// Noise, resolution and the encoder's own errors come on top, from the same random numbers.
+/// Noise, resolution and the encoder's own errors are added from the same random numbers.
 #[test]
 fn an_effect_on_the_encoder_leaves_the_rest_alone() {
     let zero = TermInstance::new(&catalogue::ENCODER_ZERO).with_values(&[20.0 * ARCSEC]);
@@ -44,13 +44,13 @@ fn an_effect_on_the_encoder_leaves_the_rest_alone() {
     let moved = Encoder { zero: encoder.zero + 20.0 * ARCSEC, ..encoder };
     let other = simulate(&Scenario { table: TableRecord::Angle(moved), ..realistic() }).unwrap();
     let angles = with.table_angle.unwrap().into_iter().zip(other.recording.table_angle.unwrap());
-    // A sum in another order may be rounded to the neighbouring bit, of 0.36 arcsec, once in a great while.
+    // A sum in another order is sometimes rounded to the neighboring bit, of 0.36 arcsec.
     let off = angles.filter(|(a, b)| (a - b).abs() > 1e-12).count();
     assert!(off <= 1, "{off} readings");
     assert_same(&with.increments, &other.recording.increments, ROUNDING);
 }
 
-/// An axis that stands otherwise than in the axis frame is a table with another axis frame.
+/// An axis that is tilted relative to the axis frame is equivalent to a table with another axis frame.
 #[test]
 fn a_tilted_axis_is_another_axis() {
     let tilt = [300.0 * ARCSEC, -200.0 * ARCSEC, 500.0 * ARCSEC];
@@ -61,8 +61,8 @@ fn a_tilted_axis_is_another_axis() {
     let turned = Dcm::<Table, Table>::from_rotation_vector(&tilt.into());
     let nav_from_table = perfect().nav_from_table * turned;
     let other = simulate(&Scenario { nav_from_table, imu_error, ..perfect() }).unwrap();
-    // The tilt is seen as in the middle of a sample: within 4e-6 of its effect, which is 5e-4 m/s and
-    // 4e-9 rad a sample.
+    // The tilt is evaluated at the middle of a sample: within 4e-6 of its effect, which is 5e-4 m/s and
+    // 4e-9 rad per sample.
     assert_same(&with.recording.increments, &other.recording.increments, (2e-14, 2e-9));
     for sample in [0, 4000, 8999] {
         let (found, expected) = (with.truth.attitude(sample), other.truth.attitude(sample));
@@ -80,7 +80,7 @@ fn a_body_that_is_mounted_askew_stands_askew() {
         simulate(&Scenario { effects: Model { terms: vec![mounting] }, ..perfect() }).unwrap();
     let straight = simulate(&perfect()).unwrap();
     for sample in [0, 4000, 8999] {
-        // Its own x axis is what it is turned about, wherever the table stands.
+        // The rotation is about its own x axis, whatever the table angle.
         let found = run.truth.attitude(sample).unwrap();
         let off = straight.truth.attitude(sample).unwrap().inverse() * found;
         assert_close!(off.rotation_vector().x, 0.01 * DEG, 1e-12);
@@ -98,18 +98,18 @@ fn temperature_is_recorded_as_it_goes() {
     assert_close!(ramp[0], 20.0002, 1e-12);
     assert_close!(ramp[8999], 21.8, 1e-12);
     let sinus = recorded(Temperature::Sinus { start: 20.0, amplitude: 5.0, period: 120.0 });
-    // A quarter, a half and three quarters of its period after the start.
+    // At a quarter, a half and three quarters of its period after the start.
     for (time, expected) in [(30, 25.0), (60, 20.0), (90, 15.0)] {
         assert_close!(sinus[50 * time - 1], expected, 1e-12);
     }
     let warm_up = recorded(Temperature::WarmUp { start: 20.0, rise: 10.0, time_constant: 50.0 });
-    // After each time constant 1/e is left of what was left before.
+    // The remaining rise decreases by 1/e in each time constant.
     let left = |time: usize| 30.0 - warm_up[50 * time - 1];
     assert_close!(left(50) / left(100), std::f64::consts::E, 1e-12);
     assert_close!(left(50), 10.0 / std::f64::consts::E, 1e-12);
 }
 
-/// A data sheet of fibre gyros, from which usual magnitudes follow.
+/// A data sheet of fiber-optic gyros, from which typical magnitudes follow.
 fn sheet() -> ImuSpec {
     let triad = |noise_density, bias_sigma| {
         TriadSpec::white(noise_density, bias_sigma, 500e-6, 120.0 * ARCSEC)
@@ -126,7 +126,7 @@ fn every_effect_of_the_catalogue_shows_in_a_run() {
     let scenario = Scenario { temperature: Some(warming), ..realistic() };
     let without = simulate(&scenario).unwrap().recording;
     for term in catalogue::CATALOGUE {
-        // No sensor of any use saturates at 10 deg/s and at rest: here it does.
+        // No usable sensor saturates at 10 deg/s or at standstill: here it does.
         let saturates = term.id.ends_with("_saturation");
         let value = |parameter: &rins_terms::Parameter| {
             if saturates { 0.05 } else { parameter.range(&sheet()).1 }

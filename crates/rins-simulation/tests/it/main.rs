@@ -1,4 +1,4 @@
-//! Simulated runs against what was asked for.
+//! Simulated runs compared with their scenarios.
 mod bounds;
 mod effects;
 mod statistics;
@@ -13,7 +13,7 @@ use rins_simulation::{Encoder, Scenario, TableRecord, Temperature};
 
 const INTERVAL: f64 = 0.02;
 
-/// A tilted table that rests, turns forth and turns back, with no errors at all.
+/// A tilted table that stands still and rotates in both directions, without any errors.
 fn perfect() -> Scenario {
     let site = Site { latitude: 34.25 * DEG, longitude: 108.9 * DEG, height: 400.0 };
     let attitude = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 40.0 * DEG };
@@ -23,7 +23,7 @@ fn perfect() -> Scenario {
     Scenario::perfect(Station::with_normal_gravity(site), attitude.dcm(), profile, INTERVAL)
 }
 
-/// The same, with every error.
+/// The same with all errors.
 fn realistic() -> Scenario {
     let gyro = TriadError::default()
         .with_bias(Axis::X, 0.05 * DEG_PER_HOUR)

@@ -1,4 +1,4 @@
-//! What randomness adds is what was asked for, and follows from the seed alone.
+//! Random errors have the specified statistics, and follow from the seed alone.
 
 use rins_frames::units::{ARCSEC, DEG, MICRO_G};
 use rins_imu::{ImuNoise, NoiseModel, Seed};
@@ -7,14 +7,14 @@ use rins_testing::assert_close;
 
 use crate::{INTERVAL, perfect, realistic};
 
-/// Mean and variance.
+/// The mean and the variance.
 fn moments(series: &[f64]) -> (f64, f64) {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     let squares = series.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>();
     (mean, squares / (series.len() - 1) as f64)
 }
 
-/// Checks that `series` is white, with mean `mean` and standard deviation `sigma`, to five sigma.
+/// Asserts that `series` is white, with mean `mean` and standard deviation `sigma`, to five sigma.
 fn assert_white(series: &[f64], mean: f64, sigma: f64) {
     let count = series.len() as f64;
     let (found, variance) = moments(series);
@@ -47,7 +47,7 @@ fn encoder_reads_with_its_zero_noise_and_resolution() {
         let table = TableRecord::Angle(encoder);
         let run = simulate(&Scenario { table, ..perfect() }).unwrap();
         let readings = run.recording.table_angle.unwrap();
-        // The part in motion: at rest rounding always errs the same way.
+        // The part in motion: at standstill the rounding error is constant.
         readings
             .iter()
             .zip(&run.truth.table_angle)

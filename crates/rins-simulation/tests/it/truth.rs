@@ -1,4 +1,4 @@
-//! Runs without randomness hold the true motion and eq. (1), no more.
+//! Runs without random errors consist of the true motion and eq. (1) only.
 
 use rins_frames::InFrame;
 use rins_frames::units::{DEG, PPM};
@@ -52,11 +52,11 @@ fn scale_error_shows_as_the_turn_times_itself() {
         let increments = simulate(scenario).unwrap().recording.increments;
         increments[..until].iter().fold(InFrame::zeros(), |sum, k| sum + k.angle)
     };
-    // After the turn forth: 60 s at 10 deg/s, of which a ramp of 2 s costs 10 deg, and what the
-    // Earth turns about a tilted axis meanwhile, which is at most 0.5 deg.
+    // After the forward rotation: 60 s at 10 deg/s, minus 10 deg for a ramp of 2 s, and the
+    // Earth rotation about a tilted axis, which is at most 0.5 deg.
     let excess = total(&scenario, 6000) - total(&perfect(), 6000);
     assert_close!(excess.components().z, 300.0 * PPM * 590.0 * DEG, 300.0 * PPM * 0.5 * DEG);
-    // The way back is 560 deg, since its ramp takes 4 s that add up to nothing: 30 deg are left.
+    // The reverse rotation is 560 deg, because its ramp takes 4 s with a sum of zero: 30 deg remain.
     let excess = total(&scenario, 9000) - total(&perfect(), 9000);
     assert_close!(excess.components().z, 300.0 * PPM * 30.0 * DEG, 300.0 * PPM * 0.8 * DEG);
 }
@@ -67,7 +67,7 @@ fn attitude_turns_with_the_table() {
     assert_eq!(truth.attitude(2999), Some(truth.initial_attitude()));
     assert_eq!(truth.attitude(9000), None);
     let turned = truth.initial_attitude().inverse() * truth.attitude(3499).unwrap();
-    // Ten seconds of 10 deg/s, less 10 deg for the ramp.
+    // Ten seconds at 10 deg/s, minus 10 deg for the ramp.
     let angle = turned.rotation_vector();
     assert_close!(angle.z, 90.0 * DEG, 1e-12);
     assert_close!(angle.xy().norm(), 0.0, 1e-12);

@@ -12,43 +12,43 @@ use rins_motion::{
 
 use crate::log::{longest, none_found};
 
-/// The 1σ of an azimuth of which nothing is known \[rad\]: that of a uniform one.
+/// The 1σ of an unknown azimuth \[rad\]: that of a uniform distribution over one turn.
 pub(crate) const ANY_AZIMUTH: f64 = 1.813_799_364_234_217_8;
 
-/// A bias is not observable over a static interval if its sigma is more than this part of the assumed one.
+/// A bias is not observable over a static interval if its sigma exceeds this fraction of the assumed sigma.
 const SHOWN: f64 = 0.9;
 
-/// The shortest rest that is aligned on \[s\].
+/// The shortest static interval that is used for alignment \[s\].
 const SHORTEST_REST: f64 = 5.0;
 
-/// An attitude found from a rest.
+/// The attitude found from a static interval.
 #[derive(Debug)]
 pub(crate) struct AlignmentSolution {
-    /// The body's attitude over the rest.
+    /// The body's attitude over the static interval.
     pub(crate) nav_from_body: Dcm<Nav, Body>,
-    /// The 1σ of the error about east, north and up \[rad\]; no third if north was not found.
+    /// The 1σ of the error about east, north and up \[rad\]; the third is `None` if north was not found.
     pub(crate) sigma: (f64, f64, Option<f64>),
     /// Why north was not found.
     pub(super) hidden: Option<AlignmentError>,
-    /// The samples of the rest.
+    /// The samples of the static interval.
     pub(crate) span: Range<usize>,
     pub(crate) start: f64,
     pub(super) mean: RestMean,
-    /// What the filter over the rest found; nothing if north was not found.
+    /// The solution of the fine alignment filter; `None` if north was not found.
     pub(super) fine: Option<FineAlignment>,
     pub(super) uncertainty: MeanUncertainty,
     pub(super) place: PlaceSeen,
-    /// Measured less predicted: what a bias would look like.
+    /// The measured rates minus the predicted rates: an apparent bias.
     pub(crate) residual: Rates,
 }
 
 impl AlignmentSolution {
-    /// Whether the Earth's rotation showed north.
+    /// Whether north was found from the Earth's rotation.
     pub(crate) const fn north_found(&self) -> bool {
         self.hidden.is_none()
     }
 
-    /// Whether the rest shows each gyro's bias, along the sensors' own axes: what it does not show is what was assumed.
+    /// Whether each gyro bias is observable over the static interval, along the sensors' own axes; if not, it is the assumed one.
     pub(super) fn bias_shown(&self, own_axes: &SignedAxes) -> [bool; 3] {
         let Some(fine) = self.fine else { return [true; 3] };
         let sigma = own_axes.undo(&fine.gyro_bias_sigma).abs();
@@ -56,7 +56,7 @@ impl AlignmentSolution {
         [0, 1, 2].map(|axis| sigma[axis] < SHOWN * assumed[axis])
     }
 
-    /// The 1σ of the Earth's rate \[rad/s\] and of the latitude \[rad\] that the gyros see.
+    /// The 1σ of the Earth rate \[rad/s\] and of the latitude \[rad\] as the gyros measure them.
     pub(super) fn seen_sigma(&self) -> (f64, f64) {
         let level = self.uncertainty.specific_force / self.place.gravity;
         self.fine.map_or((self.uncertainty.angular_rate, self.place.latitude_sigma), |fine| {
@@ -73,7 +73,7 @@ pub(crate) fn found(loaded: &Loaded) -> anyhow::Result<AlignmentSolution> {
     found_over(loaded, span)
 }
 
-/// Aligns on one rest of a run.
+/// Aligns on one static interval of a run.
 pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<AlignmentSolution> {
     let recording = &loaded.recording;
     let mean = RestMean::of(recording, span.clone())
@@ -84,13 +84,13 @@ pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<
         noise_density: imu.gyro.noise_density,
     });
     let aligned = align_finely(recording, span.clone(), &loaded.station, figures.as_ref());
-    // Without a data sheet, what gravity is off by is the least that the tilt may be off by.
+    // Without a data sheet, the error of the measured gravity is a lower bound of the tilt error.
     let gravity_error = mean.rates.specific_force.norm() / loaded.station.gravity - 1.0;
     let levelling = (uncertainty.specific_force / loaded.station.gravity).hypot(gravity_error);
     let (nav_from_body, sigma, fine, hidden) = match aligned {
         Ok(fine) => {
             let sigma = fine.covariance.diagonal().map(f64::sqrt);
-            // The filter knows of noise, not of what an accelerometer is off by for good.
+            // The filter models noise only, and not the constant errors of the accelerometers.
             let constant = (accel_sigma(loaded) / loaded.station.gravity).hypot(gravity_error);
             let tilt = |sigma: f64| sigma.hypot(constant);
             (fine.nav_from_body, (tilt(sigma.x), tilt(sigma.y), Some(sigma.z)), Some(fine), None)
@@ -99,7 +99,7 @@ pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<
             let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
             (level(&mean.rates, yaw)?, (levelling, levelling, None), None, Some(hidden))
         }
-        // What is too short for the Earth's rate to show is not too short for gravity.
+        // An interval that is too short for the Earth rate is not too short for gravity.
         Err(FineAlignmentError::TooShort { .. }) => {
             let hidden = AlignmentError::NorthNotFound { azimuth_sigma: ANY_AZIMUTH };
             let yaw = loaded.rig.attitude.map_or(0.0, |attitude| attitude.angles.yaw);
@@ -107,7 +107,7 @@ pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<
         }
         Err(error) => return Err(error.into()),
     };
-    // The filter tells the rate at the start of the rest, so that up must be that of the start too.
+    // The filter estimates the Earth rate at the start of the interval, so `up` must refer to the start too.
     let seen = fine.map_or(mean.rates, |fine| {
         let up = InFrame::new(0.0, 0.0, mean.rates.specific_force.norm());
         let body_from_nav = fine.nav_from_body.inverse();
@@ -127,7 +127,7 @@ pub(crate) fn found_over(loaded: &Loaded, span: Range<usize>) -> anyhow::Result<
     })
 }
 
-/// The scatter of the mean, and with it the data sheet's errors where there is one.
+/// The uncertainty of the mean from the scatter of the samples, and from the data sheet if there is one.
 fn uncertainty(loaded: &Loaded, mean: &RestMean) -> MeanUncertainty {
     let scatter = |sigma: Vector3<f64>| sigma.norm() / 3.0_f64.sqrt();
     let gyro = loaded.rig.imu.map_or(0.0, |imu| imu.gyro.bias_sigma);
@@ -137,7 +137,7 @@ fn uncertainty(loaded: &Loaded, mean: &RestMean) -> MeanUncertainty {
     }
 }
 
-/// What the data sheet says a specific force of one g may be off by, for good \[m/s²\].
+/// The 1σ of the constant error of a specific force of one g, by the data sheet \[m/s²\].
 fn accel_sigma(loaded: &Loaded) -> f64 {
     loaded.rig.imu.map_or(0.0, |imu| {
         let shape = imu.accel.scale_sigma.max(imu.accel.misalignment_sigma);

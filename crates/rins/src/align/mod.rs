@@ -15,7 +15,7 @@ use crate::check::refuse_mistaken;
 use crate::error::Result;
 use crate::log::{Log, static_intervals};
 
-/// The attitude of an IMU over the longest static interval of a log, and what the sensors show of the site.
+/// The attitude of an IMU over the longest static interval of a log, and the latitude and gravity that the sensors indicate.
 #[derive(Debug)]
 pub struct Alignment<'a> {
     log: &'a Log,
@@ -26,7 +26,7 @@ pub struct Alignment<'a> {
 /// Aligns on the longest static interval of a log.
 ///
 /// # Errors
-/// If units, signs or axes are mistaken, if there is no static interval of five seconds, or if the sensors show no attitude.
+/// If units, signs or axes are wrong, if there is no static interval of five seconds, or if the readings determine no attitude.
 ///
 /// ```
 /// use rins::Outcome;

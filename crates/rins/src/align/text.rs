@@ -1,4 +1,4 @@
-//! An alignment in words and as rows of a table.
+//! An alignment as sentences and as rows of a table.
 
 use nalgebra::Vector3;
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR};
@@ -8,7 +8,7 @@ use rins_io::Loaded;
 use super::found::AlignmentSolution;
 use crate::log::BEYOND_DATA_SHEET;
 
-/// The axes of a run among the sensors' own.
+/// The own axes of the sensors, as axes of the run.
 pub(super) fn own_axes(loaded: &Loaded) -> SignedAxes {
     SignedAxes::from(loaded.rig.spin)
 }
@@ -108,12 +108,12 @@ pub(super) fn rows(found: &AlignmentSolution, loaded: &Loaded) -> Vec<Vec<String
         ));
     }
     if !found.north_found() {
-        // Without north what is left of the rates is no bias.
+        // Without north, the residual rates are not a bias.
         return rows;
     }
     let shown = found.bias_shown(&own_axes(loaded));
     let bias_sigma = found.fine.map_or(found.mean.angular_rate_sigma, |fine| fine.gyro_bias_sigma);
-    // Biases are the sensors', along their own axes.
+    // Biases are listed along the sensors' own axes.
     let own_axes = own_axes(loaded);
     let bias = own_axes.undo(found.residual.angular_rate.components());
     let bias_sigma = own_axes.undo(&Vector3::from(bias_sigma)).abs();

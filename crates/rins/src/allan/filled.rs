@@ -1,37 +1,37 @@
-//! Samples of a rest at even intervals, those that were lost filled in.
+//! Samples of a static interval at even time steps, with lost samples filled in.
 
 use std::ops::Range;
 
 use rins_frames::{Increments, Rates};
 use rins_motion::{Recording, median};
 
-/// An interval that is so many times the usual one holds a gap.
+/// An interval between samples that exceeds the usual one by this factor contains a gap.
 const GAP: f64 = 1.5;
 
-/// Lost samples are filled in up to this share of all.
+/// Lost samples are filled in up to this fraction of all samples.
 pub(super) const MOST_FILLED: f64 = 0.01;
 
-/// Samples at even intervals, those that are lost filled in.
+/// Samples at even time steps, with lost samples filled in.
 pub(super) struct Filled {
     pub(super) samples: Vec<Increments>,
-    /// The mean between them \[s\].
+    /// The mean time step \[s\].
     pub(super) interval: f64,
     pub(super) lost: usize,
 }
 
 impl Filled {
-    /// The samples of `span` as they are.
+    /// The samples of `span`, unchanged.
     pub(super) fn whole(recording: &Recording, span: Range<usize>) -> Self {
         let samples = recording.increments[span].to_vec();
         let duration: f64 = samples.iter().map(|sample| sample.interval).sum();
         Self { interval: duration / samples.len().max(1) as f64, samples, lost: 0 }
     }
 
-    /// Those of `span`; none if more are lost than may be filled in.
+    /// The samples of `span` with lost samples filled in; `None` if more are lost than may be filled in.
     ///
-    /// A sensor that went on summing says what the lost samples were together. Of one that did not, a lost sample is the
-    /// mean of those before and after: with half the variance of white noise, so that one lost of a hundred makes the Allan
-    /// variance of the shortest time half a percent too small.
+    /// If the sensor continued to accumulate during the gap, the sum of the lost samples is known. Otherwise each lost sample
+    /// becomes the mean of the samples before and after it. That has half the variance of white noise, so that one lost sample in
+    /// a hundred reduces the Allan variance at the shortest averaging time by half a percent.
     pub(super) fn of(recording: &Recording, span: Range<usize>, accumulated: bool) -> Option<Self> {
         let samples = &recording.increments[span.clone()];
         let usual = median(samples.iter().map(|sample| sample.interval))?;
@@ -66,13 +66,13 @@ impl Filled {
         Some(Self { interval: duration / filled.len() as f64, samples: filled, lost })
     }
 
-    /// The share of them that is filled in.
+    /// The fraction of the samples that is filled in.
     pub(super) fn share(&self) -> f64 {
         self.lost as f64 / self.samples.len() as f64
     }
 }
 
-/// How many samples are missing in an interval.
+/// The number of samples that are missing in an interval.
 fn missing(interval: f64, usual: f64) -> usize {
     if interval <= GAP * usual {
         return 0;

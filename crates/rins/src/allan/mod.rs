@@ -1,4 +1,4 @@
-//! The noise that a static interval shows, sensor by sensor: Allan deviations with bounds, and the noise terms that make them.
+//! The noise of each sensor over a static interval: Allan deviations with bounds, and the noise parameters fitted to them.
 
 mod filled;
 mod noise;
@@ -12,17 +12,17 @@ use crate::check::refuse_mistaken;
 use crate::error::Result;
 use crate::log::Log;
 
-/// The noise that a static interval of a log shows.
+/// The noise of the sensors over a static interval of a log.
 #[derive(Debug)]
 pub struct Allan<'a> {
     log: &'a Log,
     rest: Rest,
 }
 
-/// The noise over the longest static interval of a log, lost samples filled in.
+/// Estimates the noise over the longest static interval of a log, with lost samples filled in.
 ///
 /// # Errors
-/// If units, signs or axes are mistaken, or if there is no static interval of ten seconds.
+/// If units, signs or axes are wrong, or if there is no static interval of ten seconds.
 ///
 /// ```
 /// use rins::Outcome;

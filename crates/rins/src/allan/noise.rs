@@ -18,13 +18,13 @@ use crate::log::{
     StaticIntervalResult, longest, none_found, static_intervals, statics_in_words, statics_result,
 };
 
-/// The shortest rest whose noise is looked at \[s\].
+/// The shortest static interval whose noise is estimated \[s\].
 const SHORTEST_REST: f64 = 10.0;
 
-/// Quantisation of so many sigmas more than the resolution makes is none.
+/// An apparent quantization noise that exceeds that of the resolution by this many sigmas is attributed to another cause.
 const BEYOND_RESOLUTION: f64 = 4.0;
 
-/// The noise of six sensors over a rest.
+/// The noise of six sensors over a static interval.
 #[derive(Debug)]
 pub(super) struct Rest {
     /// Its start and end \[s\].
@@ -33,23 +33,23 @@ pub(super) struct Rest {
     pub(super) interval: f64,
     /// The gyros, then the accelerometers.
     pub(super) channels: Vec<Channel>,
-    /// How many lost samples were filled in.
+    /// The number of lost samples that were filled in.
     pub(super) lost: usize,
-    /// The static intervals, for a machine.
+    /// The static intervals, for the JSON result.
     pub(super) statics: Vec<StaticIntervalResult>,
-    /// What a reader must know of the samples that were used.
+    /// Remarks on the samples that were used.
     pub(super) remarks: Vec<String>,
 }
 
-/// What one sensor shows.
+/// The noise of one sensor.
 #[derive(Debug)]
 pub(super) struct Channel {
     pub(super) triad: Triad,
     pub(super) axis: Axis,
     pub(super) seen: NoiseSeen,
-    /// What was taken out before: sinusoids are no noise.
+    /// The spectral lines that were removed before the noise was estimated.
     pub(super) lines: Vec<SpectralLine>,
-    /// What the data sheet says of the triad.
+    /// The data sheet of the triad.
     sheet: Option<TriadSpec>,
 }
 
@@ -62,7 +62,7 @@ impl Channel {
         }
     }
 
-    /// The strength that the data sheet gives a law, in SI units.
+    /// The noise parameter of a law by the data sheet, in SI units.
     pub(super) fn sheet(&self, law: NoiseLaw) -> Option<f64> {
         let sheet = self.sheet?;
         match law {
@@ -74,7 +74,7 @@ impl Channel {
     }
 }
 
-/// The effect of the catalogue that a law is, the letter of its strength, and the unit of that.
+/// The catalogue effect of a noise law, the symbol of its noise parameter, and the unit of the parameter.
 pub(super) const fn term(triad: Triad, law: NoiseLaw) -> (&'static str, &'static str, Unit) {
     match (triad, law) {
         (Triad::Gyro, NoiseLaw::Quantisation) => {
@@ -105,7 +105,7 @@ pub(super) const fn term(triad: Triad, law: NoiseLaw) -> (&'static str, &'static
     }
 }
 
-/// The noise over the longest static interval, lost samples filled in.
+/// The noise over the longest static interval, with lost samples filled in.
 pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     let recording = &loaded.recording;
     let log = shown(&loaded.rig.log.path);
@@ -162,7 +162,7 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
             };
             let lasting: f64 = filled.samples.iter().map(|sample| sample.interval).sum();
             let mean = filled.samples.iter().map(of).sum::<f64>() / lasting;
-            // Less the mean over its own interval: where intervals jitter, gravity is no noise.
+            // The mean over each sample's own interval is subtracted: otherwise jitter of the intervals turns gravity into noise.
             let mut noise: Vec<f64> =
                 filled.samples.iter().map(|sample| of(sample) - mean * sample.interval).collect();
             let lines = take_out_lines(&mut noise, interval);
@@ -195,7 +195,7 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     })
 }
 
-/// Quantisation is no stronger than the resolution makes it \[rad or m/s\]: says so where it seemed to be.
+/// Limits the quantization noise to that of the resolution, `most` \[rad or m/s\]; returns a remark if the estimate exceeds it.
 fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -> Option<String> {
     let place = NoiseLaw::ALL.iter().position(|law| *law == NoiseLaw::Quantisation)?;
     let strength = &mut seen.strengths[place];
@@ -218,7 +218,7 @@ fn cap_quantisation(seen: &mut NoiseSeen, most: f64, triad: Triad, axis: Axis) -
     }
 }
 
-/// The 1σ that the resolution of each channel makes of an increment, along the sensors' own axes \[rad or m/s\].
+/// The 1σ of the quantization error of an increment of each channel, along the sensors' own axes \[rad or m/s\].
 fn resolutions(loaded: &Loaded, interval: f64) -> [Option<f64>; 6] {
     let combs = QuantizationGrids::of(&loaded.recording);
     let step = |channel: usize| {
@@ -228,7 +228,7 @@ fn resolutions(loaded: &Loaded, interval: f64) -> [Option<f64>; 6] {
         steps.max_by(f64::total_cmp).map(|step| step / 12.0_f64.sqrt())
     };
     let axes = SignedAxes::from(loaded.rig.spin);
-    // The run's axes in the places of the sensors' own.
+    // The axis of the run along each of the sensors' own axes.
     let places = axes.undo(&Vector3::new(1.0, 2.0, 3.0)).abs();
     std::array::from_fn(|own| {
         let along = (0..3).find(|along| (places[own % 3] - (*along as f64 + 1.0)).abs() < 0.5)?;

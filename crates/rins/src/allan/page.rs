@@ -1,4 +1,4 @@
-//! The noise of a rest in words, tables and plots.
+//! The noise over a static interval as sentences, tables and plots.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use crate::table::{aligned, report_table};
 use rins_report::number::{estimate, figure};
 use rins_report::{Band, Item, Plot, Report, Scale, Section, Series, Style};
 
-/// The noise for a terminal.
+/// The noise as text for a terminal.
 pub(super) fn allan_text(rest: &Rest, title: &str) -> String {
     let mut text = format!("{title}\n");
     for sentence in sentences(rest) {
@@ -21,7 +21,7 @@ pub(super) fn allan_text(rest: &Rest, title: &str) -> String {
     text
 }
 
-/// The noise for a browser.
+/// The noise as a report page.
 pub(super) fn allan_report(rest: &Rest, title: String, log: &str) -> Report {
     let triads = [Triad::Gyro, Triad::Accel].map(|triad| {
         rest.channels.iter().filter(|channel| channel.triad == triad).collect::<Vec<_>>()
@@ -66,7 +66,7 @@ fn sentences(rest: &Rest) -> Vec<String> {
     sentences
 }
 
-/// The sinusoids in a sensor's readings.
+/// The spectral lines in a sensor's readings.
 fn lines(channel: &Channel) -> Option<String> {
     let unit = channel.unit();
     let told: Vec<String> = channel
@@ -94,7 +94,7 @@ fn lines(channel: &Channel) -> Option<String> {
     })
 }
 
-/// What of a sensor's deviation the four laws do not explain.
+/// The part of a sensor's deviation that the four noise laws do not explain.
 fn off_the_laws(channel: &Channel) -> Option<String> {
     let seen = &channel.seen;
     let sensor = format!("{} {}", channel.triad, channel.axis);
@@ -116,7 +116,7 @@ fn off_the_laws(channel: &Channel) -> Option<String> {
     })
 }
 
-/// A row for each sensor and law, below their heading.
+/// A row for each sensor and law, after a row of headings.
 fn rows(channels: &[Channel]) -> Vec<Vec<String>> {
     let head = ["noise", "value", "1σ", "unit", "remark"].map(String::from).to_vec();
     let rows = channels.iter().flat_map(|channel| {
@@ -163,7 +163,7 @@ const fn words(law: NoiseLaw) -> &'static str {
     }
 }
 
-/// The deviations of a triad's sensors, their bounds, and what the laws make of them.
+/// The Allan deviations of a triad's sensors, their bounds, and the fit of the noise laws.
 fn plot(channels: &[&Channel]) -> Plot {
     let mut plot = Plot {
         x_label: "Averaging time [s]".into(),
@@ -193,7 +193,7 @@ fn plot(channels: &[&Channel]) -> Plot {
         });
         let (found, mut fitted) = (column(|point| point.deviation), column(|point| point.fitted));
         let unexplained = x.iter().take_while(|time| **time < channel.seen.explained_from).count();
-        // Where the laws were not compared with the deviation, their curve has a gap.
+        // The fitted curve has a gap where the laws were not compared with the deviation.
         fitted[..unexplained].fill(f64::NAN);
         plot.series.push(series(channel.axis.to_string(), found, Style::Line));
         plot.series.push(series(format!("{}, fitted", channel.axis), fitted, Style::Dashed));

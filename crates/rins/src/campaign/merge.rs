@@ -1,4 +1,4 @@
-//! `rins merge`: the shards of a campaign as a whole, the same bytes as if it had been run at once.
+//! `rins merge`: joins the shards of a campaign; the output is byte-identical to that of a single run.
 
 use std::iter::Peekable;
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use super::page::{CampaignOutcome, deliver};
 use super::runs::Run;
 use crate::error::Result;
 
-/// Joins the shards of a campaign: the same bytes as if it had been run at once.
+/// Joins the shards of a campaign; the output is byte-identical to that of a campaign that was run without shards.
 ///
 /// # Errors
-/// If a shard cannot be read, is of another campaign, is missing or is given twice, or if the results cannot be written.
+/// If a shard cannot be read, belongs to another campaign, is missing or is given twice, or if the results cannot be written.
 ///
 /// ```
 /// use rins::{MonteCarloOptions, Outcome, Overwrite};
@@ -39,7 +39,7 @@ fn merged(
     output: &Path,
     overwrite: Overwrite,
 ) -> anyhow::Result<CampaignOutcome> {
-    // Read twice, as the first run is written when the last part is known to belong to it.
+    // Every part is read twice, because the first run is written only after all parts are known to belong together.
     let parts = paths
         .iter()
         .map(|path| Ok((path.clone(), checked(path)?)))
@@ -55,14 +55,14 @@ fn merged(
     deliver(&heading, runs, output, source, overwrite)
 }
 
-/// What a part is of, if each of its runs can be read.
+/// The heading of a part, after a check that each of its runs can be read.
 fn checked(path: &Path) -> Result<Heading, IoError> {
     let mut runs = PartRuns::open(path)?;
     runs.by_ref().try_for_each(|run| run.map(drop))?;
     Ok(runs.heading().clone())
 }
 
-/// The runs of parts in the order of scenarios and runs.
+/// The runs of all parts in the order of scenarios and runs.
 struct InOrder {
     parts: Vec<Peekable<PartRuns>>,
 }
@@ -73,7 +73,7 @@ impl Iterator for InOrder {
     fn next(&mut self) -> Option<Self::Item> {
         let place = |run: &Self::Item| match run {
             Ok([first, ..]) => (first.cell, first.run),
-            // What cannot be read is told at once.
+            // A read error comes first.
             Err(_) => (0, 0),
         };
         let peeked = self.parts.iter_mut().map(|part| part.peek().map(place));
@@ -85,7 +85,7 @@ impl Iterator for InOrder {
     }
 }
 
-/// The parts' heading as one, if they are all of one campaign.
+/// The common heading of the parts, if all belong to one campaign.
 fn joined(mut parts: Vec<(PathBuf, Heading)>) -> anyhow::Result<Heading> {
     parts.sort_by_key(|(_, part)| part.identity.shard);
     let (first_path, first) = &parts[0];
@@ -118,7 +118,7 @@ fn joined(mut parts: Vec<(PathBuf, Heading)>) -> anyhow::Result<Heading> {
     let mut values = vec![Vec::new(); n_cells];
     for (_, part) in parts {
         for (all, of_part) in values.iter_mut().zip(part.values) {
-            // A part knows nothing of a scenario of which it has no runs.
+            // A part has no data of a scenario of which it contains no runs.
             if !of_part.is_empty() {
                 *all = of_part;
             }

@@ -1,4 +1,4 @@
-//! Campaigns: a scenario simulated and calibrated many times over.
+//! Monte Carlo campaigns: many simulated and calibrated runs of a scenario.
 
 mod merge;
 mod monte_carlo;

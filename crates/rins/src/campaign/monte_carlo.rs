@@ -1,4 +1,4 @@
-//! A scenario simulated and calibrated many times over.
+//! A Monte Carlo campaign: many simulated and calibrated runs of a scenario.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,37 +21,37 @@ use crate::error::Result;
 use crate::log::setup_at;
 use crate::progress::Progress;
 
-/// How often the journal is made sure of.
+/// The interval between synchronizations of the journal with the disk.
 const SYNCHRONISED_EVERY: Duration = Duration::from_secs(1);
 
-/// The most finished chunks that wait for the journal.
+/// The maximum number of finished chunks in the queue of the journal.
 const WAITING: usize = 64;
 
-/// How a campaign is run.
+/// The options of [`monte_carlo`].
 #[derive(Clone, Debug)]
 pub struct MonteCarloOptions {
-    /// How many runs of each scenario.
+    /// The number of runs of each scenario.
     pub runs: u64,
     /// The seed; by default the scenario's.
     pub seed: Option<u64>,
-    /// Where the results go, as Parquet; a page lies beside them and ends in `.html`.
+    /// The Parquet file of the results; the report page is written beside it, with the extension `.html`.
     pub output: PathBuf,
-    /// Whether a campaign that was interrupted is continued.
+    /// Whether an interrupted campaign is resumed.
     pub resume: bool,
-    /// The part that is done, such as the second of five; by default all.
+    /// The shard to be run, such as (2, 5) for the second of five; by default the whole campaign.
     pub shard: Option<(u64, u64)>,
-    /// How many threads; by default one a core.
+    /// The number of threads; by default one per core.
     pub threads: Option<u16>,
-    /// Whether results that exist may be replaced.
+    /// Whether existing results may be replaced.
     pub overwrite: Overwrite,
-    /// Set from elsewhere, it stops the campaign after the runs in hand; what is done can be resumed.
+    /// The stop flag: once it is set, the campaign stops after the chunks in progress, and can be resumed.
     pub stopped: Arc<AtomicBool>,
-    /// Who hears how far it is.
+    /// The listener for progress reports.
     pub progress: Progress,
 }
 
 impl MonteCarloOptions {
-    /// So many runs of each scenario, with their results in this file.
+    /// Options for `runs` runs of each scenario, with the results in the file `output`.
     pub fn new(runs: u64, output: impl Into<PathBuf>) -> Self {
         Self {
             runs,
@@ -67,9 +67,9 @@ impl MonteCarloOptions {
     }
 }
 
-/// Simulates and calibrates a scenario many times: do the estimates scatter as their covariances claim?
+/// Simulates and calibrates a scenario many times: do the errors of the estimates agree with their covariances?
 ///
-/// The bytes of the results do not depend on the number of threads.
+/// The output does not depend on the number of threads, byte for byte.
 ///
 /// # Errors
 /// If the scenario cannot be read or simulated, if the results cannot be written, or if the campaign was stopped.
@@ -107,7 +107,7 @@ fn campaign(scenario: &Path, options: &MonteCarloOptions) -> anyhow::Result<Camp
         .map(|(cell, one)| cell.prepare().with_context(|| place(scenario, &grid, &one.values)))
         .collect::<anyhow::Result<_>>()?;
     let identity = Identity { scenario: grid.text.clone(), runs: *runs, seed, shard };
-    // Not only after all runs.
+    // The check comes before the runs, and is repeated when the results are written.
     ensure_replaceable(output, *overwrite)?;
     let mut journal = open(options, &identity)?;
     let chunks: Vec<Chunk> =
@@ -133,14 +133,14 @@ fn campaign(scenario: &Path, options: &MonteCarloOptions) -> anyhow::Result<Camp
     Ok(outcome)
 }
 
-/// Names a scenario of the grid in an error.
+/// The location of a scenario of the grid, for an error message.
 fn place(scenario: &Path, grid: &ScenarioGrid, values: &[String]) -> String {
     let at: Vec<String> =
         grid.keys.iter().zip(values).map(|(key, value)| format!("{key} = {value}")).collect();
     if at.is_empty() { shown(scenario) } else { format!("{}: {}", shown(scenario), at.join(", ")) }
 }
 
-/// A scenario with what the filter is told: what a user's rig file of its run would say.
+/// A scenario with the data that the filter receives: those that the rig file of a user would contain.
 fn cell(file: &rins_io::ScenarioFile, seed: u64) -> anyhow::Result<Cell> {
     let scenario = Scenario { seed: Seed::new(seed), ..file.scenario.clone() };
     let noiseless = simulate(&Scenario { noise: None, ..scenario.clone() })?;
@@ -149,12 +149,12 @@ fn cell(file: &rins_io::ScenarioFile, seed: u64) -> anyhow::Result<Cell> {
     Ok(Cell { scenario, setup })
 }
 
-/// Whether a chunk is finished; one that the journal has with other runs is made again.
+/// Whether a chunk is finished; a chunk that the journal has with other runs is repeated.
 fn is_done(journal: &Journal, chunk: &Chunk) -> bool {
     journal.len_of(chunk.index) == Some(chunk.runs.end - chunk.runs.start)
 }
 
-/// What the runs of a finished chunk found.
+/// The results of the runs of a finished chunk.
 fn of_chunk(
     campaign: &Campaign,
     chunk: &Chunk,
@@ -191,7 +191,7 @@ fn journal_path(output: &Path) -> PathBuf {
     name.into()
 }
 
-/// Runs what is not done yet, on all threads; an interrupt stops it after the chunks in hand.
+/// Runs the unfinished chunks on all threads; an interrupt stops it after the chunks in progress.
 fn finish(
     chunks: &[Chunk],
     prepared: &[Prepared],
@@ -207,16 +207,16 @@ fn finish(
     let mut done = chunks.len() - open.len();
     let stage = options.progress.begin("running", Some(chunks.len()));
     stage.done(done);
-    // What waits to be written is bounded: a slow disk holds the threads up.
+    // The queue is bounded: if the disk is slow, the threads wait.
     let (sender, receiver) = mpsc::sync_channel(WAITING);
     std::thread::scope(|scope| {
         scope.spawn(move || {
             threads.install(|| {
-                // In order, so that what one thread finishes is not far ahead of the others.
+                // In order, so that no thread finishes chunks far ahead of the others.
                 open.par_iter().with_max_len(1).for_each_with(sender, |sender, chunk| {
                     if !stopped.load(Ordering::Relaxed) {
                         let runs = prepared[chunk.cell].run(chunk.runs.clone());
-                        // Nobody listens any more where the journal could not be written.
+                        // The receiver is gone if the journal could not be written.
                         if sender.send((chunk.index, runs)).is_err() {
                             stopped.store(true, Ordering::Relaxed);
                         }

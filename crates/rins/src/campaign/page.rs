@@ -1,4 +1,4 @@
-//! A campaign as text, JSON, report and Parquet file: do estimates scatter as claimed?
+//! A campaign as text, JSON, report and Parquet file: do the errors agree with the covariances?
 
 use std::fmt::{self, Write as _};
 use std::fs;
@@ -13,7 +13,7 @@ use super::result::{CampaignResult, CellResult};
 use super::runs::{Run, UNITS};
 use crate::outcome::Outcome;
 
-/// The most runs that a plot shows of each scenario, and of all of them.
+/// The maximum number of runs in a plot, of each scenario and in total.
 const SHOWN: [usize; 2] = [2000, 50_000];
 
 /// A campaign whose results have been written.
@@ -37,21 +37,20 @@ impl Outcome for CampaignOutcome {
     }
 }
 
-/// A scenario of the grid, and what its runs say.
+/// A scenario of the grid with the statistics of its runs.
 struct Scored<'a> {
     values: &'a [String],
     cell: usize,
     truth: Vector3<f64>,
     tally: Tally,
-    /// Of the first runs with estimates, the errors over the sigmas claimed.
+    /// The errors of the first runs with estimates, divided by their sigmas.
     errors: Vec<Vector3<f64>>,
     statistics: Option<Statistics>,
 }
 
-/// Writes results and their report, and says what they say.
+/// Writes the results and their report, and returns the outcome.
 ///
-/// The runs are in the order of scenarios and runs, and are taken as they are written: of each, only
-/// what the report shows of it is kept.
+/// The runs come in the order of scenarios and runs and are written one by one; only the data that the report needs are kept.
 pub(super) fn deliver(
     heading: &Heading,
     runs: impl Iterator<Item = Result<Run, IoError>>,
@@ -91,7 +90,7 @@ pub(super) fn deliver(
 }
 
 impl<'a> Scored<'a> {
-    /// Adds a run to its scenario, which is the last one or comes after it.
+    /// Adds a run to its scenario, which is the last one or a new one.
     fn add<'r>(all: &mut Vec<Self>, heading: &'a Heading, run: &'r Run) -> &'r Run {
         if all.last().is_none_or(|last| last.cell != run.cell) {
             all.push(Self {
@@ -118,7 +117,7 @@ impl<'a> Scored<'a> {
     }
 }
 
-/// What distinguishes a scenario of the grid.
+/// The label of a scenario of the grid: its values of the keys that vary.
 fn label(keys: &[String], values: &[String]) -> String {
     let pairs = keys.iter().zip(values).map(|(key, value)| format!("{key} = {value}"));
     let label = pairs.collect::<Vec<_>>().join(", ");
@@ -237,7 +236,7 @@ fn overview(heading: &Heading, scored: &[Scored<'_>]) -> Section {
     }
 }
 
-/// The errors of one parameter beside what is claimed for them.
+/// The errors of one parameter compared with their standard uncertainties.
 fn parameter_section(scored: &[Scored<'_>], row: usize, id: &str) -> Section {
     let unit = UNITS[row].0;
     let mut points = Series { name: "a run".into(), style: Style::Points, ..Series::default() };

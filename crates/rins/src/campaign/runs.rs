@@ -1,4 +1,4 @@
-//! What the runs of a campaign found, one after the other, and the rows of its results.
+//! The results of the runs of a campaign, and the rows of its result file.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_calibration::Estimate;
@@ -6,13 +6,13 @@ use rins_campaign::{PARAMETERS, RunFailure, RunResult};
 use rins_frames::units::{ARCSEC, PPM};
 use rins_io::{Record, Row, RunRows};
 
-/// The parameters' units: their names, and what one is in SI units.
+/// The units of the parameters: their names and their values in SI units.
 pub(super) const UNITS: [(&str, f64); 3] = [("arcsec", ARCSEC), ("arcsec", ARCSEC), ("ppm", PPM)];
 
-/// What a run found, in the parameters' units.
+/// The result of a run, in the units of the parameters.
 #[derive(Debug)]
 pub(super) struct Run {
-    /// The scenario's place in the grid.
+    /// The index of the scenario in the grid.
     pub(super) cell: usize,
     /// The run's number.
     pub(super) number: u64,
@@ -21,7 +21,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// A run that was made in SI units, of a scenario where this is true in them.
+    /// A run from its result and the true values of its scenario, both in SI units.
     pub(super) fn made(cell: usize, number: u64, truth: &Vector3<f64>, result: RunResult) -> Self {
         let truth =
             truth.zip_map(&Vector3::from(UNITS.map(|unit| unit.1)), |truth, unit| truth / unit);
@@ -35,10 +35,10 @@ impl Run {
         Self { cell, number, truth, result }
     }
 
-    /// A run that was read.
+    /// A run from the rows of a result file.
     pub(super) fn read(rows: &RunRows) -> Self {
         let [first, ..] = rows;
-        // A file has no scenario beyond those that a grid can have.
+        // An index beyond `usize` cannot belong to a scenario of a grid.
         let cell = usize::try_from(first.cell).unwrap_or(usize::MAX);
         let truth = Vector3::from_fn(|row, _| rows[row].record.truth);
         Self { cell, number: first.run, truth, result: result(rows) }

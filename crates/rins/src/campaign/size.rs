@@ -1,18 +1,18 @@
-//! Campaigns that no computer finishes are refused before anything is made.
+//! Size limits of campaigns: a campaign that no computer can finish is refused before it starts.
 
 use rins_io::ScenarioGrid;
 
-/// The most runs of one shard: three days of one processor for the shortest, 20 GB of journal, and
-/// 100 MB of memory for the portions' places in it.
+/// The maximum number of runs of one shard: three days of one processor for the shortest runs, a journal of 20 GB, and 100 MB of
+/// memory for the positions of the chunks in the journal.
 const MOST_RUNS: u64 = 100_000_000;
 
-/// The most runs of all shards.
+/// The maximum number of runs of all shards.
 const MOST_IN_ALL: u64 = 10_000_000_000;
 
-/// The most samples that the scenarios' runs without noise may have together, as one run may.
+/// The maximum number of samples of the scenarios' noise-free runs together, the same as of one run.
 const MOST_SAMPLES: f64 = 1e8;
 
-/// Refuses a campaign of `runs` of each scenario, of which one shard `of` so many is made here.
+/// Refuses a campaign that is too large: `runs` runs of each scenario, in `of` shards, of which this process runs one.
 pub(super) fn refuse_too_large(grid: &ScenarioGrid, runs: u64, of: u64) -> anyhow::Result<()> {
     let cells = grid.cells.len() as u64;
     let all = cells.saturating_mul(runs);

@@ -1,4 +1,4 @@
-//! A log, inspected against all that its rig file says.
+//! The inspection of a log against the statements of its rig file.
 
 use rins_frames::units::DEG;
 use rins_inspection::{Expected, ExpectedAxis, ExpectedTriad, Inspection, RestSeen, inspect_with};
@@ -8,10 +8,10 @@ use rins_report::number::figure;
 use super::units::said_units;
 use crate::log::static_intervals;
 
-/// How many gaps and rests are listed one by one.
+/// The maximum number of gaps and static intervals that are listed individually.
 pub(super) const LISTED: usize = 12;
 
-/// What a run holds, held against all that its rig says.
+/// Inspects a run against the statements of its rig file.
 pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
     let rig = &loaded.rig;
     let units = said_units(&rig.log);
@@ -32,7 +32,7 @@ pub(crate) fn inspected(loaded: &Loaded) -> Inspection {
         gyro: triad(rig.imu.map(|imu| imu.gyro), units.gyro),
         accel: triad(rig.imu.map(|imu| imu.accel), units.accel),
     };
-    // Rig and readers know the sensors by their own axes.
+    // The rig file and its readers name sensors by their own axes.
     inspect_with(&loaded.recording, &expected, static_intervals(loaded)).along_own(&rig.spin.into())
 }
 
@@ -42,7 +42,7 @@ pub(super) fn gaps(inspection: &Inspection, loaded: &Loaded) -> String {
     let Some(longest) = gaps.iter().map(|(_, length)| *length).reduce(f64::max) else {
         return "none".into();
     };
-    // Where all cannot be listed, the longest are.
+    // If there are too many, the longest are listed.
     let more = if gaps.len() > LISTED { ", ..." } else { "" };
     if gaps.len() > LISTED {
         gaps.sort_by(|a, b| b.1.total_cmp(&a.1));

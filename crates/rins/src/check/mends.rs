@@ -1,4 +1,4 @@
-//! What to write into a rig file to put wrong axes, or a table's wrong sense, right.
+//! Changes of the rig file that correct wrong axes or a wrong direction of rotation.
 
 use rins_frames::SignedAxes;
 use rins_inspection::{Correction, Inspection, Suspicion};
@@ -6,18 +6,18 @@ use rins_io::{Axes, LogFormat, Rig};
 
 use super::words::TOLD;
 
-/// A change of the rig file that would put all right that is seen of signs and axes.
+/// A change of the rig file that corrects all detected errors of signs and axes.
 #[derive(Debug)]
 pub(crate) struct Mend {
-    /// `axes` under `[log] gyro`, if they are to change.
+    /// The new value of `axes` under `[log] gyro`, if it changes.
     pub(crate) gyro: Option<Axes>,
-    /// The same under `[log] accel`.
+    /// The new value of `axes` under `[log] accel`, if it changes.
     pub(crate) accel: Option<Axes>,
-    /// The table's sense, if it is to change.
+    /// The new direction of rotation of the table, if it changes.
     pub(crate) table: Option<Sense>,
 }
 
-/// The sense in which a table is to be counted, and where the rig file says it.
+/// The direction of rotation of a table, and the place of the rig file that states it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sense {
     place: Place,
@@ -31,10 +31,10 @@ enum Place {
     Profile,
 }
 
-/// The ratios of the turn of the gyro about the axis of rotation to the table's that tell of nothing but its sense.
+/// The ratios of gyro rotation to table rotation about the spin axis at which only the direction of rotation is wrong.
 const REVERSED: std::ops::Range<f64> = -1.4..-0.7;
 
-/// The changes of which one is right; none if nothing is wrong, or something else is.
+/// The possible corrections; empty if nothing is wrong, or if something else is.
 pub(crate) fn mends(inspection: &Inspection, rig: &Rig) -> Vec<Mend> {
     let suspicions = &inspection.suspicions;
     if let Some(corrections) = suspicions.iter().map(Suspicion::corrections).find(|c| !c.is_empty())
@@ -65,7 +65,7 @@ fn mend(correction: &Correction, rig: &Rig) -> Option<Mend> {
     Some(Mend { gyro, accel, table })
 }
 
-/// The other sense of a rig's table; `None` if it has none.
+/// The opposite direction of rotation of a rig's table; `None` if the rig has none.
 fn sense(rig: &Rig) -> Option<Sense> {
     let of = |place, factor: f64| {
         let name = if factor < 0.0 { "forward" } else { "reversed" };
@@ -84,7 +84,7 @@ fn sense(rig: &Rig) -> Option<Sense> {
 }
 
 impl Sense {
-    /// What the key `sense` is to say.
+    /// The new value of the key `sense`.
     pub(crate) fn name(&self) -> &'static str {
         self.name
     }
@@ -112,7 +112,7 @@ impl Mend {
     }
 }
 
-/// The changes as one sentence; `None` if there are none, or too many to choose from.
+/// The corrections as one sentence; `None` if there are none, or too many to choose from.
 pub(crate) fn mends_in_words(mends: &[Mend]) -> Option<String> {
     let words: Vec<String> = mends.iter().map(Mend::in_words).collect();
     (1..=TOLD).contains(&words.len()).then(|| format!("set {}", words.join("; or ")))

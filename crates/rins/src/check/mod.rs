@@ -1,4 +1,4 @@
-//! What a log holds, and what looks wrong with it.
+//! The content of a log, and its gross errors.
 
 mod inspected;
 mod mends;
@@ -24,7 +24,7 @@ pub(crate) use self::shows::steady_rates;
 use self::verdicts::{Verdict, verdicts};
 use crate::log::Log;
 
-/// What a log holds, and a verdict on each thing that can be wrong with it.
+/// The content of a log, with a verdict on each possible gross error.
 #[derive(Debug)]
 pub struct Check<'a> {
     log: &'a Log,
@@ -34,7 +34,7 @@ pub struct Check<'a> {
     verdicts: Vec<Verdict>,
 }
 
-/// Inspects a log against all that its rig file says.
+/// Inspects a log against the statements of its rig file.
 ///
 /// ```
 /// use rins::Outcome;

@@ -1,4 +1,4 @@
-//! What is odd about a run: no mistake, but worth a look.
+//! Anomalies of a run that are not errors but deserve attention.
 
 use rins_inspection::{CHANNELS, Inspection, Suspicion};
 use rins_io::Loaded;
@@ -7,13 +7,13 @@ use super::inspected::longest;
 use super::words::suspicion_in_words;
 use crate::log::repairs;
 
-/// How far gravity may be off before it is odd: a calibrated accelerometer is better by far.
+/// The relative error of the measured gravity above which it is reported: that of a calibrated accelerometer is much smaller.
 const LARGEST_GRAVITY_ERROR: f64 = 0.005;
 
-/// How far the turn of the gyro about the axis of rotation may be off the table's before it is odd.
+/// The relative difference between gyro and table rotation about the spin axis above which it is reported.
 const LARGEST_SPIN_ERROR: f64 = 0.01;
 
-/// What is odd, each in a sentence: suspected mistakes first.
+/// The anomalies, one sentence each; suspected errors come first.
 pub(super) fn oddities(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     let mut found: Vec<String> = inspection.suspicions.iter().map(suspicion_in_words).collect();
     found.extend(repairs(&loaded.rig, &loaded.summary));

@@ -19,7 +19,7 @@ impl Check<'_> {
         format!("Check of {}", self.log.name)
     }
 
-    /// What the verdicts of this tone are on.
+    /// The items whose verdicts have this tone.
     fn of_tone(&self, tone: Tone) -> Vec<&str> {
         let of = self.verdicts.iter().filter(|verdict| verdict.tone == tone);
         of.map(|verdict| verdict.item).collect()

@@ -1,4 +1,4 @@
-//! The page of a check.
+//! The report page of a check.
 
 use rins_frames::Increments;
 use rins_frames::units::DEG;
@@ -13,7 +13,7 @@ use super::words::suspicion_in_words;
 use crate::log::statics_in_words;
 use crate::table::report_table;
 
-/// The page of a check.
+/// The report page of a check.
 pub(super) fn page(check: &Check<'_>) -> Report {
     let Check { log, inspection, oddities, mends, verdicts } = check;
     let loaded = &log.loaded;
@@ -60,7 +60,7 @@ pub(super) fn page(check: &Check<'_>) -> Report {
     }
 }
 
-/// A plot of each kind of reading that a run has.
+/// One plot for each kind of reading in the run.
 fn readings(inspection: &Inspection, loaded: &Loaded) -> Vec<Item> {
     let recording = &loaded.recording;
     let curve = |title: &str, y_label: &str, y: Vec<f64>, style: Style| {

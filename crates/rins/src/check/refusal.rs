@@ -1,4 +1,4 @@
-//! Runs of which nothing that is computed would mean anything.
+//! Refusal of runs with gross errors, whose results would be meaningless.
 
 use rins_io::{Loaded, shown};
 

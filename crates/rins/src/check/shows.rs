@@ -1,4 +1,4 @@
-//! What a run can show: which commands have something to work on, and what they make observable.
+//! The information in a run: the commands that can use it, and the parameters that are observable.
 
 use rins_frames::units::DEG;
 use rins_inspection::Inspection;
@@ -7,21 +7,21 @@ use rins_motion::Recording;
 
 use super::inspected::{extremes, longest};
 
-/// The shortest rest that is aligned on \[s\].
+/// The shortest static interval that is used for alignment \[s\].
 const SHORTEST_REST: f64 = 5.0;
 
-/// The stretch over which a rate is taken for steady \[s\], and how much its halves may differ.
+/// The span over which a rate is tested for constancy \[s\]; the next constant is the tolerance for the difference of its halves.
 const STRETCH: f64 = 4.0;
 const STEADY: f64 = 0.02;
 
-/// Rates that differ by less \[rad/s\], and by less of the larger, are one.
+/// Rates with a smaller difference \[rad/s\], or a smaller difference relative to the larger, count as equal.
 const APART: f64 = 0.1 * DEG;
 const APART_RELATIVE: f64 = 0.1;
 
-/// The least range of temperatures that shows what depends on them \[K\].
+/// The smallest temperature range from which temperature dependence is observable \[K\].
 const LEAST_WARMING: f64 = 5.0;
 
-/// What the run can show, each in a sentence.
+/// The information in the run, one sentence per item.
 pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     let mut found = Vec::new();
     let rest = longest(inspection).map_or(0.0, |rest| rest.mean.duration);
@@ -56,7 +56,7 @@ pub(super) fn shows(inspection: &Inspection, loaded: &Loaded) -> Vec<String> {
     found
 }
 
-/// The steady rates about the axis of rotation other than zero, each once \[rad/s\].
+/// The distinct constant rates about the spin axis, except zero \[rad/s\].
 pub(crate) fn steady_rates(recording: &Recording) -> Vec<f64> {
     let mut rates: Vec<f64> = Vec::new();
     let mut halves = [(0.0, 0.0); 2];

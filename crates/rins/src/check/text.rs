@@ -1,4 +1,4 @@
-//! What a log holds, as rows of tables.
+//! The content of a log as rows of tables.
 
 use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_inspection::{CHANNELS, Inspection};
@@ -76,7 +76,7 @@ pub(super) fn rows(inspection: &Inspection, loaded: &Loaded) -> Vec<Vec<String>>
     rows
 }
 
-/// The verdicts as rows of a table, below a row of headings.
+/// The verdicts as rows of a table, after a row of headings.
 pub(super) fn judged(verdicts: &[Verdict]) -> Vec<Vec<String>> {
     let head = ["on", "verdict", ""].map(String::from).to_vec();
     let row =

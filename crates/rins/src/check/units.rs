@@ -1,9 +1,9 @@
-//! The units that a rig file says readings are in.
+//! The units of readings that a rig file states.
 
 use rins_inspection::{ReadingOf, ReadingUnit};
 use rins_io::{LogFormat, LogSpec, Reading, TriadColumns};
 
-/// The units of the usual ones that a rig file names.
+/// The stated units, as far as they are common units.
 #[derive(Default)]
 pub(super) struct SaidUnits {
     pub(super) gyro: Option<ReadingUnit>,
@@ -11,7 +11,7 @@ pub(super) struct SaidUnits {
     pub(super) table: Option<ReadingUnit>,
 }
 
-/// What a log's readings are said to be in; a PSINS text log says that itself.
+/// The stated units of a log's readings; none for a PSINS text log, whose format defines them.
 pub(super) fn said_units(log: &LogSpec) -> SaidUnits {
     let LogFormat::Columns(columns) = &log.format else { return SaidUnits::default() };
     let angle = columns.table_angle.as_ref().map(|angle| Reading::Increment(angle.factor.abs()));
@@ -25,7 +25,7 @@ pub(super) fn said_units(log: &LogSpec) -> SaidUnits {
     }
 }
 
-/// Raw counts are in no unit: their scale may be as wrong as that.
+/// `None` for raw counts: their scale is a possible error of its own.
 fn of_triad(units: &[ReadingUnit], triad: &TriadColumns) -> Option<ReadingUnit> {
     let plain = triad.scale.iter().all(|scale| (scale - 1.0).abs() <= 0.0);
     named(units, triad.reading).filter(|_| plain)

@@ -1,4 +1,4 @@
-//! A verdict on each thing that can be wrong with a log.
+//! Verdicts on the possible gross errors of a log.
 
 use rins_frames::EARTH_RATE;
 use rins_frames::units::DEG_PER_HOUR;
@@ -12,15 +12,15 @@ use crate::log::BEYOND_DATA_SHEET;
 use rins_report::Tone;
 use rins_report::number::{estimate, figure};
 
-/// Time stamps that jitter by more than this share of an interval are odd.
+/// The jitter of time stamps above which it is reported, as a fraction of a sample interval.
 const ODD_JITTER: f64 = 0.02;
 
-/// A table that is otherwise late than is said is odd from so many sigma, and this share of an
-/// interval, on: a gyro whose scale changes looks a little late too.
+/// A difference of the table latency from the stated one is reported from this number of sigmas, and this fraction of a sample
+/// interval, on: a variation of the gyro scale factor looks like a small latency.
 const ODD_SIGMAS: f64 = 10.0;
 const ODD_SHARE: f64 = 2.5e-3;
 
-/// What is said of one thing.
+/// The verdict on one item.
 #[derive(Debug)]
 pub(super) struct Verdict {
     pub(super) item: &'static str,
@@ -29,7 +29,7 @@ pub(super) struct Verdict {
 }
 
 impl Verdict {
-    /// The tone in a word.
+    /// The verdict as one word.
     pub(super) fn word(&self) -> &'static str {
         match self.tone {
             Tone::Good => "good",
@@ -40,7 +40,7 @@ impl Verdict {
     }
 }
 
-/// All verdicts, in the order in which a log is looked through.
+/// All verdicts, in the order of inspection.
 pub(super) fn verdicts(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     let mut all = times(inspection, loaded);
     all.extend(channels(inspection, loaded));
@@ -80,13 +80,13 @@ fn times(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
             if repeated == 0 { Tone::Good } else { Tone::Warning },
             format!("{repeated} repeated line(s)"),
         ),
-        // What has either is not read at all.
+        // The reader refuses logs with either.
         verdict("time order", Tone::Good, "time stamps increase strictly"),
         verdict("finite", Tone::Good, "every number is finite"),
     ]
 }
 
-/// The suspicions of one kind as a verdict, or what is said without.
+/// The suspicions of one kind as a verdict, or the given text if there are none.
 fn suspected(
     inspection: &Inspection,
     item: &'static str,
@@ -149,7 +149,7 @@ fn channels(inspection: &Inspection, loaded: &Loaded) -> Vec<Verdict> {
     ]
 }
 
-/// What is not shown by a log is neither good nor bad.
+/// The given verdict, or a neutral one with the reason if the log cannot show it.
 fn unless_shown(shown: bool, verdict: Verdict, why: &str) -> Verdict {
     if shown || verdict.tone == Tone::Bad {
         verdict

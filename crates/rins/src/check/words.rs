@@ -1,4 +1,4 @@
-//! Suspicions as a person reads them.
+//! Suspicions as sentences.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,12 +6,12 @@ use rins_frames::units::{DEG, DEG_PER_HOUR};
 use rins_frames::{EARTH_RATE, SignedAxes};
 use rins_inspection::{Correction, Suspicion};
 
-/// How many corrections that explain the same are told.
+/// The maximum number of listed corrections with the same effect.
 pub(super) const TOLD: usize = 4;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A suspicion as a person reads it.
+/// A suspicion as a sentence.
 pub(crate) fn suspicion_in_words(suspicion: &Suspicion) -> String {
     let because = |cause: &Option<String>| {
         cause.as_ref().map_or_else(
@@ -115,7 +115,7 @@ fn reading_in_words(channel: &str, reading: f64) -> String {
     }
 }
 
-/// What would explain it, from the most likely on.
+/// The possible corrections, the most likely first.
 fn corrections(corrections: &[Correction]) -> String {
     let mut words: Vec<String> = corrections.iter().take(TOLD).map(correction_in_words).collect();
     if corrections.len() > TOLD {

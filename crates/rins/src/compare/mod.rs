@@ -1,4 +1,4 @@
-//! What changed between two calibrations of one IMU.
+//! Changes between two calibrations of one IMU.
 
 mod outcome;
 mod page;
@@ -14,52 +14,52 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 pub use self::result::{ChangeResult, CompareResult, TogetherResult};
 use crate::error::Result;
 
-/// What one parameter did.
+/// The change of one parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Moved {
     pub(crate) id: String,
     pub(crate) unit: &'static str,
-    /// Both values, in its unit.
+    /// Both values, in the unit of the parameter.
     pub(crate) values: [f64; 2],
-    /// The 1σ of both.
+    /// Their 1σ.
     pub(crate) sigmas: [f64; 2],
 }
 
 impl Moved {
-    /// By how much it moved, in its unit.
+    /// The change, in the unit of the parameter.
     pub(crate) fn difference(&self) -> f64 {
         self.values[1] - self.values[0]
     }
 
-    /// The 1σ of that.
+    /// The 1σ of the change.
     pub(crate) fn sigma(&self) -> f64 {
         self.sigmas[0].hypot(self.sigmas[1])
     }
 
-    /// The same in sigmas.
+    /// The change in sigmas.
     pub(crate) fn sigmas_moved(&self) -> f64 {
         self.difference() / self.sigma()
     }
 }
 
-/// All that moved together.
+/// The joint test of all changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Together {
     pub(crate) chi_square: f64,
     pub(crate) dof: usize,
-    /// How probable so much is, if nothing moved.
+    /// The p-value of the test.
     pub(crate) p: f64,
 }
 
 /// Two calibrations of one IMU, compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What they are called.
+    /// The names of the two calibrations.
     pub(crate) names: [String; 2],
-    /// What both have estimated.
+    /// The parameters that both have estimated.
     pub(crate) moved: Vec<Moved>,
     pub(crate) together: Option<Together>,
-    /// What only one has estimated.
+    /// The parameters that only one has estimated.
     pub(crate) only: [Vec<String>; 2],
 }
 
@@ -93,7 +93,7 @@ pub fn compare(before: &Path, after: &Path) -> Result<Comparison> {
     Ok(comparison)
 }
 
-/// A number that was estimated, in its unit.
+/// An estimated parameter, in its unit.
 struct Estimated {
     id: String,
     unit: &'static str,
@@ -148,11 +148,11 @@ impl Comparison {
     }
 }
 
-/// The chi-square of all differences with both covariances.
+/// The χ² of all changes with the sum of both covariances.
 fn together(moved: &[Moved], before: &Calibration, after: &Calibration) -> Option<Together> {
     let n = moved.len();
     let covariance = covariance(moved, before, 0) + covariance(moved, after, 1);
-    // In units of each one's sigma, so that unlike units do not drown each other.
+    // Each parameter is scaled by its sigma, so that different units do not degrade the condition of the matrix.
     let correlation = DMatrix::from_fn(n, n, |row, column| {
         covariance[(row, column)] / (moved[row].sigma() * moved[column].sigma())
     });
@@ -162,7 +162,7 @@ fn together(moved: &[Moved], before: &Calibration, after: &Calibration) -> Optio
     Some(Together { chi_square, dof: n, p })
 }
 
-/// The covariance of what moved, as one calibration has it; without one, its sigmas.
+/// The covariance of the common parameters by one calibration; diagonal, from the sigmas, if it has no covariance.
 fn covariance(moved: &[Moved], calibration: &Calibration, which: usize) -> DMatrix<f64> {
     let known = calibration.covariance.as_ref();
     let place = |id: &str| known.and_then(|known| known.ids.iter().position(|other| other == id));

@@ -1,4 +1,4 @@
-//! What moved between two calibrations, for a terminal and for a browser.
+//! The changes between two calibrations as text and as a report page.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use crate::table::aligned;
 use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Report, Section, Table, Tone};
 
-/// A parameter that is off by more sigmas of the difference has moved.
+/// The change in sigmas above which a parameter counts as changed.
 const MOVED: f64 = 3.0;
 
 /// The summary for a terminal.

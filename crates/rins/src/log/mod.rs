@@ -1,4 +1,4 @@
-//! A log with the rig file that describes it.
+//! A log with its rig file.
 
 mod range;
 mod repairs;
@@ -19,15 +19,15 @@ pub(crate) use self::statics::{
 };
 use crate::error::Result;
 
-/// A bias of more than so many sigmas of the data sheet is told.
+/// A bias that exceeds this number of sigmas of the data sheet is reported.
 pub(crate) const BEYOND_DATA_SHEET: f64 = 4.0;
 
-/// A log with the rig file that describes it: what every job works on.
+/// A log with its rig file: the input of every job.
 #[derive(Clone, Debug)]
 pub struct Log {
-    /// What it is called: the path of its rig file.
+    /// The name: the path of the rig file.
     pub name: String,
-    /// The content of both files, in SI units, and what reading them has repaired.
+    /// The content of both files in SI units, and the repairs made while reading.
     pub loaded: Loaded,
 }
 
@@ -35,13 +35,13 @@ impl Log {
     /// Reads a rig file and the log that it names.
     ///
     /// # Errors
-    /// If either cannot be read or says something wrong: file, line or key, the value, and what was expected.
+    /// If a file cannot be read or has an invalid value; the error states file, line or key, the value, and the expected value.
     pub fn open(rig: impl AsRef<Path>) -> Result<Self> {
         let rig = rig.as_ref();
         Ok(Self { name: shown(rig), loaded: rins_io::read(rig)? })
     }
 
-    /// What reading the log has repaired or left out, each in a sentence.
+    /// The repairs and omissions made while reading the log, one sentence each.
     pub fn repairs(&self) -> Vec<String> {
         repairs(&self.loaded.rig, &self.loaded.summary)
     }

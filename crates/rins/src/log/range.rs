@@ -1,4 +1,4 @@
-//! What a calibration covers, and whether another run is within that.
+//! The range of temperatures and rates that a calibration covers, and the check of another run against it.
 
 use rins_frames::units::DEG;
 use rins_io::{CalibratedRange, Calibration, Loaded};
@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 use rins_io::shown;
 use rins_report::number::figure;
 
-/// A rate is the mean over this time \[s\], so that noise does not widen what was covered.
+/// The averaging time of a rate \[s\], so that noise does not widen the covered range.
 const MEAN_OVER: f64 = 1.0;
 
-/// A rate that is larger than those calibrated by less than this part of them is one of them.
+/// A rate counts as covered if it exceeds the highest calibrated rate by less than this fraction.
 const SAME_RATE: f64 = 0.1;
 
-/// What runs cover: temperature, and rate about the axis of rotation.
+/// The range that runs cover: temperature, and rate about the spin axis.
 pub(crate) fn covered<'r>(recordings: impl IntoIterator<Item = &'r Recording>) -> CalibratedRange {
     let mut range = CalibratedRange::default();
     for recording in recordings {
@@ -32,7 +32,7 @@ fn widen(range: &mut Option<[f64; 2]>, value: f64) {
     *range = Some([low.min(value), high.max(value)]);
 }
 
-/// The mean rates about the axis of rotation \[rad/s\].
+/// The mean rates about the spin axis, each over [`MEAN_OVER`] \[rad/s\].
 fn rates(recording: &Recording) -> impl Iterator<Item = f64> {
     let mut samples = recording.increments.iter();
     std::iter::from_fn(move || {
@@ -48,12 +48,12 @@ fn rates(recording: &Recording) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Where a run goes beyond what a calibration covers.
+/// The part of a run outside the calibrated range.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Beyond {
-    /// In sentences.
+    /// The same as sentences.
     pub(crate) notes: Vec<String>,
-    /// For a machine; none if there is no calibration.
+    /// The same for the JSON result; `None` if there is no calibration.
     pub(crate) outside: Option<OutsideRange>,
 }
 
@@ -88,11 +88,11 @@ pub struct OutsideRate {
     pub calibrated: f64,
 }
 
-/// Where a run goes beyond what a calibration covers; `terms` are the calibration's in this run.
+/// The part of a run outside the calibrated range; `terms` are the terms of the calibration in this run.
 ///
 /// # Errors
-/// If a term depends on a temperature that the log does not have, or would be extrapolated further than it was calibrated, unless
-/// `extrapolate`.
+/// If a term depends on a temperature that the log lacks, or would be extrapolated further than the calibrated range allows,
+/// unless `extrapolate`.
 pub(crate) fn beyond(
     calibration: &Calibration,
     terms: &Model,
@@ -150,7 +150,7 @@ pub(crate) fn beyond(
     Ok(beyond)
 }
 
-/// Refuses a model, of which `holder` tells, that depends on a temperature which a log does not have.
+/// Refuses a model that depends on temperature if the log has none; `holder` names the file of the model.
 pub(crate) fn ensure_temperature(
     log: &str,
     holder: &str,
@@ -169,7 +169,7 @@ pub(crate) fn ensure_temperature(
     Ok(())
 }
 
-/// What coefficients of temperature leave uncertain so many kelvin outside, the largest of each term.
+/// The uncertainty from temperature coefficients `outside` kelvin beyond the range: the largest of each term.
 fn cost(terms: &Model, outside: f64) -> Vec<String> {
     let of_temperature = terms.terms.iter().filter(|of| of.reference_temperature().is_some());
     let largest = of_temperature.filter_map(|chosen| {

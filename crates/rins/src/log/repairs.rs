@@ -1,4 +1,4 @@
-//! What reading a log has repaired or left out: part of every result.
+//! Repairs and omissions made while reading a log, which are part of every result.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -7,19 +7,19 @@ use rins_io::shown;
 use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig};
 use rins_report::number::figure;
 
-/// Time stamps that jitter by less than this share of an interval are told by no more than a figure.
+/// The jitter of time stamps, as a fraction of a sample interval, up to which only the figure is reported.
 const ODD_JITTER: f64 = 0.02;
 
-/// A part of a second in the unit that suits its size.
+/// A fraction of a second in a suitable unit.
 fn short_time(seconds: f64) -> String {
     let units = [(1e-3, "ms"), (1e-6, "us")];
     let (unit, symbol) =
         units.into_iter().find(|(unit, _)| seconds > 0.999 * unit).unwrap_or((1e-9, "ns"));
-    // A decimal unit is written as one.
+    // Rounded, so that a decimal unit is printed without binary digits.
     format!("{} {symbol}", (seconds / unit * 1e6).round() / 1e6)
 }
 
-/// What was repaired or left out, each in a sentence.
+/// The repairs and omissions, one sentence each.
 pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
     let mut told = left_out(summary, rig.path.parent());
     told.extend(gaps(rig, summary));
@@ -81,7 +81,7 @@ fn has_time(rig: &Rig) -> bool {
     matches!(&rig.log.format, LogFormat::Columns(columns) if columns.time.is_some())
 }
 
-/// Lines that are no samples, file by file and reason by reason.
+/// The lines that are not samples, by file and reason.
 fn left_out(summary: &LogSummary, folder: Option<&Path>) -> Vec<String> {
     let alike =
         |a: &rins_io::LeftOut, b: &rins_io::LeftOut| a.path == b.path && a.reason == b.reason;
@@ -130,7 +130,7 @@ fn gaps(rig: &Rig, summary: &LogSummary) -> Option<String> {
     ))
 }
 
-/// A text with what reading its log has repaired or left out below it, so that no result is without.
+/// A text followed by the repairs and omissions made while reading its log.
 pub(crate) fn with_repairs(mut text: String, repairs: &[String]) -> String {
     for repair in repairs {
         // Writing to a string cannot fail.

@@ -1,14 +1,13 @@
-//! From a rig file to what the calibration needs to know.
+//! The measurement setup of a calibration from a rig file.
 
 use anyhow::Context;
 use rins_calibration::{AxisAttitude, Setup, TableSpec};
 use rins_io::{Loaded, Rig};
 use rins_motion::Station;
 
-/// What a rig says of station, table and IMU.
+/// The station, table and IMU of a rig.
 ///
-/// Where the rig gives no figure for the direction of the axis, it is taken for now to be as steady
-/// as the encoder reads.
+/// If the rig file does not state the wobble of the spin axis, the resolution of the encoder is the preliminary value.
 pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
     setup_at(&loaded.rig, loaded.station)
 }
@@ -29,11 +28,11 @@ pub(crate) fn setup_at(rig: &Rig, station: Station) -> anyhow::Result<Setup> {
     })
 }
 
-/// The 1σ of a reading of the table's angle and of the direction of its axis, by the rig file or by default \[rad\].
+/// The 1σ of the table angle and of the direction of the spin axis, from the rig file or by default \[rad\].
 pub(crate) fn table_accuracy(rig: &Rig) -> (f64, f64) {
     let encoder = rig.log.table_angle();
     let read = encoder.and_then(|angle| angle.noise).unwrap_or(TableSpec::DEFAULT_ANGLE_NOISE);
-    // A reading rounded to its last bit is off by that of a uniform deviate.
+    // The error of a reading that is rounded to its resolution has a uniform distribution.
     let rounding = encoder.and_then(|angle| angle.resolution).unwrap_or_default() / 12.0_f64.sqrt();
     let angle_noise = read.hypot(rounding);
     (angle_noise, rig.table.as_ref().and_then(|table| table.wobble).unwrap_or(angle_noise))

@@ -1,4 +1,4 @@
-//! The static intervals of a log: one search for all commands, and what they say of it.
+//! The static intervals of a log: one search for all commands, and the remarks on its result.
 
 use std::ops::Range;
 
@@ -9,10 +9,10 @@ use rins_io::{Loaded, Rig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// So many spans are listed in a line.
+/// The maximum number of spans that are listed in a line.
 const LISTED: usize = 8;
 
-/// What a rig file says of its static intervals and sensors.
+/// The options of the search from the statements of a rig file on static intervals and sensors.
 fn options(rig: &Rig) -> StaticOptions {
     let figures = |of: fn(&rins_imu::ImuSpec) -> &TriadSpec| {
         rig.imu.as_ref().map(of).map_or_else(SensorFigures::default, |sheet| SensorFigures {
@@ -29,19 +29,19 @@ fn options(rig: &Rig) -> StaticOptions {
     }
 }
 
-/// The static intervals of a log, as its rig file states them or as they are found.
+/// The static intervals of a log, stated by its rig file or detected.
 pub(crate) fn static_intervals(loaded: &Loaded) -> StaticIntervals {
     StaticIntervals::of(&loaded.recording, &options(&loaded.rig))
 }
 
-/// The longest static interval, if one lasts as long as `shortest` \[s\].
+/// The longest static interval, if its duration is at least `shortest` \[s\].
 pub(crate) fn longest(loaded: &Loaded, shortest: f64) -> Option<Range<usize>> {
     let found = static_intervals(loaded);
     let longest = found.longest()?;
     (longest.duration() >= shortest * (1.0 - 1e-9)).then(|| longest.span.clone())
 }
 
-/// That there is no static interval of so many seconds, and what was assumed.
+/// The message that there is no static interval of `shortest` \[s\], with the assumptions of the search.
 pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
     let found = static_intervals(loaded);
     let message = format!("the IMU is never static for {shortest} s");
@@ -77,7 +77,7 @@ pub struct StaticIntervalResult {
     pub run: Option<usize>,
 }
 
-/// The spans for a machine; `unused` says why a command does not use one that it could.
+/// The spans for the JSON result; `unused` states why a command does not use a span that it could use.
 pub(crate) fn statics_result(
     found: &StaticIntervals,
     unused: impl Fn(&StaticInterval) -> Option<String>,
@@ -96,14 +96,14 @@ pub(crate) fn statics_result(
     found.all.iter().map(interval).collect()
 }
 
-/// Why a command that uses the longest interval alone does not use another one.
+/// The reason for not using a span, of a command that uses the longest interval only.
 pub(crate) fn only(span: &Range<usize>) -> impl Fn(&StaticInterval) -> Option<String> {
     move |interval| {
         (interval.span != *span).then(|| "static, but only the longest interval is used".into())
     }
 }
 
-/// Why a command that uses all intervals of so many seconds does not use one.
+/// The reason for not using a span, of a command that uses all intervals of at least `shortest` \[s\].
 pub(crate) fn lasting(shortest: f64) -> impl Fn(&StaticInterval) -> Option<String> {
     move |interval| {
         (interval.duration() < shortest * (1.0 - 1e-9))
@@ -111,7 +111,7 @@ pub(crate) fn lasting(shortest: f64) -> impl Fn(&StaticInterval) -> Option<Strin
     }
 }
 
-/// What a reader must know of the intervals: which are not used and why, what contradicts a statement, what was assumed.
+/// Remarks on the intervals: those not used and why, contradictions to the rig file, and assumptions.
 pub(crate) fn statics_in_words(found: &StaticIntervals, rig: &Rig) -> Vec<String> {
     let mut lines = Vec::new();
     let told = |used: bool| {

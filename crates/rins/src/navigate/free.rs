@@ -1,4 +1,4 @@
-//! Where free navigation starts, and where it ends.
+//! The initial attitude and the solution of free navigation.
 
 use anyhow::Context;
 use rins_calibration::{FreeNavigation, navigate_freely, table_angles};
@@ -10,22 +10,22 @@ use rins_terms::{Model, Surroundings, compensated};
 
 use crate::align::found;
 
-/// Where navigation starts.
+/// The initial conditions of free navigation.
 #[derive(Debug)]
 pub(super) struct Start {
     pub(super) nav_from_table: Dcm<Nav, Table>,
-    /// What the rest shows of the gyro biases, where the attitude came from it.
+    /// The gyro biases from the static interval, if it also gives the attitude.
     pub(super) gyro_bias: Option<ImuError>,
     pub(super) source: String,
-    /// What is navigated: all of the run or, where no table tells how the body stood before, what
-    /// follows the start of the rest.
+    /// The navigated samples: the whole run or, if there is no table angle to relate earlier attitudes to the static interval,
+    /// the samples from its start on.
     pub(super) recording: Recording,
     /// The table angle before each sample and after the last.
     angles: Vec<f64>,
 }
 
 impl Start {
-    /// How long is navigated \[s\].
+    /// The navigated time \[s\].
     pub(super) fn duration(&self) -> f64 {
         self.recording.increments.iter().map(|sample| sample.interval).sum()
     }
@@ -64,12 +64,12 @@ pub(super) fn start(loaded: &Loaded) -> anyhow::Result<Start> {
     })
 }
 
-/// The attitude of a run's axis at table angle zero: given, or found from a rest.
+/// The attitude of a run's axis at table angle zero: given, or found from a static interval.
 pub(crate) fn axis_attitude(loaded: &Loaded) -> anyhow::Result<Dcm<Nav, Table>> {
     Ok(start(loaded)?.nav_from_table)
 }
 
-/// Whether anything tells how the table stood.
+/// Whether a table angle or rate is recorded.
 pub(super) const fn has_table(recording: &Recording) -> bool {
     recording.table_angle.is_some() || recording.table_rate.is_some()
 }
@@ -88,7 +88,7 @@ pub(super) fn navigated(
     )
 }
 
-/// Navigates what a calibration leaves of the readings.
+/// Navigates with the readings that a calibration has compensated.
 pub(super) fn undone(
     loaded: &Loaded,
     start: &Start,
@@ -97,7 +97,7 @@ pub(super) fn undone(
     if terms.terms.is_empty() {
         return Ok(navigated(loaded, start, Some(&error.compensation()?)));
     }
-    // Terms may depend on how long the run has lasted, so that all of it is compensated.
+    // Terms may depend on the time since the start of the run, so the whole run is compensated.
     let around = Surroundings::new(loaded.station, start.nav_from_table);
     let mut model = Model::from(&error);
     model.terms.extend(terms.terms);
@@ -110,7 +110,7 @@ pub(super) fn undone(
     Ok(navigate_freely(&recording, &angles, nav_from_table, &loaded.station, None))
 }
 
-/// How late the table angle was read \[s\].
+/// The latency of the table angle \[s\].
 fn latency(loaded: &Loaded) -> f64 {
     loaded.rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default()
 }

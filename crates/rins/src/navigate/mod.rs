@@ -18,16 +18,16 @@ use crate::check::refuse_mistaken;
 use crate::error::Result;
 use crate::log::{Beyond, Log, beyond};
 
-/// What free navigation is asked for.
+/// The options of [`navigate`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NavigateOptions {
     /// The calibration file with which readings are compensated, if any.
     pub calibration: Option<PathBuf>,
-    /// Whether readings are compensated at temperatures far outside of those that were calibrated; by default that is an error.
+    /// Whether readings are compensated at temperatures far outside the calibrated range; by default that is an error.
     pub extrapolate: bool,
 }
 
-/// Free inertial navigation of a log: as recorded, without the gyro bias that a static interval shows, and compensated.
+/// Free inertial navigation of a log: as recorded, without the gyro bias found over a static interval, and compensated.
 #[derive(Debug)]
 pub struct Navigation<'a> {
     log: &'a Log,
@@ -36,10 +36,10 @@ pub struct Navigation<'a> {
     beyond: Beyond,
 }
 
-/// Navigates a log freely from rest, the vertical channel held.
+/// Computes free inertial navigation of a log from standstill, with the vertical channel held.
 ///
 /// # Errors
-/// If units, signs or axes are mistaken, if there is no attitude to start from, or if the calibration cannot be applied.
+/// If units, signs or axes are wrong, if no initial attitude is available, or if the calibration cannot be applied.
 ///
 /// ```
 /// use rins::{NavigateOptions, Outcome};

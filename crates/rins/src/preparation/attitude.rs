@@ -1,32 +1,32 @@
-//! How well the attitude of an axis is known before anything is estimated.
+//! The prior uncertainty of the attitude of an axis.
 
 use nalgebra::{Matrix3, Vector3};
 use rins_frames::{Dcm, Nav, Table};
 
 use crate::align::ANY_AZIMUTH;
 
-/// An attitude that was found in the same data is counted again by a hundredth of its information.
+/// The factor on the 1σ of an attitude that was found in the same data: only a hundredth of its information is counted twice.
 pub(super) const FOUND_HERE: f64 = 10.0;
 
-/// How well the attitude of an axis is known before anything is estimated.
+/// The prior uncertainty of the attitude of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Attitude {
-    /// The 1σ of its error about each axis of the axis frame \[rad\]; none if it is a definition.
+    /// The 1σ of the attitude error about each axis of the axis frame \[rad\]; `None` if the attitude is a definition.
     pub(crate) sigma: [Option<f64>; 3],
-    /// That of its heading, if it is too large to be an error of the attitude \[rad\].
+    /// The 1σ of the heading, if it is too large to be treated as a small attitude error \[rad\].
     pub(crate) azimuth: Option<f64>,
 }
 
 impl Attitude {
-    /// Known to `sigma` about any axis \[rad\].
+    /// An uncertainty of `sigma` about every axis \[rad\].
     pub(super) const fn within(sigma: f64) -> Self {
         Self { sigma: [Some(sigma); 3], azimuth: None }
     }
 
-    /// The 1σ of the Earth's horizontal rate to the north and to the east, true less assumed, as parts of that rate; none if
-    /// the heading is known well enough to be an error of the attitude.
+    /// The 1σ of the error of the Earth's horizontal rate to the north and to the east (true minus assumed), as fractions of that
+    /// rate; `None` if the heading is known well enough to be treated as a small attitude error.
     ///
-    /// That is `cos ψ - 1` and `sin ψ`, with ψ normal: root mean squares of 1.06 and 0.71 where nothing is known of it.
+    /// These are the root mean squares of `cos ψ - 1` and `sin ψ` with ψ normal: 1.06 and 0.71 if the heading is unknown.
     pub(super) fn horizontal_rate(&self) -> Option<[f64; 2]> {
         let variance = self.azimuth?.powi(2);
         let (once, twice) = ((-0.5 * variance).exp(), (-2.0 * variance).exp());
@@ -34,8 +34,8 @@ impl Attitude {
     }
 }
 
-/// What an alignment's 1σ about east, north and up are about the axes of the axis frame, widened since the
-/// estimate uses the same data.
+/// The 1σ about the axes of the axis frame from an alignment's 1σ about east, north and up, increased because the estimate
+/// uses the same data.
 pub(super) fn aligned(
     nav_from_table: &Dcm<Nav, Table>,
     sigma: (f64, f64, Option<f64>),

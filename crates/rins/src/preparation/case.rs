@@ -1,4 +1,4 @@
-//! Runs of one IMU, and the model that is to be estimated from them.
+//! An estimation problem: runs of one IMU, and the model to be estimated from them.
 
 use std::collections::BTreeSet;
 
@@ -13,22 +13,22 @@ use super::prepared::Prepared;
 use crate::log::ensure_temperature;
 use crate::options::{NamedModel, NoiseChoice};
 
-/// What is estimated, from what, and what is known beforehand.
+/// An estimation problem: the runs, the model, and the prior knowledge.
 pub(crate) struct EstimationProblem {
     /// The runs, in the order in which they were given.
     pub(crate) runs: Vec<Prepared>,
-    /// What the model is called.
+    /// The name of the model.
     pub(crate) name: String,
-    /// The model, with what is known of these runs.
+    /// The model, with the priors of these runs.
     pub(crate) model: Model,
-    /// Whether the noise is found, or given.
+    /// Whether the noise parameters are estimated or given.
     pub(crate) noise: NoiseChoice,
-    /// What else a reader must know.
+    /// Further remarks for the report.
     pub(crate) remarks: Vec<String>,
 }
 
 impl EstimationProblem {
-    /// A model on runs, if these are of one IMU.
+    /// The estimation problem of a model and runs, which must be of one IMU.
     pub(crate) fn of(
         runs: Vec<Prepared>,
         named: NamedModel,
@@ -73,12 +73,13 @@ impl EstimationProblem {
         Ok(())
     }
 
-    /// What the data sheet says.
+    /// The data sheet.
     pub(crate) fn imu(&self) -> &ImuSpec {
         &self.runs[0].imu
     }
 
-    /// The runs as the estimator takes them: one of each log, and then the other static intervals of the first, of the second ...
+    /// The runs in the order of the estimator: one of each log, then the other static intervals of the first log, of the second,
+    /// and so on.
     pub(crate) fn given(&self) -> Vec<Run> {
         let of_log = |(log, prepared): (usize, &Prepared), run: &Run| match &prepared.others[..] {
             [] => run.clone(),
@@ -90,7 +91,7 @@ impl EstimationProblem {
         first.chain(others).collect()
     }
 
-    /// Of each log which of the runs given are its own, in order of time.
+    /// For each log, the indices of its runs in the list of [`given`](Self::given), in the order of time.
     pub(crate) fn given_of_logs(&self) -> Vec<Vec<usize>> {
         let mut next = self.runs.len();
         let of_log = |(log, prepared): (usize, &Prepared)| {
@@ -105,7 +106,7 @@ impl EstimationProblem {
         self.runs.iter().enumerate().map(of_log).collect()
     }
 
-    /// What is known of the random errors: what the data sheet states, and what of them is in the model.
+    /// The prior knowledge of the noise: the data sheet's noise parameters, with those of the model.
     pub(crate) fn knowledge(&self) -> NoiseKnowledge {
         let sheet = NoiseParameters::of(self.imu()).with(&self.model);
         match self.noise {
@@ -114,13 +115,13 @@ impl EstimationProblem {
         }
     }
 
-    /// The names of the runs, in a row.
+    /// The names of the runs, separated by commas.
     pub(crate) fn names(&self) -> String {
         self.runs.iter().map(|run| run.name.as_str()).collect::<Vec<_>>().join(", ")
     }
 }
 
-/// The model with the Earth's horizontal rate, if there are runs whose azimuth is not known.
+/// The model with the error of the Earth's horizontal rate, if the azimuth of a run is unknown.
 fn with_azimuth(
     mut model: Model,
     runs: &[Prepared],
@@ -131,7 +132,7 @@ fn with_azimuth(
     let of_run =
         |run: &Prepared| Some(run.attitude.horizontal_rate()?.map(|part| part * rate(run)));
     let sigmas: Vec<[f64; 2]> = runs.iter().filter_map(of_run).collect();
-    // One prior for all runs: the widest.
+    // All runs share one prior, the widest.
     let Some([north, east]) = sigmas.into_iter().reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])
     else {
         return model;
@@ -155,8 +156,8 @@ fn with_azimuth(
     model
 }
 
-/// The model with what is known of these runs: how their axes stand, and where gravity is the angle
-/// reference, a lever arm.
+/// The model with the priors of these runs: the attitudes of their axes and, if gravity is the angle reference, a
+/// lever arm.
 fn on_these_runs(
     mut model: Model,
     runs: &[Prepared],
@@ -178,7 +179,7 @@ fn on_these_runs(
         if *role != Role::Free {
             continue;
         }
-        // One prior for all runs: the widest.
+        // All runs share one prior, the widest.
         let sigmas = runs.iter().map(|run| run.attitude.sigma[axis]);
         *role = sigmas
             .collect::<Option<Vec<f64>>>()

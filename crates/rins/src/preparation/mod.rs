@@ -1,5 +1,5 @@
-//! From logs to what is estimated from them: screened, aligned, divided into what turns and what is static, with what is known
-//! beforehand.
+//! Preparation of logs for the estimation: gross errors are refused, the axis is aligned, rotation and static intervals are
+//! divided, and priors are set.
 
 mod attitude;
 mod case;

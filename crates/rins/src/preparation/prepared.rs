@@ -1,4 +1,4 @@
-//! A rig made ready to be estimated from: what tells the table's angle, and how its axis stands.
+//! A log prepared for the estimation: its angle reference, and the attitude of its axis.
 
 use std::ops::Range;
 
@@ -24,53 +24,53 @@ use crate::log::{
 };
 use crate::options::NoiseChoice;
 
-/// The first guess of how a floor or a hand lets an axis tremble on which no encoder sits \[rad\].
+/// The initial value of the wobble of an axis without encoder, on a floor or in a hand \[rad\].
 const UNREAD_WOBBLE: f64 = 20.0 * ARCSEC;
 
-/// A body that turns by less, without anything that says how far, is taken to be handled \[rad\].
+/// Without an angle reference, a body with a smaller total rotation counts as handled, not as rotated on an axis \[rad\].
 const LEAST_SPIN: f64 = 2.0 * std::f64::consts::TAU;
 
-/// A rig, its log, and the run that is estimated from.
+/// A log with its rig file, prepared for the estimation.
 #[derive(Debug)]
 pub(crate) struct Prepared {
-    /// What it is called: the path of its rig file.
+    /// The name: the path of the rig file.
     pub(crate) name: String,
-    /// The files' content; where the whole log is used its samples are those of `run`, and not here.
+    /// The content of the files; if the whole log is used, its samples are moved to `run`.
     pub(crate) loaded: Loaded,
-    /// What the data sheet says.
+    /// The data sheet.
     pub(crate) imu: ImuSpec,
-    /// The samples that are used; of several rests the longest.
+    /// The samples in use; of several static intervals the longest.
     pub(crate) run: Run,
-    /// The other rests.
+    /// The other static intervals.
     pub(crate) others: Vec<Run>,
-    /// What repeated in the log, and was taken out of the samples that are used.
+    /// The repeated samples in the log, which are removed from the samples in use.
     pub(crate) repeats: Option<Repeats>,
-    /// How well the axis' attitude is known beforehand.
+    /// The prior uncertainty of the attitude of the axis.
     pub(crate) attitude: Attitude,
-    /// The static intervals of the log, for a machine.
+    /// The static intervals of the log, for the JSON result.
     pub(crate) static_intervals: Vec<StaticIntervalResult>,
-    /// What a reader must know of how it was prepared.
+    /// Remarks on the preparation.
     pub(crate) remarks: Vec<String>,
 }
 
-/// What is known of the table, as far as the samples go.
+/// The angle reference of the samples and the attitude of the axis.
 struct Axis {
     /// The part of the log that is used, if not all of it is.
     part: Option<Recording>,
-    /// The table's angles brought forward by its latency, if it has one.
+    /// The table angles corrected for the latency, if there is one.
     brought_forward: Option<Vec<f64>>,
     reference: Reference,
     nav_from_table: Dcm<Nav, Table>,
-    /// Other rests, and how each stands.
+    /// Other static intervals, each with its attitude.
     others: Vec<(Recording, Dcm<Nav, Table>)>,
-    /// Which static intervals are used, if not all or the longest.
+    /// The static intervals in use, if they are not all intervals or the longest one.
     rests_used: Option<Vec<Range<usize>>>,
     attitude: Attitude,
     remarks: Vec<String>,
 }
 
 impl Axis {
-    /// Over the whole log, with nothing beside it.
+    /// The whole log, without further intervals.
     fn of(reference: Reference, nav_from_table: Dcm<Nav, Table>, attitude: Attitude) -> Self {
         Self {
             part: None,
@@ -85,7 +85,7 @@ impl Axis {
     }
 }
 
-/// What a rig says of station, table and IMU, if units, signs and axes are right: the way to every estimate begins here.
+/// The station, table and IMU of a rig, after a check for gross errors of units, signs and axes; every estimation starts here.
 pub(crate) fn screened(loaded: &Loaded) -> anyhow::Result<Setup> {
     let setup = setup(loaded)?;
     refuse_mistaken(loaded)?;
@@ -93,7 +93,7 @@ pub(crate) fn screened(loaded: &Loaded) -> anyhow::Result<Setup> {
 }
 
 impl Prepared {
-    /// Makes a log ready.
+    /// Prepares a log.
     pub(crate) fn of(log: Log, noise: NoiseChoice) -> anyhow::Result<Self> {
         let Log { name, mut loaded } = log;
         let mut setup = screened(&loaded)?;
@@ -119,7 +119,7 @@ impl Prepared {
             wobble: setup.table.wobble,
             velocity: setup.velocity_noise,
         };
-        // Angles that are brought forward stand on no comb any more, and a run knows nothing of what is stated.
+        // Angles corrected for latency are no longer on the quantization grid, and a run does not hold the stated resolution.
         let stated = loaded.rig.log.table_angle().and_then(|angle| angle.resolution);
         let steps = match axis.reference {
             Reference::Encoder { noise } if axis.brought_forward.is_some() || stated.is_some() => {
@@ -127,7 +127,7 @@ impl Prepared {
             }
             _ => None,
         };
-        // A day's samples are kept once.
+        // Only one copy of the samples is kept: a log may last a day.
         let whole = || std::mem::take(&mut loaded.recording);
         let mut recording = axis.part.unwrap_or_else(whole);
         if let Some(angles) = axis.brought_forward {
@@ -159,17 +159,17 @@ impl Prepared {
         Ok(Self { name, loaded, imu, run, others, repeats, attitude, static_intervals, remarks })
     }
 
-    /// How many samples are used.
+    /// The number of samples in use.
     pub(crate) fn samples(&self) -> usize {
         self.rests().map(|run| run.recording.len()).sum()
     }
 
-    /// The samples that are used, the longest static interval first.
+    /// The runs in use, the longest static interval first.
     pub(crate) fn rests(&self) -> impl Iterator<Item = &Run> {
         std::iter::once(&self.run).chain(&self.others)
     }
 
-    /// The same without the other rests.
+    /// The same without the other static intervals.
     pub(crate) fn alone(mut self) -> Self {
         if self.others.is_empty() {
             return self;
@@ -185,8 +185,8 @@ impl Prepared {
     }
 }
 
-/// The static intervals for a machine: those that are used of a run that turns by gravity, all that are long enough, or only the
-/// longest.
+/// The static intervals for the JSON result. Those in use are: for a run with gravity as angle reference, the selected ones;
+/// otherwise all that are long enough, or only the longest.
 fn statics_of(found: &StaticIntervals, axis: &Axis) -> Vec<StaticIntervalResult> {
     if let Some(used) = &axis.rests_used {
         return statics_result(found, |interval| {
@@ -206,7 +206,7 @@ fn statics_of(found: &StaticIntervals, axis: &Axis) -> Vec<StaticIntervalResult>
     }
 }
 
-/// What was taken out of a log, in words.
+/// A sentence on the repeated samples of a log.
 pub(crate) fn repeats_in_words(Repeats { samples, rows, alone, .. }: Repeats) -> String {
     let alone = CHANNELS.into_iter().zip(alone).filter(|(_, alone)| *alone);
     let channels: Vec<&str> = alone.map(|(name, _)| name).collect();
@@ -236,7 +236,7 @@ fn axis(loaded: &Loaded, setup: &Setup, statics: &StaticIntervals) -> anyhow::Re
     let rest = found(loaded).context("the rig gives no [attitude], and none can be found")?;
     let table_from_body = Dcm::<Table, Body>::about_z(angles[rest.span.start]);
     let nav_from_table = rest.nav_from_body * table_from_body.inverse();
-    // Where the gyros do not show north, what is not known of it is a parameter, and none of the tilt.
+    // If north is not found, the uncertainty of the azimuth belongs to a parameter, and does not enter the tilt.
     let (east, north, up) = rest.sigma;
     let is_shown = up.is_some_and(|up| FOUND_HERE * up < ANY_AZIMUTH);
     let about_up = if is_shown { up } else { Some(north) };
@@ -250,7 +250,7 @@ fn axis(loaded: &Loaded, setup: &Setup, statics: &StaticIntervals) -> anyhow::Re
     Ok(Axis { brought_forward, remarks, ..Axis::of(reference, nav_from_table, attitude) })
 }
 
-/// A run whose table nothing reads: it turns by gravity, or rests.
+/// A run without an angle reference of the table: gravity is the reference, or the run is static.
 fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     let recording = &loaded.recording;
     let given = loaded.rig.attitude;
@@ -280,7 +280,7 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
             })
             .unzip();
         let wide = Some(AXIS_BY_GRAVITY);
-        // Of a rest gravity shows how far the body is turned, and no better than its accelerometers do.
+        // In a static interval gravity gives the angle about the axis only to the accuracy of the accelerometers.
         let about_axis = (!others.is_empty()).then_some(ANY_AZIMUTH);
         if !others.is_empty() {
             let lasting = rests_used
@@ -325,7 +325,7 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     Ok(Axis { part, remarks, ..Axis::of(Reference::Rest, nav_from_table, attitude) })
 }
 
-/// A run of many rests, each with an attitude of its own.
+/// A run of several static intervals, each with its own attitude.
 fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
     let stood = |found: &AlignmentSolution| {
         let recording = loaded.recording.slice(found.span.start, found.span.end);
@@ -336,7 +336,7 @@ fn turned_over(loaded: &Loaded, rests: &Rests) -> Axis {
     let (recording, nav_from_table) = stood(&rests.found[longest]);
     let others = rests.found.iter().enumerate().filter(|(place, _)| *place != longest);
     let others = others.map(|(_, found)| stood(found)).collect();
-    // One prior for all: the widest.
+    // All intervals share one prior, the widest.
     let sigmas = rests.found.iter().map(|found| aligned(&stood(found).1, found.sigma).sigma);
     let wide = sigmas.fold([None; 3], |wide, of| [0, 1, 2].map(|axis| wider(wide[axis], of[axis])));
     let axis = Axis::of(Reference::Rest, nav_from_table, Attitude { sigma: wide, azimuth: None });
@@ -348,12 +348,12 @@ fn wider(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     one.into_iter().chain(other).reduce(f64::max)
 }
 
-/// How much of gravity turns in the plane of rotation \[m/s²\].
+/// The component of gravity in the plane of rotation \[m/s²\].
 pub(crate) fn across_axis(gravity: f64, nav_from_table: &Dcm<Nav, Table>) -> f64 {
     gravity * nav_from_table.matrix()[(2, 0)].hypot(nav_from_table.matrix()[(2, 1)])
 }
 
-/// How far a body turns about z on the whole \[rad\].
+/// The total rotation of a body about z \[rad\].
 fn spin(recording: &Recording) -> f64 {
     recording.increments.iter().map(|sample| sample.angle.components().z).sum::<f64>().abs()
 }

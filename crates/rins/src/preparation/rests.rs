@@ -1,5 +1,5 @@
-//! The static intervals of a log: of an IMU that was turned over from one attitude to the next, by hand or on anything, and of a wheel
-//! before and after it turns.
+//! The static intervals of a log: of an IMU that was placed in several attitudes, by hand or on a fixture, or of one on a spin
+//! axis before and after the rotation.
 
 use std::ops::Range;
 
@@ -13,24 +13,24 @@ use rins_motion::Recording;
 
 use crate::align::{AlignmentSolution, found_over};
 
-/// The shortest rest that is used \[s\].
+/// The shortest static interval that is used \[s\].
 pub(super) const SHORTEST: f64 = 2.0;
 
-/// Rests between which gravity turns by less stand alike \[rad\].
+/// Static intervals count as one attitude if the direction of gravity in the body differs by less \[rad\].
 const ALIKE: f64 = 5.0 * DEG;
 
-/// In fewer attitudes gravity hardly shows more than over the longest static interval.
+/// With fewer attitudes, gravity gives hardly more information than the longest static interval.
 const FEWEST_ATTITUDES: usize = 3;
 
-/// A rest of an IMU on an axis about which it turns in the rest of the log.
+/// A static interval of an IMU on an axis about which it rotates in the other part of the log.
 pub(super) struct OnAxis {
     pub(super) span: Range<usize>,
-    /// The attitude of the body, the table angle taken for zero.
+    /// The attitude of the body at rest, with the table angle defined as zero.
     pub(super) nav_from_table: Dcm<Nav, Table>,
 }
 
-/// The static intervals of a log outside of `turning` in which the axis leans as it does while it turns, to within three times what
-/// [`AXIS_BY_GRAVITY`] allows: gravity tells how far the body is turned about it.
+/// The static intervals of a log outside of `turning` in which the inclination of the axis is that of the rotation, within three
+/// times [`AXIS_BY_GRAVITY`]; gravity then gives the angle of the body about the axis.
 pub(super) fn on_axis(
     recording: &Recording,
     statics: &StaticIntervals,
@@ -59,18 +59,18 @@ fn up_in_body(recording: &Recording, span: Range<usize>) -> Vector3<f64> {
     gained.sum::<Vector3<f64>>().normalize()
 }
 
-/// The static intervals of one log, how each stands, and in how many attitudes.
+/// The static intervals of one log, their attitudes, and the number of distinct attitudes.
 pub(crate) struct Rests {
     /// In order of time.
     pub(super) found: Vec<AlignmentSolution>,
-    /// How many attitudes gravity distinguishes.
+    /// The number of attitudes that gravity distinguishes.
     pub(super) attitudes: usize,
-    /// From when to when there are rests \[s\].
+    /// The start of the first static interval and the end of the last \[s\].
     pub(super) lasting: [f64; 2],
 }
 
 impl Rests {
-    /// Those of a log that rests in several attitudes.
+    /// The static intervals of a log that has several attitudes; `None` if it has too few.
     pub(super) fn of(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Option<Self>> {
         let recording = &loaded.recording;
         let mut ways: Vec<Vector3<f64>> = Vec::new();
@@ -91,13 +91,13 @@ impl Rests {
         Ok(Some(Self { found, attitudes: ways.len(), lasting }))
     }
 
-    /// The longest.
+    /// The index of the longest.
     pub(super) fn longest(&self) -> usize {
         let length = |place: &usize| self.found[*place].span.len();
         (0..self.found.len()).max_by_key(length).unwrap_or_default()
     }
 
-    /// How many there are and when, in words.
+    /// Their number and time span as a sentence.
     pub(super) fn in_words(&self) -> String {
         let [from, to] = self.lasting;
         format!(

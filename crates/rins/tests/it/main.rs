@@ -1,4 +1,4 @@
-//! Tests of the library as a program that depends on it sees it.
+//! Tests of the library from the view of a program that depends on it.
 #![expect(clippy::unwrap_used, reason = "helpers of tests, and not tests themselves, unwrap too")]
 
 mod read_back;

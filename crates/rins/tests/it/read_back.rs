@@ -1,4 +1,4 @@
-//! Every result, printed as JSON, reads back as the same struct.
+//! Every result, printed as JSON, deserializes to the same struct.
 
 use std::fmt::Debug;
 use std::fs;
@@ -10,7 +10,7 @@ use rins::{
 };
 use tempfile::TempDir;
 
-/// That a result reads back, and that its JSON names command and schema.
+/// Asserts that a result deserializes, and that its JSON names command and schema.
 fn reads_back<O: Outcome>(command: &str, outcome: &O)
 where
     O::Result: PartialEq + Debug,

@@ -1,4 +1,4 @@
-//! The schemas in the repository are those of the results.
+//! The schemas in the repository are those of the result structs.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Calibration files that say something wrong.
+//! Invalid calibration files.
 
 use super::files::Spoil::{Content, Folder, Nothing, Replace};
 use super::{DATA, Row, refused};

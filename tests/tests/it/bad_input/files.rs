@@ -1,4 +1,4 @@
-//! A folder with good files, and ways to spoil one of them.
+//! A folder with valid files, and faults that are applied to one of them.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use crate::support::rins_in;
 
-/// 20 s of rest, a turn of 30 s, 32 samples a second, so that times are exact in binary.
+/// 20 s at rest, a rotation of 30 s, 32 samples per second, so that times are exact in binary.
 const SCENARIO: &str = concat!(
     site!(),
     r#"
@@ -35,7 +35,7 @@ gyro = { scale = ["0 ppm", "0 ppm", "300 ppm"] }
 "#
 );
 
-/// The rig of the run that the scenario makes.
+/// The rig of the scenario's run.
 const RIG: &str = concat!(
     site!(),
     r#"
@@ -57,41 +57,41 @@ sigma = "0.05 deg"
     data_sheets!()
 );
 
-/// The files of a good run.
+/// The files of a valid run.
 const FILES: [&str; 4] = ["scenario.toml", "rig.toml", "run.csv", "calibration.toml"];
 
-/// What is done to the good files of a folder.
+/// A fault of the valid files in a folder.
 #[derive(Debug)]
 pub(super) enum Spoil {
-    /// Nothing: the arguments are wrong enough.
+    /// No fault: the arguments are invalid.
     Nothing,
-    /// The first of these texts in a file becomes the second.
+    /// The first of these texts in a file is replaced by the second.
     Replace(&'static str, &'static str, &'static str),
-    /// All of a file becomes this.
+    /// The content of a file is replaced by this.
     Content(&'static str, &'static [u8]),
-    /// A file is there a second time, under another name.
+    /// A file is copied to another name.
     Copy(&'static str, &'static str),
-    /// A line of a file, from 1, becomes this.
+    /// A line of a file, from 1, is replaced by this.
     Line(&'static str, usize, &'static [u8]),
-    /// A field of the log: its line, from 1, its column, and what it becomes.
+    /// A field of the log: its line, from 1, its column, and its replacement.
     Field(usize, &'static str, &'static str),
-    /// Every number in a column of the log becomes this.
+    /// Every number in a column of the log is replaced by this.
     Column(&'static str, &'static str),
-    /// Only so many lines of a file stay.
+    /// Only this number of lines of a file remains.
     Lines(&'static str, usize),
-    /// Lines of a file, from 1, are taken out.
+    /// Lines of a file, from 1, are removed.
     Without(&'static str, std::ops::RangeInclusive<usize>),
-    /// So many bytes at the end of a file are cut off.
+    /// This number of bytes at the end of a file is cut off.
     Cut(&'static str, usize),
-    /// A file becomes a folder.
+    /// A file is replaced by a folder.
     Folder(&'static str),
-    /// A folder with one file appears.
+    /// A folder with one file is created.
     Filled(&'static str, &'static str),
-    /// Several of these.
+    /// Several faults.
     All(&'static [Self]),
 }
 
-/// A temporary folder with the files of a good run.
+/// A temporary folder with the files of a valid run.
 pub(super) struct Folder(TempDir);
 
 impl Folder {
@@ -109,7 +109,7 @@ impl Folder {
         self.0.path()
     }
 
-    /// Spoils a file, and tells in which line.
+    /// Applies a fault, and returns its line.
     pub(super) fn spoil(&self, spoil: &Spoil) -> usize {
         let path = |name| self.path().join(name);
         let read = |name| fs::read_to_string(path(name)).unwrap();
@@ -193,7 +193,7 @@ fn with_field(header: &str, row: &str, column: &str, text: &str) -> String {
     fields.join(",")
 }
 
-/// Makes the files of a good run.
+/// Creates the files of a valid run.
 fn good() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);

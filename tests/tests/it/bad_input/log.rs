@@ -1,4 +1,4 @@
-//! Logs with something wrong in them.
+//! Invalid logs.
 
 use super::files::Spoil;
 use super::files::Spoil::{
@@ -41,7 +41,7 @@ const FILE: &[Row] = &[
     ),
 ];
 
-/// A log is drafted from before anybody has said what it holds.
+/// A log in `rins init`, before its columns are described.
 const DRAFTED: &[Row] = &[
     ("no file", "init no.csv", Nothing, &["cannot read no.csv", "No such file"]),
     ("a folder", "init run.csv", Folder(LOG), &["cannot read run.csv", "directory"]),
@@ -49,10 +49,10 @@ const DRAFTED: &[Row] = &[
     ("not UTF-8", "init run.csv", Line(LOG, 5, b"\xff\xfe,1"), &["run.csv:5: not UTF-8 text"]),
 ];
 
-/// The text of a rig that says no more than that its log is one of PSINS.
+/// The text of a rig that states only that its log has the format of PSINS.
 const PSINS_RIG: Spoil = Content("rig.toml", b"[log]\npath = \"run.csv\"\nformat = \"psins\"\n");
 
-/// PSINS logs, whose header is part of what they measured.
+/// PSINS logs, whose header is part of the data.
 const PSINS: &[Row] = &[
     (
         "half a header",
@@ -163,7 +163,7 @@ const TIMES: &[Row] = &[
     ),
 ];
 
-/// What the numbers mean.
+/// Contradictions of the readings.
 const READINGS: &[Row] = &[
     (
         "a gyro that is always zero",

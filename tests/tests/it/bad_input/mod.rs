@@ -1,5 +1,5 @@
-//! What is wrong with a user's files or command line is said in one message that names it, and
-//! leaves nothing behind.
+//! Errors in a user's files or command line are reported in one message that names them, and no output
+//! remains.
 
 mod calibration;
 mod files;
@@ -19,16 +19,16 @@ use std::path::Path;
 use crate::support::{Finished, rins_in};
 use files::{Folder, Spoil};
 
-/// A case: what it is, the arguments, what is done to the good files before, and what the message
-/// says. In that, `{line}` stands for the line that was spoiled.
+/// A case: its name, the arguments, the fault that is applied to the valid files before, and texts in the
+/// message, in which `{line}` is the line of the fault.
 type Row = (&'static str, &'static str, Spoil, &'static [&'static str]);
 
-/// The exit code if the data or the files are at fault.
+/// The exit code for an error in the data or the files.
 const DATA: i32 = 1;
-/// The exit code if the command line is.
+/// The exit code for an error in the command line.
 const USAGE: i32 = 2;
 
-/// Runs the cases, asking for JSON and, unless a row says where to, for results in `out`.
+/// Runs the cases, with JSON output and, unless a row states otherwise, with results in `out`.
 fn refused(code: i32, rows: &[Row]) {
     let mut failures = String::new();
     for (name, arguments, spoil, says) in rows {
@@ -60,7 +60,7 @@ fn refused(code: i32, rows: &[Row]) {
     assert!(failures.is_empty(), "of {} cases:\n{failures}", rows.len());
 }
 
-/// What is wrong with the way something is refused, whatever it is.
+/// The faults in the form of an error message, whatever the error.
 fn message_faults(code: i32, finished: &Finished) -> Vec<String> {
     let mut faults = Vec::new();
     if finished.code != Some(code) {
@@ -84,7 +84,7 @@ fn message_faults(code: i32, finished: &Finished) -> Vec<String> {
     faults
 }
 
-/// The paths under a folder and what is in the files.
+/// The paths in a folder and the contents of the files.
 fn listing(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -100,7 +100,7 @@ fn listing(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// What the cases spoil is good: each command does its work on it.
+/// The files are valid before a fault is applied: each command succeeds with them.
 #[test]
 fn good_files_are_taken() {
     let folder = Folder::new();

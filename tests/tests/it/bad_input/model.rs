@@ -1,4 +1,4 @@
-//! Calibrations with models, several runs and calibration files that say something wrong.
+//! Calibrations with invalid models, combinations of runs and calibration files.
 
 use super::files::Spoil::{self, All, Content, Copy, Nothing, Replace};
 use super::{DATA, Row, USAGE, refused};
@@ -141,7 +141,7 @@ const MODELS: &[Row] = &[
     ),
 ];
 
-/// The rig of another IMU that made the same log.
+/// The rig of another IMU with the same log.
 const OTHER: Spoil = All(&[
     Copy("rig.toml", "other.toml"),
     Replace("other.toml", "\"0.02 deg/h/sqrt(Hz)\"", "\"0.5 deg/h/sqrt(Hz)\""),

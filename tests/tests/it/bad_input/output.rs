@@ -1,4 +1,4 @@
-//! Results that cannot be put where they should go.
+//! Results that cannot be written to their destination.
 
 use super::files::Spoil::{All, Filled, Nothing};
 use super::{DATA, Row, refused};
@@ -53,7 +53,7 @@ const OUTPUTS: &[Row] = &[
     ("a draft over a rig", "init run.csv -o rig.toml", Nothing, &["rig.toml: exists already"]),
 ];
 
-/// `/proc` takes no folders, whoever asks.
+/// `/proc` refuses new folders for any user.
 #[cfg(target_os = "linux")]
 const READ_ONLY: &[Row] =
     &[("read-only", "calibrate rig.toml -o /proc/out", Nothing, &["cannot write /proc/out"])];

@@ -1,4 +1,4 @@
-//! Rig files that say something wrong.
+//! Invalid rig files.
 
 use super::files::Spoil::{All, Content, Cut, Folder, Nothing, Replace, Without};
 use super::{DATA, Row, refused};
@@ -25,7 +25,7 @@ const FILE: &[Row] = &[
     ("a log in its place", "check run.csv", Nothing, &["run.csv:1:"]),
 ];
 
-/// Keys that are not there, twice there, or not known.
+/// Keys that are missing, duplicate, or unknown.
 const KEYS: &[Row] = &[
     (
         "unknown key",
@@ -96,7 +96,7 @@ const KEYS: &[Row] = &[
     ),
 ];
 
-/// Quantities that are none, or of another dimension, or beyond reason.
+/// Invalid quantities, wrong dimensions, and implausible values.
 const QUANTITIES: &[Row] = &[
     (
         "bias for a noise",
@@ -179,7 +179,7 @@ const QUANTITIES: &[Row] = &[
     ("rate in seconds", CHECK, Replace(RIG, "32 Hz", "0.1 s"), &["{line}: [log] rate: \"0.1 s\""]),
 ];
 
-/// What `[log]` says of the log's columns.
+/// The keys of the log's columns in `[log]`.
 const LOG_KEYS: &[Row] = &[
     (
         "wrong rate",

@@ -1,4 +1,4 @@
-//! Scenarios that say something wrong.
+//! Invalid scenarios.
 
 use super::files::Spoil::{Content, Nothing, Replace};
 use super::{DATA, Row, refused};

@@ -1,4 +1,4 @@
-//! Mistakes that only the numbers betray: the result is given, and says so, and the exit code does.
+//! Errors that only the data show: the result is printed and states the suspicion, and the exit code reports it.
 
 use rins_testing::{Fault, assert_rows, is, says};
 use serde_json::Value;
@@ -10,7 +10,7 @@ use crate::support::{object, rins_in, texts};
 
 const RIG: &str = "rig.toml";
 
-/// A case: what it is, what is done to the rig, and what the suspicion says.
+/// A case: its name, the fault of the rig, and the text of the suspicion.
 const SUSPECTED: &[(&str, Spoil, &str)] = &[
     (
         "increments taken for rates",
@@ -67,7 +67,7 @@ const SUSPECTED: &[(&str, Spoil, &str)] = &[
     ),
 ];
 
-/// What is wrong with the way a mistake is reported: in the exit code, in one line, and in the result that is printed and written.
+/// The faults in the report of a gross error: in the exit code, in one line, and in the printed and written result.
 fn suspected(spoil: &Spoil, suspicion: &str) -> Fault {
     let folder = Folder::new();
     folder.spoil(spoil);

@@ -1,4 +1,4 @@
-//! Command lines that say something wrong.
+//! Invalid command lines.
 
 use super::files::Spoil::Nothing;
 use super::{Row, USAGE, refused};

@@ -1,4 +1,4 @@
-//! What the page on identifiability says around its tables.
+//! The text around the tables of the page on identifiability.
 
 pub(super) const HEAD: &str = "\
 # Observability of rotation schedules

@@ -1,4 +1,4 @@
-//! Drafts of logs that others have measured.
+//! Drafts of measured logs.
 
 use rins_frames::EARTH_RATE;
 use rins_frames::units::{DEG, STANDARD_GRAVITY};
@@ -6,14 +6,14 @@ use rins_io::{Loaded, read};
 use rins_testing::{assert_close, filled};
 use rins_tests::outside_data;
 
-/// A place for what a draft leaves open.
+/// A site for the keys that a draft leaves open.
 const SITE: [(&str, &str); 3] = [
     ("site.latitude", "\"34.25 deg\""),
     ("site.longitude", "\"108.9 deg\""),
     ("site.height", "\"400 m\""),
 ];
 
-/// Reads a measured log by its draft, filled in as told.
+/// Reads a measured log with its draft and these values filled in.
 fn load(name: &str, log: &str, values: &[(&str, &str)]) -> Loaded {
     let log = outside_data(name).join(log).canonicalize().unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -35,7 +35,7 @@ fn a_wheel() {
     let loaded = load("real/worklab_wheel_right", "sensors.csv", &SITE);
     assert_eq!(loaded.recording.len(), 14008);
     assert_close!(first_force(&loaded), STANDARD_GRAVITY, 0.3);
-    // It is the wheel's axis that has become z.
+    // The axis of the wheel has become z.
     let rates = loaded.recording.increments.iter().map(|sample| sample.rates().angular_rate);
     assert!(rates.map(|rate| rate.components().z.abs() / DEG).fold(0.0, f64::max) > 400.0);
 }
@@ -69,7 +69,7 @@ fn raw_counts() {
         ("log.gyro.offset", "32768"),
         ("log.accel.unit", "\"m/s^2\""),
     ]);
-    // Of the accelerometers' file, a draft of the gyros' log does not ask for a scale.
+    // A draft of the gyros' log does not ask for the scale of the accelerometers' file.
     let folder = outside_data("real/imu_tk_xsens");
     let log = folder.join("xsens_gyro.mat").canonicalize().unwrap();
     let place = tempfile::tempdir().unwrap();

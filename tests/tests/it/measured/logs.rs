@@ -1,6 +1,6 @@
-//! Logs that others have measured, as they are read.
+//! Measured logs, and their recordings.
 //!
-//! Expected values were taken from the files with awk, not with the code under test.
+//! Expected values were computed from the files with awk, not with the code under test.
 
 use nalgebra::Vector3;
 use rins_frames::EARTH_RATE;
@@ -41,7 +41,7 @@ fn a_laser_gyro_at_rest_sees_the_earth_turn() {
         .increments
         .iter()
         .fold(Vector3::zeros(), |sum, sample| sum + sample.angle.components());
-    // Its own bias and vibration are some percent of that.
+    // Bias and vibration are some percent of that.
     assert_close!(sum.norm() / 1847.18, EARTH_RATE, 0.05 * EARTH_RATE);
 }
 

@@ -1,7 +1,7 @@
-//! Logs that others have measured, with all that is odd about them.
+//! Measured logs of third parties, with all their anomalies.
 //!
-//! Expected figures were counted in the files with awk, or are those of the project that measured
-//! them; none is what `rins` said. The rigs are in `tests/rigs`, with how their figures were found.
+//! Expected figures were computed from the files with awk, or are those of the project that measured
+//! them; none is an output of `rins`. The rigs are in `tests/rigs`, with the origin of their values.
 
 mod drafts;
 mod logs;
@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 use crate::support::{list, magnitude, number, numbers, parameter, result_in, rins_in, texts};
 
-/// A folder with a rig of `tests/rigs` in it that leads to the measured log.
+/// A folder with a rig of `tests/rigs` that refers to the measured log.
 fn rig(name: &str) -> TempDir {
     outside_data(&format!("real/{name}"));
     let data = outside_data("").canonicalize().unwrap();
@@ -30,7 +30,7 @@ fn checked(folder: &TempDir) -> Value {
     result_in(folder.path(), "check rig.toml")
 }
 
-/// Whether an oddity is told in these words.
+/// Whether an anomaly is reported with these words.
 fn is_odd(check: &Value, words: &str) -> bool {
     texts(check, "/remarks").iter().any(|oddity| oddity.contains(words))
 }
@@ -48,7 +48,7 @@ fn laser_gyro_is_at_rest_and_sees_the_earth_turn() {
     assert!(is_odd(&check, "no time column"), "{check}");
     let rests = list(&check, "/static_means");
     assert_eq!(rests.len(), 1);
-    // But for the last part of a second, it rests throughout.
+    // Except for the last part of a second, it is static throughout.
     assert!(number(&rests[0], "/to_s") - number(&rests[0], "/from_s") > 1846.0);
     // The header's g and the normal gravity differ by less than an accelerometer's scale error.
     assert_close!(number(&rests[0], "/gravity_m_s2"), 9.7955, 1e-3);
@@ -62,12 +62,12 @@ fn laser_gyro_finds_its_latitude_and_north() {
     let align = result_in(folder.path(), "align rig.toml");
     let latitude_sigma = number(&align, "/apparent/latitude_sigma_deg");
     let rate_sigma = number(&align, "/apparent/earth_rate_sigma_deg_h");
-    // A sigma that covers anything would be no finding.
+    // An excessive sigma would not be a result.
     assert!((1e-3..0.2).contains(&latitude_sigma), "{latitude_sigma} deg");
     assert!((1e-4..0.1).contains(&rate_sigma), "{rate_sigma} deg/h");
     assert_close!(number(&align, "/apparent/latitude_deg"), 34.246048, 4.0 * latitude_sigma);
     assert_close!(number(&align, "/apparent/earth_rate_deg_h"), 15.041067, 4.0 * rate_sigma);
-    // The header gives the heading to a tenth of a degree and leaves level at zero.
+    // The header states the heading to a tenth of a degree, and zero for roll and pitch.
     assert_close!(number(&align, "/header_attitude_deg/yaw"), -90.6, 1e-9);
     let heading = number(&align, "/attitude_deg/yaw");
     assert_close!(heading, -90.6, 0.1 + 4.0 * number(&align, "/sigma_deg/up"));
@@ -86,7 +86,7 @@ fn laser_gyro_navigates_within_a_mile() {
     let names: Vec<&str> = runs.iter().filter_map(|run| run["name"].as_str()).collect();
     assert_eq!(names, ["as recorded", "gyro bias removed"]);
     for run in runs {
-        // In half an hour a navigation-grade IMU is off by about a nautical mile at most.
+        // In half an hour a navigation-grade IMU has an error of about one nautical mile at most.
         let (speed, position) =
             (magnitude(run, "/velocity_m_s"), magnitude(run, "/position_error_m"));
         assert!((0.01..3.0).contains(&speed), "{run}");
@@ -106,15 +106,15 @@ fn laser_gyro_navigates_within_a_mile() {
 fn wheel_has_gaps_and_no_rest() {
     let folder = rig("worklab_wheel_right");
     let check = checked(&folder);
-    // 14039 lines of which 31 repeat the one before them.
+    // 14039 lines, of which 31 repeat the previous one.
     assert_eq!(check["samples"], 14008);
     assert_close!(number(&check, "/rate_hz"), 1.0 / 0.0024638, 0.5);
     let gaps: Vec<f64> = list(&check, "/gaps").iter().map(|gap| number(gap, "/length_s")).collect();
     let long: Vec<f64> = gaps.iter().copied().filter(|gap| *gap > 0.01).collect();
-    // 236 samples are missing one at a time; 15 times more than 14 ms are, and 17.2 ms once.
+    // 236 single samples are missing; 15 intervals are longer than 14 ms, and one is 17.2 ms.
     assert_eq!((gaps.len(), long.len()), (251, 15));
     assert_close!(gaps.iter().copied().fold(0.0, f64::max), 0.01725, 1e-4);
-    // Gaps make up all of the 0.516 ms by which the steps scatter; the others hardly do.
+    // Gaps explain all of the 0.516 ms of scatter of the steps; the others hardly contribute.
     let (count, jitter) = (14007.0, number(&check, "/jitter_rms_s"));
     assert!(jitter < 0.05e-3, "{jitter}");
     let mean = 0.00251889;
@@ -126,7 +126,7 @@ fn wheel_has_gaps_and_no_rest() {
 
     assert!(list(&check, "/static_means").is_empty());
     assert!(is_odd(&check, "251 gap(s)") && is_odd(&check, "never static"), "{check}");
-    // About 16 turns of the wheel, and the swaying about its axis before and after.
+    // About 16 turns of the wheel, and swaying about its axis before and after.
     assert!((16.0..24.0).contains(&number(&check, "/turns")), "{check}");
     for (command, rest) in [("align", 5), ("navigate", 5), ("allan", 10)] {
         let refused = rins_in(folder.path(), &format!("{command} rig.toml --json"));
@@ -152,7 +152,7 @@ fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
         gravity.iter().copied().fold(0.0, f64::max),
     );
     assert!((9.1..9.4).contains(&least) && (10.3..10.6).contains(&most), "{gravity:?}");
-    // A bias of some percent is no wrong unit.
+    // A bias of some percent is not a wrong unit.
     assert!(texts(&check, "/suspicions").is_empty(), "{check}");
     assert!(is_odd(&check, "the accelerometers are not calibrated"), "{check}");
     assert_eq!(check["earth_rate_visible"], false);
@@ -163,7 +163,7 @@ fn nilspod_counts_samples_and_reads_gravity_by_its_side() {
     assert!(rins.out.contains("the gyros do not show north"), "{}", rins.out);
 }
 
-/// What its columns hold; its rests are another test.
+/// The content of its columns; its static intervals are another test.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn xsens_is_read_from_two_files_of_counts() {
@@ -186,14 +186,14 @@ fn xsens_rests_38_times_and_reads_gravity_each_time() {
     // The first lasts 52 s.
     assert!(number(&rests[0], "/to_s") - number(&rests[0], "/from_s") > 45.0, "{}", rests[0]);
     for rest in rests {
-        // The worst misses by 0.1 m/s^2; misalignment leaves that.
+        // The largest difference is 0.1 m/s^2, due to misalignment.
         assert_close!(number(rest, "/gravity_m_s2"), 9.8065, 0.13);
     }
     let align = result_in(folder.path(), "align rig.toml");
     assert!(align["attitude_deg"]["yaw"].is_null(), "{align}");
 }
 
-/// Of the model's errors only: the chair moves, and more than its sigmas may be off.
+/// This concerns the errors of the model only: the chair moves, and the errors may exceed their sigmas.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
@@ -205,22 +205,22 @@ fn wheel_shows_its_lever_arm_by_gravity_and_that_the_model_does_not_fit() {
     );
     assert_eq!(result["consistency"]["verdict"], "misfit");
     assert_eq!(result["consistency"]["nis_dof"], 5);
-    // A plain regression of the readings on gravity's turning, w² and w' says 43 mm along z, -20 mm along x.
+    // A simple regression of the readings on the rotation of gravity, w² and w' gives 43 mm along z, -20 mm along x.
     let arm = |axis: &str| parameter(&result, &format!("accel_lever_arm.r_{axis}"));
     assert_close!(number(arm("z"), "/value"), 43.0, 5.0);
     assert_close!(number(arm("x"), "/value"), -20.0, 12.0);
     assert!(number(arm("z"), "/sigma") < 5.0, "{}", arm("z"));
-    // Most of gravity turns in the plane of a wheel.
+    // Most of gravity rotates in the plane of a wheel.
     let across = number(&result, "/runs/0/gravity_across_axis_m_s2");
     assert!((8.5..9.81).contains(&across), "{across}");
     let scale = parameter(&result, "gyro.scale.y");
     let (value, sigma) = (number(scale, "/marginal/value"), number(scale, "/marginal/sigma"));
-    // A consumer gyro's scale error, told to a part in a thousand and not better: the chair turns too.
+    // The scale error of a consumer gyro, with a sigma of a part in a thousand and not better: the chair rotates too.
     assert!((300.0..10000.0).contains(&sigma) && value.abs() < 2e4, "{scale}");
     assert!(texts(&result, "/notes").iter().any(|note| note.contains("lever arm")), "{result}");
 }
 
-/// The vehicle that it stands in rocks by hundreds of seconds of arc: that is not the gyros' noise.
+/// The vehicle that carries it sways by hundreds of arcseconds: that is not noise of the gyros.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn laser_gyro_is_quiet_on_a_base_that_sways() {
@@ -232,11 +232,11 @@ fn laser_gyro_is_quiet_on_a_base_that_sways() {
     assert!((0.003..0.3).contains(&white), "{white} deg/h/√Hz");
     let sway = numbers(&result, "/runs/0/base_sway_arcsec_sqrt_s");
     assert!(sway[..2].iter().all(|sway| (5.0..200.0).contains(sway)), "{sway:?}");
-    // Velocities are read in steps of 2.4 mm/s.
+    // The resolution of velocity is 2.4 mm/s.
     let velocity = number(&result, "/runs/0/base_velocity_m_s");
     assert!((0.5e-3..3e-3).contains(&velocity), "{velocity} m/s");
     assert_close!(number(&result, "/consistency/nis_mean"), 6.0, 0.3);
-    // How the vehicle rocks changes all the time.
+    // The swaying of the vehicle is nonstationary.
     assert_eq!(result["consistency"]["verdict"], "misfit");
     let after = magnitude(&result, "/navigation/after/velocity_m_s");
     assert!(after < 0.5, "{after} m/s after half an hour");
@@ -244,18 +244,18 @@ fn laser_gyro_is_quiet_on_a_base_that_sways() {
     for id in ["gyro.scale.x", "gyro.scale.z", "gyro.misalignment.xy", "accel.misalignment.xy"] {
         assert!(hidden.contains(&id), "{id} is not named: {hidden:?}");
     }
-    // Along the vertical a bias and a scale error are one number, told to a few micro-g.
+    // Along the vertical only a combination of bias and scale error is observable, to a few micro-g.
     let up = parameter(&result, "accel.scale.z");
     assert_eq!(texts(up, "/aliases")[0], "accel.bias.z");
     assert!(number(up, "/sigma") < 10.0, "{up}");
 }
 
-/// Against nine parameters that were fitted to the means over 38 rests by a program of its own: least squares of the
-/// magnitude of gravity, 0.98 mm/s² left, with misalignments that are alike across the diagonal.
+/// Compared with nine parameters that an independent program fitted to the means over 38 static intervals: least squares of the
+/// magnitude of gravity, with a residual of 0.98 mm/s² and symmetric misalignments.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
-    /// How many of the larger sigma the two may be apart: their data are the same, their rests and weights not quite.
+    /// The tolerance, in the larger of the two sigmas: the data are the same, the intervals and weights differ slightly.
     const APART: f64 = 1.0;
     let folder = rig("imu_tk_xsens");
     let result = result_in(folder.path(), "calibrate rig.toml");
@@ -293,7 +293,7 @@ fn xsens_names_what_its_rests_do_not_show() {
         assert!(hidden.contains(&format!("gyro.scale.{axis}").as_str()), "{hidden:?}");
         let bias = parameter(&result, &format!("gyro.bias.{axis}"));
         assert_eq!(bias["identifiable"], true, "{bias}");
-        // The rig file's offsets are means over all rests.
+        // The offsets in the rig file are means over all static intervals.
         assert!(number(bias, "/value").abs() < 4.0 * number(bias, "/sigma"), "{bias}");
     }
     let ids =
@@ -302,7 +302,7 @@ fn xsens_names_what_its_rests_do_not_show() {
     assert_eq!(texts(&result, "/notes").len(), 1, "{result:#}");
 }
 
-/// What comes back with every turn of the wheel is a rate that stands still beside it: the chair turns, by some 3 deg/s.
+/// A rate that repeats with every turn of the wheel belongs to the base: the chair rotates, at about 3 deg/s.
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
 fn chair_that_turns_under_the_wheel_is_named() {
@@ -315,7 +315,7 @@ fn chair_that_turns_under_the_wheel_is_named() {
     let [rate] = list(chair, "/parameters") else { panic!("{chair:#}") };
     let (value, sigma) = (number(rate, "/value"), number(rate, "/sigma"));
     assert!((value - 10_900.0).abs() < 1_500.0 && sigma < 700.0, "{rate}");
-    // Once it is named, nothing is left that comes once a turn.
+    // With this effect in the model, no harmonic of the first order remains.
     let structures = list(&result, "/unexplained");
     assert!(structures.iter().all(|one| one["structure"] != "1st order in table angle"));
 }
@@ -347,6 +347,6 @@ fn laser_gyro_shows_its_noise_beyond_its_dither() {
             }
         }
     }
-    // The dither rules at the shortest times.
+    // Dither dominates at the shortest times.
     assert!(number(&channels[0], "/explained_from_s") > 0.1, "{}", channels[0]);
 }

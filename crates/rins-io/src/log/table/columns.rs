@@ -1,4 +1,4 @@
-//! Columns that are asked for, and the rows that hold them.
+//! The requested columns of a log, with their rows.
 
 use super::rows::RowLines;
 use crate::log::instant::Instants;
@@ -7,41 +7,41 @@ use crate::log::summary::Omission;
 use crate::section::quoted;
 use crate::suggestion::nearest;
 
-/// The most columns that are read.
+/// The maximum number of columns.
 pub(crate) const MOST_COLUMNS: usize = 4096;
 
-/// The most rows that are read: 93 hours at 200 Hz, which fill some ten gigabytes of memory.
+/// The maximum number of rows: 93 hours at 200 Hz, which occupy about ten gigabytes of memory.
 pub(in crate::log) const MOST_ROWS: u64 = 1 << 26;
 
-/// A row that is repeated so often in a row is no sample that a logger wrote twice.
+/// The number of consecutive repetitions above which a row is not a sample that a logger wrote twice.
 const MOST_REPEATED: u64 = 1 << 20;
 
-/// The most columns that an error lists.
+/// The maximum number of columns that an error lists.
 const MOST_LISTED: usize = 30;
 
-/// How much of a column's name an error shows.
+/// The maximum length of a column's name in an error.
 const LONGEST_LISTED: usize = 60;
 
 /// The numbers of some columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::log) struct Columns {
-    /// The time stamps \[s\], if time was asked for.
+    /// The time stamps \[s\], if time was requested.
     pub(in crate::log) time: Vec<f64>,
-    /// The numbers of each column that was asked for.
+    /// The numbers of each requested column.
     pub(in crate::log) numbers: Vec<Vec<f64>>,
-    /// The line of each row; its number from 1 where a log has no lines.
+    /// The line of each row; its number from 1 if a log has no lines.
     pub(in crate::log) lines: RowLines,
-    /// The lines that are left out.
+    /// The omitted lines.
     pub(in crate::log) left_out: Vec<(u64, Omission)>,
 }
 
-/// What of a log is asked for: columns by name, and perhaps one of time stamps.
+/// The request: columns by name, and optionally a column of time stamps.
 pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) names: &'w [&'w str],
     pub(in crate::log) time: Option<(&'w str, &'w mut Instants)>,
 }
 
-/// Rows that are the same as the one before.
+/// A counter of rows that equal the previous row.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Repeated {
     times: u64,
@@ -53,7 +53,7 @@ impl Repeated {
     /// Counts a row.
     ///
     /// # Errors
-    /// The line of the first of them, once there are more than any logger repeats.
+    /// The line of the first of them, if there are more than any logger repeats.
     pub(super) fn count(&mut self, line: u64, is_same: bool) -> Result<(), (u64, LogProblem)> {
         match (is_same, self.times) {
             (false, _) => self.times = 0,
@@ -67,7 +67,7 @@ impl Repeated {
     }
 }
 
-/// The place of the only one of `names` that is `wanted`.
+/// The index of the only one of `names` that is `wanted`.
 pub(super) fn place(wanted: &str, names: &[String]) -> Result<usize, LogProblem> {
     let mut found = names.iter().enumerate().filter(|(_, present)| *present == wanted);
     match (found.next(), found.next()) {
@@ -81,7 +81,7 @@ pub(super) fn place(wanted: &str, names: &[String]) -> Result<usize, LogProblem>
     }
 }
 
-/// The columns that there are, in words.
+/// A list of the existing columns, for an error message.
 pub(super) fn listed(names: &[String]) -> String {
     let short: Vec<String> = names
         .iter()

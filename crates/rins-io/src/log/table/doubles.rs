@@ -1,4 +1,4 @@
-//! Rows of little-endian doubles, one after another without a header.
+//! Consecutive rows of little-endian doubles without a header.
 
 use std::io::{BufReader, Read};
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::source;
 
-/// Reads columns, named by their places from "1", of the file at `path` whose rows have `count`
+/// Reads columns, named by their numbers from "1", of the file at `path` whose rows have `count`
 /// doubles.
 pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let failed = || IoError::file("read", path);
@@ -57,7 +57,7 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
     typed::together(path, names, numbers, time)
 }
 
-/// Fills `row`: true if it did, false at the end, nothing if there was only a part of a row.
+/// Fills `row`: true on success, false at the end, `None` if only a part of a row is left.
 fn fill(reader: &mut impl Read, row: &mut [u8]) -> std::io::Result<Option<bool>> {
     let mut filled = 0;
     while filled < row.len() {

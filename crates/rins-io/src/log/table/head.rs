@@ -9,27 +9,27 @@ use crate::log::fields::{Delimiter, Fields};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
 
-/// The most lines of a preamble.
+/// The maximum number of lines of a preamble.
 const LONGEST_PREAMBLE: usize = 200;
 
 /// The number of consecutive rows of numbers that end a preamble.
 const ROWS: usize = 3;
 
-/// The fewest columns of a log with a preamble.
+/// The minimum number of columns of a log with a preamble.
 const FEWEST_COLUMNS: usize = 3;
 
-/// What the first lines of a text log tell, before anybody has said what its columns are.
+/// The first lines of a text log, which are read before the columns are assigned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogHead {
-    /// What stands between two fields.
+    /// The delimiter.
     pub delimiter: Delimiter,
-    /// The columns' names, where there are any.
+    /// The columns' names, if there are any.
     pub names: Option<Vec<String>>,
     /// The fields of the first rows, at most two.
     pub rows: Vec<Vec<String>>,
 }
 
-/// Looks at the first lines of the text log at `path`.
+/// Reads the first lines of the text log at `path`.
 ///
 /// # Errors
 /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is empty or not text.
@@ -47,7 +47,7 @@ fn fields(text: &str, delimiter: Delimiter) -> Vec<String> {
 }
 
 /// Whether a field is not a number.
-fn is_word(field: &String) -> bool {
+fn is_word(field: &str) -> bool {
     field.parse::<f64>().is_err()
 }
 
@@ -56,7 +56,7 @@ fn is_words(fields: &[String]) -> bool {
     fields.iter().filter(|field| is_word(field)).count() * 2 >= fields.len()
 }
 
-/// Whether these are the units below the names of so many columns; a number that is miswritten is none.
+/// Whether these fields are the units below the names of `count` columns; a malformed number is not a unit.
 fn is_units(fields: &[String], count: usize) -> bool {
     let is_unit = |field: &String| {
         is_word(field) && !field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l))
@@ -64,11 +64,11 @@ fn is_units(fields: &[String], count: usize) -> bool {
     fields.len() == count && fields.iter().all(|field| field.is_empty() || is_unit(field))
 }
 
-/// The number of lines before the header of a log, or before its first row where it has no header; none if the log has no
+/// The number of lines before the header of a log, or before its first row if it has no header; `None` if the log has no
 /// preamble.
 ///
-/// A preamble is what precedes the header: the rows below have the number of fields of the header, and the lines above have not.
-/// Lines that are read are added to `begun`.
+/// A preamble is the text above the header: the rows have the same number of fields as the header, and the preamble lines do not.
+/// Lines that are read are appended to `begun`.
 fn preamble<R: BufRead>(
     begun: &mut Vec<Line>,
     stated: Option<Delimiter>,
@@ -100,7 +100,7 @@ fn preamble<R: BufRead>(
         if !are_rows || count < FEWEST_COLUMNS {
             continue;
         }
-        // Loggers that end each row with a delimiter do not always end the header with one.
+        // Some loggers end each row, but not the header, with a delimiter.
         let ends_empty = split[start..].iter().all(|row| row.last().is_some_and(String::is_empty));
         let is_header = |place: usize| {
             let names = &split[place];
@@ -116,7 +116,7 @@ fn preamble<R: BufRead>(
             });
         return Ok(match header {
             Some(header) => Some(header),
-            // Without a header all lines above the rows are words.
+            // Without a header, all lines above the rows are words.
             None if split[..start].iter().all(|fields| is_words(fields)) => Some(start),
             None => None,
         });
@@ -124,16 +124,16 @@ fn preamble<R: BufRead>(
     Ok(None)
 }
 
-/// What the first lines tell.
+/// The first lines of a text log.
 pub(crate) struct Head {
     pub(crate) delimiter: Delimiter,
-    /// The columns' names, where there are any.
+    /// The columns' names, if there are any.
     pub(crate) names: Option<Vec<String>>,
     /// The number of columns.
     pub(crate) count: usize,
-    /// The line of the names, or the first of the numbers.
+    /// The line of the names, or the first line of numbers.
     pub(super) line: u64,
-    /// The rows of numbers that have been read.
+    /// The rows of numbers in these lines.
     pub(crate) rows: Vec<(u64, String)>,
 }
 
@@ -155,7 +155,7 @@ impl Head {
         Self::of(begun, stated, comment, lines)
     }
 
-    /// The head of a log without a preamble that begins with these lines.
+    /// The head of a log that begins with these lines, without a preamble.
     fn of<R: BufRead>(
         begun: Vec<Line>,
         stated: Option<Delimiter>,
@@ -183,20 +183,21 @@ impl Head {
             }
             return Ok(Self { delimiter, names: Some(opening), count, line, rows: rest });
         }
-        // Array libraries write the names into a comment.
+        // Array libraries write the names in a comment.
         let names = comment.map(|text| fields(&text));
-        let names = names.filter(|names| names.len() == count && names.iter().all(is_word));
+        let names =
+            names.filter(|names| names.len() == count && names.iter().all(|name| is_word(name)));
         rest.insert(0, (line, first));
         Ok(Self { delimiter, names, count, line, rows: rest })
     }
 
-    /// The first name of a line of names that is no comment.
+    /// The first name in a line of names that is not a comment.
     pub(super) fn header(&self) -> Option<&str> {
         let above = self.rows.first().is_none_or(|(line, _)| *line > self.line);
         self.names.as_ref().filter(|_| above)?.first().map(String::as_str)
     }
 
-    /// The place from zero of the column called `name`.
+    /// The index, from zero, of the column called `name`.
     pub(super) fn place(&self, name: &str, path: &Path) -> Result<usize, IoError> {
         let names = self.names.as_deref().unwrap_or_default();
         let by_number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
@@ -210,7 +211,7 @@ impl Head {
         found.map_err(|problem| LogError::at(path, self.line, problem))
     }
 
-    /// The columns that there are, in words.
+    /// A list of the existing columns, for an error message.
     fn present(&self) -> String {
         match &self.names {
             Some(names) => listed(names),

@@ -1,6 +1,6 @@
-//! Columns of the matrices in MATLAB's level 5 files, which `save` writes with `-v6` and `-v7`.
+//! Columns of the matrices in MATLAB level 5 files, which `save` writes with `-v6` and `-v7`.
 //!
-//! ‹matfile5›. A column is named as MATLAB does: `imu(:,3)`, `imu.wb(:,1)` in a structure, or `t` of a
+//! ‹matfile5›. A column is named as in MATLAB: `imu(:,3)`, `imu.wb(:,1)` in a structure, or `t` for a
 //! vector.
 
 mod element;
@@ -19,10 +19,10 @@ use crate::source;
 
 const FORMAT: &str = "MATLAB level 5";
 
-/// Structures within structures are followed so far.
+/// The maximum depth of nested structures.
 const DEEPEST: usize = 4;
 
-/// The most variables and fields that are looked at.
+/// The maximum number of variables and fields that are examined.
 const MOST_VARIABLES: usize = 4096;
 
 const MATRIX: u32 = 14;
@@ -61,7 +61,7 @@ fn found(path: &Path, asked: &[&str]) -> Result<Found, IoError> {
     let mut reader = BufReader::with_capacity(1 << 16, file);
     found.read(&mut reader).map_err(|problem| match problem {
         Problem::System(source) if source.kind() != std::io::ErrorKind::UnexpectedEof => {
-            // A damaged stream of compressed bytes is no fault of the system.
+            // Damaged compressed bytes are not a system error.
             match source.kind() {
                 std::io::ErrorKind::InvalidData | std::io::ErrorKind::InvalidInput => {
                     LogError::of(path, damaged(&source.to_string()))
@@ -79,7 +79,7 @@ fn damaged(message: &str) -> LogProblem {
     LogProblem::Damaged { format: FORMAT, message: message.into() }
 }
 
-/// Why a file was not read to its end.
+/// The reason why a file was not read to its end.
 enum Problem {
     System(std::io::Error),
     Log(LogProblem),
@@ -91,12 +91,12 @@ impl From<std::io::Error> for Problem {
     }
 }
 
-/// What has been found so far of the columns that are asked for.
+/// The data of the requested columns found so far.
 struct Found {
-    /// The variable and column of each; of a vector there is no column to tell.
+    /// The variable and column of each; `None` as column if a vector is requested.
     asked: Vec<(String, Option<usize>)>,
     lists: Vec<Option<Numbers>>,
-    /// The columns that there are, and their lengths.
+    /// The existing columns, and their lengths.
     present: Vec<(String, u64)>,
     most: u64,
 }
@@ -140,7 +140,7 @@ impl Found {
                         }
                         _ => {}
                     }
-                    // What is left, a checksum or two, is passed over.
+                    // The remainder, a checksum or two, is skipped.
                     std::io::copy(&mut limited, &mut std::io::sink())?;
                     if limited.limit() > 0 {
                         return Err(std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into());
@@ -152,7 +152,7 @@ impl Found {
         Ok(())
     }
 
-    /// Looks at a matrix, called `outer.name`, whose tag has been read.
+    /// Examines a matrix `outer.name`, whose tag has been read.
     fn matrix(
         &mut self,
         elements: &mut Elements<'_>,
@@ -193,7 +193,7 @@ impl Found {
         }
     }
 
-    /// Takes from a matrix the columns that are asked for.
+    /// Reads the requested columns of a matrix.
     fn numbers(
         &mut self,
         elements: &mut Elements<'_>,
@@ -273,7 +273,7 @@ impl Found {
     }
 }
 
-/// A variable, and the column that `(:,n)` picks of it.
+/// A variable, and the column that `(:,n)` selects.
 fn parsed(name: &str) -> (String, Option<usize>) {
     let inside = name.strip_suffix(')').and_then(|rest| rest.split_once("(:,"));
     if let Some((variable, column)) = inside

@@ -1,4 +1,4 @@
-//! Columns of numbers, picked by name or number from a log of any format.
+//! Columns of numbers, selected by name or number from a log of any format.
 
 mod columns;
 mod doubles;
@@ -26,13 +26,20 @@ use crate::error::{IoError, LogError};
 use crate::rig::Table;
 use crate::source;
 
+/// All columns of numbers of a binary file.
+pub(crate) struct BinaryColumns {
+    /// The format, as a rig file names it.
+    pub(crate) format: &'static str,
+    pub(crate) names: Vec<String>,
+    /// The numbers of each column.
+    pub(crate) numbers: Vec<Vec<f64>>,
+}
+
 /// All columns of numbers of the Parquet or MATLAB file at `path`, with their names; none of a file of another format.
 ///
 /// # Errors
 /// As [`read`].
-pub(crate) fn all(
-    path: &Path,
-) -> Result<Option<(&'static str, Vec<String>, Vec<Vec<f64>>)>, IoError> {
+pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
     let mut beginning = [0; 20];
     let mut file = source::open(path).map_err(IoError::file("read", path))?;
     let length = file.read(&mut beginning).map_err(IoError::file("read", path))?;
@@ -45,17 +52,17 @@ pub(crate) fn all(
     };
     let asked: Vec<&str> = names.iter().map(String::as_str).collect();
     let columns = read(path, table, Wanted { names: &asked, time: None })?;
-    Ok(Some((format, names, columns.numbers)))
+    Ok(Some(BinaryColumns { format, names, numbers: columns.numbers }))
 }
 
-/// No clock shows more seconds than this: 300 centuries.
+/// The maximum time of any clock \[s\]: 300 centuries.
 const LATEST: f64 = 1e12;
 
-/// Reads the columns that are `wanted` from the log at `path`, which is written as `table`.
+/// Reads the `wanted` columns from the log at `path`, whose format is `table`.
 ///
 /// # Errors
-/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is not what it is said to be, if
-/// a column is not there, or if one holds anything but finite numbers.
+/// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it does not have this format, if
+/// a column does not exist, or if one contains anything but finite numbers.
 pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let time = wanted.time.as_ref().map(|(name, _)| *name);
     let columns = match table {

@@ -1,8 +1,8 @@
-//! NovAtel's RAWIMU logs in ASCII: counts summed over each sample, in an order of their own.
+//! NovAtel RAWIMU logs in ASCII: counts accumulated over each sample, in NovAtel's order of axes.
 //!
-//! ‹novatel-oem7›: after the header come the GNSS week and the seconds into it, the IMU's status, and
+//! ‹novatel-oem7›: after the header come the GNSS week and the seconds into it, the IMU status, and
 //! the counts along z, −y and x, of velocity first and then of angle. The extended logs begin with a
-//! word of information and the IMU's type.
+//! word of information and the IMU type.
 
 use std::path::Path;
 
@@ -12,23 +12,23 @@ use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
 
-/// The columns that there are, in the order of the log.
+/// The columns in the order of the log.
 pub(crate) const COUNTS: [&str; 6] =
     ["accel_z", "accel_y", "accel_x", "gyro_z", "gyro_y", "gyro_x"];
 
-/// What stands for the sign in the log: y counts backwards.
+/// The signs in the log: y has the opposite direction.
 const SIGNS: [f64; 6] = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
 
 const SECONDS_OF_A_WEEK: i64 = 604_800;
 
-/// The most weeks that a log may count: some 190 years.
+/// The maximum number of weeks in a log: about 190 years.
 const MOST_WEEKS: i64 = 10_000;
 
-/// The longest checksum.
+/// The maximum number of digits of a checksum.
 const CHECKSUM_DIGITS: usize = 8;
 
 /// Reads columns of the RAWIMU, RAWIMUS, RAWIMUX and RAWIMUSX messages of the log at `path`. Other
-/// messages are passed over.
+/// messages are skipped.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let Wanted { names, mut time } = wanted;
     let present = COUNTS.map(String::from);
@@ -82,7 +82,7 @@ struct Message<'l> {
 }
 
 impl<'l> Message<'l> {
-    /// `None` if the line holds another message, or none.
+    /// The message of a line; `None` if the line contains another message, or none.
     fn of(line: &'l str) -> Result<Option<Self>, LogProblem> {
         let Some(text) = line.strip_prefix(['%', '#']) else { return Ok(None) };
         let name = text.split([',', ';']).next().unwrap_or_default();
@@ -107,7 +107,7 @@ impl<'l> Message<'l> {
         Ok(Some(Self { body, extended }))
     }
 
-    /// The counts along x, y and z as [`COUNTS`] names them, the week, and the seconds into it.
+    /// The counts in the order of [`COUNTS`], the week, and the seconds into it.
     fn fields(&self) -> Result<([f64; 6], i64, &'l str), LogProblem> {
         let fields: Vec<&str> = self.body.split(',').map(str::trim).collect();
         let first = if self.extended { 2 } else { 0 };
@@ -130,7 +130,7 @@ fn not_a_number(column: &str, text: &str) -> LogProblem {
     LogProblem::NotANumber { column: column.into(), text: text.chars().take(40).collect() }
 }
 
-/// The CRC-32 of NovAtel's logs: reflected, from zero, and not inverted at the end.
+/// The CRC-32 of NovAtel logs: reflected, with initial value zero, and without final inversion.
 fn checksum_of(bytes: &[u8]) -> u32 {
     bytes.iter().fold(0, |sum, &byte| {
         (0..8).fold(sum ^ u32::from(byte), |sum, _| {
@@ -143,7 +143,7 @@ fn checksum_of(bytes: &[u8]) -> u32 {
 mod tests {
     use super::{COUNTS, Message};
 
-    /// The examples of NovAtel's manual.
+    /// The examples of the NovAtel manual.
     const EXAMPLES: [&str; 3] = [
         "%RAWIMUSA,2209,491612.254;2209,491612.253588,ea5afe00,329303960,-2512321,4410363,309705,607017,-1009773*1fb76c28",
         "%RAWIMUSXA,2209,491674.014;04,41,2209,491674.013699,ea59fe00,329308016,-2706935,4508389,196192,417138,-1000837*038422a7",
@@ -156,7 +156,7 @@ mod tests {
             let message = Message::of(example).unwrap().unwrap();
             let (counts, week, seconds) = message.fields().unwrap();
             assert_eq!((week, &seconds[..3]), (2209, "491"));
-            // On that receiver z is up; y counts backwards in the log.
+            // The z axis of that receiver is up; y has the opposite sign in the log.
             let named = |name| counts[COUNTS.iter().position(|known| *known == name).unwrap()];
             assert!((329303960.0..329394069.0).contains(&named("accel_z")), "{example}");
             assert!((2396829.0..2706936.0).contains(&named("accel_y")), "{example}");

@@ -14,7 +14,7 @@ use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::sound_parquet::SoundParquet;
 
-/// The rows that are read at a time.
+/// The number of rows that are read at once.
 const BATCH: usize = 1 << 16;
 
 /// Reads columns of the Parquet file at `path`, row group by row group.
@@ -68,7 +68,7 @@ pub(super) fn names(path: &Path) -> Result<Vec<String>, IoError> {
     Ok(numeric.map(|column| column.path().string()).collect())
 }
 
-/// How numbers are kept in a column.
+/// The representation of a column's numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Real,
@@ -77,7 +77,7 @@ enum Kind {
 }
 
 impl Kind {
-    /// `None` if it holds no numbers, or not one a row.
+    /// The representation; `None` if the column does not contain one number per row.
     fn of(column: &ColumnDescriptor) -> Option<Self> {
         if column.max_rep_level() > 0 {
             return None;
@@ -103,7 +103,7 @@ impl Kind {
     }
 }
 
-/// Adds a row group's numbers to `list`; the index of the first that is missing, if one is.
+/// Appends a row group's numbers to `list`; returns the index of the first missing number, if there is one.
 fn read_part(
     pages: ColumnReader,
     kind: Kind,

@@ -1,15 +1,15 @@
-//! The lines at which a log's rows stand.
+//! The line numbers of a log's rows.
 
-/// The line of each row; where one follows the other, only the first is kept.
+/// The line of each row; for consecutive lines only the first is stored.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in crate::log) struct RowLines {
-    /// The row and the line where each series of them begins.
+    /// The row and the line at the start of each sequence of consecutive lines.
     series: Vec<(usize, u64)>,
     rows: usize,
 }
 
 impl RowLines {
-    /// Adds a row, which stands at `line`.
+    /// Appends a row at `line`.
     pub(in crate::log) fn push(&mut self, line: u64) {
         let next = self.series.last().map(|(row, first)| first + (self.rows - row) as u64);
         if next != Some(line) {
@@ -18,17 +18,17 @@ impl RowLines {
         self.rows += 1;
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub(in crate::log) const fn len(&self) -> usize {
         self.rows
     }
 
-    /// Whether there is none.
+    /// Whether there are no rows.
     pub(in crate::log) const fn is_empty(&self) -> bool {
         self.rows == 0
     }
 
-    /// The line of a row; zero, which no line has, if there is no such row.
+    /// The line of a row; zero, which is not a line number, if the row does not exist.
     pub(in crate::log) fn of(&self, row: usize) -> u64 {
         let after = self.series.partition_point(|(first, _)| *first <= row);
         let series = after.checked_sub(1).filter(|_| row < self.rows);

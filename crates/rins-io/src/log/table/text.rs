@@ -1,4 +1,4 @@
-//! Columns of text, between delimiters that are found out.
+//! Columns of text, whose delimiter is determined automatically.
 
 use std::io::BufRead;
 use std::path::Path;
@@ -48,7 +48,7 @@ fn read_from<R: BufRead>(
     let mut before = String::new();
     let mut repeated = Repeated::default();
     let mut row = |number: u64, line: &str| -> Result<(), IoError> {
-        // Some loggers write a sample twice; without a time stamp it may well be two samples.
+        // Some loggers write a sample twice; without a time stamp it could be two samples.
         if time.is_some() {
             let is_same = line == before;
             repeated
@@ -108,7 +108,7 @@ fn read_from<R: BufRead>(
     Ok(columns)
 }
 
-/// As much of a field as an error shows.
+/// A field, shortened for an error message.
 fn short(field: &str) -> String {
     field.chars().take(40).collect()
 }

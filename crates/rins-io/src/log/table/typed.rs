@@ -1,4 +1,4 @@
-//! Columns of a log whose numbers are binary: what holds for all such formats.
+//! Common functions for columns of logs with binary numbers.
 
 use std::path::Path;
 
@@ -8,18 +8,18 @@ use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
 
-/// The rows that any file may have, however small it is.
+/// The number of rows that any file may have, however small it is.
 const ALWAYS_ROWS: u64 = 1 << 20;
 
-/// The most rows that a file of this length \[bytes\] may have.
+/// The maximum number of rows of a file of this length \[bytes\].
 ///
-/// Compressed formats can say of a few bytes that they are billions of rows; no sensor that is
-/// alive takes less than a byte to say its seven numbers.
+/// In a compressed format, a few bytes can stand for billions of rows; the seven numbers of a sample of a working
+/// sensor occupy at least one byte.
 pub(crate) fn most_rows(length: u64) -> u64 {
     length.clamp(ALWAYS_ROWS, MOST_ROWS)
 }
 
-/// Time stamps as a file has them.
+/// Numbers in the representation of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Numbers {
     Real(Vec<f64>),
@@ -34,7 +34,7 @@ impl Numbers {
         }
     }
 
-    /// The numbers as such.
+    /// The numbers as doubles.
     pub(super) fn plain(self) -> Vec<f64> {
         match self {
             Self::Real(numbers) => numbers,
@@ -42,7 +42,7 @@ impl Numbers {
         }
     }
 
-    /// The numbers as stamps \[s\].
+    /// The numbers as time stamps \[s\].
     pub(super) fn stamps(self, instants: &mut Instants) -> Vec<f64> {
         match self {
             Self::Real(numbers) => {
@@ -55,7 +55,7 @@ impl Numbers {
     }
 }
 
-/// Puts columns together, without rows that repeat the one before them.
+/// Combines columns, without rows that repeat the previous row.
 ///
 /// # Errors
 /// [`IoError::Log`] if there are no rows, or a number is not finite.
@@ -84,7 +84,7 @@ pub(super) fn together(
         let mut lists = columns.numbers.iter().chain(std::iter::once(&columns.time));
         lists.all(|list| list[row].to_bits() == list[row - 1].to_bits())
     };
-    // Without a time stamp a row that is repeated may well be two samples.
+    // Without a time stamp, a repeated row could be two samples.
     let kept: Vec<bool> = (0..rows).map(|row| !timed || row == 0 || !same(&columns, row)).collect();
     for (row, kept) in (1..).zip(&kept) {
         match kept {

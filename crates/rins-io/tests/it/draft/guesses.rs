@@ -1,4 +1,4 @@
-//! Units and columns that nothing states, found by what the numbers must mean.
+//! Units and columns without a statement, determined from the magnitude of the numbers.
 
 use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, STANDARD_GRAVITY};
 use rins_io::read;
@@ -7,7 +7,7 @@ use rins_testing::{assert_close, filled};
 use super::support::{Motion, SITE, draft};
 use crate::support::folder;
 
-/// What one of a log's numbers is in SI units, per second or per interval, and how a rig says so.
+/// A unit: its spelling in a rig file, its value in SI units, and whether it is an increment.
 type Spelt = (&'static str, f64, bool);
 
 const GYROS: [Spelt; 6] = [
@@ -30,7 +30,7 @@ const TABLES: [(&str, f64); 4] =
     [("rad", 1.0), ("deg", DEG), ("arcsec", ARCSEC), ("rev", std::f64::consts::TAU)];
 const TIMES: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
 
-/// A log of `motion` in these units; `names` is its first line.
+/// A log of `motion` in these units; `names` is its header.
 fn log(motion: &Motion, names: &str, gyro: Spelt, accel: Spelt, others: (f64, f64)) -> String {
     let mut log = String::from(names);
     for row in motion.rows() {
@@ -45,7 +45,7 @@ fn log(motion: &Motion, names: &str, gyro: Spelt, accel: Spelt, others: (f64, f6
     log
 }
 
-/// Every pair of units of gyros and accelerometers, each with some unit of table and time.
+/// All pairs of units of gyros and accelerometers, each with some unit of table and time.
 #[test]
 fn units_are_those_in_which_gravity_and_the_table_come_out_right() {
     let motion = Motion { rate: 40, ..Motion::default() };
@@ -87,7 +87,7 @@ fn units_are_those_in_which_gravity_and_the_table_come_out_right() {
     }
 }
 
-/// With gravity along the axis only the table, or at rest the Earth, tells the gyros' unit.
+/// With gravity along the axis, only the table or, at rest, the Earth rate determines the gyros' unit.
 #[test]
 fn gyros_are_measured_by_the_table_or_by_the_earth() {
     let level = Motion { tilt: 0.0, ..Motion::default() };
@@ -109,7 +109,7 @@ fn gyros_are_measured_by_the_table_or_by_the_earth() {
     }
 }
 
-/// A wrapped angle tells its unit by its jumps, whatever the gyros say.
+/// The jumps of a wrapped angle determine its unit, whatever the gyros indicate.
 #[test]
 fn the_jump_of_a_wrapped_angle_is_a_turn() {
     for (unit, factor) in [("rad", 1.0), ("deg", DEG), ("rev", std::f64::consts::TAU)] {
@@ -174,7 +174,7 @@ fn the_axis_that_turns_is_found_with_its_sign() {
     let motion = Motion::default();
     let mut log = String::from("t,gx,gy,gz,ax,ay,az,table\n");
     for row in motion.rows() {
-        // The sensor lies on its side: its x points down the axis.
+        // The sensor is mounted on its side: its x points down along the axis.
         let (w, f) = (row.rate, row.force);
         log.push_str(&format!(
             "{},{:e},{:e},{:e},{},{},{},{}\n",

@@ -1,4 +1,4 @@
-//! Rig files drafted from logs: what they say, and that the logs are then read rightly.
+//! Rig files drafted from logs: their content, and the correct reading of the logs with them.
 
 mod guesses;
 mod refusals;
@@ -14,7 +14,7 @@ use rins_testing::{assert_close, filled};
 use crate::support::folder;
 use support::{Motion, SITE, draft};
 
-/// What rins itself writes is drafted without a loss: read again, it is the same to the last bit.
+/// A log written by rins is drafted without a loss: read again, it is bit-identical.
 #[test]
 fn a_log_that_was_written_here_is_drafted_and_read_back() {
     let motion = Motion { rate: 64, ..Motion::default() };
@@ -85,13 +85,13 @@ fn a_psins_log_is_known_by_its_content() {
         log.push_str(&format!("{} 2 -{} 0 1 80\n", row % 7, row % 3));
     }
     let log = log.replacen(" 2 -", " 3 -", 1);
-    // Neither the ending nor a comment says what it is.
+    // Neither the extension nor a comment states the format.
     let folder = folder(&[("rest.txt", log.as_bytes())]);
     let draft = draft(folder.path(), "rest.txt");
     assert!(draft.text.contains("format = \"psins\"\n"), "{}", draft.text);
     assert!(draft.text.contains("latitude 34.5 deg, longitude 109 deg, height 400 m"));
     assert!(draft.text.contains("pitch 0.5, roll -1, yaw 90 deg"));
-    // It is complete as it stands, but for the data sheets.
+    // It is complete except for the data sheets.
     assert!(draft.to_fill_in.iter().all(|key| key.key.starts_with("imu.")));
     let rig = folder.path().join("rig.toml");
     std::fs::write(&rig, &draft.text).unwrap();
@@ -108,7 +108,7 @@ fn increments_without_names_pointing_down_are_kf_gins() {
     let mut log = String::new();
     for row in motion.rows() {
         let (angle, velocity) = (row.rate / 50.0, row.force / 50.0);
-        // Front, right, down from right, front, up.
+        // From front, right, down to right, front, up.
         let ahead = |v: Vector3<f64>| format!("{} {} {}", v.y, v.x, -v.z);
         log.push_str(&format!("{:.6} {} {}\n", row.time, ahead(angle), ahead(velocity)));
     }

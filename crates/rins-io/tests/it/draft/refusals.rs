@@ -1,4 +1,4 @@
-//! What a draft leaves open is named by the reader, and what is no log is refused.
+//! The reader reports the keys that a draft leaves open, and files that are not logs are refused.
 
 use proptest::prelude::*;
 use rins_io::{draft_rig, read};
@@ -7,17 +7,17 @@ use rins_testing::filled;
 use super::support::{SITE, draft};
 use crate::support::{folder, log, without};
 
-/// Keys and what is filled in for them.
+/// Keys with the values to be filled in.
 type Values = &'static [(&'static str, &'static str)];
 
-/// The error of reading the draft of `log`, filled in as told.
+/// The error of reading the draft of `log` with these values filled in.
 fn error_of_draft(log: &str, values: &[(&str, &str)]) -> String {
     let folder = folder(&[("run.csv", log.as_bytes())]);
     let draft = draft(folder.path(), "run.csv");
     let rig = folder.path().join("rig.toml");
     std::fs::write(&rig, filled(&draft.text, values)).unwrap();
     let error = without(&read(&rig).unwrap_err(), folder.path());
-    // Lines move with the comments of a draft.
+    // Line numbers depend on the comments of a draft.
     let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
     error.split(':').filter(|part| !digits(part)).collect::<Vec<_>>().join(":")
 }
@@ -66,7 +66,7 @@ fn a_key_that_is_left_open_is_named() {
             &[],
             "rig.toml: [log] time: missing, expected { column = \"t\", unit = \"s\" }, or a rate where there is no time column",
         ),
-        // Forms that are uncommented as they stand are refused too.
+        // Placeholders that are uncommented without a value are refused too.
         (
             &plain,
             &[("log.gyro.unit", "\"?\"")],
@@ -103,7 +103,7 @@ fn whole_numbers_are_asked_for_their_scale() {
         expected
     );
     assert!(draft.text.contains("the steady magnitude is 16390"), "{}", draft.text);
-    // What is filled in is read: gy and gz never move, which is the reader's to say.
+    // With the values filled in, the log is read: gy and gz are stuck, which the reader reports.
     let mut values = SITE.to_vec();
     values.extend([
         ("log.rate", "\"100 Hz\""),

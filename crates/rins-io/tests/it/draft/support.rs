@@ -1,34 +1,34 @@
-//! A motion in closed form to make logs of, and drafts to be filled in.
+//! A motion in closed form for test logs, and drafts to be filled in.
 
 use std::path::Path;
 
 use nalgebra::{Rotation3, Vector3};
 use rins_io::{Draft, draft_rig};
 
-/// A place for what a draft leaves open.
+/// A site for the keys that a draft leaves open.
 pub(super) const SITE: [(&str, &str); 3] = [
     ("site.latitude", "\"34.25 deg\""),
     ("site.longitude", "\"108.9 deg\""),
     ("site.height", "\"400 m\""),
 ];
 
-/// Rests of 20 s before and between turns of 20 s at 10 and -25 deg/s, about a tilted axis.
+/// Static intervals of 20 s before and between rotations of 20 s at 10 and -25 deg/s, about a tilted axis.
 pub(super) struct Motion {
-    /// Rows in a second \[Hz\].
+    /// The sampling rate \[Hz\].
     pub(super) rate: u32,
     /// The tilt of the axis \[rad\].
     pub(super) tilt: f64,
 }
 
-/// What there is in a row.
+/// The signals in a row.
 pub(super) struct Row {
-    /// \[s\].
+    /// The time \[s\].
     pub(super) time: f64,
     /// The table angle \[rad\].
     pub(super) table: f64,
-    /// With the Earth's rotation \[rad/s\].
+    /// The angular rate including the Earth rate \[rad/s\].
     pub(super) rate: Vector3<f64>,
-    /// \[m/s²\].
+    /// The specific force \[m/s²\].
     pub(super) force: Vector3<f64>,
 }
 
@@ -62,7 +62,7 @@ impl Motion {
             Row {
                 time: f64::from(index) * interval,
                 table,
-                // A little of its own noise keeps a gyro from being taken for dead.
+                // A little noise prevents a gyro from being treated as stuck.
                 rate: earth + Vector3::new(1e-9 * f64::from(index % 5), 0.0, spin),
                 force: turned * Vector3::new(tilt.sin(), 0.0, tilt.cos()) * 9.797,
             }
@@ -73,7 +73,7 @@ impl Motion {
 /// The draft of the log `name` in `folder`, for a rig file there.
 pub(super) fn draft(folder: &Path, name: &str) -> Draft {
     let draft = draft_rig(&folder.join(name), folder).unwrap();
-    // Whatever it says, it is TOML, and each guess is told on its line.
+    // Every draft is valid TOML, and each guess is marked on its line.
     let _: toml::Table = draft.text.parse().unwrap();
     assert_eq!(draft.text.matches("# GUESS: ").count(), draft.guesses.len());
     assert_eq!(draft.text.matches("; confirm\n").count(), draft.guesses.len());

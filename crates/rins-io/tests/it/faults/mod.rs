@@ -1,4 +1,4 @@
-//! Every reader meets every fault: what it says is in `tests/data/faults.txt`, and none panics.
+//! Every reader with every fault: the results are in `tests/data/faults.txt`, and none panics.
 
 mod readers;
 mod spoils;
@@ -14,7 +14,7 @@ use crate::support::folder;
 use readers::{Reader, Writing, readers};
 use spoils::spoilt;
 
-/// How often something has panicked, and what came of everything else.
+/// The number of panics, and the other results.
 #[derive(Default)]
 struct Met {
     panics: Vec<String>,
@@ -23,12 +23,12 @@ struct Met {
 }
 
 impl Met {
-    /// Lets a reader read `bytes` in place of its good file, and all else that takes such a file.
+    /// Calls a reader with `bytes` in place of its valid file, and all other functions that read such a file.
     fn meet(&mut self, reader: &Reader, fault: &str, bytes: &[u8]) -> Option<String> {
         self.meet_then(reader, fault, bytes, |_| {})
     }
 
-    /// The same, and `then` with the folder if the file was read.
+    /// The same, followed by `then` with the folder if the file was read.
     fn meet_then(
         &mut self,
         reader: &Reader,
@@ -43,7 +43,7 @@ impl Met {
         let path = |name: &str| folder.path().join(name);
         let caught = catch_unwind(AssertUnwindSafe(|| {
             let read = reader.run(folder.path());
-            // Whatever is looked at before a rig file says what it is.
+            // The functions that are called before a rig file exists.
             let _ = peek(&path(reader.file));
             let _ = draft_rig(&path(reader.file), folder.path());
             if read.is_ok() {
@@ -60,7 +60,7 @@ impl Met {
     }
 }
 
-/// An error and what it comes from, each line of it cut to a length that a person reads.
+/// An error with its sources, each line shortened to a readable length.
 fn chain(error: &dyn std::error::Error) -> String {
     let mut text = error.to_string();
     let mut source = error.source();
@@ -71,7 +71,7 @@ fn chain(error: &dyn std::error::Error) -> String {
     text
 }
 
-/// Writes a log that was read in every format that there is.
+/// Converts a log that was read to every format.
 fn converted(folder: &Path) {
     let rig = folder.join("rig.toml");
     for format in LogFile::ALL.into_iter().filter(|_| rig.exists()) {
@@ -107,14 +107,14 @@ fn every_reader_meets_every_fault_as_expected() {
     println!("{} cases", met.cases);
 }
 
-/// Each of these is shorter than the file: no number of bytes that are left makes a panic, and what
-/// is read is what was there.
+/// Each of these is shorter than the file: no remaining length causes a panic, and data that are read are
+/// those of the file.
 #[test]
 fn files_cut_at_any_length_are_read_or_refused() {
     let mut met = Met::default();
     for reader in readers() {
         let total = reader.good.len();
-        // Around all powers of two and ends of lines, and at regular steps.
+        // Near all powers of two and line ends, and at regular steps.
         let step = (total / 60).max(1);
         let ends = (0..total).filter(|place| reader.good[*place] == b'\n').step_by(4);
         let powers = (0..usize::BITS).map(|bit| 1_usize << bit).take_while(|power| *power < total);
@@ -128,7 +128,7 @@ fn files_cut_at_any_length_are_read_or_refused() {
         for length in lengths {
             let said = met.meet(&reader, "cut", &reader.good[..length]);
             let said = said.unwrap_or_else(|| panic!("{} cut at {length} panics", reader.name));
-            // A file of keys or of text may well be whole without its end.
+            // A TOML or text file can be valid without its end.
             let binary = matches!(reader.writing, Writing::Binary { .. });
             let whole = length % 56 == 0 && reader.name == "psins-bin";
             let refused = said.contains(reader.file) || said.contains("run.csv");
@@ -138,7 +138,7 @@ fn files_cut_at_any_length_are_read_or_refused() {
     assert!(met.panics.is_empty() && met.cases > 1000, "{:?} of {}", met.panics, met.cases);
 }
 
-/// A reader that is given a file of another format says so.
+/// A reader reports a file of another format.
 #[test]
 fn files_of_another_format_are_refused() {
     let (mut met, readers) = (Met::default(), readers());
@@ -146,7 +146,7 @@ fn files_of_another_format_are_refused() {
         for other in readers.iter().filter(|other| other.good != reader.good) {
             let said = met.meet(reader, other.name, &other.good).expect("no panic");
             let read = said.ends_with("samples") || said == "read";
-            // Columns by number are read of any text that has numbers there.
+            // Columns by number are read from any text with numbers in these columns.
             let numbers = ["accelerometers on their own clock", "a thermometer"];
             let parquet = reader.name.ends_with("parquet") && other.name.ends_with("parquet");
             let mat = reader.name.starts_with("mat") && other.name.starts_with("mat");

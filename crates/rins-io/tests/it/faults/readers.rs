@@ -1,4 +1,4 @@
-//! Every reader, and a good file of its format.
+//! Every reader, with a valid file of its format.
 
 use std::fs;
 use std::path::Path;
@@ -7,19 +7,19 @@ use rins_io::{Calibration, IoError, ScenarioFile, read};
 
 use crate::support::{SITE, log};
 
-/// How the numbers of a file are written.
+/// The representation of the numbers in a file.
 #[derive(Clone, Copy)]
 pub(super) enum Writing {
-    /// As text: a row of numbers in the middle, its fields between these letters, the place of a
-    /// number that is measured, and that of the time stamp.
+    /// As text: a row of numbers in the middle, its delimiter, the index of a
+    /// measured number, and that of the time stamp.
     Text { row: usize, between: char, number: usize, time: Option<usize> },
-    /// As doubles of eight bytes, of which one starts here; nowhere if they are compressed.
+    /// As doubles of eight bytes, one of which starts at this position; `None` if they are compressed.
     Binary { number: Option<usize> },
-    /// As keys, one of which has this value.
+    /// As TOML keys, one of which has this value.
     Keys { value: &'static str },
 }
 
-/// What reads the file.
+/// The function that reads the file.
 #[derive(Clone, Copy)]
 pub(super) enum Entry {
     Rig,
@@ -27,25 +27,25 @@ pub(super) enum Entry {
     Calibration,
 }
 
-/// A reader, and files that it reads.
+/// A reader with its input files.
 pub(super) struct Reader {
     pub(super) name: &'static str,
-    /// The file that is spoiled.
+    /// The file that is damaged.
     pub(super) file: &'static str,
     pub(super) good: Vec<u8>,
     pub(super) writing: Writing,
-    /// The files beside it.
+    /// The other files.
     pub(super) others: Vec<(&'static str, Vec<u8>)>,
     pub(super) entry: Entry,
 }
 
 impl Reader {
-    /// Reads the files in `folder`: how many samples there are, or what is wrong.
+    /// Reads the files in `folder`: returns the number of samples, or the error.
     pub(super) fn run(&self, folder: &Path) -> Result<usize, IoError> {
         let path = |name: &str| folder.join(name);
         match self.entry {
             Entry::Rig => read(&path("rig.toml")).map(|loaded| {
-                // What is read makes sense, whatever was spoiled.
+                // Data that are read are plausible, whatever was damaged.
                 let recording = &loaded.recording;
                 assert!(recording.times.windows(2).all(|pair| pair[0] < pair[1]), "{}", self.name);
                 for sample in &recording.increments {
@@ -85,7 +85,7 @@ fn data(name: &str) -> Vec<u8> {
     fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// A log that a rig file with these keys reads.
+/// A reader of a log with these keys in the rig file.
 fn of_log(
     name: &'static str,
     file: &'static str,
@@ -102,7 +102,7 @@ fn of_keys(name: &'static str, entry: Entry, text: &str, value: &'static str) ->
     Reader { name, file: name, good, writing, others: Vec::new(), entry }
 }
 
-/// Where a double of this value starts.
+/// The position of a double with this value.
 fn place_of(bytes: &[u8], value: f64) -> usize {
     let number = |window: &[u8]| f64::from_le_bytes(window.try_into().unwrap());
     let near = |window: &[u8]| (number(window) / value - 1.0).abs() < 1e-12;
@@ -110,7 +110,7 @@ fn place_of(bytes: &[u8], value: f64) -> usize {
     place.expect("the file holds this number")
 }
 
-/// All of them.
+/// All readers.
 pub(super) fn readers() -> Vec<Reader> {
     let text = |row, between, number, time| Writing::Text { row, between, number, time };
     let mut psins = PSINS.to_string();
@@ -128,7 +128,7 @@ pub(super) fn readers() -> Vec<Reader> {
         let keys = COLUMNS.replace("unit = \"s\"", "unit = \"ns\"");
         of_log(file, file, &keys, Writing::Binary { number }, data(file))
     };
-    // Of the ninth sample the rate of gyro y, and the increment of gyro x.
+    // The rate of gyro y and the increment of gyro x in the ninth sample.
     let rate = 0.2 - 0.002 * 9.0;
     let increment = (0.1 + 0.001 * 9.0) * 0.01;
     let accel = CALIBRATION.replace("gyro", "accel").replace("deg/h", "mg");
@@ -186,7 +186,7 @@ pub(super) fn readers() -> Vec<Reader> {
     readers
 }
 
-/// Files beside the log: accelerometers on a clock of their own, and a thermometer.
+/// Files in addition to the log: accelerometers with a clock of their own, and a thermometer.
 fn beside_the_log() -> [Reader; 2] {
     let keys = "format = \"csv\"\ntime = { column = \"t\", unit = \"s\" }\n\
         gyro = { columns = [\"gx\", \"gy\", \"gz\"], unit = \"rad/s\" }\n";

@@ -1,11 +1,11 @@
-//! Ways to spoil a file.
+//! Faults of files.
 
 use super::readers::{Reader, Writing};
 
-/// A fault, and the files that it makes of a good one.
+/// A fault, with the damaged file.
 pub(super) type Spoilt = (&'static str, Vec<u8>);
 
-/// All the faults that a file of this kind can have.
+/// All faults that a file of this kind can have.
 pub(super) fn spoilt(reader: &Reader) -> Vec<Spoilt> {
     let mut all = vec![("empty", Vec::new()), ("blank", b"\n \n\n".to_vec())];
     match reader.writing {
@@ -24,7 +24,7 @@ pub(super) fn spoilt(reader: &Reader) -> Vec<Spoilt> {
     all
 }
 
-/// Numbers as no sensor gives them.
+/// Numbers that no sensor gives.
 const NUMBERS: [(&str, &str); 9] = [
     ("a word", "error"),
     ("nothing", ""),
@@ -37,7 +37,7 @@ const NUMBERS: [(&str, &str); 9] = [
     ("40 digits", "0.0000000000000000000000000000000000000001"),
 ];
 
-/// A text log's lines.
+/// The lines of a text log.
 struct Lines {
     lines: Vec<String>,
     seal: fn(String) -> String,
@@ -59,7 +59,7 @@ impl Lines {
     /// A row with another text in one of its fields.
     fn field(&self, row: usize, between: char, place: usize, text: &str) -> Vec<u8> {
         let line = &self.lines[row];
-        // What stands before a message is its header.
+        // The text before the semicolon is the header of a message.
         let (head, body) = line.split_once(';').unwrap_or(("", line));
         let mut fields: Vec<&str> = body.split(between).collect();
         fields[place] = text;
@@ -116,7 +116,7 @@ impl Lines {
     }
 }
 
-/// A NovAtel message with the checksum of what it says now.
+/// A NovAtel message with the checksum of its present content.
 fn sealed(line: String) -> String {
     let text = line.rsplit_once('*').map_or(line.as_str(), |(text, _)| text);
     let Some(content) = text.strip_prefix(['%', '#']) else { return line };
@@ -128,7 +128,7 @@ fn sealed(line: String) -> String {
     format!("{text}*{sum:08x}")
 }
 
-/// Another way to write the same letters, or letters that are none.
+/// The same characters in another encoding, or invalid characters.
 fn letters(good: &[u8]) -> Vec<Spoilt> {
     let text = String::from_utf8(good.to_vec()).unwrap().replace("\r\n", "\n");
     let middle = text.len() / 2;
@@ -165,7 +165,7 @@ fn binary(reader: &Reader, number: Option<usize>) -> Vec<Spoilt> {
     ];
     let mut swapped = good.clone();
     match reader.name {
-        // The mark that says in which order the bytes are.
+        // The mark of the byte order.
         name if name.starts_with("mat") => swapped[124..128].reverse(),
         _ => swapped.chunks_mut(8).for_each(<[u8]>::reverse),
     }

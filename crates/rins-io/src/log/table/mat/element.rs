@@ -1,26 +1,26 @@
-//! The elements that a MATLAB level 5 file is made of: a tag of kind and length, and bytes.
+//! The elements of a MATLAB level 5 file: a tag with kind and length, then bytes.
 
 use std::io::{self, Read};
 
 use crate::log::table::typed::Numbers;
 
-/// The most bytes of a name, a list of dimensions or a list of names.
+/// The maximum number of bytes of a name, a list of dimensions or a list of names.
 const LONGEST: u64 = 1 << 16;
 
-/// The bytes of numbers that are read at a time.
+/// The number of bytes of numbers that are read at once.
 const BATCH: u64 = 1 << 16;
 
-/// What stands before an element's bytes.
+/// The tag before an element's bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tag {
     pub(super) kind: u32,
-    /// How many bytes follow.
+    /// The number of bytes that follow.
     pub(super) length: u64,
-    /// Of a short element the bytes themselves, which are then not to be read.
+    /// The bytes of a short element, which are part of the tag and must not be read again.
     short: Option<[u8; 4]>,
 }
 
-/// Elements one after another.
+/// Consecutive elements.
 pub(super) struct Elements<'r> {
     reader: &'r mut dyn Read,
     big: bool,
@@ -32,7 +32,7 @@ impl<'r> Elements<'r> {
         Self { reader, big, position: 0 }
     }
 
-    /// How many bytes have been read.
+    /// The number of bytes read so far.
     pub(super) fn position(&self) -> u64 {
         self.position
     }
@@ -109,7 +109,7 @@ impl<'r> Elements<'r> {
         Ok(String::from_utf8_lossy(&bytes).trim_end_matches('\0').to_string())
     }
 
-    /// What the numbers of a matrix of this size are; `None` if they are not so many.
+    /// The kind of the numbers of a matrix of this size; `None` if their count differs.
     pub(super) fn data(&mut self, rows: u64, columns: u64) -> io::Result<Option<Data>> {
         let tag = self.tag()?.ok_or(io::ErrorKind::UnexpectedEof)?;
         let (size, whole) = match tag.kind {
@@ -122,7 +122,7 @@ impl<'r> Elements<'r> {
         };
         let count = rows.checked_mul(columns).and_then(|count| count.checked_mul(size));
         let fits = count == Some(tag.length);
-        // The one or two numbers of a short element make no log.
+        // A short element has at most two numbers, which is not a log.
         Ok((fits && tag.short.is_none()).then_some(Data { kind: tag.kind, size, whole }))
     }
 
@@ -167,7 +167,7 @@ impl<'r> Elements<'r> {
     }
 }
 
-/// The number that stands in the lowest of these bits.
+/// The number in the lowest of these bits.
 #[expect(clippy::cast_possible_truncation, reason = "the upper bits are not the number's")]
 fn number(kind: u32, bits: u64) -> f64 {
     match kind {
@@ -182,17 +182,17 @@ fn number(kind: u32, bits: u64) -> f64 {
     }
 }
 
-/// How numbers are written.
+/// The representation of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Data {
     kind: u32,
-    /// Bytes a number.
+    /// Bytes per number.
     pub(super) size: u64,
-    /// Whether they are whole numbers that a double may not hold.
+    /// Whether they are 64-bit integers, which a double may not represent.
     whole: bool,
 }
 
-/// What stands before a matrix's numbers.
+/// The header of a matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Matrix {
     class: u32,
