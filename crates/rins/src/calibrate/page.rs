@@ -216,7 +216,8 @@ fn attitude_decimals(certificate: &Certificate) -> usize {
         |estimate: &&Estimate| estimate.parameter.id.starts_with(catalogue::AXIS_ATTITUDE.id);
     let sigmas = certificate.fit.parameters.iter().filter(is_attitude);
     let least = sigmas.map(|estimate| estimate.sigma / DEG).fold(f64::INFINITY, f64::min);
-    (0..5).find(|&decimals| 10.0_f64.powi(-decimals) < least).map_or(5, |place| place as usize + 1)
+    let is_enough = |decimals: &u8| 10.0_f64.powi(-i32::from(*decimals)) < least;
+    (0..5).find(is_enough).map_or(5, |decimals| usize::from(decimals) + 1)
 }
 
 fn correlation_section(certificate: &Certificate) -> Section {
