@@ -22,33 +22,36 @@ pub(crate) struct Options {
     list: bool,
 }
 
-/// A name, an environment variable with its value, and a command.
-type Row = (&'static str, Option<(&'static str, &'static str)>, &'static str);
+/// A name, environment variables, and a command.
+type Row = (&'static str, Environment, &'static str);
+
+/// Environment variables with their values.
+type Environment = &'static [(&'static str, &'static str)];
 
 /// The fixed steps, which do not depend on the list of crates; steps that only read the sources come first.
 const STEPS: &[Row] = &[
-    ("tidy", None, "cargo xtask tidy"),
-    ("deny", None, "cargo deny --log-level error check bans licenses sources"),
-    ("format", None, "cargo fmt --all --check"),
-    ("lint", None, "cargo clippy --quiet --workspace --all-targets -- -D warnings"),
+    ("tidy", &[], "cargo xtask tidy"),
+    ("deny", &[], "cargo deny --log-level error check bans licenses sources"),
+    ("format", &[], "cargo fmt --all --check"),
+    ("lint", &[], "cargo clippy --quiet --workspace --all-targets -- -D warnings"),
     (
         "lint-book",
-        None,
+        &[],
         "cargo clippy --quiet -p xtask --features book --all-targets -- -D warnings",
     ),
-    ("test-book", None, "cargo test --quiet --profile tool -p xtask --features book --bin book"),
+    ("test-book", &[], "cargo test --quiet --profile tool -p xtask --features book --bin book"),
     // Ignored without a browser; CI has one.
-    ("browser", None, "cargo test --quiet --workspace --test browser -- --ignored"),
-    ("doc", Some(("RUSTDOCFLAGS", "-D warnings")), "cargo doc --quiet --workspace --no-deps"),
-    ("book", None, "cargo xtask doc"),
-    ("no-std-frames", None, "cargo build --quiet --package rins-frames --no-default-features"),
-    ("no-std-ekf", None, "cargo build --quiet --package rins-ekf --no-default-features"),
+    ("browser", &[], "cargo test --quiet --workspace --test browser -- --ignored"),
+    ("doc", &[("RUSTDOCFLAGS", "-D warnings")], "cargo doc --quiet --workspace --no-deps"),
+    ("book", &[], "cargo xtask doc"),
+    ("no-std-frames", &[], "cargo build --quiet --package rins-frames --no-default-features"),
+    ("no-std-ekf", &[], "cargo build --quiet --package rins-ekf --no-default-features"),
     // The bounds of the readers do not depend on their speed.
-    ("fuzz", Some(("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")), "cargo xtask fuzz --seconds 3"),
+    ("fuzz", &[("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1")], "cargo xtask fuzz --seconds 3"),
     // `lint` compiles the benchmarks; those with instruction counts are built and run.
-    ("instructions", None, "cargo xtask bench --instructions"),
+    ("instructions", &[], "cargo xtask bench --instructions"),
     // With the features of the tests: with those of a single package, all dependencies would be built again.
-    ("programs", None, "cargo build --quiet --workspace --bins --examples"),
+    ("programs", &[], "cargo build --quiet --workspace --bins --examples"),
 ];
 
 /// Programs that the step `programs` has built; running them by cargo would build more.
@@ -86,14 +89,14 @@ const UNPUBLISHED: [&str; 2] = ["rins-tests", "xtask"];
 #[derive(Debug)]
 struct Step {
     name: String,
-    environment: Option<(&'static str, &'static str)>,
+    environment: Environment,
     command: String,
 }
 
 /// The command line.
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some((key, value)) = self.environment {
+        for (key, value) in self.environment {
             write!(f, "{key}='{value}' ")?;
         }
         f.write_str(&self.command)
@@ -113,7 +116,7 @@ impl Step {
         let program = words.next().unwrap_or_default();
         let status = Command::new(program)
             .args(words)
-            .envs(self.environment)
+            .envs(self.environment.iter().copied())
             .current_dir(root)
             .status()
             .map_err(|error| format!("{program}: {error}"))?;
@@ -173,14 +176,14 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
     steps.extend(PROGRAMS.iter().map(|(name, words)| {
         let words = words.iter().map(|&word| if word == RINS { &rins } else { word });
         let command = words.collect::<Vec<_>>().join(" ");
-        Step { name: (*name).into(), environment: None, command: format!("{built}/{command}") }
+        Step { name: (*name).into(), environment: &[], command: format!("{built}/{command}") }
     }));
     let mut unpublished = UNPUBLISHED.map(str::to_owned).to_vec();
     for folder in crate_folders(root)? {
         let Manifest { name, published, .. } = Manifest::read(&folder.join("Cargo.toml"))?;
         steps.extend(examples(&folder).into_iter().map(|example| Step {
             name: format!("example-{example}"),
-            environment: None,
+            environment: &[],
             command: match ARGUMENTS.iter().find(|(name, _)| *name == example) {
                 Some((_, argument)) => format!("{built}/examples/{example} {argument}"),
                 None => format!("{built}/examples/{example}"),
@@ -200,7 +203,8 @@ fn steps(root: &Path) -> Result<Vec<Step>> {
         command.push_str(" --exclude ");
         command.push_str(&name);
     }
-    let environment = Some(("CARGO_PROFILE_DEV_DEBUG", "0"));
+    // They are built and not run.
+    let environment = &[("CARGO_PROFILE_DEV_DEBUG", "0"), ("CARGO_PROFILE_DEV_OPT_LEVEL", "0")];
     steps.push(Step { name: "package".into(), environment, command });
     Ok(steps)
 }
@@ -219,7 +223,7 @@ mod tests {
     use super::*;
 
     fn step(command: &str) -> Step {
-        Step { name: "a step".into(), environment: Some(("A", "b c")), command: command.into() }
+        Step { name: "a step".into(), environment: &[("A", "b c")], command: command.into() }
     }
 
     #[test]

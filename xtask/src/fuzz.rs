@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
+use std::thread;
 
 use clap::Args;
 
@@ -33,7 +35,7 @@ const COVERAGE: &str = "--cfg fuzzing -Cpasses=sancov-module \
 /// The limits of every target for one input: seconds, megabytes of one allocation and of all.
 const BOUNDS: [&str; 3] = ["-timeout=5", "-malloc_limit_mb=512", "-rss_limit_mb=2048"];
 
-/// Builds the targets and runs them in sequence, up to the first finding.
+/// Builds the targets and runs them, one on each core; a finding ends its core.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     let all = targets(root)?;
     if options.list {
@@ -45,10 +47,23 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     }
     let binaries = build(root)?;
     let chosen = |target: &&String| options.targets.is_empty() || options.targets.contains(target);
-    for target in all.iter().filter(chosen) {
-        fuzz(root, &binaries, target, options.seconds)?;
-    }
-    Ok(())
+    let chosen = Mutex::new(all.iter().filter(chosen));
+    let next = || chosen.lock().ok()?.next();
+    // One target uses one core.
+    let worker = || -> std::result::Result<(), String> {
+        while let Some(target) = next() {
+            fuzz(root, &binaries, target, options.seconds).map_err(|error| error.to_string())?;
+        }
+        Ok(())
+    };
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..workers).map(|_| scope.spawn(worker)).collect();
+        for worker in workers {
+            worker.join().map_err(|_| "a fuzzing thread panicked")??;
+        }
+        Ok(())
+    })
 }
 
 /// The targets, one per file.

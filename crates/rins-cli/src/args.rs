@@ -208,7 +208,7 @@ pub(crate) struct Calibrate {
     pub(crate) output: Option<PathBuf>,
     /// The model: paper12 (`M_xz`, `M_yz` and `S_z` by the 12-state filter of Nie et al. (2019)), full (biases, scale errors,
     /// misalignments, attitude of the spin axis), or a model file; by default paper12 for one run with an encoder angle
-    /// or a commanded table rate, and full otherwise
+    /// or a commanded table rate and a known attitude of the axis, and full otherwise
     #[arg(long, value_parser = ModelChoice::parse)]
     pub(crate) model: Option<ModelChoice>,
     /// Source of the noise parameters; paper12 always uses the data sheet

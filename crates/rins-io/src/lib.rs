@@ -47,7 +47,7 @@ pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WritePro
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
-    Overflow, PsinsHeader, Redivided, Rounded, peek, read, read_log,
+    Overflow, PsinsHeader, Redivided, Rounded, TableClock, peek, read, read_log,
 };
 pub use model::ModelFile;
 pub use output::{

@@ -1,6 +1,6 @@
 //! The change of the specific force in the body by rotation.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use rins_frames::units::DEG;
 
 use super::correction::Hypothesis;
@@ -21,19 +21,30 @@ const LEAST_TURN: f64 = 90.0 * DEG;
 /// The smallest tilt of the axis of rotation \[rad\]: about the vertical, nothing changes.
 const LEAST_TILT: f64 = 3.0 * DEG;
 
-/// Two successive parts of a rotation: the specific force in the middle \[m/s²\], its change, and the rotation \[rad\].
+/// The smallest eigenvalue of the normal matrix of a lever arm, relative to the largest, that is not zero.
+const SINGULAR: f64 = 1e-9;
+
+/// Two successive parts of a rotation: the specific force in the middle \[m/s²\], its change, the rotation \[rad\] and its rate
+/// \[rad/s\].
 struct Step {
     force: Vector3<f64>,
     change: Vector3<f64>,
     turn: Vector3<f64>,
+    rate: f64,
 }
+
+/// A vector for each step.
+type Changes = Vec<Vector3<f64>>;
 
 /// The rotations in a recording.
 pub(super) struct Turning {
     steps: Vec<Step>,
 }
 
-/// The regression of the change of the specific force on `-θ × f`.
+/// The regression of the change of the specific force on `-θ × f`, with a lever arm as a nuisance parameter.
+///
+/// The centripetal specific force at a lever arm is constant in the body while the rate is: it is part of `f`, and does not
+/// change. Its part of `-θ × f`, `θ × k ω²` with a constant `k`, is therefore eliminated from both sides.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Regression {
     pub(super) ratio: f64,
@@ -57,8 +68,16 @@ impl Regression {
 struct Part {
     force: Vector3<f64>,
     turn: Vector3<f64>,
+    time: f64,
     end: usize,
     start: usize,
+}
+
+impl Part {
+    /// The mean rate \[rad/s\].
+    fn rate(&self) -> f64 {
+        self.turn.norm() / self.time
+    }
 }
 
 impl Turning {
@@ -73,30 +92,54 @@ impl Turning {
                     force: (last.force + part.force) / 2.0,
                     change: part.force - last.force,
                     turn: (last.turn + part.turn) / 2.0,
+                    rate: 0.5 * (last.rate() + part.rate()),
                 });
             }
             last = Some(part);
         }
         let turned: f64 = steps.iter().map(|step| step.turn.norm()).sum();
         let force: f64 = steps.iter().map(|step| step.force.norm_squared()).sum();
-        let moved: f64 = steps
+        let turning = Self { steps };
+        let (_, moved) = turning.sides(&Hypothesis::AS_READ);
+        let moved: f64 = moved
             .iter()
-            .map(|step| (step.turn.cross(&step.force) / step.turn.norm()).norm_squared())
+            .zip(&turning.steps)
+            .map(|(moved, step)| (moved / step.turn.norm()).norm_squared())
             .sum();
-        (turned > LEAST_TURN && moved > LEAST_TILT.powi(2) * force).then_some(Self { steps })
+        (turned > LEAST_TURN && moved > LEAST_TILT.powi(2) * force).then_some(turning)
     }
 
     pub(super) fn regression(&self, hypothesis: &Hypothesis) -> Regression {
-        let (mut product, mut expected, mut seen) = (0.0, 0.0, 0.0);
-        for step in &self.steps {
-            let force = hypothesis.accel.apply(&step.force);
-            let change = hypothesis.accel.apply(&step.change);
-            let moved = -hypothesis.gyro.apply(&step.turn).cross(&force);
-            product += change.dot(&moved);
-            expected += moved.norm_squared();
-            seen += change.norm_squared();
-        }
+        let (changes, moved) = self.sides(hypothesis);
+        let product: f64 =
+            changes.iter().zip(&moved).map(|(change, moved)| change.dot(moved)).sum();
+        let square = |of: &Changes| -> f64 { of.iter().map(Vector3::norm_squared).sum() };
+        let (expected, seen) = (square(&moved), square(&changes));
         Regression { ratio: product / expected, correlation: product / (expected * seen).sqrt() }
+    }
+
+    /// The changes of the specific force and `-θ × f`, both without what a lever arm can explain.
+    fn sides(&self, hypothesis: &Hypothesis) -> (Changes, Changes) {
+        let (mut changes, mut moved, mut levers) = (Vec::new(), Vec::new(), Vec::new());
+        for step in &self.steps {
+            let turn = hypothesis.gyro.apply(&step.turn);
+            changes.push(hypothesis.accel.apply(&step.change));
+            moved.push(-turn.cross(&hypothesis.accel.apply(&step.force)));
+            levers.push(turn.cross_matrix() * step.rate.powi(2));
+        }
+        let normal: Matrix3<f64> = levers.iter().map(|lever| lever.transpose() * lever).sum();
+        let eigen = SymmetricEigen::new(normal);
+        let least = SINGULAR * eigen.eigenvalues.amax();
+        let inverse = eigen.eigenvalues.map(|value| if value > least { 1.0 / value } else { 0.0 });
+        let inverse =
+            eigen.eigenvectors * Matrix3::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
+        let eliminated = |side: Changes| -> Changes {
+            let product: Vector3<f64> =
+                levers.iter().zip(&side).map(|(lever, one)| lever.transpose() * one).sum();
+            let arm = inverse * product;
+            levers.iter().zip(&side).map(|(lever, one)| one - lever * arm).collect()
+        };
+        (eliminated(changes), eliminated(moved))
     }
 }
 
@@ -129,7 +172,13 @@ fn part(recording: &Recording, stands: &[bool], start: &mut usize) -> Option<Par
             let even = EVEN.contains(&(midway.dot(&turn) / turn.norm_squared()));
             // A part of one sample may have a large angle of rotation.
             if even && turn.norm() < 3.0 * PART {
-                return Some(Part { force: velocity / time, turn, start: first, end: *start });
+                return Some(Part {
+                    force: velocity / time,
+                    turn,
+                    time,
+                    start: first,
+                    end: *start,
+                });
             }
         }
         if *start >= recording.len() {

@@ -2,22 +2,25 @@
 
 use std::mem;
 use std::ops::Range;
+use std::slice;
 
 use nalgebra::Vector3;
 use rins_frames::{InFrame, Increments};
 use rins_motion::Recording;
 
+use super::angle_file::{OwnAngles, angles_of_own_clock};
 use super::clock::{Clock, Stamps};
-use super::files::{Files, OneFile, TriadValues};
+use super::files::{Files, OneFile, TriadValues, own_file};
 use super::instant::Instants;
 use super::problem::LogProblem;
 use super::redivide::redivide;
 use super::series::{between, smoothly_between, unwrap};
-use super::summary::{LogPolicy, LogSummary, Redivided};
+use super::summary::{LogPolicy, LogSummary, Redivided, TableClock};
 use super::table::{self, Wanted};
 use crate::error::{IoError, LogError};
 use crate::rig::{
-    Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn, TriadColumns,
+    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn,
+    TriadColumns,
 };
 use crate::shown::shown;
 
@@ -51,7 +54,7 @@ pub(super) fn read(
     let accel =
         Channel { spec: &spec.accel, values: accel, axes: rig.spin.after(&rig.log.accel_axes) };
     let mut angles = gyro.increments(&clock, spec.gaps)?;
-    let (kept, velocities) = match files.accel_clock(spec, &clock, policy)? {
+    let (mut kept, velocities) = match files.accel_clock(spec, &clock, policy)? {
         None => (0..clock.ends.len(), accel.increments(&clock, spec.gaps)?),
         Some(own) => {
             let (kept, velocities) = redivide(&own, &accel.increments(&own, spec.gaps)?, &clock);
@@ -72,7 +75,23 @@ pub(super) fn read(
     let times = Some(files.take_times());
     let times = times.filter(|times| !times.is_empty() && *times != clock.ends);
     clock.keep(kept.clone());
-    let increments = joined([angles, velocities], mem::take(&mut clock.intervals));
+    let mut increments = joined([angles, velocities], mem::take(&mut clock.intervals));
+
+    let mut own_angles = None;
+    if let Some(column @ AngleColumn { file: Some((path, own)), .. }) = &spec.table_angle {
+        let columns = slice::from_ref(&column.column);
+        let file = own_file(path, Table::of(path), columns, own, files.instants)?;
+        clock.summary.left_out.extend(file.left_out());
+        let log = &files.main().path;
+        let OwnAngles { angles, covered, rate } =
+            angles_of_own_clock(file, column, &increments, &clock.ends, log)?;
+        let left_out = increments.len() - covered.len();
+        clock.summary.table_clock = Some(TableClock { rate, left_out });
+        kept = kept.start + covered.start..kept.start + covered.end;
+        cut(&mut increments, &covered);
+        clock.keep(covered);
+        own_angles = Some(angles);
+    }
 
     // Interpolates a signal to the ends of the samples' intervals.
     let at_ends = |mut values: Vec<f64>, between: Between| match &times {
@@ -84,6 +103,7 @@ pub(super) fn read(
         Some(times) => at(between, times, &values, &clock.ends),
     };
     let table_angle = match &spec.table_angle {
+        Some(AngleColumn { file: Some(_), .. }) => own_angles,
         Some(column) => {
             let file = files.file(&rig.log.path);
             let mut angles = file.column(&column.column, column.factor, "rad")?;
@@ -122,7 +142,7 @@ pub(super) fn read(
 }
 
 /// Keeps a range of a list.
-fn cut(list: &mut Vec<f64>, range: &Range<usize>) {
+fn cut<T>(list: &mut Vec<T>, range: &Range<usize>) {
     list.truncate(range.end);
     list.drain(..range.start);
 }

@@ -40,7 +40,8 @@ impl Clock {
             return;
         }
         self.ends = self.ends[range.clone()].to_vec();
-        self.intervals = self.intervals[range.clone()].to_vec();
+        // They may have been moved into a recording already.
+        self.intervals = self.intervals.get(range.clone()).unwrap_or_default().to_vec();
         self.summary.samples = range.len();
         self.summary.gaps.retain(|gap| range.contains(&gap.sample));
         for gap in &mut self.summary.gaps {

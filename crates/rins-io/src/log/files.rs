@@ -11,7 +11,7 @@ use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted};
 use crate::error::{IoError, LogError};
-use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, TimeUnit, TriadColumns};
+use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, Table, TimeUnit, TriadColumns};
 use crate::shown::shown;
 
 /// The maximum difference between the times of two files, in intervals.
@@ -165,7 +165,8 @@ impl Files {
             triad.columns.iter().for_each(|name| want(&triad.path, name));
         }
         let log = rig.log.path.as_path();
-        spec.table_angle.iter().for_each(|angle| want(log, &angle.column));
+        let in_log = spec.table_angle.iter().filter(|angle| angle.file.is_none());
+        in_log.for_each(|angle| want(log, &angle.column));
         spec.table_rate.iter().for_each(|rate| want(log, &rate.column));
         for temperature in spec.temperature.iter().filter(|column| column.file.is_none()) {
             want(log, &temperature.column);
@@ -201,7 +202,9 @@ impl Files {
             }
             files.push(OneFile { path: path.into(), asked, columns });
         }
-        let accel = spec.accel_clock.as_ref().map(|clock| own_clock(spec, clock, instants));
+        let accel = spec.accel_clock.as_ref().map(|clock| {
+            own_file(&spec.accel.path, spec.table, &spec.accel.columns, clock, instants)
+        });
         Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
 
@@ -276,16 +279,18 @@ impl Files {
     }
 }
 
-/// Reads the file of accelerometers with a clock of their own, its stamps in the gyros' time.
-fn own_clock(
-    spec: &ColumnSpec,
+/// Reads columns of a file with its own clock, with its time stamps in the time of the gyros.
+pub(super) fn own_file(
+    path: &Path,
+    table: Table,
+    columns: &[String],
     clock: &OwnClock,
     gyro: Option<Instants>,
 ) -> Result<OneFile, IoError> {
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
-    let asked = Asked::of(&spec.accel.columns);
+    let asked = Asked::of(columns);
     let wanted = Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)) };
-    let mut columns = table::read(&spec.accel.path, spec.table, wanted)?;
+    let mut columns = table::read(path, table, wanted)?;
     let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
     let _rounded = undo_rounding(&mut columns.time, None);
     let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
@@ -294,7 +299,7 @@ fn own_clock(
             *time += shift;
         }
     }
-    Ok(OneFile { path: spec.accel.path.clone(), asked, columns })
+    Ok(OneFile { path: path.into(), asked, columns })
 }
 
 impl OneFile {

@@ -1,5 +1,6 @@
 //! Logs: the recorded data of a rig, converted to increments over intervals.
 
+mod angle_file;
 mod assemble;
 mod clock;
 mod container;
@@ -30,7 +31,7 @@ pub(crate) use overflow::continued;
 pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
-pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded};
+pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded, TableClock};
 pub(crate) use table::{BinaryColumns, Head, MOST_COLUMNS, all as all_columns, most_rows};
 pub use table::{LogHead, peek};
 

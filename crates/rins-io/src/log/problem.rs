@@ -103,6 +103,14 @@ pub enum LogProblem {
         /// The unit.
         unit: &'static str,
     },
+    /// The readings of a table angle with its own clock are too rare.
+    #[error("the table angle is read at {rate:.3} Hz, expected at least {least} Hz")]
+    SlowTableAngle {
+        /// Their rate \[Hz\].
+        rate: f64,
+        /// The least \[Hz\].
+        least: f64,
+    },
     /// The sample interval is implausible.
     #[error(
         "samples are {interval:.3e} s apart, expected from {least:e} s to {most:e} s; check the time \

@@ -46,6 +46,8 @@ pub struct LogSummary {
     /// The number of ramps between the rates of a commanded profile whose shape is taken from the gyro about the axis instead of
     /// the profile.
     pub ramps: usize,
+    /// A table angle in a file with its own clock.
+    pub table_clock: Option<TableClock>,
 }
 
 /// The rounded time stamps of an even clock.
@@ -55,6 +57,15 @@ pub struct Rounded {
     pub unit: f64,
     /// The interval of the clock \[s\].
     pub interval: f64,
+}
+
+/// Readings of a table angle with its own clock, which are interpolated with the gyro about the spin axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TableClock {
+    /// The rate of the readings \[Hz\].
+    pub rate: f64,
+    /// The number of samples that are left out, because they are outside of the readings.
+    pub left_out: usize,
 }
 
 /// The resampling of one clock's samples to the intervals of another.
@@ -115,6 +126,7 @@ impl LogSummary {
             redivided: None,
             overflows: Vec::new(),
             rounded: None,
+            table_clock: None,
             ramps: 0,
         }
     }

@@ -144,7 +144,7 @@ fn of_format(
     }
 }
 
-const PATH: &str = r#"the log's file, such as "run.csv""#;
+pub(super) const PATH: &str = r#"the log's file, such as "run.csv""#;
 
 fn format(log: &Section<'_>, path: &str) -> Result<Format, IoError> {
     if let Some(format) = log.choice("format", &FORMATS)? {
@@ -196,7 +196,7 @@ fn time_column(time: &Section<'_>) -> Result<TimeColumn, IoError> {
 }
 
 /// The accelerometers' own clock, if the rig file defines one.
-fn own_clock(
+pub(super) fn own_clock(
     accel: &Section<'_>,
     log_time: Option<&TimeColumn>,
 ) -> Result<Option<OwnClock>, IoError> {
@@ -279,7 +279,7 @@ impl ColumnSpec {
 
 /// Adds the columns other than the IMU's.
 fn others(log: &Section<'_>, folder: &Path, imu: ColumnSpec) -> Result<ColumnSpec, IoError> {
-    let table_angle = table_columns::angle(log)?;
+    let table_angle = table_columns::angle(log, folder, imu.time.as_ref())?;
     let table_rate = table_columns::rate(log)?;
     let gaps = [("accumulated", Gaps::Accumulated), ("held", Gaps::Held)];
     let gaps = log.choice("gaps", &gaps)?;

@@ -181,6 +181,8 @@ pub struct TriadColumns {
 /// The table angle's column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleColumn {
+    /// The file and its clock, if it is not the log's.
+    pub file: Option<(PathBuf, OwnClock)>,
     /// Its name; empty if there is no column to read, as in a scenario.
     pub column: String,
     /// The value of its unit \[rad\]; negative if the table counts opposite to the body's rotation.

@@ -1,6 +1,9 @@
 //! Reading of `table_angle` and `table_rate` in `[log]`.
 
-use super::log_spec::{AngleColumn, ScaledColumn};
+use std::path::Path;
+
+use super::log_keys::{PATH, own_clock};
+use super::log_spec::{AngleColumn, ScaledColumn, TimeColumn};
 use super::readings::{Readings, column, unit};
 use crate::error::IoError;
 use crate::quantity::{Dimension, kinds};
@@ -21,10 +24,27 @@ const RATE: Readings = Readings {
 };
 
 /// The column of the measured angle, if there is one.
-pub(super) fn angle(log: &Section<'_>) -> Result<Option<AngleColumn>, IoError> {
+pub(super) fn angle(
+    log: &Section<'_>,
+    folder: &Path,
+    log_time: Option<&TimeColumn>,
+) -> Result<Option<AngleColumn>, IoError> {
     let Some((section, figures)) = angle_figures(log)? else { return Ok(None) };
     let factor = sense(&section)? * unit(&section, &[Dimension::ANGLE], &ANGLE)?.factor;
-    Ok(Some(AngleColumn { column: column(&section, "column")?, factor, ..figures }))
+    let file = match section.text("path", PATH)? {
+        None if section.has("time") => {
+            let reason =
+                "a table angle in the log itself has the time of the log; give its file a path";
+            return Err(section.conflict("time", reason));
+        }
+        None => None,
+        Some(path) => {
+            let clock = own_clock(&section, log_time)?;
+            let expected = r#"{ column = "t", unit = "s" }"#;
+            Some((folder.join(path), clock.ok_or_else(|| section.missing("time", expected))?))
+        }
+    };
+    Ok(Some(AngleColumn { file, column: column(&section, "column")?, factor, ..figures }))
 }
 
 /// The column of the rate, if there is one.
@@ -45,9 +65,10 @@ pub(super) fn sense(section: &Section<'_>) -> Result<f64, IoError> {
 pub(crate) fn angle_figures<'d>(
     log: &Section<'d>,
 ) -> Result<Option<(Section<'d>, AngleColumn)>, IoError> {
-    let known = ["column", "unit", "sense", "noise", "resolution", "latency"];
+    let known = ["path", "time", "column", "unit", "sense", "noise", "resolution", "latency"];
     let Some(section) = log.inline("table_angle", &known)? else { return Ok(None) };
     let figures = AngleColumn {
+        file: None,
         column: String::new(),
         factor: 1.0,
         noise: section.quantity("noise", &kinds::ANGLE_SIGMA)?,

@@ -13,8 +13,8 @@ const SHARE: f64 = 1e-3;
 
 const PLACE: Site = Site { latitude: 20.0 * DEG, longitude: 0.0, height: 0.0 };
 
-/// The residual for a phase advance `λ` \[rad\] of the oscillation in one interval: of twice the area enclosed by the arc, `λ
-/// - sin λ`, the products of successive chords contribute `sin λ (1 - cos λ) / 3`.
+/// The residual for a phase advance `λ` \[rad\] of the oscillation in one interval: of twice the area enclosed by the arc,
+/// `λ - sin λ`, the products of successive chords contribute `sin λ (1 - cos λ) / 3`.
 fn left_over(lambda: f64) -> f64 {
     lambda - lambda.sin() - lambda.sin() * (1.0 - lambda.cos()) / 3.0
 }

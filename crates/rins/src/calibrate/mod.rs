@@ -20,6 +20,8 @@ pub use self::result::{
     AccelNoiseResult, CalibrateResult, DepartureResult, GyroNoiseResult, IterationResult,
     NoiseResult, ParameterResult, RunResult,
 };
+use rins_calibration::CalibrationError;
+
 use crate::error::Result;
 use crate::log::Log;
 use crate::options::{ModelChoice, NamedModel, NoiseChoice};
@@ -29,7 +31,8 @@ use crate::progress::Progress;
 /// What a calibration is asked for.
 #[derive(Clone, Debug, Default)]
 pub struct CalibrateOptions {
-    /// The error model; by default the paper's for one log with a table angle or rate, and all of eq. (1) otherwise.
+    /// The error model. By default it is the paper's for one log with a table angle or rate, if the attitude of the axis is given or
+    /// can be found; otherwise it is all of eq. (1).
     pub model: Option<ModelChoice>,
     /// Whether the noise is estimated, as it is by default, or the data sheet trusted; the paper's filter trusts it.
     pub noise: NoiseChoice,
@@ -71,28 +74,58 @@ pub fn calibrate(logs: Vec<Log>, options: &CalibrateOptions) -> Result<Calibrati
 }
 
 fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<Calibration> {
-    let read = |log: &Log| {
-        let recording = &log.loaded.recording;
-        recording.table_angle.is_some() || recording.table_rate.is_some()
+    let mut remark = None;
+    let choice = match &options.model {
+        Some(ModelChoice::Paper12) => {
+            anyhow::ensure!(
+                logs.len() == 1,
+                "the paper's filter takes one log; full takes several"
+            );
+            return paper(logs.remove(0), options);
+        }
+        Some(choice) => choice.clone(),
+        None => match &logs[..] {
+            [only] if has_table_reading(only) && only.loaded.rig.attitude.is_some() => {
+                return paper(logs.remove(0), options);
+            }
+            [only] if has_table_reading(only) => match paper(only.clone(), options) {
+                Err(error) if lacks_attitude(&error) => {
+                    remark =
+                        Some(format!("The model is full, as paper12 is not possible: {error:#}."));
+                    ModelChoice::Full
+                }
+                done => return done,
+            },
+            _ => ModelChoice::Full,
+        },
     };
-    let by_default = match &logs[..] {
-        [only] if read(only) => ModelChoice::Paper12,
-        _ => ModelChoice::Full,
-    };
-    let choice = options.model.as_ref().unwrap_or(&by_default);
-    if *choice == ModelChoice::Paper12 {
-        anyhow::ensure!(logs.len() == 1, "the paper's filter takes one log; full takes several");
-        let paper = PaperCalibration::of(logs.remove(0), &options.progress)?;
-        return Ok(Calibration(Kind::Paper(Box::new(paper))));
-    }
-    let named = NamedModel::of(choice, &logs[0].loaded.rig.spin)?;
+    let named = NamedModel::of(&choice, &logs[0].loaded.rig.spin)?;
     let stage = options.progress.begin("preparing", None);
     let runs = logs.into_iter().map(|log| Prepared::of(log, options.noise));
     let runs = runs.collect::<anyhow::Result<Vec<_>>>()?;
     drop(stage);
-    let case = EstimationProblem::of(runs, named, options.noise)?;
-    let certificate = Certificate::of(case, &options.progress)?;
+    let mut problem = EstimationProblem::of(runs, named, options.noise)?;
+    problem.remarks.extend(remark);
+    let certificate = Certificate::of(problem, &options.progress)?;
     Ok(Calibration(Kind::Certificate(Box::new(certificate))))
+}
+
+fn paper(log: Log, options: &CalibrateOptions) -> anyhow::Result<Calibration> {
+    let paper = PaperCalibration::of(log, &options.progress)?;
+    Ok(Calibration(Kind::Paper(Box::new(paper))))
+}
+
+fn has_table_reading(log: &Log) -> bool {
+    let recording = &log.loaded.recording;
+    recording.table_angle.is_some() || recording.table_rate.is_some()
+}
+
+/// Whether the paper's filter failed because the attitude of the spin axis is neither given nor found.
+fn lacks_attitude(error: &anyhow::Error) -> bool {
+    matches!(
+        error.downcast_ref::<CalibrationError>(),
+        Some(CalibrationError::NoAttitude { .. } | CalibrationError::Alignment(_))
+    )
 }
 
 #[cfg(test)]

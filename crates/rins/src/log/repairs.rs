@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use rins_io::shown;
-use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig};
+use rins_io::{Gap, Gaps, LogFormat, LogSummary, Omission, Reading, Rig, TableClock};
 use rins_report::number::figure;
 
 /// The jitter of time stamps, as a fraction of a sample interval, up to which only the figure is reported.
@@ -36,6 +36,13 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
             "time stamps are rounded to {}: they are those of an even clock of {:.6} Hz, whose intervals are used",
             short_time(rounded.unit),
             rounded.interval.recip()
+        ));
+    }
+    if let Some(TableClock { rate, left_out }) = summary.table_clock {
+        told.push(format!(
+            "the table angle has its own clock ({} Hz): between its readings it follows the gyro about the spin axis; {left_out} \
+             sample(s) outside of its readings are left out",
+            figure(rate, 4)
         ));
     }
     if let Some(redivided) = summary.redivided {

@@ -25,7 +25,7 @@ const FILE: &[Row] = &[
         "UTF-16",
         CHECK,
         Content(LOG, b"\xff\xfet\0i\0m\0e\0\n\0"),
-        &["run.csv:1: not UTF-8 text", "UTF-16"],
+        &["run.csv: this is UTF-16 text, which is not read", "UTF-16"],
     ),
     (
         "prose",
