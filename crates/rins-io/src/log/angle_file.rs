@@ -3,19 +3,23 @@
 use std::ops::Range;
 use std::path::Path;
 
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use rins_frames::Increments;
 use rins_motion::median;
 
 use super::files::OneFile;
 use super::problem::LogProblem;
-use super::series::{between, smoothly_between, unwrap};
+use super::series::{smoothly_between, unwrap};
 use crate::error::{IoError, LogError};
 use crate::rig::AngleColumn;
 use crate::shown::shown;
 
-/// The longest interval of the readings \[s\]. The estimator uses the angle several times a second: of slower readings it would take
-/// one for several.
-const LONGEST_INTERVAL: f64 = 0.2;
+/// The longest interval of the readings \[s\], with the jitter of a median: that of the shortest epochs of the estimator, which
+/// would take one slower reading for several.
+const LONGEST_INTERVAL: f64 = 0.101;
+
+/// The smallest eigenvalue of the normal matrix of the gyro's errors, relative to the largest, that is not zero.
+const SINGULAR: f64 = 1e-12;
 
 /// A gap between two readings, in intervals.
 const GAP: f64 = 1.5;
@@ -35,8 +39,9 @@ pub(super) struct OwnAngles {
 
 /// The table angle at the ends of the samples' intervals.
 ///
-/// Between two readings the angle follows the gyro about the spin axis: the difference of both is interpolated. It changes slowly
-/// whatever the table does, and shows the whole turns between two readings.
+/// From the nearest reading on the angle follows the gyro about the spin axis, with the gyro's bias and scale error by a regression
+/// over the log. The difference of angle and gyro changes slowly whatever the table does, and shows the whole turns between two
+/// readings. An interpolation between two readings would mix their noise: it would not be white.
 ///
 /// # Errors
 /// [`IoError::Log`] if times do not increase, if readings are too rare or have gaps, or if they are at other times than the samples.
@@ -99,11 +104,52 @@ pub(super) fn angles_of_own_clock(
         (times[0] - REACH * interval, times[times.len() - 1] + REACH * interval);
     let covered =
         ends.partition_point(|end| *end < earliest)..ends.partition_point(|end| *end <= latest);
+    let turned_by: Vec<f64> = times.iter().map(|time| gyro(*time)).collect();
+    let errors = GyroErrors::of(times, &turned_by, &offsets);
+    let residuals: Vec<f64> =
+        (0..times.len()).map(|row| offsets[row] - errors.at(times[row], turned_by[row])).collect();
     let at = |sample: usize| {
-        let end = ends[sample];
-        let held = if end < times[0] { offsets[0] } else { offsets[offsets.len() - 1] };
-        turned[sample + 1] + between(times, &offsets, end).unwrap_or(held)
+        let (end, turned) = (ends[sample], turned[sample + 1]);
+        let after = times.partition_point(|time| *time < end).min(times.len() - 1);
+        let before = after.saturating_sub(1);
+        let nearest = if end - times[before] < times[after] - end { before } else { after };
+        turned + errors.at(end, turned) + residuals[nearest]
     };
     let angles = covered.clone().map(at).collect();
     Ok(OwnAngles { angles, covered, rate: 1.0 / interval })
+}
+
+/// The error of the gyro's angle: constant, by its bias, and by its scale error.
+struct GyroErrors {
+    start: f64,
+    coefficients: Vector3<f64>,
+}
+
+impl GyroErrors {
+    /// The regression of the differences of angle and gyro on time and on the gyro's angle.
+    fn of(times: &[f64], turned: &[f64], differences: &[f64]) -> Self {
+        let start = times[0];
+        let mut normal = Matrix3::zeros();
+        let mut right = Vector3::zeros();
+        for ((time, turned), difference) in times.iter().zip(turned).zip(differences) {
+            let row = Vector3::new(1.0, time - start, *turned);
+            normal += row * row.transpose();
+            right += row * *difference;
+        }
+        let scale = normal
+            .diagonal()
+            .map(|square: f64| if square > 0.0 { square.sqrt().recip() } else { 0.0 });
+        let scaling = Matrix3::from_diagonal(&scale);
+        let eigen = SymmetricEigen::new(scaling * normal * scaling);
+        let least = SINGULAR * eigen.eigenvalues.amax();
+        let inverse =
+            eigen.eigenvalues.map(|value| if value > least { value.recip() } else { 0.0 });
+        let inverse =
+            eigen.eigenvectors * Matrix3::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
+        Self { start, coefficients: scaling * inverse * scaling * right }
+    }
+
+    fn at(&self, time: f64, turned: f64) -> f64 {
+        self.coefficients.dot(&Vector3::new(1.0, time - self.start, turned))
+    }
 }

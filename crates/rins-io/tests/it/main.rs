@@ -25,4 +25,5 @@ mod round_trip;
 mod scenario;
 mod spoilt_parquet;
 mod support;
+mod table_clock;
 mod terms;
