@@ -115,15 +115,13 @@ pub(super) fn read(
         }
         None => None,
     };
-    let table_rate = match &spec.table_rate {
-        Some(column) => {
-            let log = files.file(&rig.log.path);
-            let mut rates = log.column(&column.column, column.factor, "rad/s")?;
-            cut(&mut rates, &kept);
-            Some(rates)
-        }
-        None => None,
-    };
+    let table_rate = spec.table_rate.as_ref().map(|column| {
+        let log = files.file(&rig.log.path);
+        let mut rates = log.column(&column.column, column.factor, "rad/s")?;
+        cut(&mut rates, &kept);
+        Ok::<_, IoError>(rates)
+    });
+    let table_rate = table_rate.transpose()?;
     let temperature = match &spec.temperature {
         Some(TemperatureColumn { file: None, column, offset }) => {
             Some(at_ends(files.file(&rig.log.path).temperatures(column, *offset)?, between))

@@ -11,6 +11,7 @@ mod place;
 mod readings;
 mod table;
 mod table_columns;
+mod time_keys;
 
 use std::path::{Path, PathBuf};
 

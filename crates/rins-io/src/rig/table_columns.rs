@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::log_keys::{PATH, own_clock};
 use super::log_spec::{AngleColumn, ScaledColumn, TimeColumn};
 use super::readings::{Readings, column, unit};
+use super::time_keys::{PATH, own_clock};
 use crate::error::IoError;
 use crate::quantity::{Dimension, kinds};
 use crate::section::Section;
