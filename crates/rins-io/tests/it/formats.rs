@@ -240,7 +240,7 @@ fn parquet_columns_that_are_no_numbers_are_refused() {
     }
 }
 
-/// Two files as from a logger like NaveGo: raw counts, each sensor with its own clock.
+/// Two files as from a logger like `NaveGo`: raw counts, each sensor with its own clock.
 fn own_clocks(accel_clock: &str, accel_rows: std::ops::Range<u32>) -> Result<Loaded, String> {
     let gyro: String = (1..=40)
         .map(|k| format!("{}.{:03} {} 32760 32770\n", k / 50, k % 50 * 20, 32768 + k))
