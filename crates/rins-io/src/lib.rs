@@ -57,7 +57,7 @@ pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
     AngleColumn, Axes, ColumnSpec, Gaps, InitialAttitude, LogFormat, LogSpec, OwnClock, Reading,
-    Rig, ScaledColumn, Stamp, Table, TableSpec, TemperatureColumn, TimeColumn, TimeUnit,
+    Rig, RowFilter, ScaledColumn, Stamp, Table, TableSpec, TemperatureColumn, TimeColumn, TimeUnit,
     TriadColumns,
 };
 pub use run::truth_json;

@@ -246,9 +246,43 @@ impl Triad<'_> {
     }
 }
 
+/// The only columns of x, y and z whose names state no sensor.
+fn shared_axes(findings: Findings<'_>) -> Option<[usize; 3]> {
+    let of = |axis: usize| {
+        let mut found = (0..findings.sample.count).filter(|&column| {
+            let label = &findings.labels[column];
+            label.role.is_none() && label.axis == Some(axis) && findings.sample.is_numeric(column)
+        });
+        found.next().filter(|_| found.next().is_none())
+    };
+    Some([of(0)?, of(1)?, of(2)?])
+}
+
 impl Triad<'_> {
     fn sensors(&self) -> &'static str {
         if self.role == Role::Gyro { "gyros" } else { "accelerometers" }
+    }
+
+    /// Writes the key of the triad's rows, if the log has rows of several kinds.
+    fn write_rows(&self, page: &mut Page, sample: &Sample) {
+        let Some((column, kinds)) = sample.kinds.first() else { return };
+        let name = text(&sample.name(*column));
+        let all = kinds.iter().map(|kind| text(kind)).collect::<Vec<_>>().join(", ");
+        page.remark(&format!("Rows of several kinds: column {name} has {all}."));
+        let part = if self.role == Role::Gyro { "gyr" } else { "acc" };
+        let mut of_name = kinds.iter().filter(|kind| kind.to_lowercase().contains(part));
+        let key = format!("{}.where", self.key);
+        match (of_name.next(), of_name.next()) {
+            (Some(kind), None) => {
+                let value = format!("{{ column = {name}, value = {} }}", text(kind));
+                page.guess(&key, &value, "by its name");
+            }
+            _ => page.optional(
+                &key,
+                &format!("{{ column = {name}, value = \"?\" }}"),
+                "the rows that are read, if each sensor has its own",
+            ),
+        }
     }
 
     /// Writes the keys of a triad that is not in this log.
@@ -263,10 +297,23 @@ impl Triad<'_> {
             None if elsewhere => page.leave(&key("path"), r#""?""#, "the file that holds them"),
             None => {}
         }
+        if beside.is_none() {
+            self.write_rows(page, sample);
+        }
         if beside.is_some() && sample.names.is_none() && sample.count == 4 {
             page.guess(&key("columns"), r#"["2", "3", "4"]"#, "as in this log");
         } else {
-            page.leave(&key("columns"), r#"["?", "?", "?"]"#, "the columns of x, y and z");
+            let named = shared_axes(findings).filter(|_| !sample.kinds.is_empty());
+            match named {
+                Some(columns) => {
+                    let names = columns.map(|column| sample.name(column));
+                    let why = "by their names, which all rows share";
+                    page.guess(&key("columns"), &list(names.iter().map(String::as_str)), why);
+                }
+                None => {
+                    page.leave(&key("columns"), r#"["?", "?", "?"]"#, "the columns of x, y and z");
+                }
+            }
         }
         page.leave(&key("unit"), r#""?""#, units);
     }

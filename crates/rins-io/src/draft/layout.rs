@@ -48,7 +48,7 @@ impl Layout {
             temperature: one(Role::Temperature),
             unknown: None,
         };
-        if layout.gyro.is_none() && layout.accel.is_none() {
+        if layout.gyro.is_none() && layout.accel.is_none() && sample.kinds.is_empty() {
             layout.by_numbers(path, sample, labels, pace);
         }
         layout

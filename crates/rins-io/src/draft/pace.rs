@@ -65,7 +65,10 @@ impl Pace {
             let named = (0..sample.count).filter(move |&column| labels[column].role == Some(role));
             named.filter_map(|column| Self::of(sample, column)).find(|pace| pace.jitter.is_finite())
         };
-        if let Some(pace) = named(Role::Time).or_else(|| named(Role::Counter)) {
+        if let Some(pace) = named(Role::Time)
+            // Rows of several kinds have a counter each.
+            .or_else(|| named(Role::Counter).filter(|_| sample.kinds.is_empty()))
+        {
             let label = &labels[pace.column];
             return Some(pace.with_unit(label));
         }

@@ -1,5 +1,6 @@
 //! A sample of the rows of a log: the first ones, and others from positions distributed over it.
 
+use std::collections::BTreeSet;
 use std::io::{BufReader, Seek, SeekFrom};
 use std::path::Path;
 
@@ -8,6 +9,12 @@ use crate::log::{
     BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, nanoseconds,
 };
 use crate::source;
+
+/// The most kinds of rows that a column tells apart.
+const MOST_KINDS: usize = 8;
+
+/// The longest text of a kind.
+const LONGEST_KIND: usize = 40;
 
 /// The number of rows in a run.
 const RUN: usize = 128;
@@ -28,6 +35,8 @@ pub(super) struct Sample {
     pub(super) names: Option<Vec<String>>,
     /// The number of columns.
     pub(super) count: usize,
+    /// The columns that tell rows of several kinds apart, and their texts.
+    pub(super) kinds: Vec<(usize, Vec<String>)>,
     /// Runs of consecutive rows.
     pub(super) runs: Vec<Run>,
     /// Whether these are all rows of the log.
@@ -67,7 +76,8 @@ impl Sample {
             runs.extend(others(path, &head));
         }
         let Head { delimiter, names, count, .. } = head;
-        Ok(Self { format: "csv", delimiter, names, count, runs, whole })
+        let kinds = first.kinds();
+        Ok(Self { format: "csv", delimiter, names, count, kinds, runs, whole })
     }
 
     /// Reads a sample of a Parquet or MATLAB file; none of a file of another format.
@@ -92,7 +102,7 @@ impl Sample {
         let others = others.filter(|start| !whole && *start >= RUN * FIRST_RUNS);
         let runs = first.chain(others).map(run).collect();
         let (delimiter, count) = (Delimiter::Comma, names.len());
-        Self { format, delimiter, names: Some(names), count, runs, whole }
+        Self { format, delimiter, names: Some(names), count, kinds: Vec::new(), runs, whole }
     }
 
     /// The name of a column in a rig file: its own name or, if that is not unique, its number.
@@ -154,6 +164,8 @@ struct Rows {
     length: usize,
     /// Texts in the first rows where numbers are expected.
     texts: Vec<Option<(u64, String)>>,
+    /// The different texts of each column, at most one more than [`MOST_KINDS`].
+    different: Vec<BTreeSet<String>>,
 }
 
 impl Rows {
@@ -161,6 +173,7 @@ impl Rows {
         Self {
             delimiter: head.delimiter,
             columns: vec![Vec::new(); head.count],
+            different: vec![BTreeSet::new(); head.count],
             length: 0,
             texts: vec![None; head.count],
         }
@@ -176,11 +189,27 @@ impl Rows {
             let got = Fields::of(text, self.delimiter).count();
             return Err(LogProblem::FieldCount { got, expected });
         }
-        for (column, field) in self.columns.iter_mut().zip(fields) {
-            column.push(number(&field).unwrap_or(f64::NAN));
+        let columns = self.columns.iter_mut().zip(&mut self.different);
+        for ((column, different), field) in columns.zip(fields) {
+            let number = number(&field);
+            if number.is_none() && different.len() <= MOST_KINDS && !different.contains(&*field) {
+                different.insert(field.chars().take(LONGEST_KIND).collect());
+            }
+            column.push(number.unwrap_or(f64::NAN));
         }
         self.length += 1;
         Ok(())
+    }
+
+    /// The columns of texts, at least two different ones, and their texts.
+    fn kinds(&self) -> Vec<(usize, Vec<String>)> {
+        let columns = self.different.iter().zip(&self.columns).enumerate();
+        let of_texts = columns.filter(|(_, (different, numbers))| {
+            (2..=MOST_KINDS).contains(&different.len()) && numbers.iter().all(|n| n.is_nan())
+        });
+        of_texts
+            .map(|(place, (different, _))| (place, different.iter().cloned().collect()))
+            .collect()
     }
 
     fn note_text(&mut self, line: u64, row: &str) {

@@ -80,7 +80,7 @@ pub(super) fn read(
     let mut own_angles = None;
     if let Some(column @ AngleColumn { file: Some((path, own)), .. }) = &spec.table_angle {
         let columns = slice::from_ref(&column.column);
-        let file = own_file(path, Table::of(path), columns, own, files.instants)?;
+        let file = own_file((path, Table::of(path), None), columns, own, files.instants)?;
         clock.summary.left_out.extend(file.left_out());
         let log = &files.main().path;
         let OwnAngles { angles, covered, rate } =
@@ -228,7 +228,7 @@ fn temperature(
     let (Some((path, time)), Some(mut instants)) = (file, instants) else {
         return Ok(None);
     };
-    let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)) };
+    let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)), rows: None };
     let columns = table::read(path, Table::of(path), wanted)?;
     let mut file = OneFile::of_column(path, column, columns);
     let values = file.temperatures(column, *offset)?;

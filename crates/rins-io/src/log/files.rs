@@ -11,7 +11,7 @@ use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted};
 use crate::error::{IoError, LogError};
-use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, Table, TimeUnit, TriadColumns};
+use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, RowFilter, Table, TimeUnit, TriadColumns};
 use crate::shown::shown;
 
 /// The maximum difference between the times of two files, in intervals.
@@ -182,7 +182,8 @@ impl Files {
         let mut overflows = Vec::new();
         for (path, asked) in wanted {
             let time = spec.time.as_ref().map(|time| time.column.as_str());
-            let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()) };
+            let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
+            let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()), rows };
             let mut columns = table::read(path, spec.table, wanted)?;
             if let Some(time) = &spec.time {
                 let continued = continued(&mut columns.time, time.unit.seconds());
@@ -203,7 +204,8 @@ impl Files {
             files.push(OneFile { path: path.into(), asked, columns });
         }
         let accel = spec.accel_clock.as_ref().map(|clock| {
-            own_file(&spec.accel.path, spec.table, &spec.accel.columns, clock, instants)
+            let file = (spec.accel.path.as_path(), spec.table, spec.accel.rows.as_ref());
+            own_file(file, &spec.accel.columns, clock, instants)
         });
         Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
@@ -281,15 +283,15 @@ impl Files {
 
 /// Reads columns of a file with its own clock, with its time stamps in the time of the gyros.
 pub(super) fn own_file(
-    path: &Path,
-    table: Table,
+    (path, table, rows): (&Path, Table, Option<&RowFilter>),
     columns: &[String],
     clock: &OwnClock,
     gyro: Option<Instants>,
 ) -> Result<OneFile, IoError> {
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
     let asked = Asked::of(columns);
-    let wanted = Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)) };
+    let wanted =
+        Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)), rows };
     let mut columns = table::read(path, table, wanted)?;
     let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
     let _rounded = undo_rounding(&mut columns.time, None);

@@ -103,6 +103,14 @@ pub enum LogProblem {
         /// The unit.
         unit: &'static str,
     },
+    /// No row has the text of a row filter.
+    #[error("no row has {value:?} in column {column:?}")]
+    NoSuchRows {
+        /// The column.
+        column: String,
+        /// The text.
+        value: String,
+    },
     /// The readings of a table angle with its own clock are too rare.
     #[error("the table angle is read at {rate:.3} Hz, expected at least {least} Hz")]
     SlowTableAngle {

@@ -52,7 +52,7 @@ impl Dimension {
     /// The dimension of a frequency, which contains no angle and thus differs from a rate.
     pub const FREQUENCY: Self = Self::halves(0, -2, 0, 0);
     /// The dimension of an angular rate.
-    pub(crate) const ANGULAR_RATE: Self = Self::halves(2, -2, 0, 0);
+    pub const ANGULAR_RATE: Self = Self::halves(2, -2, 0, 0);
     /// The dimension of an angular acceleration.
     pub(crate) const ANGULAR_ACCELERATION: Self = Self::halves(2, -4, 0, 0);
     /// The dimension of a velocity or velocity increment.

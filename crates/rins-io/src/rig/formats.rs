@@ -85,6 +85,7 @@ impl Fixed {
                 None => [1.0; 3],
             };
             Ok(TriadColumns {
+                rows: None,
                 path: path.into(),
                 columns: columns.map(Into::into),
                 reading,

@@ -6,8 +6,8 @@ use std::path::Path;
 use super::axes::Axes;
 use super::formats::Fixed;
 use super::log_spec::{
-    ColumnSpec, Gaps, LogFormat, LogSpec, Reading, Stamp, Table, TemperatureColumn, TimeColumn,
-    TimeUnit, TriadColumns,
+    ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, RowFilter, Stamp, Table,
+    TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
 };
 use super::log_times::Clock;
 use super::readings::{ACCEL, GYRO, NUMBERS, Readings, column, refuse_own, scale_of, unit};
@@ -64,9 +64,12 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
         return Err(root.missing("[log]", "path, time, gyro and accel"));
     };
     let rate = log.quantity("rate", &kinds::SAMPLE_RATE)?;
-    let gyro = log.inline("gyro", &["path", "columns", "unit", "scale", "offset", "axes"])?;
-    let accel =
-        log.inline("accel", &["path", "time", "columns", "unit", "scale", "offset", "axes"])?;
+    let gyro =
+        log.inline("gyro", &["path", "where", "columns", "unit", "scale", "offset", "axes"])?;
+    let accel = log.inline(
+        "accel",
+        &["path", "where", "time", "columns", "unit", "scale", "offset", "axes"],
+    )?;
     let path = match (log.text("path", PATH)?, &gyro, &accel) {
         (Some(path), ..) => path,
         (None, Some(gyro), Some(accel)) if gyro.has("path") && accel.has("path") => {
@@ -111,7 +114,7 @@ fn of_format(
         Format::Psins => {
             let own = ["time", "table_angle", "table_rate", "temperature", "gaps"];
             refuse_own(log, &own, "a psins log has no such column")?;
-            let own = ["path", "time", "columns", "unit", "scale", "offset"];
+            let own = ["path", "where", "time", "columns", "unit", "scale", "offset"];
             for triad in [gyro, accel].into_iter().flatten() {
                 refuse_own(triad, &own, "the header of a psins log states it")?;
             }
@@ -137,7 +140,28 @@ fn of_format(
             };
             let gyro = triad(gyro, folder, &spec.path, &GYRO)?;
             let accel_clock = own_clock(accel, time.as_ref())?;
+            let accel_section = accel;
             let accel = triad(accel, folder, &spec.path, &ACCEL)?;
+            if table != Table::Text && (gyro.rows.is_some() || accel.rows.is_some()) {
+                return Err(accel_section.conflict("where", "selects rows of text logs"));
+            }
+            if accel.path == gyro.path && accel.rows != gyro.rows {
+                if accel.rows.is_none() || gyro.rows.is_none() {
+                    let reason = "rows of one sensor: state those of gyro and of accel";
+                    return Err(accel_section.conflict("where", reason));
+                }
+                if time.is_none() {
+                    let reason = "rows of two sensors need a time column";
+                    return Err(accel_section.conflict("where", reason));
+                }
+            }
+            // Rows of their own have times of their own.
+            let accel_clock = match (accel_clock, &time) {
+                (None, Some(time)) if accel.rows != gyro.rows && accel.path == gyro.path => {
+                    Some(OwnClock { time: time.clone(), offset: 0.0 })
+                }
+                (clock, _) => clock,
+            };
             let imu = ColumnSpec { accel_clock, ..ColumnSpec::of(table, time, gyro, accel) };
             let columns = others(log, folder, imu)?;
             Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec })
@@ -197,7 +221,18 @@ fn triad(
         Reading::Increment(unit.factor)
     };
     let scale = scale_of(triad)?;
+    let rows = match triad.inline("where", &["column", "value"])? {
+        None => None,
+        Some(filter) => {
+            let expected = r#"the text of the rows that are read, such as "Gyro""#;
+            let Some(value) = filter.text("value", expected)? else {
+                return Err(filter.missing("value", expected));
+            };
+            Some(RowFilter { column: column(&filter, "column")?, value: value.into() })
+        }
+    };
     Ok(TriadColumns {
+        rows,
         path: triad.text("path", PATH)?.map_or_else(|| log.into(), |path| folder.join(path)),
         columns: columns.map(Into::into),
         reading,

@@ -163,6 +163,15 @@ pub enum Reading {
     Increment(f64),
 }
 
+/// The rows of a log that belong to one sensor: those with this text in this column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowFilter {
+    /// The name of the column.
+    pub column: String,
+    /// Its text in the rows that are read.
+    pub value: String,
+}
+
 /// The three columns of a triad: value = (number − offset) × scale, in the reading's unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriadColumns {
@@ -176,6 +185,8 @@ pub struct TriadColumns {
     pub offset: [f64; 3],
     /// The factor of the differences.
     pub scale: [f64; 3],
+    /// The rows with its samples, if the file has rows of several sensors.
+    pub rows: Option<RowFilter>,
 }
 
 /// The table angle's column.

@@ -22,6 +22,7 @@ mod output;
 mod preamble;
 mod rig;
 mod round_trip;
+mod rows;
 mod scenario;
 mod spoilt_parquet;
 mod support;

@@ -4,6 +4,7 @@ use super::rows::RowLines;
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
+use crate::rig::RowFilter;
 use crate::section::quoted;
 use crate::suggestion::nearest;
 
@@ -39,6 +40,8 @@ pub(in crate::log) struct Columns {
 pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) names: &'w [&'w str],
     pub(in crate::log) time: Option<(&'w str, &'w mut Instants)>,
+    /// The rows that are read, if not all are.
+    pub(in crate::log) rows: Option<&'w RowFilter>,
 }
 
 /// A counter of rows that equal the previous row.

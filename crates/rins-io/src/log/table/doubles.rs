@@ -14,7 +14,7 @@ use crate::source;
 pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let failed = || IoError::file("read", path);
     let mut reader = BufReader::with_capacity(1 << 16, source::open(path).map_err(failed())?);
-    let Wanted { names, time } = wanted;
+    let Wanted { names, time, .. } = wanted;
     let present: Vec<String> = (1..=count).map(|place| place.to_string()).collect();
     let place = |name: &str| {
         super::columns::place(name, &present).map_err(|problem| LogError::of(path, problem))

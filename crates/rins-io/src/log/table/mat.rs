@@ -30,7 +30,7 @@ const COMPRESSED: u32 = 15;
 
 /// Reads columns of the matrices in the file at `path`.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
-    let Wanted { names, time } = wanted;
+    let Wanted { names, time, .. } = wanted;
     let asked: Vec<&str> =
         names.iter().copied().chain(time.as_ref().map(|(name, _)| *name)).collect();
     let mut found = found(path, &asked)?;

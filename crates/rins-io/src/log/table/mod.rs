@@ -51,7 +51,7 @@ pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
         _ => return Ok(None),
     };
     let asked: Vec<&str> = names.iter().map(String::as_str).collect();
-    let columns = read(path, table, Wanted { names: &asked, time: None })?;
+    let columns = read(path, table, Wanted { names: &asked, time: None, rows: None })?;
     Ok(Some(BinaryColumns { format, names, numbers: columns.numbers }))
 }
 

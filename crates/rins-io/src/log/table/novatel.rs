@@ -30,7 +30,7 @@ const CHECKSUM_DIGITS: usize = 8;
 /// Reads columns of the RAWIMU, RAWIMUS, RAWIMUX and RAWIMUSX messages of the log at `path`. Other
 /// messages are skipped.
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
-    let Wanted { names, mut time } = wanted;
+    let Wanted { names, mut time, .. } = wanted;
     let present = COUNTS.map(String::from);
     let places = names.iter().map(|name| place(name, &present)).collect::<Result<Vec<_>, _>>();
     let places = places.map_err(|problem| LogError::of(path, problem))?;

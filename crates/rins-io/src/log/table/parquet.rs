@@ -23,7 +23,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     let (rows, most) = (file.rows(), file.most_rows());
     let refuse = |problem| LogError::of(path, problem);
     let present: Vec<String> = file.columns().iter().map(|column| column.path().string()).collect();
-    let Wanted { names, time } = wanted;
+    let Wanted { names, time, .. } = wanted;
     let asked = names.iter().copied().chain(time.as_ref().map(|(name, _)| *name));
     let mut lists = Vec::with_capacity(names.len() + 1);
     for name in asked {

@@ -28,7 +28,7 @@ fn read_from<R: BufRead>(
     header: Header,
     wanted: Wanted<'_>,
 ) -> Result<Columns, IoError> {
-    let Wanted { names, mut time } = wanted;
+    let Wanted { names, mut time, rows } = wanted;
     let head = Head::read(lines)?;
     if let (Header::Refused, Some(first)) = (header, head.header()) {
         let problem = LogProblem::NotANumber { column: "1".into(), text: short(first) };
@@ -42,12 +42,21 @@ fn read_from<R: BufRead>(
         places.push((head.place(name, lines.path())?, None));
     }
     places.sort_by_key(|(place, _)| *place);
+    let filter = match rows {
+        Some(rows) => Some((head.place(&rows.column, lines.path())?, rows.value.as_str())),
+        None => None,
+    };
 
     let mut columns = Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() };
     let path = lines.path().to_path_buf();
     let mut before = String::new();
     let mut repeated = Repeated::default();
     let mut row = |number: u64, line: &str| -> Result<(), IoError> {
+        if let Some((place, value)) = filter
+            && Fields::of(line, head.delimiter).nth(place).is_none_or(|field| field != value)
+        {
+            return Ok(());
+        }
         // Some loggers write a sample twice; without a time stamp it could be two samples.
         if time.is_some() {
             let is_same = line == before;
@@ -103,7 +112,11 @@ fn read_from<R: BufRead>(
     }
     columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     if columns.lines.is_empty() {
-        return Err(LogError::of(lines.path(), LogProblem::OnlyHeader));
+        let problem = rows.map_or(LogProblem::OnlyHeader, |rows| LogProblem::NoSuchRows {
+            column: rows.column.clone(),
+            value: rows.value.clone(),
+        });
+        return Err(LogError::of(lines.path(), problem));
     }
     Ok(columns)
 }
