@@ -17,7 +17,7 @@ const LEAST_LEVEL_LIMIT: f64 = 1.0 * DEG;
 /// The smallest limit of the difference between a gyro's mean rate and the Earth's rate \[rad/s\].
 const LEAST_RATE_LIMIT: f64 = 1.5 * DEG_PER_HOUR;
 
-/// The largest uncertainty of a mean over revolutions, relative to the Earth's rate, for which its direction is meaningful.
+/// The largest uncertainty of a mean rate, relative to the Earth's rate, for which its direction is meaningful.
 const EARTH_RATE_SHOWN: f64 = 0.5;
 
 /// The number of sigmas of a limit.
@@ -179,13 +179,14 @@ impl Evidence<'_> {
     }
 
     /// The limit of the difference between the static mean rate and the Earth's rate; `None` if even its magnitude differs by
-    /// more, which no axes or signs explain.
+    /// more, which no axes or signs explain, or if the noise of the mean hides its direction.
     fn rate_limit(&self, rest: &RestSeen) -> Option<f64> {
         let bias = SIGMAS * self.expected.gyro.bias_sigma.unwrap_or(0.0);
         let noise = SIGMAS * rest.mean.angular_rate_sigma.norm();
         let limit = bias.max(LEAST_RATE_LIMIT) + noise;
         let magnitude = rest.mean.rates.angular_rate.norm();
-        ((magnitude - EARTH_RATE).abs() < limit).then_some(limit)
+        let is_shown = noise < EARTH_RATE_SHOWN * EARTH_RATE;
+        (is_shown && (magnitude - EARTH_RATE).abs() < limit).then_some(limit)
     }
 
     /// The deviation of the mean rate from the Earth's rate at the attitude: in each static interval, the longest first, and

@@ -71,6 +71,10 @@ impl Asked {
         asked
     }
 
+    fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
     fn names(&self) -> Vec<&str> {
         self.names.iter().map(String::as_str).collect()
     }
@@ -92,7 +96,7 @@ impl OneFile {
     }
 
     fn place(&self, name: &str) -> usize {
-        let place = self.asked.names.iter().position(|known| known == name);
+        let place = self.asked.place(name);
         place.expect("every column in use was asked for")
     }
 
@@ -185,6 +189,11 @@ impl Files {
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
             let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()), rows };
             let mut columns = table::read(path, spec.table, wanted)?;
+            if together && spec.gyro.path == spec.accel.path && path == spec.gyro.path {
+                let names = spec.gyro.columns.iter().chain(&spec.accel.columns);
+                let places = names.filter_map(|name| asked.place(name));
+                columns.leave_out_zeros(&places.collect::<Vec<_>>());
+            }
             if let Some(time) = &spec.time {
                 let continued = continued(&mut columns.time, time.unit.seconds());
                 if files.is_empty() {

@@ -98,6 +98,8 @@ pub enum Omission {
     Repeated,
     /// It is the last line and has no line end: its last number may be truncated.
     Unfinished,
+    /// All six readings are exactly zero: an empty message of a driver, as no accelerometers on Earth read.
+    Empty,
 }
 
 /// A gap in a log.

@@ -343,3 +343,21 @@ fn coarse_time_stamps_do_not_spoil_the_rate() {
     let rig = replaced(&plain_rig(), "50 Hz", "64 Hz");
     assert_close!(load(&rig, &text).summary.nominal_interval, 1.0 / 64.0, 1e-18);
 }
+
+/// A driver without a new sample sends an empty message: a lost sample, whose time the next one covers.
+#[test]
+fn rows_of_zeros_are_lost_samples() {
+    let right = log(40);
+    let mut rows: Vec<String> = right.lines().map(String::from).collect();
+    for row in [5, 6, 20] {
+        let fields: Vec<&str> = rows[row].split(',').collect();
+        rows[row] = format!("{},0,0,0,0.0,-0,0e0,{}", fields[0], fields[7]);
+    }
+    let loaded = load(RIG, &(rows.join("\n") + "\n"));
+    assert_eq!(loaded.recording.len(), 37);
+    let left_out: Vec<_> =
+        loaded.summary.left_out.iter().map(|out| (out.line, out.reason)).collect();
+    assert_eq!(left_out, [6, 7, 21].map(|line| (line, Omission::Empty)));
+    assert_close!(loaded.recording.increments[4].interval, 0.06, 1e-12);
+    assert_eq!(loaded.summary.gaps.len(), 2);
+}

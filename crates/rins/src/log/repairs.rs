@@ -101,6 +101,10 @@ fn left_out(summary: &LogSummary, folder: Option<&Path>) -> Vec<String> {
                 "{path}: {count} line(s), from {} on, repeat the line before and are left out",
                 first.line
             ),
+            Omission::Empty => format!(
+                "{path}: {count} line(s), from {} on, have zero in all six readings: they are lost samples and are left out",
+                first.line
+            ),
             Omission::Unfinished => format!(
                 "{path}:{}: the last line has no line end and is left out: it may be cut short",
                 first.line

@@ -36,6 +36,29 @@ pub(in crate::log) struct Columns {
     pub(in crate::log) left_out: Vec<(u64, Omission)>,
 }
 
+impl Columns {
+    /// Removes the rows in which the numbers of all columns at `places` are zero, unless all rows are such or rows have no time.
+    pub(in crate::log) fn leave_out_zeros(&mut self, places: &[usize]) {
+        let is_empty = |row: usize| places.iter().all(|&place| self.numbers[place][row] == 0.0);
+        let empty: Vec<bool> = (0..self.time.len()).map(is_empty).collect();
+        if !empty.contains(&true) || !empty.contains(&false) {
+            return;
+        }
+        let mut lines = RowLines::default();
+        for (row, empty) in empty.iter().enumerate() {
+            match empty {
+                true => self.left_out.push((self.lines.of(row), Omission::Empty)),
+                false => lines.push(self.lines.of(row)),
+            }
+        }
+        self.lines = lines;
+        for list in self.numbers.iter_mut().chain([&mut self.time]) {
+            let mut empty = empty.iter();
+            list.retain(|_| !empty.next().copied().unwrap_or_default());
+        }
+    }
+}
+
 /// The request: columns by name, and optionally a column of time stamps.
 pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) names: &'w [&'w str],
