@@ -4,6 +4,7 @@
 mod axes;
 mod inspection;
 mod late_table;
+mod lever_arm;
 mod mistakes;
 mod rest;
 mod run;
