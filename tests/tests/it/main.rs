@@ -13,6 +13,7 @@ mod help;
 mod hostile;
 mod identifiability;
 mod interrupted;
+mod level_table;
 mod library;
 mod measured;
 mod mistakes;
