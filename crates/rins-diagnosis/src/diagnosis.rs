@@ -97,7 +97,7 @@ impl Diagnosis {
 }
 
 /// Why runs could not be diagnosed.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DiagnosisError {
     /// The given model cannot be fitted.

@@ -67,7 +67,7 @@ pub struct Gain {
 }
 
 /// Why a gain could not be measured.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GainError {
     /// Nothing, or too little, can be held out.

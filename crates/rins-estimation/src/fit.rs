@@ -1,5 +1,7 @@
 //! The batch solution: iterated least squares over one run or several.
 
+mod priors;
+
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rins_frames::{Dcm, Table};
@@ -301,27 +303,15 @@ impl<'a> Problem<'a> {
                 return Ok(());
             }
             if is_last || !step.is_finite() {
-                return Err(FitError::Diverged { iterations: iterations.len(), step });
+                let (parameter, distance) = self.farthest();
+                return Err(FitError::Diverged {
+                    parameter,
+                    distance,
+                    iterations: iterations.len(),
+                    step,
+                });
             }
         }
-    }
-
-    /// The sigmas of the priors.
-    fn sigmas(&self) -> Vec<f64> {
-        self.layout.all.iter().map(|(free, _)| free.sigma).collect()
-    }
-
-    /// The means of the priors minus the values.
-    fn offsets(&self) -> Vec<f64> {
-        self.expected.iter().zip(&self.values).map(|(expected, value)| expected - value).collect()
-    }
-
-    /// The sum of squares of these offsets in units of the priors' sigmas.
-    fn pull(&self) -> f64 {
-        let of = |(offset, (free, _)): (f64, &(FreeParameter, Option<usize>))| {
-            (offset / free.sigma).powi(2)
-        };
-        self.offsets().into_iter().zip(&self.layout.all).map(of).sum()
     }
 
     /// Takes a damped step toward the estimate.

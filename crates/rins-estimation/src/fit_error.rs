@@ -3,7 +3,7 @@
 use crate::evidence::Indefinite;
 
 /// The reason why there is no estimate.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
     /// There is no run.
@@ -33,10 +33,14 @@ pub enum FitError {
     },
     /// The iteration did not converge.
     #[error(
-        "not converged after {iterations} iterations: the last step is {step} sigma; the model does not \
-         describe these data"
+        "not converged after {iterations} iterations (last step {step:.1} sigma); {parameter} is {distance:.0} sigma from its prior: \
+         the model does not describe these data, or a prior sigma is too small"
     )]
     Diverged {
+        /// The id of the parameter that is farthest from its prior.
+        parameter: String,
+        /// Its distance from its prior, in prior sigmas.
+        distance: f64,
         /// The number of iterations.
         iterations: usize,
         /// The largest component of the last step, in sigmas.

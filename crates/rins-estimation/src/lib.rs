@@ -72,7 +72,7 @@ pub use posterior::{Evidence, Posterior, correlation};
 pub use prediction::{EpochPrediction, ParameterPosterior};
 pub use prior_consistency::{Departure, Quantity};
 pub use rounding::AngleSteps;
-pub use run::{Reference, Rig, Run, RunError};
+pub use run::{LEAST_TILT, Reference, Rig, Run, RunError};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -9,6 +9,10 @@ use rins_motion::{Recording, Station};
 use crate::epoch::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
 
+/// The smallest tilt of the spin axis (its sine) for which gravity determines the table angle: below it, an angle of a milliradian
+/// changes the specific force by less than 17 µg.
+pub const LEAST_TILT: f64 = 0.017;
+
 /// The source of the table angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reference {
@@ -85,7 +89,8 @@ pub enum RunError {
     NoRate,
     /// Gravity has no component perpendicular to the axis.
     #[error(
-        "the spin axis is tilted by {tilt} rad, too little to determine the table angle from gravity"
+        "the spin axis is tilted by {:.2} deg, too little to determine the table angle from gravity",
+        tilt.to_degrees()
     )]
     NoTilt {
         /// The angle of the axis from the vertical \[rad\].
@@ -138,8 +143,6 @@ impl Run {
                 }
             }
             Reference::Gravity => {
-                /// Below this tilt, an angle of a milliradian changes the specific force by less than 17 µg.
-                const LEAST_TILT: f64 = 0.017;
                 let up = rig.nav_from_table.matrix()[(2, 2)];
                 let tilt = up.clamp(-1.0, 1.0).acos();
                 if tilt.sin() < LEAST_TILT {

@@ -30,7 +30,7 @@ fn run_lacks_its_reference_is_too_short_or_level() {
         ..rig
     };
     let refusal = of(level, recording.clone());
-    assert!(refusal.to_string().starts_with("the spin axis is tilted by 0 rad"), "{refusal}");
+    assert!(refusal.to_string().starts_with("the spin axis is tilted by 0.00 deg"), "{refusal}");
     let steady = rins_estimation::Rig { wobble: 0.0, ..rig };
     let refusal = of(steady, recording);
     assert_eq!(

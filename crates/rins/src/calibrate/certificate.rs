@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
 use rins_design::{Budget, EstimatedParameter, Truth};
 use rins_estimation::{
-    Departure, Estimate, Fit, Identifiability, InRun, NoiseParameters, Reference, Run,
+    Departure, Estimate, Fit, FitError, Identifiability, InRun, NoiseParameters, Reference, Run,
     Unobservable, fit,
 };
 use rins_frames::units::DEG;
@@ -75,13 +75,25 @@ pub(crate) struct CertifiedRun {
 
 impl Certificate {
     /// Estimates the model of a case from its runs.
-    pub(crate) fn of(case: EstimationProblem, progress: &Progress) -> anyhow::Result<Self> {
+    ///
+    /// Gyro biases that change with the attitude, as those of a g-sensitive MEMS, differ between static intervals by more than
+    /// constant biases allow. If the estimate does not converge for this reason, the g-sensitivity is estimated too.
+    pub(crate) fn of(mut case: EstimationProblem, progress: &Progress) -> anyhow::Result<Self> {
         let stage = progress.begin("calibrating", None);
-        let found = fit(&case.given(), &case.model, case.imu(), case.knowledge(), |iteration| {
-            stage.at(&format!("calibrating, last step {:.3} sigma", iteration.step));
-        });
+        let fitted = |case: &EstimationProblem| {
+            fit(&case.given(), &case.model, case.imu(), case.knowledge(), |iteration| {
+                stage.at(&format!("calibrating, last step {:.3} sigma", iteration.step));
+            })
+        };
+        let fit = match fitted(&case) {
+            Err(error @ FitError::Diverged { .. }) if case.can_be_g_sensitive() => {
+                case.add_g_sensitivity();
+                fitted(&case).ok().ok_or(error)
+            }
+            found => found,
+        };
         drop(stage);
-        let fit = found.with_context(|| case.names())?;
+        let fit = fit.with_context(|| case.names())?;
         Self::with(case, fit)
     }
 

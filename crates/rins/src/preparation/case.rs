@@ -13,6 +13,9 @@ use super::prepared::Prepared;
 use crate::log::ensure_temperature;
 use crate::options::{NamedModel, NoiseChoice};
 
+/// The name of the model of all terms of eq. (1).
+const FULL: &str = "full";
+
 /// An estimation problem: the runs, the model, and the prior knowledge.
 pub(crate) struct EstimationProblem {
     /// The runs, in the order in which they were given.
@@ -28,6 +31,25 @@ pub(crate) struct EstimationProblem {
 }
 
 impl EstimationProblem {
+    /// Whether the model is the full one without a g-sensitivity, and an IMU was at rest in several attitudes.
+    pub(crate) fn can_be_g_sensitive(&self) -> bool {
+        let has = self.model.terms.iter().any(|own| own.term.is(&catalogue::GYRO_G_SENSITIVITY));
+        let is_turned_over =
+            |run: &Prepared| run.run.rig.reference == Reference::Rest && !run.others.is_empty();
+        self.name == FULL && !has && self.runs.iter().any(is_turned_over)
+    }
+
+    /// Adds the g-sensitivity of the gyros to the model.
+    pub(crate) fn add_g_sensitivity(&mut self) {
+        let term = &catalogue::GYRO_G_SENSITIVITY;
+        self.model.terms.push(TermInstance::new(term).estimated());
+        self.name = format!("{FULL} with {}", term.id);
+        self.remarks.push(format!(
+            "The gyro biases differ between the attitudes by more than noise and bias instability explain: {} is estimated too.",
+            term.id
+        ));
+    }
+
     /// The estimation problem of a model and runs, which must be of one IMU.
     pub(crate) fn of(
         runs: Vec<Prepared>,
@@ -51,7 +73,7 @@ impl EstimationProblem {
                 spins.join(", ")
             ));
         }
-        let preset = named.name == "full";
+        let preset = named.name == FULL;
         let model = on_these_runs(named.model, &runs, preset, &mut remarks);
         let case = Self { runs, name: named.name, model, noise, remarks };
         case.runs.iter().try_for_each(|run| case.ensure_same_imu(run))?;

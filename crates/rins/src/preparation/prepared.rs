@@ -5,7 +5,8 @@ use std::ops::Range;
 use anyhow::Context;
 use rins_calibration::{Setup, likely_wobble, table_angles};
 use rins_estimation::{
-    AXIS_BY_GRAVITY, AngleSteps, AxisSeen, Reference, Rig, Run, axis_from_gravity, turning_span,
+    AXIS_BY_GRAVITY, AngleSteps, AxisSeen, LEAST_TILT, Reference, Rig, Run, axis_from_gravity,
+    turning_span,
 };
 use rins_frames::units::{ARCSEC, DEG};
 use rins_frames::{Body, Dcm, Nav, Table};
@@ -259,6 +260,7 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
         && spin(&turning) > LEAST_SPIN
         && let Some(AxisSeen { nav_from_table, heading_known }) =
             axis_from_gravity(&turning, given.map(|given| given.angles))
+        && across_axis(1.0, &nav_from_table) >= LEAST_TILT
     {
         let angles = nav_from_table.euler_angles();
         let mut remarks = vec![format!(
@@ -309,11 +311,19 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     }
     let rest = found(loaded)
         .context("the log has no table angle, and there are no two turns about the axis that gravity would show")?;
-    let remarks = vec![format!(
-        "The log has no table angle and no rotation about the axis: only the longest static interval, from {:.0} s to {:.0} s, is used.",
+    let mut remarks = vec![format!(
+        "The log has no table angle and no rotation about a tilted axis, of which gravity would show the angle: only the longest static \
+         interval, from {:.0} s to {:.0} s, is used.",
         rest.start,
         recording.times[rest.span.end - 1]
     )];
+    if statics.spans(rests::SHORTEST).len() > 1 {
+        remarks.push(format!(
+            "The static intervals have fewer than {} attitudes: with more, set on different sides, scale errors and misalignments are \
+             observable.",
+            rests::FEWEST_ATTITUDES
+        ));
+    }
     let (nav_from_table, attitude) = match loaded.rig.attitude {
         Some(given) => (given.angles.dcm(), Attitude::within(given.sigma)),
         None => {

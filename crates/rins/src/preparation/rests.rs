@@ -20,7 +20,7 @@ pub(super) const SHORTEST: f64 = 2.0;
 const ALIKE: f64 = 5.0 * DEG;
 
 /// With fewer attitudes, gravity gives hardly more information than the longest static interval.
-const FEWEST_ATTITUDES: usize = 3;
+pub(super) const FEWEST_ATTITUDES: usize = 3;
 
 /// A static interval of an IMU on an axis about which it rotates in the other part of the log.
 pub(super) struct OnAxis {

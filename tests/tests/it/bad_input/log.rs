@@ -237,8 +237,9 @@ const READINGS: &[Row] = &[
                 "",
             ),
         ]),
-        &["run.csv: the attitude of the spin axis is not given and the log does not start with a \
-             static interval of 5 s"],
+        &[
+            "run.csv: the rig gives no [attitude], and none can be found: the IMU is never static for 5 s",
+        ],
     ),
     (
         "a gyro reading that is finite, but only just",
