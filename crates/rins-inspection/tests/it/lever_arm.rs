@@ -20,7 +20,7 @@ fn at(arm: Vector3<f64>, recording: &Recording) -> Recording {
         before = rate;
         // Tangential and centripetal: α × r + ω × (ω × r).
         let force = acceleration.cross(&arm) + rate.cross(&rate.cross(&arm));
-        sample.velocity = sample.velocity + InFrame::from_components(force * sample.interval);
+        sample.velocity += InFrame::from_components(force * sample.interval);
     }
     off_axis
 }
