@@ -16,9 +16,10 @@ impl fmt::Display for Error {
     }
 }
 
+// A program that returns it from `main` prints what the command prints.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(&self.0, f)
+        fmt::Display::fmt(self, f)
     }
 }
 
