@@ -1,5 +1,6 @@
 //! Rig files drafted from logs: their content, and the correct reading of the logs with them.
 
+mod formats;
 mod guesses;
 mod refusals;
 mod support;
