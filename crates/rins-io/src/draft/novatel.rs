@@ -5,18 +5,11 @@ use std::path::Path;
 use super::page::{Page, text};
 use super::{place, sections};
 use crate::error::IoError;
-use crate::log::Lines;
+use crate::log::{Lines, RawImu};
 use crate::rig::novatel_imu;
 
 /// The lines at the beginning of a log among which a RAWIMU message is looked for.
 const BEGINNING: usize = 500;
-
-/// What the RAWIMU messages of a log say of the IMU.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct RawImu {
-    /// The type of the IMU, which only the extended messages state.
-    kind: Option<u32>,
-}
 
 /// The first RAWIMU message of the log at `path`, if it has one near its beginning.
 ///
@@ -27,15 +20,8 @@ pub(super) fn messages(path: &Path) -> Result<Option<RawImu>, IoError> {
     for _ in 0..BEGINNING {
         // What is not text is told by the reader of columns.
         let Ok(Some((_, line))) = lines.next() else { return Ok(None) };
-        let Some(message) = line.strip_prefix(['%', '#']) else { continue };
-        let Some((header, body)) = message.split_once(';') else { continue };
-        match header.split(',').next().unwrap_or_default() {
-            "RAWIMUA" | "RAWIMUSA" => return Ok(Some(RawImu { kind: None })),
-            "RAWIMUXA" | "RAWIMUSXA" => {
-                let kind = body.split(',').nth(1).and_then(|kind| kind.trim().parse().ok());
-                return Ok(Some(RawImu { kind }));
-            }
-            _ => {}
+        if let Some(message) = RawImu::of(line) {
+            return Ok(Some(message));
         }
     }
     Ok(None)

@@ -10,7 +10,7 @@ use crate::log::{
 };
 use crate::source;
 
-/// The most kinds of rows that a column tells apart.
+/// The most kinds of rows that a column distinguishes.
 const MOST_KINDS: usize = 8;
 
 /// The longest text of a kind.
@@ -35,7 +35,7 @@ pub(super) struct Sample {
     pub(super) names: Option<Vec<String>>,
     /// The number of columns.
     pub(super) count: usize,
-    /// The columns that tell rows of several kinds apart, and their texts.
+    /// The columns that distinguish rows of several kinds, and their texts.
     pub(super) kinds: Vec<(usize, Vec<String>)>,
     /// Runs of consecutive rows.
     pub(super) runs: Vec<Run>,

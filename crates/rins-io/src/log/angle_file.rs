@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use rins_frames::Increments;
 use rins_motion::median;
 
@@ -18,7 +18,7 @@ use crate::shown::shown;
 /// would take one slower reading for several.
 const LONGEST_INTERVAL: f64 = 0.101;
 
-/// The smallest eigenvalue of the normal matrix of the gyro's errors, relative to the largest, that is not zero.
+/// The smallest singular value of the normal matrix of the gyro's errors, relative to its norm, that is not zero.
 const SINGULAR: f64 = 1e-12;
 
 /// A gap between two readings, in intervals.
@@ -52,26 +52,21 @@ pub(super) fn angles_of_own_clock(
     ends: &[f64],
     log: &Path,
 ) -> Result<OwnAngles, IoError> {
-    let mut angles = file.column(&column.column, column.factor, "rad")?;
-    let path = file.path.clone();
+    let angles = file.column(&column.column, column.factor, "rad")?;
+    file.ensure_increasing()?;
+    let path = &file.path;
     let times = &file.columns.time;
-    for (row, pair) in times.windows(2).enumerate() {
-        if pair[1] <= pair[0] {
-            let problem = LogProblem::TimeNotIncreasing { before: pair[0], now: pair[1] };
-            return Err(LogError::at(&path, file.columns.lines.of(row + 1), problem));
-        }
-    }
     let Some(interval) = median(times.windows(2).map(|pair| pair[1] - pair[0])) else {
-        return Err(LogError::of(&path, LogProblem::TooShort { samples: times.len() }));
+        return Err(LogError::of(path, LogProblem::TooShort { samples: times.len() }));
     };
     if interval > LONGEST_INTERVAL {
         let (rate, least) = (1.0 / interval, 1.0 / LONGEST_INTERVAL);
-        return Err(LogError::of(&path, LogProblem::SlowTableAngle { rate, least }));
+        return Err(LogError::of(path, LogProblem::SlowTableAngle { rate, least }));
     }
     if let Some(row) = times.windows(2).position(|pair| pair[1] - pair[0] > GAP * interval) {
         let (after, length) = (times[row], times[row + 1] - times[row]);
         let problem = LogProblem::LongGap { length, after, largest: GAP * interval };
-        return Err(LogError::at(&path, file.columns.lines.of(row + 1), problem));
+        return Err(LogError::at(path, file.columns.lines.of(row + 1), problem));
     }
 
     // The angle of the gyro about the spin axis, from the start of the first sample on.
@@ -85,26 +80,30 @@ pub(super) fn angles_of_own_clock(
         total
     }));
     let (first, last) = (moments[0], moments[moments.len() - 1]);
-    let inside: Vec<usize> =
-        (0..times.len()).filter(|&row| (first..=last).contains(&times[row])).collect();
-    let (Some(&from), Some(&to)) = (inside.first(), inside.last()) else {
-        return Err(LogError::of(&path, LogProblem::NoOverlap { other: shown(log) }));
-    };
-    let times = &times[from..=to];
-    let gyro = |time: f64| smoothly_between(&moments, &turned, time).unwrap_or(total);
-    angles.truncate(to + 1);
-    angles.drain(..from);
-    let mut offsets: Vec<f64> =
-        angles.iter().zip(times).map(|(angle, time)| angle - gyro(*time)).collect();
+    // Readings during the samples.
+    let inside =
+        times.partition_point(|time| *time < first)..times.partition_point(|time| *time <= last);
+    if inside.is_empty() {
+        return Err(LogError::of(path, LogProblem::NoOverlap { other: shown(log) }));
+    }
+    let times = &times[inside.clone()];
+    let turned_by: Vec<f64> = times
+        .iter()
+        .map(|time| smoothly_between(&moments, &turned, *time).unwrap_or(total))
+        .collect();
+    let mut offsets: Vec<f64> = angles[inside.clone()]
+        .iter()
+        .zip(&turned_by)
+        .map(|(angle, turned)| angle - turned)
+        .collect();
     unwrap(&mut offsets).map_err(|(row, turns)| {
         let problem = LogProblem::AmbiguousAngle { turns };
-        LogError::at(&path, file.columns.lines.of(from + row), problem)
+        LogError::at(path, file.columns.lines.of(inside.start + row), problem)
     })?;
     let (earliest, latest) =
         (times[0] - REACH * interval, times[times.len() - 1] + REACH * interval);
     let covered =
         ends.partition_point(|end| *end < earliest)..ends.partition_point(|end| *end <= latest);
-    let turned_by: Vec<f64> = times.iter().map(|time| gyro(*time)).collect();
     let errors = GyroErrors::of(times, &turned_by, &offsets);
     let residuals: Vec<f64> =
         (0..times.len()).map(|row| offsets[row] - errors.at(times[row], turned_by[row])).collect();
@@ -140,12 +139,8 @@ impl GyroErrors {
             .diagonal()
             .map(|square: f64| if square > 0.0 { square.sqrt().recip() } else { 0.0 });
         let scaling = Matrix3::from_diagonal(&scale);
-        let eigen = SymmetricEigen::new(scaling * normal * scaling);
-        let least = SINGULAR * eigen.eigenvalues.amax();
-        let inverse =
-            eigen.eigenvalues.map(|value| if value > least { value.recip() } else { 0.0 });
-        let inverse =
-            eigen.eigenvectors * Matrix3::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
+        let normal = scaling * normal * scaling;
+        let inverse = normal.pseudo_inverse(SINGULAR * normal.norm()).expect("no negative limit");
         Self { start, coefficients: scaling * inverse * scaling * right }
     }
 

@@ -232,13 +232,8 @@ fn temperature(
     let columns = table::read(path, Table::of(path), wanted)?;
     let mut file = OneFile::of_column(path, column, columns);
     let values = file.temperatures(column, *offset)?;
+    file.ensure_increasing()?;
     let times = &file.columns.time;
-    for (row, pair) in times.windows(2).enumerate() {
-        if pair[1] <= pair[0] {
-            let problem = LogProblem::TimeNotIncreasing { before: pair[0], now: pair[1] };
-            return Err(LogError::at(path, file.columns.lines.of(row + 1), problem));
-        }
-    }
     let (first, last) = (times[0], times[times.len() - 1]);
     let own = (last - first) / (times.len().max(2) - 1) as f64;
     let reach = HELD_TEMPERATURES * own;

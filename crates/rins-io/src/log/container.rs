@@ -21,6 +21,12 @@ const fn signature(
     (place, bytes, Container { name, remedy })
 }
 
+/// The beginning of a Parquet file.
+pub(super) const PARQUET: &[u8] = b"PAR1";
+
+/// The beginning of a MATLAB level 5 file.
+pub(super) const MATLAB: &[u8] = b"MATLAB 5.0 MAT-file";
+
 const DECOMPRESS: &str = "decompress it";
 
 /// The signatures in the specifications of the formats.
@@ -41,8 +47,8 @@ const SIGNATURES: &[Signature] = &[
         "a MATLAB 7.3 file (HDF5)",
         "save it with -v7 and state format = \"mat\"",
     ),
-    signature(0, b"MATLAB 5.0 MAT-file", "a MATLAB level 5 file", "state format = \"mat\""),
-    signature(0, b"PAR1", "a Parquet file", "state format = \"parquet\""),
+    signature(0, MATLAB, "a MATLAB level 5 file", "state format = \"mat\""),
+    signature(0, PARQUET, "a Parquet file", "state format = \"parquet\""),
     signature(0, b"ARROW1\0\0", "an Arrow (Feather) file", "save it as Parquet"),
     signature(0, b"\x93NUMPY", "a NumPy array", "save it with numpy.savetxt"),
     signature(

@@ -95,6 +95,14 @@ impl OneFile {
         Self { path: path.into(), asked: Asked::of([name]), columns }
     }
 
+    /// Refuses times that do not increase.
+    pub(super) fn ensure_increasing(&self) -> Result<(), IoError> {
+        let times = &self.columns.time;
+        let Some(row) = times.windows(2).position(|pair| pair[1] <= pair[0]) else { return Ok(()) };
+        let problem = LogProblem::TimeNotIncreasing { before: times[row], now: times[row + 1] };
+        Err(LogError::at(&self.path, self.columns.lines.of(row + 1), problem))
+    }
+
     fn place(&self, name: &str) -> usize {
         let place = self.asked.place(name);
         place.expect("every column in use was asked for")

@@ -32,7 +32,7 @@ pub use problem::LogProblem;
 pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
 pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded, TableClock};
-pub(crate) use table::{BinaryColumns, Head, MOST_COLUMNS, all as all_columns, most_rows};
+pub(crate) use table::{BinaryColumns, Head, MOST_COLUMNS, RawImu, all as all_columns, most_rows};
 pub use table::{LogHead, peek};
 
 use crate::error::{IoError, LogError};

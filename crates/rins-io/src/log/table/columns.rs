@@ -41,20 +41,28 @@ impl Columns {
     pub(in crate::log) fn leave_out_zeros(&mut self, places: &[usize]) {
         let is_empty = |row: usize| places.iter().all(|&place| self.numbers[place][row] == 0.0);
         let empty: Vec<bool> = (0..self.time.len()).map(is_empty).collect();
-        if !empty.contains(&true) || !empty.contains(&false) {
+        if !empty.contains(&false) {
+            return;
+        }
+        self.leave_out(&empty, Omission::Empty);
+    }
+
+    /// Removes the rows that are marked.
+    pub(super) fn leave_out(&mut self, marked: &[bool], reason: Omission) {
+        if !marked.contains(&true) {
             return;
         }
         let mut lines = RowLines::default();
-        for (row, empty) in empty.iter().enumerate() {
-            match empty {
-                true => self.left_out.push((self.lines.of(row), Omission::Empty)),
+        for (row, marked) in marked.iter().enumerate() {
+            match marked {
+                true => self.left_out.push((self.lines.of(row), reason)),
                 false => lines.push(self.lines.of(row)),
             }
         }
         self.lines = lines;
         for list in self.numbers.iter_mut().chain([&mut self.time]) {
-            let mut empty = empty.iter();
-            list.retain(|_| !empty.next().copied().unwrap_or_default());
+            let mut marked = marked.iter();
+            list.retain(|_| !marked.next().copied().unwrap_or_default());
         }
     }
 }

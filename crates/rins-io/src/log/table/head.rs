@@ -51,17 +51,38 @@ fn is_word(field: &str) -> bool {
     field.parse::<f64>().is_err()
 }
 
-/// Whether at least half of the fields are not numbers, as in a line of names.
-fn is_words(fields: &[String]) -> bool {
-    fields.iter().filter(|field| is_word(field)).count() * 2 >= fields.len()
+/// What the fields of a line have in common.
+#[derive(Clone, Copy, Debug)]
+struct Shape {
+    /// The number of fields.
+    count: usize,
+    /// Whether at least half of the fields are not numbers, as in a line of names.
+    is_words: bool,
+    /// Whether the fields are the units below a line of names; a malformed number is not a unit.
+    is_units: bool,
+    /// Whether the line ends with a delimiter.
+    ends_empty: bool,
 }
 
-/// Whether these fields are the units below the names of `count` columns; a malformed number is not a unit.
-fn is_units(fields: &[String], count: usize) -> bool {
-    let is_unit = |field: &String| {
-        is_word(field) && !field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l))
-    };
-    fields.len() == count && fields.iter().all(|field| field.is_empty() || is_unit(field))
+impl Shape {
+    fn of(text: &str, delimiter: Delimiter) -> Self {
+        let (mut count, mut words) = (0, 0);
+        let (mut is_units, mut ends_empty) = (true, false);
+        for field in Fields::of(text, delimiter) {
+            let is_word = is_word(&field);
+            let is_malformed = field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l));
+            count += 1;
+            words += usize::from(is_word);
+            ends_empty = field.is_empty();
+            is_units &= ends_empty || is_word && !is_malformed;
+        }
+        Self { count, is_words: words * 2 >= count, is_units, ends_empty }
+    }
+
+    /// Whether this is the line of units below `count` names.
+    fn is_units_of(self, count: usize) -> bool {
+        self.is_units && self.count == count
+    }
 }
 
 /// The number of lines before the header of a log, or before its first row if it has no header; `None` if the log has no
@@ -78,11 +99,9 @@ fn preamble<R: BufRead>(
         |first: &str, second: &str| stated.unwrap_or_else(|| Delimiter::sniff(first, Some(second)));
     let [(_, first), (_, second)] = &begun[..] else { return Ok(None) };
     let delimiter = sniffed(first, second);
-    let (names, row) = (fields(first, delimiter), fields(second, delimiter));
-    let has_count = |count: usize| {
-        row.len() == count || row.len() == count + 1 && row.last().is_some_and(String::is_empty)
-    };
-    if has_count(names.len()) && !is_words(&row) {
+    let (names, row) = (Shape::of(first, delimiter), Shape::of(second, delimiter));
+    let is_below = row.count == names.count || row.ends_empty && row.count == names.count + 1;
+    if is_below && !row.is_words {
         return Ok(None);
     }
     while begun.len() < LONGEST_PREAMBLE {
@@ -92,34 +111,31 @@ fn preamble<R: BufRead>(
         begun.push(line);
         let Some(start) = begun.len().checked_sub(ROWS) else { continue };
         let delimiter = sniffed(&begun[start].1, &begun[start + 1].1);
-        let split: Vec<Vec<String>> =
-            begun.iter().map(|(_, text)| fields(text, delimiter)).collect();
-        let count = split[start].len();
-        let are_rows =
-            split[start..].iter().all(|fields| fields.len() == count && !is_words(fields));
+        let shape = |(_, text): &Line| Shape::of(text, delimiter);
+        let rows: Vec<Shape> = begun[start..].iter().map(shape).collect();
+        let count = rows[0].count;
+        let are_rows = rows.iter().all(|row| row.count == count && !row.is_words);
         if !are_rows || count < FEWEST_COLUMNS {
             continue;
         }
+        let above: Vec<Shape> = begun[..start].iter().map(shape).collect();
         // Some loggers end each row, but not the header, with a delimiter.
-        let ends_empty = split[start..].iter().all(|row| row.last().is_some_and(String::is_empty));
+        let end_empty = rows.iter().all(|row| row.ends_empty);
         let is_header = |place: usize| {
-            let names = &split[place];
-            is_words(names) && (names.len() == count || ends_empty && names.len() + 1 == count)
+            let names = above[place];
+            names.is_words && (names.count == count || end_empty && names.count + 1 == count)
         };
-        let header =
-            [1, 2].into_iter().filter_map(|above| start.checked_sub(above)).find(|&place| {
-                is_header(place)
-                    && (place + 1 == start || is_units(&split[place + 1], split[place].len()))
-                    && !place.checked_sub(1).is_some_and(|above| {
-                        is_header(above) && is_units(&split[place], split[above].len())
-                    })
-            });
-        return Ok(match header {
-            Some(header) => Some(header),
-            // Without a header, all lines above the rows are words.
-            None if split[..start].iter().all(|fields| is_words(fields)) => Some(start),
-            None => None,
-        });
+        let is_units = |place: usize| {
+            place > 0 && is_header(place - 1) && above[place].is_units_of(above[place - 1].count)
+        };
+        // The header is the line above the rows, or above the units.
+        let header = match start.checked_sub(1) {
+            Some(place) if is_units(place) => Some(place - 1),
+            Some(place) if is_header(place) => Some(place),
+            _ => None,
+        };
+        // Without a header, all lines above the rows are words.
+        return Ok(header.or_else(|| above.iter().all(|line| line.is_words).then_some(start)));
     }
     Ok(None)
 }
@@ -174,8 +190,9 @@ impl Head {
             let problem = LogProblem::ManyColumns { most: MOST_COLUMNS };
             return Err(LogError::at(lines.path(), line, problem));
         }
-        if is_words(&opening) {
-            if rest.first().is_some_and(|(_, text)| is_units(&fields(text), count)) {
+        if Shape::of(&first, delimiter).is_words {
+            let is_units = |(_, text): &Line| Shape::of(text, delimiter).is_units_of(count);
+            if rest.first().is_some_and(is_units) {
                 rest.remove(0);
                 if rest.is_empty() {
                     rest.extend(lines.next()?.map(|(line, text)| (line, text.to_string())));

@@ -18,9 +18,11 @@ pub(super) use self::columns::{Columns, MOST_ROWS, Wanted};
 use self::text::Header;
 pub(crate) use head::Head;
 pub use head::{LogHead, peek};
+pub(crate) use novatel::RawImu;
 pub(super) use rows::RowLines;
 pub(crate) use typed::most_rows;
 
+use super::container::{MATLAB, PARQUET};
 use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
 use crate::rig::Table;
@@ -44,10 +46,8 @@ pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
     let mut file = source::open(path).map_err(IoError::file("read", path))?;
     let length = file.read(&mut beginning).map_err(IoError::file("read", path))?;
     let (format, table, names) = match &beginning[..length] {
-        bytes if bytes.starts_with(b"PAR1") => ("parquet", Table::Parquet, parquet::names(path)?),
-        bytes if bytes.starts_with(b"MATLAB 5.0 MAT-file") => {
-            ("mat", Table::Mat, mat::names(path)?)
-        }
+        bytes if bytes.starts_with(PARQUET) => ("parquet", Table::Parquet, parquet::names(path)?),
+        bytes if bytes.starts_with(MATLAB) => ("mat", Table::Mat, mat::names(path)?),
         _ => return Ok(None),
     };
     let asked: Vec<&str> = names.iter().map(String::as_str).collect();

@@ -81,16 +81,36 @@ struct Message<'l> {
     extended: bool,
 }
 
+/// A RAWIMU message without its mark, and whether it is extended; `None` of another line.
+fn raw_imu(line: &str) -> Option<(&str, bool)> {
+    let text = line.strip_prefix(['%', '#'])?;
+    match text.split([',', ';']).next()? {
+        "RAWIMUA" | "RAWIMUSA" => Some((text, false)),
+        "RAWIMUXA" | "RAWIMUSXA" => Some((text, true)),
+        _ => None,
+    }
+}
+
+/// A RAWIMU message, as far as it states the IMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct RawImu {
+    /// The type of the IMU, which only extended messages state.
+    pub(crate) kind: Option<u32>,
+}
+
+impl RawImu {
+    /// The message of a line; `None` of another line.
+    pub(crate) fn of(line: &str) -> Option<Self> {
+        let (text, extended) = raw_imu(line)?;
+        let stated = || text.split_once(';')?.1.split(',').nth(1)?.trim().parse().ok();
+        Some(Self { kind: if extended { stated() } else { None } })
+    }
+}
+
 impl<'l> Message<'l> {
     /// The message of a line; `None` if the line contains another message, or none.
     fn of(line: &'l str) -> Result<Option<Self>, LogProblem> {
-        let Some(text) = line.strip_prefix(['%', '#']) else { return Ok(None) };
-        let name = text.split([',', ';']).next().unwrap_or_default();
-        let extended = match name {
-            "RAWIMUA" | "RAWIMUSA" => false,
-            "RAWIMUXA" | "RAWIMUSXA" => true,
-            _ => return Ok(None),
-        };
+        let Some((text, extended)) = raw_imu(line) else { return Ok(None) };
         let Some((content, checksum)) = text.rsplit_once('*') else {
             return Err(LogProblem::NoChecksum);
         };

@@ -80,23 +80,15 @@ pub(super) fn together(
     let timed = time.is_some();
     let time = time.map_or_else(Vec::new, |(_, list)| list);
     let mut columns = Columns { time, numbers, ..Columns::default() };
-    let same = |columns: &Columns, row: usize| {
-        let mut lists = columns.numbers.iter().chain(std::iter::once(&columns.time));
-        lists.all(|list| list[row].to_bits() == list[row - 1].to_bits())
-    };
+    (1..=rows as u64).for_each(|row| columns.lines.push(row));
     // Without a time stamp, a repeated row could be two samples.
-    let kept: Vec<bool> = (0..rows).map(|row| !timed || row == 0 || !same(&columns, row)).collect();
-    for (row, kept) in (1..).zip(&kept) {
-        match kept {
-            true => columns.lines.push(row),
-            false => columns.left_out.push((row, Omission::Repeated)),
-        }
-    }
-    if !columns.left_out.is_empty() {
-        for list in columns.numbers.iter_mut().chain(std::iter::once(&mut columns.time)) {
-            let mut kept = kept.iter();
-            list.retain(|_| kept.next().copied().unwrap_or_default());
-        }
+    if timed {
+        let is_same = |row: usize| {
+            let mut lists = columns.numbers.iter().chain([&columns.time]);
+            row > 0 && lists.all(|list| list[row].to_bits() == list[row - 1].to_bits())
+        };
+        let repeated: Vec<bool> = (0..rows).map(is_same).collect();
+        columns.leave_out(&repeated, Omission::Repeated);
     }
     Ok(columns)
 }
