@@ -86,13 +86,21 @@ impl Consistency {
         })
     }
 
+    /// Whether the whiteness test rejects the innovations.
+    pub fn is_colored(&self) -> bool {
+        self.whiteness_p < Self::SIGNIFICANCE
+    }
+
+    /// Whether the NIS test rejects the innovations because they are larger than the model predicts.
+    pub fn is_too_large(&self) -> bool {
+        self.nis_p < Self::SIGNIFICANCE && self.nis_mean > self.nis_dof
+    }
+
     /// The joint result of the tests.
     pub fn verdict(&self) -> Verdict {
-        let size_is_off = self.nis_p < Self::SIGNIFICANCE;
-        let too_large = self.nis_mean > self.nis_dof;
-        if self.whiteness_p < Self::SIGNIFICANCE || (size_is_off && too_large) {
+        if self.is_colored() || self.is_too_large() {
             Verdict::Misfit
-        } else if size_is_off {
+        } else if self.nis_p < Self::SIGNIFICANCE {
             Verdict::NoiseOverstated
         } else {
             Verdict::Fits

@@ -94,9 +94,7 @@ pub(crate) fn consistency_sentence(consistency: &Consistency) -> String {
 
 /// The failed consistency tests of a misfit, in words.
 fn failed_tests(consistency: &Consistency) -> &'static str {
-    let is_large =
-        consistency.nis_p < Consistency::SIGNIFICANCE && consistency.nis_mean > consistency.nis_dof;
-    match (is_large, consistency.whiteness_p < Consistency::SIGNIFICANCE) {
+    match (consistency.is_too_large(), consistency.is_colored()) {
         (true, true) => "the innovations are too large and not white",
         (true, false) => "the innovations are too large",
         (false, _) => "the innovations are not white",
