@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use rins_io::{Axes, ModelFile, shown};
 use rins_terms::Model;
 
+/// The name of the model of all of eq. (1).
+pub(crate) const FULL: &str = "full";
+
 /// The error model that is estimated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ModelChoice {
@@ -30,7 +33,7 @@ impl ModelChoice {
     pub fn parse(text: &str) -> Result<Self, String> {
         match text {
             "paper12" => Ok(Self::Paper12),
-            "full" => Ok(Self::Full),
+            FULL => Ok(Self::Full),
             path if Path::new(path).extension().is_some_and(|ending| ending == "toml") => {
                 Ok(Self::File(path.into()))
             }
@@ -71,7 +74,7 @@ impl NamedModel {
     pub(crate) fn of(choice: &ModelChoice, axes: &Axes) -> anyhow::Result<Self> {
         let (name, model) = match choice {
             ModelChoice::Paper12 => ("paper12".into(), Model::paper12()),
-            ModelChoice::Full => ("full".into(), Model::full()),
+            ModelChoice::Full => (FULL.into(), Model::full()),
             ModelChoice::File(path) => (shown(path), ModelFile::read_along(path, axes)?.model),
         };
         Ok(Self { name, model })

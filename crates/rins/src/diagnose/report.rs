@@ -1,6 +1,7 @@
 //! The page of a diagnosis.
 
 use rins_diagnosis::Limit;
+use rins_estimation::Estimate;
 
 use super::found::{DiagnosisOutcome, Named};
 use super::gain::gain_section;
@@ -88,7 +89,7 @@ fn cause_rows(named: &Named) -> Vec<Vec<Cell>> {
             Cell::badge(Tone::Warning, "too large")
         },
     ];
-    let figures = |estimate: &rins_estimation::Estimate| {
+    let figures = |estimate: &Estimate| {
         let unit = estimate.parameter.unit;
         vec![
             Cell::text(&estimate.parameter.id),
@@ -157,7 +158,7 @@ fn unexplained(found: &DiagnosisOutcome) -> Section {
 fn shifts(found: &DiagnosisOutcome) -> Section {
     let rows = found.shifts.iter().map(|shift| {
         let unit = shift.before.parameter.unit;
-        let estimate = |estimate: &rins_estimation::Estimate| Cell::Estimate {
+        let estimate = |estimate: &Estimate| Cell::Estimate {
             value: estimate.value / unit.factor,
             sigma: estimate.sigma / unit.factor,
         };

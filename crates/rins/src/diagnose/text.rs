@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use rins_estimation::Estimate;
+
 use super::found::{DiagnosisOutcome, Named};
 use super::words::{probability, separating_tests, summary};
 use crate::settings::settings_in_words;
@@ -35,31 +37,26 @@ pub(super) fn diagnosis_text(found: &DiagnosisOutcome) -> String {
     text
 }
 
+/// The rows of a cause; the significance is that of all its parameters together, in a row of its own if there are several.
 fn cause_rows(named: &Named) -> Vec<Vec<String>> {
     let cause = &named.cause;
-    let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
-    let joint = (format!("{:.1}σ", named.sigmas), probability(cause.ln_p));
-    let mut rows: Vec<Vec<String>> = cause
-        .parameters
-        .iter()
-        .enumerate()
-        .map(|(place, own)| {
-            let unit = own.parameter.unit;
-            let (size, p) = match (place, cause.parameters.len()) {
-                (0, 1) => joint.clone(),
-                _ => (String::new(), String::new()),
-            };
-            let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
-            vec![own.parameter.id.clone(), value, sigma, unit.symbol.into(), size, p]
-        })
-        .collect();
+    let blank = String::new;
+    let of_parameter = |own: &Estimate| {
+        let unit = own.parameter.unit;
+        let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
+        vec![own.parameter.id.clone(), value, sigma, unit.symbol.into(), blank(), blank()]
+    };
+    let mut rows: Vec<Vec<String>> = cause.parameters.iter().map(of_parameter).collect();
     if rows.len() > 1 {
-        // The significance is that of all parameters together.
-        let blank = String::new;
-        rows.insert(0, vec![cause.term.id.into(), blank(), blank(), blank(), joint.0, joint.1]);
+        let mut joint = vec![blank(); 6];
+        joint[0] = cause.term.id.into();
+        rows.insert(0, joint);
     }
-    if let (Some(row), false) = (rows.first_mut(), settings.is_empty()) {
-        row[5] = format!("{}  ({settings})", row[5]);
+    if let Some(row) = rows.first_mut() {
+        row[4] = format!("{:.1}σ", named.sigmas);
+        let settings = settings_in_words(cause.term, &cause.settings, cause.sought);
+        let p = probability(cause.ln_p);
+        row[5] = if settings.is_empty() { p } else { format!("{p}  ({settings})") };
     }
     rows
 }

@@ -11,10 +11,7 @@ use rins_terms::{Model, Role, TermInstance, catalogue};
 
 use super::prepared::Prepared;
 use crate::log::ensure_temperature;
-use crate::options::{NamedModel, NoiseChoice};
-
-/// The name of the model of all terms of eq. (1).
-const FULL: &str = "full";
+use crate::options::{FULL, NamedModel, NoiseChoice};
 
 /// An estimation problem: the runs, the model, and the prior knowledge.
 pub(crate) struct EstimationProblem {
