@@ -99,7 +99,7 @@ fn what_is_not_known_is_learnt() {
     let place = wrong.terms.iter().position(|chosen| chosen.term.id == "gyro.scale").unwrap();
     let linear = linearise(&run, &wrong, &[(place, 2)]);
     let held = |samples: &Range<usize>| samples.start >= SPAN.start && samples.end <= SPAN.end;
-    let foretold = |sigma: f64| {
+    let predicted = |sigma: f64| {
         let variance = DMatrix::from_element(1, 1, sigma * sigma);
         let mut known = ParameterPosterior::new(DVector::zeros(1), variance);
         known.predict(&linear, &fit.noise[0], &[0], held).unwrap()
@@ -109,7 +109,7 @@ fn what_is_not_known_is_learnt() {
         squares / told.len() as f64
     };
     let density = |told: &[EpochPrediction]| told.iter().map(|one| one.log_density).sum::<f64>();
-    let (sure, unsure) = (foretold(0.01 * PPM), foretold(off));
+    let (sure, unsure) = (predicted(0.01 * PPM), predicted(off));
     assert!(density(&unsure) > density(&sure) + 100.0, "{} {}", density(&unsure), density(&sure));
     // Six measurements per epoch: the innovations agree with the prediction, which they do not if the parameter is assumed
     // known.
@@ -126,8 +126,8 @@ fn right_parameters_foretell_best() {
         let linear = linearise(&run, model, &[]);
         let held = |samples: &Range<usize>| samples.start >= SPAN.start && samples.end <= SPAN.end;
         let mut known = ParameterPosterior::new(DVector::zeros(0), DMatrix::zeros(0, 0));
-        let foretold = known.predict(&linear, &fit.noise[0], &[], held).unwrap();
-        foretold.iter().map(|one| one.log_density).sum::<f64>()
+        let predicted = known.predict(&linear, &fit.noise[0], &[], held).unwrap();
+        predicted.iter().map(|one| one.log_density).sum::<f64>()
     };
     let right = density(&fit.models[0]);
     let scale = fit.models[0].value("gyro.scale.z").unwrap();

@@ -1,6 +1,6 @@
 //! The change of the specific force in the body by rotation.
 
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use rins_frames::units::DEG;
 
 use super::correction::Hypothesis;
@@ -21,7 +21,7 @@ const LEAST_TURN: f64 = 90.0 * DEG;
 /// The smallest tilt of the axis of rotation \[rad\]: about the vertical, nothing changes.
 const LEAST_TILT: f64 = 3.0 * DEG;
 
-/// The smallest eigenvalue of the normal matrix of a lever arm, relative to the largest, that is not zero.
+/// The smallest singular value of the normal matrix of a lever arm, relative to its norm, that is not zero.
 const SINGULAR: f64 = 1e-9;
 
 /// Two successive parts of a rotation: the specific force in the middle \[m/s²\], its change, the rotation \[rad\] and its rate
@@ -128,11 +128,7 @@ impl Turning {
             levers.push(turn.cross_matrix() * step.rate.powi(2));
         }
         let normal: Matrix3<f64> = levers.iter().map(|lever| lever.transpose() * lever).sum();
-        let eigen = SymmetricEigen::new(normal);
-        let least = SINGULAR * eigen.eigenvalues.amax();
-        let inverse = eigen.eigenvalues.map(|value| if value > least { 1.0 / value } else { 0.0 });
-        let inverse =
-            eigen.eigenvectors * Matrix3::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
+        let inverse = normal.pseudo_inverse(SINGULAR * normal.norm()).expect("no negative limit");
         let eliminated = |side: Changes| -> Changes {
             let product: Vector3<f64> =
                 levers.iter().zip(&side).map(|(lever, one)| lever.transpose() * one).sum();
