@@ -30,7 +30,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         }
         Command::Convert(convert) => run_convert(arguments, convert),
         Command::Check(input) => deliver(arguments, &rins::check(&open(&input.rig)?), ""),
-        Command::Allan(input) => deliver(arguments, &rins::allan(&open(&input.rig)?)?, ""),
+        Command::Allan(input) => {
+            let log = during("reading", || Log::open_partial(&input.rig))?;
+            deliver(arguments, &rins::allan(&log)?, "")
+        }
         Command::Align(input) => {
             let log = open(&input.rig)?;
             deliver(arguments, &during("aligning", || rins::align(&log))?, "")

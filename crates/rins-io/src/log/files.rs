@@ -174,7 +174,7 @@ impl Files {
         };
         let together = spec.accel_clock.is_none();
         for triad in std::iter::once(&spec.gyro).chain(Some(&spec.accel).filter(|_| together)) {
-            triad.columns.iter().for_each(|name| want(&triad.path, name));
+            triad.names().for_each(|name| want(&triad.path, name));
         }
         let log = rig.log.path.as_path();
         let in_log = spec.table_angle.iter().filter(|angle| angle.file.is_none());
@@ -197,8 +197,9 @@ impl Files {
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
             let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()), rows };
             let mut columns = table::read(path, spec.table, wanted)?;
-            if together && spec.gyro.path == spec.accel.path && path == spec.gyro.path {
-                let names = spec.gyro.columns.iter().chain(&spec.accel.columns);
+            let all_six = together && spec.gyro.path == spec.accel.path && rig.log.is_complete();
+            if all_six && path == spec.gyro.path {
+                let names = spec.gyro.names().chain(spec.accel.names());
                 let places = names.filter_map(|name| asked.place(name));
                 columns.leave_out_zeros(&places.collect::<Vec<_>>());
             }
@@ -222,7 +223,8 @@ impl Files {
         }
         let accel = spec.accel_clock.as_ref().map(|clock| {
             let file = (spec.accel.path.as_path(), spec.table, spec.accel.rows.as_ref());
-            own_file(file, &spec.accel.columns, clock, instants)
+            let names: Vec<String> = spec.accel.names().cloned().collect();
+            own_file(file, &names, clock, instants)
         });
         Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
@@ -337,6 +339,7 @@ impl OneFile {
         };
         let mut stuck = Vec::new();
         for (axis, name) in spec.columns.iter().enumerate() {
+            let Some(name) = name else { continue };
             let numbers = self.numbers(name);
             let first = numbers[0];
             let moves = numbers.iter().any(|n| n - first != 0.0);
@@ -352,7 +355,10 @@ impl OneFile {
             Some((channel, value)) => {
                 Err(LogError::of(&self.path, LogProblem::Stuck { channel, value }))
             }
-            None => Ok([0, 1, 2].map(|axis| self.take(&spec.columns[axis], read(axis)))),
+            None => Ok([0, 1, 2].map(|axis| match &spec.columns[axis] {
+                Some(name) => self.take(name, read(axis)),
+                None => vec![0.0; self.columns.lines.len()],
+            })),
         }
     }
 }

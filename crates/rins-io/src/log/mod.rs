@@ -68,10 +68,13 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// first interval.
 ///
 /// # Errors
-/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if a requested column contains anything but finite numbers, if
+/// [`IoError::Key`] if the log lacks sensors and `policy` does not accept that, [`IoError::File`] if the log cannot be read, [`IoError::Log`] if a requested column contains anything but finite numbers, if
 /// its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
 /// stuck, or if a step of the table angle is about half a turn.
 pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
+    if !policy.incomplete && !rig.log.is_complete() {
+        return Err(rig.lacks_sensors());
+    }
     let (mut recording, mut summary, psins_header) = match &rig.log.format {
         LogFormat::Columns(columns) => {
             let (recording, summary) = assemble::read(&rig, columns, policy)?;

@@ -13,11 +13,14 @@ pub struct LogPolicy {
     pub largest_gap: f64,
     /// The maximum accepted fraction of the gaps in a log's time.
     pub largest_loss: f64,
+    /// Whether a log of fewer than three gyros and three accelerometers is accepted. The readings of the absent sensors are then
+    /// zero; [`LogSpec::sensors`](crate::LogSpec::sensors) tells which.
+    pub incomplete: bool,
 }
 
 impl Default for LogPolicy {
     fn default() -> Self {
-        Self { largest_gap: 1.0, largest_loss: 0.5 }
+        Self { largest_gap: 1.0, largest_loss: 0.5, incomplete: false }
     }
 }
 

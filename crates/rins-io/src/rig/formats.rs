@@ -87,7 +87,7 @@ impl Fixed {
             Ok(TriadColumns {
                 rows: None,
                 path: path.into(),
-                columns: columns.map(Into::into),
+                columns: columns.map(|name| Some(name.into())),
                 reading,
                 offset: [0.0; 3],
                 scale,

@@ -10,7 +10,7 @@ use super::log_spec::{
     TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
 };
 use super::log_times::Clock;
-use super::readings::{ACCEL, GYRO, NUMBERS, Readings, column, refuse_own, scale_of, unit};
+use super::readings::{ACCEL, GYRO, NUMBERS, Readings, column, example, refuse_own, scale_of, unit};
 use super::table_columns;
 use super::time_keys::{PATH, own_clock, time_column};
 use crate::error::IoError;
@@ -33,6 +33,8 @@ pub(crate) const KEYS: [&str; 13] = [
     "static",
     "window",
 ];
+
+const SOME_COLUMNS: &str = r#"one to three columns such as ["x", "y", "z"]"#;
 
 const FORMATS: [(&str, Format); 8] = [
     ("csv", Format::Table(Table::Text)),
@@ -72,6 +74,9 @@ pub(super) fn read(root: &Section<'_>, folder: &Path) -> Result<LogSpec, IoError
     )?;
     let path = match (log.text("path", PATH)?, &gyro, &accel) {
         (Some(path), ..) => path,
+        (None, Some(only), None) | (None, None, Some(only)) if only.has("path") => {
+            only.text("path", PATH)?.unwrap_or_default()
+        }
         (None, Some(gyro), Some(accel)) if gyro.has("path") && accel.has("path") => {
             gyro.text("path", PATH)?.unwrap_or_default()
         }
@@ -132,11 +137,14 @@ fn of_format(
         }
         Format::Table(table) => {
             let time = time(log, spec.rate)?;
-            let (Some(gyro), Some(accel)) = (gyro, accel) else {
-                let (key, unit) =
-                    if gyro.is_none() { ("gyro", "deg/s") } else { ("accel", "m/s^2") };
-                let example = format!("{{ columns = [\"x\", \"y\", \"z\"], unit = \"{unit}\" }}");
-                return Err(log.missing(key, example));
+            let (gyro, accel) = match (gyro, accel) {
+                (Some(gyro), Some(accel)) => (gyro, accel),
+                (None, None) => return Err(log.missing("gyro", example(&GYRO))),
+                (gyro, accel) => {
+                    let imu = some_sensors((gyro, accel), (table, time), &spec.path, folder)?;
+                    let columns = others(log, folder, imu)?;
+                    return Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec });
+                }
             };
             let gyro = triad(gyro, folder, &spec.path, &GYRO)?;
             let accel_clock = own_clock(accel, time.as_ref())?;
@@ -167,6 +175,31 @@ fn of_format(
             Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec })
         }
     }
+}
+
+/// The columns of a log of gyros alone, or of accelerometers alone: one to three of them.
+fn some_sensors(
+    (gyro, accel): (Option<&Section<'_>>, Option<&Section<'_>>),
+    (table, time): (Table, Option<TimeColumn>),
+    path: &Path,
+    folder: &Path,
+) -> Result<ColumnSpec, IoError> {
+    let sensors = |section: Option<&Section<'_>>, readings| {
+        let Some(section) = section else { return Ok(None) };
+        refuse_own(section, &["time", "where"], "it belongs to a log of gyros and accelerometers")?;
+        let names = section.list_of_texts("columns", SOME_COLUMNS)?;
+        if !(1..=3).contains(&names.len()) {
+            return Err(section.not_allowed("columns", SOME_COLUMNS));
+        }
+        let mut names = names.into_iter();
+        triad_of(section, folder, (path, [(); 3].map(|()| names.next())), readings).map(Some)
+    };
+    let (gyro, accel) = (sensors(gyro, &GYRO)?, sensors(accel, &ACCEL)?);
+    let absent = gyro.iter().chain(&accel).map(TriadColumns::absent).next();
+    let gyro = gyro.or_else(|| absent.clone());
+    let accel = accel.or(absent);
+    let (Some(gyro), Some(accel)) = (gyro, accel) else { unreachable!("one of them is stated") };
+    Ok(ColumnSpec::of(table, time, gyro, accel))
 }
 
 fn format(log: &Section<'_>, path: &str) -> Result<Format, IoError> {
@@ -214,6 +247,16 @@ fn triad(
     if columns[0] == columns[1] || columns[1] == columns[2] || columns[0] == columns[2] {
         return Err(triad.conflict("columns", "names a column twice"));
     }
+    triad_of(triad, folder, (log, columns.map(|name| Some(name.into()))), readings)
+}
+
+/// The triad of these columns.
+fn triad_of(
+    triad: &Section<'_>,
+    folder: &Path,
+    (log, columns): (&Path, [Option<String>; 3]),
+    readings: &Readings,
+) -> Result<TriadColumns, IoError> {
     let unit = unit(triad, &[readings.rate, readings.increment], readings)?;
     let reading = if unit.dimension == readings.rate {
         Reading::Rate(unit.factor)
@@ -234,7 +277,7 @@ fn triad(
     Ok(TriadColumns {
         rows,
         path: triad.text("path", PATH)?.map_or_else(|| log.into(), |path| folder.join(path)),
-        columns: columns.map(Into::into),
+        columns,
         reading,
         offset: triad.numbers("offset", NUMBERS)?.unwrap_or([0.0; 3]),
         scale,

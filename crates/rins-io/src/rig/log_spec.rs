@@ -3,6 +3,8 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use rins_frames::SignedAxes;
+
 use super::axes::Axes;
 
 /// The place and format of a log.
@@ -177,8 +179,8 @@ pub struct RowFilter {
 pub struct TriadColumns {
     /// The file with these columns.
     pub path: PathBuf,
-    /// Their names.
-    pub columns: [String; 3],
+    /// Their names; `None` for a sensor that the log does not have.
+    pub columns: [Option<String>; 3],
     /// The kind and unit of the numbers.
     pub reading: Reading,
     /// Subtracted from the numbers.
@@ -247,5 +249,41 @@ impl LogSpec {
             LogFormat::Columns(columns) => columns.table_angle.as_ref(),
             LogFormat::Psins => None,
         }
+    }
+}
+
+impl TriadColumns {
+    /// The names of the columns that the log has.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        self.columns.iter().flatten()
+    }
+
+    /// A triad of which the log has no sensor, beside another.
+    pub(super) fn absent(beside: &Self) -> Self {
+        Self {
+            columns: [const { None }; 3],
+            offset: [0.0; 3],
+            scale: [1.0; 3],
+            rows: None,
+            reading: Reading::Rate(1.0),
+            path: beside.path.clone(),
+        }
+    }
+}
+
+impl LogSpec {
+    /// Which of the gyros and which of the accelerometers the log has, along the body axes that `[log]` names.
+    pub fn sensors(&self) -> [[bool; 3]; 2] {
+        let LogFormat::Columns(columns) = &self.format else { return [[true; 3]; 2] };
+        let of = |triad: &TriadColumns, axes: &Axes| {
+            let SignedAxes { source, .. } = (*axes).into();
+            source.map(|sensor| triad.columns[sensor].is_some())
+        };
+        [of(&columns.gyro, &self.gyro_axes), of(&columns.accel, &self.accel_axes)]
+    }
+
+    /// Whether the log has three gyros and three accelerometers.
+    pub fn is_complete(&self) -> bool {
+        self.sensors() == [[true; 3]; 2]
     }
 }

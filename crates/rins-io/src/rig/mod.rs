@@ -30,6 +30,7 @@ pub(crate) use place::{angles, station};
 pub use table::TableSpec;
 pub(crate) use table_columns::angle_figures;
 
+use self::readings::{ACCEL, GYRO, example};
 use crate::document::Document;
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::section::Section;
@@ -77,10 +78,13 @@ pub struct Rig {
     /// From the axes that `[log]` calls the body's to those with z along the spin axis, which are
     /// the body axes everywhere else ([`Axes::spin`]).
     pub spin: Axes,
+    /// The name of the series of runs between which the IMU was not switched off: `[run] series`. They have
+    /// the same turn-on biases.
+    pub series: Option<String>,
 }
 
 /// The sections of a rig file.
-pub(crate) const SECTIONS: [&str; 6] = ["site", "log", "attitude", "imu", "table", "axis"];
+pub(crate) const SECTIONS: [&str; 7] = ["site", "log", "attitude", "imu", "table", "axis", "run"];
 
 impl Rig {
     /// Reads the rig file at `path`.
@@ -120,6 +124,7 @@ impl Rig {
             imu: imu::read(root)?,
             table: table::read(root)?,
             spin: spin(root)?,
+            series: series(root)?,
         })
     }
 
@@ -151,6 +156,19 @@ impl Rig {
             .ok_or_else(|| self.missing("[site]", "latitude, longitude and height"))
     }
 
+    /// The error that the rig's log does not have three gyros and three accelerometers.
+    pub(crate) fn lacks_sensors(&self) -> IoError {
+        let [gyro, accel] = self.log.sensors();
+        let has_none = |triad: [bool; 3]| triad == [false; 3];
+        let (key, expected) = match () {
+            () if has_none(gyro) => ("[log] gyro", example(&GYRO)),
+            () if has_none(accel) => ("[log] accel", example(&ACCEL)),
+            () if gyro != [true; 3] => ("[log] gyro.columns", "three columns".into()),
+            () => ("[log] accel.columns", "three columns".into()),
+        };
+        self.missing(key, &format!("{expected}; of fewer sensors only the noise is estimated (rins allan)"))
+    }
+
     pub(crate) fn missing(&self, key: &str, expected: &str) -> IoError {
         let problem = KeyProblem::Missing { expected: expected.into() };
         Box::new(KeyError { path: self.path.clone(), line: None, key: key.into(), problem }).into()
@@ -167,4 +185,14 @@ fn spin(root: &Section<'_>) -> Result<Axes, IoError> {
     let expected = r#"a body axis such as "z" or "-x""#;
     let Some(name) = axis.text("spin", expected)? else { return Ok(Axes::IDENTITY) };
     Axes::spin(name).ok_or_else(|| axis.not_allowed("spin", expected))
+}
+
+fn series(root: &Section<'_>) -> Result<Option<String>, IoError> {
+    let Some(run) = root.section("run", &["series"])? else { return Ok(None) };
+    let expected = r#"one name for all runs of a power-on, such as "2026-11-26 a""#;
+    match run.text("series", expected)? {
+        None => Err(run.missing("series", expected)),
+        Some("") => Err(run.not_allowed("series", expected)),
+        Some(name) => Ok(Some(name.into())),
+    }
 }

@@ -26,6 +26,11 @@ pub(super) const ACCEL: Readings = Readings {
     example: "m/s^2",
 };
 
+/// The value of `[log] gyro` or `accel`, for an error message.
+pub(crate) fn example(readings: &Readings) -> String {
+    format!("{{ columns = [\"x\", \"y\", \"z\"], unit = {:?} }}", readings.example)
+}
+
 pub(super) const NUMBERS: &str = "a number, or one for each column";
 
 pub(super) fn refuse_own(

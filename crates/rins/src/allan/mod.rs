@@ -19,7 +19,8 @@ pub struct Allan<'a> {
     rest: Rest,
 }
 
-/// Estimates the noise over the longest static interval of a log, with lost samples filled in.
+/// Estimates the noise over the longest static interval of a log, with lost samples filled in. The log may have fewer than three
+/// gyros and three accelerometers ([`Log::open_partial`]).
 ///
 /// # Errors
 /// If units, signs or axes are wrong, or if there is no static interval of ten seconds.
@@ -33,6 +34,8 @@ pub struct Allan<'a> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn allan(log: &Log) -> Result<Allan<'_>> {
-    refuse_mistaken(&log.loaded)?;
+    if log.loaded.rig.log.is_complete() {
+        refuse_mistaken(&log.loaded)?;
+    }
     Ok(Allan { log, rest: rest(&log.loaded)? })
 }

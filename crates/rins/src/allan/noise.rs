@@ -9,7 +9,7 @@ use rins_imu::{
     AllanPlan, Axis, NoiseLaw, NoiseSeen, NoiseTerm, SpectralLine, Triad, TriadSpec, take_out_lines,
 };
 use rins_inspection::QuantizationGrids;
-use rins_io::{Gaps, Loaded, LogFormat, shown};
+use rins_io::{Axes, Gaps, Loaded, LogFormat, Rig, TriadColumns, shown};
 use rins_report::number::figure;
 use rins_terms::{Unit, catalogue};
 
@@ -154,8 +154,12 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     let own_axes = SignedAxes::from(loaded.rig.spin);
     let combs = resolutions(loaded, interval);
     let (mut channels, mut beyond) = (Vec::new(), Vec::new());
-    for triad in [Triad::Gyro, Triad::Accel] {
+    let sensors = loaded.rig.log.sensors();
+    for (triad, sensors) in [Triad::Gyro, Triad::Accel].into_iter().zip(sensors) {
         for axis in Axis::ALL {
+            if !sensors[axis.index()] {
+                continue;
+            }
             let of = |sample: &Increments| match triad {
                 Triad::Gyro => own_axes.undo(sample.angle.components())[axis.index()],
                 Triad::Accel => own_axes.undo(sample.velocity.components())[axis.index()],
@@ -171,7 +175,7 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
                 Triad::Gyro => imu.gyro,
                 Triad::Accel => imu.accel,
             });
-            let capped = combs[channels.len()]
+            let capped = combs[3 * usize::from(triad == Triad::Accel) + axis.index()]
                 .and_then(|most| cap_quantisation(&mut seen, most, triad, axis));
             beyond.extend(capped);
             channels.push(Channel { triad, axis, seen, lines, sheet });
@@ -181,6 +185,7 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
     let start = recording.times[span.start] - recording.increments[span.start].interval;
     let start = if start.abs() < 1e-6 * interval { 0.0 } else { start };
     let mut remarks: Vec<String> = remark.into_iter().chain(beyond).collect();
+    remarks.extend(names_in_words(&loaded.rig));
     remarks.extend(statics_in_words(&statics, &loaded.rig));
     Ok(Rest {
         span: (start, recording.times[span.end - 1]),
@@ -193,6 +198,22 @@ pub(super) fn rest(loaded: &Loaded) -> anyhow::Result<Rest> {
         }),
         remarks,
     })
+}
+
+/// How the sensors of an incomplete triad are called, whose axes the columns do not tell.
+fn names_in_words(rig: &Rig) -> Option<String> {
+    let LogFormat::Columns(columns) = &rig.log.format else { return None };
+    let named = |sensor: &str, triad: &TriadColumns, axes: &Axes| -> Vec<String> {
+        let SignedAxes { source, .. } = (*axes).into();
+        let column = |axis: &Axis| Some((axis.to_string(), triad.columns[source[axis.index()]].as_ref()?));
+        let of_triad: Vec<_> = Axis::ALL.iter().filter_map(column).collect();
+        let is_incomplete = of_triad.len() < 3;
+        let told = of_triad.into_iter().map(|(axis, name)| format!("{name:?} is {sensor} {axis}"));
+        told.filter(|_| is_incomplete).collect()
+    };
+    let mut told = named("gyro", &columns.gyro, &rig.log.gyro_axes);
+    told.extend(named("accelerometer", &columns.accel, &rig.log.accel_axes));
+    (!told.is_empty()).then(|| format!("Of the columns, {}.", told.join(", ")))
 }
 
 /// Limits the quantization noise to that of the resolution, `most` \[rad or m/s\]; returns a remark if the estimate exceeds it.

@@ -104,7 +104,7 @@ impl Certificate {
         let given = case.given_of_logs();
         // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
         let is_kept = |run: usize, id: &str| match case.runs.get(run) {
-            Some(log) if log.others.is_empty() => true,
+            Some(_) if !case.shares_turn_on(run) => true,
             Some(log) => log.run.rig.reference != Reference::Rest && id != axis_attitude("z"),
             None => false,
         };

@@ -7,7 +7,7 @@ mod statics;
 
 use std::path::Path;
 
-use rins_io::{Loaded, shown};
+use rins_io::{Loaded, LogPolicy, Rig, shown};
 
 pub(crate) use self::range::{Beyond, beyond, covered, ensure_temperature};
 pub use self::range::{OutsideRange, OutsideRate, OutsideTemperature};
@@ -39,6 +39,16 @@ impl Log {
     pub fn open(rig: impl AsRef<Path>) -> Result<Self> {
         let rig = rig.as_ref();
         Ok(Self { name: shown(rig), loaded: rins_io::read(rig)? })
+    }
+
+    /// Reads a rig file and a log that may have fewer than three gyros and three accelerometers, for [`allan`](crate::allan).
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn open_partial(rig: impl AsRef<Path>) -> Result<Self> {
+        let rig = rig.as_ref();
+        let policy = LogPolicy { incomplete: true, ..LogPolicy::default() };
+        Ok(Self { name: shown(rig), loaded: rins_io::read_log(Rig::read(rig)?, policy)? })
     }
 
     /// The repairs and omissions made while reading the log, one sentence each.

@@ -2,10 +2,13 @@
 
 use std::ops::Range;
 
+use nalgebra::Vector3;
 use rins_frames::units::DEG_PER_SECOND;
+use rins_frames::{InFrame, SignedAxes};
 use rins_imu::TriadSpec;
 use rins_inspection::{SensorFigures, StaticInterval, StaticIntervals, StaticOptions};
 use rins_io::{Loaded, Rig};
+use rins_motion::Recording;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,7 +34,31 @@ fn options(rig: &Rig) -> StaticOptions {
 
 /// The static intervals of a log, stated by its rig file or detected.
 pub(crate) fn static_intervals(loaded: &Loaded) -> StaticIntervals {
-    StaticIntervals::of(&loaded.recording, &options(&loaded.rig))
+    let options = options(&loaded.rig);
+    if loaded.rig.log.is_complete() {
+        return StaticIntervals::of(&loaded.recording, &options);
+    }
+    StaticIntervals::of(&with_ideal_sensors(loaded), &options)
+}
+
+/// The recording with readings of a static IMU for the sensors that the log does not have: no rotation, and specific force as
+/// large as gravity.
+fn with_ideal_sensors(loaded: &Loaded) -> Recording {
+    let spin = SignedAxes::from(loaded.rig.spin);
+    let [_, accels] = loaded.rig.log.sensors();
+    let mut recording = loaded.recording.clone();
+    let samples = &mut recording.increments;
+    let lasting: f64 = samples.iter().map(|sample| sample.interval).sum();
+    let gained: Vector3<f64> = samples.iter().map(|sample| sample.velocity.components()).sum();
+    let mean = gained.norm() / lasting;
+    let missing = (loaded.station.gravity.powi(2) - mean.powi(2)).max(0.0).sqrt();
+    if let Some(absent) = accels.iter().position(|is_there| !is_there) {
+        let along = spin.apply(&Vector3::ith(absent, missing));
+        for sample in samples {
+            sample.velocity += InFrame::from_components(along * sample.interval);
+        }
+    }
+    recording
 }
 
 /// The longest static interval, if its duration is at least `shortest` \[s\].

@@ -1,6 +1,6 @@
 //! An estimation problem: runs of one IMU, and the model to be estimated from them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Run};
 use rins_frames::EARTH_RATE;
@@ -31,9 +31,23 @@ impl EstimationProblem {
     /// Whether the model is the full one without a g-sensitivity, and an IMU was at rest in several attitudes.
     pub(crate) fn can_be_g_sensitive(&self) -> bool {
         let has = self.model.terms.iter().any(|own| own.term.is(&catalogue::GYRO_G_SENSITIVITY));
-        let is_turned_over =
-            |run: &Prepared| run.run.rig.reference == Reference::Rest && !run.others.is_empty();
-        self.name == FULL && !has && self.runs.iter().any(is_turned_over)
+        let is_turned_over = |log: usize| {
+            self.runs[log].run.rig.reference == Reference::Rest && self.shares_turn_on(log)
+        };
+        self.name == FULL && !has && (0..self.runs.len()).any(is_turned_over)
+    }
+
+    /// Whether a log has several static intervals, or its turn-on biases are those of another log too.
+    pub(crate) fn shares_turn_on(&self, log: usize) -> bool {
+        let is_shared = |(other, _): (usize, &Prepared)| other != log && self.first_of(other) == self.first_of(log);
+        !self.runs[log].others.is_empty() || self.runs.iter().enumerate().any(is_shared)
+    }
+
+    /// The first log that was recorded in the power-on of a log.
+    fn first_of(&self, log: usize) -> usize {
+        let series = |run: &Prepared| run.loaded.rig.series.clone();
+        let same = |other: &Prepared| series(other).is_some() && series(other) == series(&self.runs[log]);
+        self.runs.iter().position(same).unwrap_or(log)
     }
 
     /// Adds the g-sensitivity of the gyros to the model.
@@ -60,6 +74,7 @@ impl EstimationProblem {
                 .flat_map(|run| run.remarks.iter().map(|told| format!("{}: {told}", run.name)))
                 .collect(),
         };
+        remarks.extend(series_in_words(&runs));
         let spins: BTreeSet<String> =
             runs.iter().map(|run| run.loaded.rig.spin.spin_name()).collect();
         if spins.len() > 1 {
@@ -100,9 +115,8 @@ impl EstimationProblem {
     /// The runs in the order of the estimator: one of each log, then the other static intervals of the first log, of the second,
     /// and so on.
     pub(crate) fn given(&self) -> Vec<Run> {
-        let of_log = |(log, prepared): (usize, &Prepared), run: &Run| match &prepared.others[..] {
-            [] => run.clone(),
-            _ => run.clone().since(log),
+        let of_log = |(log, _): (usize, &Prepared), run: &Run| {
+            if self.shares_turn_on(log) { run.clone().since(self.first_of(log)) } else { run.clone() }
         };
         let logs = || self.runs.iter().enumerate();
         let first = logs().map(|log| of_log(log, &log.1.run));
@@ -138,6 +152,31 @@ impl EstimationProblem {
     pub(crate) fn names(&self) -> String {
         self.runs.iter().map(|run| run.name.as_str()).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// Which logs have the same turn-on biases, as the rig files state it.
+fn series_in_words(runs: &[Prepared]) -> Option<String> {
+    if runs.len() < 2 {
+        return None;
+    }
+    let mut series: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for run in runs {
+        if let Some(name) = &run.loaded.rig.series {
+            series.entry(name).or_default().push(&run.name);
+        }
+    }
+    if series.is_empty() {
+        return Some(
+            "Each log has turn-on biases of its own. Logs between which the IMU was not switched off have the same ones: state \
+             one `[run] series = \"...\"` in their rig files."
+                .into(),
+        );
+    }
+    let several = series.into_iter().filter(|(_, logs)| logs.len() > 1);
+    let told: Vec<String> = several
+        .map(|(name, logs)| format!("The logs of the series {name:?} have the same turn-on biases: {}.", logs.join(", ")))
+        .collect();
+    (!told.is_empty()).then(|| told.join(" "))
 }
 
 /// The model with the error of the Earth's horizontal rate, if the azimuth of a run is unknown.
