@@ -29,6 +29,7 @@
 //! # Ok::<(), rins_imu::CompensationError>(())
 //! ```
 mod axis;
+mod preset;
 mod spec;
 mod triad;
 
@@ -47,6 +48,7 @@ pub use noise::{
     GaussMarkov, ImuNoise, ImuNoiseError, ImuNoiseSource, NoiseError, NoiseModel, NormalStream,
     Quantisation, Seed, Sensor, Span, TriadNoise, rounded,
 };
+pub use preset::{GRADES, Preset, SENSORS};
 pub use spec::{ImuSpec, TriadSpec};
 pub use triad::{CompensationError, TriadCompensation, TriadError};
 

@@ -1,16 +1,15 @@
 //! The parts of a draft for which a log has little information: site, format, attitude, data sheet, axis.
 
+use rins_imu::{GRADES, Preset, SENSORS};
+
 use super::page::{Page, text};
 use super::sample::Sample;
 use crate::log::Delimiter;
 
 pub(super) fn site(page: &mut Page) {
-    page.blank();
-    page.remark("Site of the table:");
-    page.closed_section("site");
+    page.section("site");
     page.leave("latitude", r#""? deg""#, "north positive");
-    page.leave("longitude", r#""? deg""#, "east positive");
-    page.leave("height", r#""? m""#, "above the ellipsoid");
+    page.optional("height", r#""? m""#, "above the ellipsoid; sea level unless stated");
     page.optional("gravity", r#""? m/s^2""#, "if it was measured; else the WGS84 normal gravity");
 }
 
@@ -80,27 +79,33 @@ pub(super) fn profile(page: &mut Page) {
 
 pub(super) fn imu(page: &mut Page) {
     page.blank();
-    page.remark(
-        "Data sheets of the sensors. `rins check` does not need them; calibration needs all values.",
-    );
+    page.remark("The data sheet: that of a grade or of a sensor, or values of your own, or both. If it is");
+    page.remark("left out, a grade is assumed from the readings at rest, and the result says so.");
+    page.closed_section("imu");
+    let names = |presets: &[Preset]| {
+        let names: Vec<String> = presets.iter().map(|preset| text(preset.name)).collect();
+        names.join(", ")
+    };
+    page.optional("grade", r#""?""#, &names(&GRADES));
+    page.optional("sensor", r#""?""#, &format!("instead of a grade: {}", names(&SENSORS)));
     page.closed_section("imu.gyro");
-    page.leave(
+    page.optional(
         "noise",
         r#""? deg/h/sqrt(Hz)""#,
         "white noise; or as an angle random walk, \"? deg/sqrt(h)\"",
     );
-    page.leave("bias_sigma", r#""? deg/h""#, "biases, 1 sigma");
-    page.leave("scale_sigma", r#""? ppm""#, "scale errors, 1 sigma");
-    page.leave("misalignment_sigma", r#""? arcsec""#, "misalignments, 1 sigma");
+    page.optional("bias_sigma", r#""? deg/h""#, "biases, 1 sigma");
+    page.optional("scale_sigma", r#""? ppm""#, "scale errors, 1 sigma");
+    page.optional("misalignment_sigma", r#""? arcsec""#, "misalignments, 1 sigma");
     page.closed_section("imu.accel");
-    page.leave(
+    page.optional(
         "noise",
         r#""? ug/sqrt(Hz)""#,
         "white noise; or as a velocity random walk, \"? m/s/sqrt(h)\"",
     );
-    page.leave("bias_sigma", r#""? ug""#, "as for the gyros");
-    page.leave("scale_sigma", r#""? ppm""#, "as for the gyros");
-    page.leave("misalignment_sigma", r#""? arcsec""#, "as for the gyros");
+    page.optional("bias_sigma", r#""? ug""#, "as for the gyros");
+    page.optional("scale_sigma", r#""? ppm""#, "as for the gyros");
+    page.optional("misalignment_sigma", r#""? arcsec""#, "as for the gyros");
 }
 
 pub(super) fn default_spin(page: &mut Page) {

@@ -1,6 +1,6 @@
-//! The data sheet in a rig file: `[imu.gyro]` and `[imu.accel]`.
+//! The data sheet in a rig file: `[imu] grade` or `sensor`, `[imu.gyro]` and `[imu.accel]`.
 
-use rins_imu::{ImuSpec, TriadSpec};
+use rins_imu::{GRADES, ImuSpec, Preset, SENSORS, TriadSpec};
 
 use crate::error::IoError;
 use crate::quantity::{Kind, kinds};
@@ -31,14 +31,41 @@ const ACCEL: Figures = Figures {
     reading: &kinds::ACCEL_READING,
 };
 
-pub(super) fn read(root: &Section<'_>) -> Result<Option<ImuSpec>, IoError> {
-    let Some(imu) = root.section("imu", &["gyro", "accel"])? else { return Ok(None) };
-    let gyro = triad(&imu, "gyro", &GYRO)?;
-    let accel = triad(&imu, "accel", &ACCEL)?;
-    Ok(Some(ImuSpec { gyro, accel }))
+/// The data sheet, and the grade or sensor that gives the values which the rig file does not state.
+pub(super) fn read(
+    root: &Section<'_>,
+) -> Result<(Option<ImuSpec>, Option<&'static Preset>), IoError> {
+    let Some(imu) = root.section("imu", &["grade", "sensor", "gyro", "accel"])? else {
+        return Ok((None, None));
+    };
+    let preset = preset(&imu)?;
+    let gyro = triad(&imu, "gyro", &GYRO, preset.map(|preset| preset.imu.gyro))?;
+    let accel = triad(&imu, "accel", &ACCEL, preset.map(|preset| preset.imu.accel))?;
+    Ok((Some(ImuSpec { gyro, accel }), preset))
 }
 
-fn triad(imu: &Section<'_>, key: &str, figures: &Figures) -> Result<TriadSpec, IoError> {
+/// The grade or the sensor.
+fn preset(imu: &Section<'_>) -> Result<Option<&'static Preset>, IoError> {
+    let named = |key: &str, presets: &'static [Preset]| {
+        let names: Vec<String> = presets.iter().map(|preset| format!("{:?}", preset.name)).collect();
+        let expected = format!("one of {}", names.join(", "));
+        let Some(name) = imu.text(key, &expected)? else { return Ok(None) };
+        let known = presets.iter().any(|preset| preset.name.eq_ignore_ascii_case(name));
+        let preset = Preset::named(name).filter(|_| known);
+        preset.map(Some).ok_or_else(|| imu.not_allowed(key, &expected))
+    };
+    match (named("grade", &GRADES)?, named("sensor", &SENSORS)?) {
+        (Some(_), Some(_)) => Err(imu.conflict("grade", "a sensor is stated too")),
+        (grade, sensor) => Ok(grade.or(sensor)),
+    }
+}
+
+fn triad(
+    imu: &Section<'_>,
+    key: &str,
+    figures: &Figures,
+    preset: Option<TriadSpec>,
+) -> Result<TriadSpec, IoError> {
     let known = [
         "noise",
         "bias_sigma",
@@ -49,14 +76,24 @@ fn triad(imu: &Section<'_>, key: &str, figures: &Figures) -> Result<TriadSpec, I
         "range",
         "resolution",
     ];
-    let Some(section) = imu.section(key, &known)? else {
-        return Err(imu.missing(key, format!("a section [imu.{key}]")));
+    let section = match (imu.section(key, &known)?, preset) {
+        (Some(section), _) => section,
+        (None, Some(preset)) => return Ok(preset),
+        (None, None) => {
+            return Err(imu.missing(key, format!("a section [imu.{key}], or a grade of the IMU")));
+        }
+    };
+    let or_preset = |key: &str, kind: &Kind, of: fn(&TriadSpec) -> f64| match &preset {
+        Some(preset) => Ok(section.quantity(key, kind)?.unwrap_or_else(|| of(preset))),
+        None => section.require_quantity(key, kind),
     };
     Ok(TriadSpec {
-        noise_density: section.require_quantity("noise", figures.noise)?,
-        bias_sigma: section.require_quantity("bias_sigma", figures.bias_sigma)?,
-        scale_sigma: section.require_quantity("scale_sigma", &kinds::RATIO_SIGMA)?,
-        misalignment_sigma: section.require_quantity("misalignment_sigma", &kinds::ANGLE_SIGMA)?,
+        noise_density: or_preset("noise", figures.noise, |sheet| sheet.noise_density)?,
+        bias_sigma: or_preset("bias_sigma", figures.bias_sigma, |sheet| sheet.bias_sigma)?,
+        scale_sigma: or_preset("scale_sigma", &kinds::RATIO_SIGMA, |sheet| sheet.scale_sigma)?,
+        misalignment_sigma: or_preset("misalignment_sigma", &kinds::ANGLE_SIGMA, |sheet| {
+            sheet.misalignment_sigma
+        })?,
         bias_instability: section.quantity("bias_instability", figures.bias_instability)?,
         random_walk: section.quantity("random_walk", figures.random_walk)?,
         range: section.quantity("range", figures.reading)?,

@@ -15,7 +15,7 @@ mod time_keys;
 
 use std::path::{Path, PathBuf};
 
-use rins_imu::ImuSpec;
+use rins_imu::{ImuSpec, Preset};
 use rins_motion::Station;
 
 pub use axes::Axes;
@@ -57,7 +57,7 @@ use crate::section::Section;
 /// assert_eq!(
 ///     rig.require_imu().unwrap_err().to_string(),
 ///     "runs/rig.toml: [imu.gyro]: missing, expected the gyros' data sheet figures noise, \
-///      bias_sigma, scale_sigma and misalignment_sigma",
+///      bias_sigma, scale_sigma and misalignment_sigma, or [imu] grade",
 /// );
 /// # Ok::<(), rins_io::IoError>(())
 /// ```
@@ -67,12 +67,16 @@ pub struct Rig {
     pub path: PathBuf,
     /// The site of the table. A PSINS log has it in its header, so its rig file may omit it.
     pub station: Option<Station>,
+    /// Whether gravity is that of sea level because the rig file states neither a height nor gravity.
+    pub at_sea_level: bool,
     /// The place and format of the log.
     pub log: LogSpec,
     /// The attitude of the table axis frame at table angle zero.
     pub attitude: Option<InitialAttitude>,
     /// The data sheet of the IMU.
     pub imu: Option<ImuSpec>,
+    /// The grade or sensor that gives the values of the data sheet which the rig file does not state.
+    pub preset: Option<&'static Preset>,
     /// The commanded motion of the table, and the wobble of its axis.
     pub table: Option<TableSpec>,
     /// From the axes that `[log]` calls the body's to those with z along the spin axis, which are
@@ -109,19 +113,22 @@ impl Rig {
         let log = log_keys::read(&root, folder(&document.path))?;
         let station = station(&root)?;
         if station.is_none() && !matches!(log.format, LogFormat::Psins) {
-            return Err(root.missing("[site]", "latitude, longitude and height"));
+            return Err(root.missing("[site]", "latitude, and height or gravity"));
         }
         Ok(Self { station, log, ..Self::without_log(document, &root)? })
     }
 
     /// All sections except the station and the log, which a scenario reads differently.
     pub(crate) fn without_log(document: &Document, root: &Section<'_>) -> Result<Self, IoError> {
+        let (imu, preset) = imu::read(root)?;
         Ok(Self {
             path: document.path.clone(),
             station: None,
+            at_sea_level: place::is_at_sea_level(root)?,
             log: LogSpec::nowhere(),
             attitude: place::attitude(root)?,
-            imu: imu::read(root)?,
+            imu,
+            preset,
             table: table::read(root)?,
             spin: spin(root)?,
             series: series(root)?,
@@ -134,7 +141,7 @@ impl Rig {
     /// [`IoError::Key`] if the rig has no `[imu]` section.
     pub fn require_imu(&self) -> Result<&ImuSpec, IoError> {
         let figures = "the gyros' data sheet figures noise, bias_sigma, scale_sigma and \
-                       misalignment_sigma";
+                       misalignment_sigma, or [imu] grade";
         self.imu.as_ref().ok_or_else(|| self.missing("[imu.gyro]", figures))
     }
 
@@ -153,7 +160,7 @@ impl Rig {
     pub fn require_station(&self) -> Result<&Station, IoError> {
         self.station
             .as_ref()
-            .ok_or_else(|| self.missing("[site]", "latitude, longitude and height"))
+            .ok_or_else(|| self.missing("[site]", "latitude, and height or gravity"))
     }
 
     /// The error that the rig's log does not have three gyros and three accelerometers.

@@ -16,17 +16,26 @@ pub struct InitialAttitude {
     pub sigma: f64,
 }
 
+/// The keys of `[site]`.
+const SITE: [&str; 4] = ["latitude", "longitude", "height", "gravity"];
+
+/// The station of `[site]`. No result depends on its longitude, which may be left out, and without a height it is at sea level.
 pub(crate) fn station(root: &Section<'_>) -> Result<Option<Station>, IoError> {
-    let known = ["latitude", "longitude", "height", "gravity"];
-    let Some(section) = root.section("site", &known)? else { return Ok(None) };
+    let Some(section) = root.section("site", &SITE)? else { return Ok(None) };
     let site = Site {
         latitude: section.require_quantity("latitude", &kinds::LATITUDE)?,
-        longitude: section.require_quantity("longitude", &kinds::LONGITUDE)?,
-        height: section.require_quantity("height", &kinds::HEIGHT)?,
+        longitude: section.quantity("longitude", &kinds::LONGITUDE)?.unwrap_or(0.0),
+        height: section.quantity("height", &kinds::HEIGHT)?.unwrap_or(0.0),
     };
     let station = Station::with_normal_gravity(site);
     let gravity = section.quantity("gravity", &kinds::GRAVITY)?.unwrap_or(station.gravity);
     Ok(Some(Station { gravity, ..station }))
+}
+
+/// Whether gravity is that of sea level because `[site]` states neither a height nor gravity.
+pub(super) fn is_at_sea_level(root: &Section<'_>) -> Result<bool, IoError> {
+    let site = root.section("site", &SITE)?;
+    Ok(site.is_some_and(|site| !site.has("height") && !site.has("gravity")))
 }
 
 pub(super) fn attitude(root: &Section<'_>) -> Result<Option<InitialAttitude>, IoError> {

@@ -1,5 +1,6 @@
 //! A log with its rig file.
 
+mod data_sheet;
 mod range;
 mod repairs;
 mod setup;
@@ -9,6 +10,7 @@ use std::path::Path;
 
 use rins_io::{Loaded, LogPolicy, Rig, shown};
 
+pub(crate) use self::data_sheet::DataSheet;
 pub(crate) use self::range::{Beyond, beyond, covered, ensure_temperature};
 pub use self::range::{OutsideRange, OutsideRate, OutsideTemperature};
 pub(crate) use self::repairs::{repairs, with_repairs};

@@ -3,21 +3,38 @@
 use anyhow::Context;
 use rins_calibration::{AxisAttitude, Setup, TableSpec};
 use rins_io::{Loaded, Rig};
+use rins_imu::ImuSpec;
 use rins_motion::Station;
+
+use super::DataSheet;
 
 /// The station, table and IMU of a rig.
 ///
 /// If the rig file does not state the wobble of the spin axis, the resolution of the encoder is the preliminary value.
-pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<Setup> {
-    setup_at(&loaded.rig, loaded.station)
+///
+/// The second value is what was assumed of data sheet and site, in sentences.
+pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<(Setup, Vec<String>)> {
+    let DataSheet { imu, assumption } =
+        DataSheet::of(loaded).context("the calibration needs the IMU's data sheet")?;
+    let mut assumptions = Vec::from_iter(assumption);
+    if loaded.rig.at_sea_level {
+        assumptions.push(
+            "The site has no height: gravity is that of sea level; it decreases by 0.03 % in 1000 m.".into(),
+        );
+    }
+    Ok((setup_with(&loaded.rig, loaded.station, imu), assumptions))
 }
 
 /// [`setup`] where the station is known.
 pub(crate) fn setup_at(rig: &Rig, station: Station) -> anyhow::Result<Setup> {
     let imu = *rig.require_imu().context("the calibration needs the IMU's data sheet")?;
+    Ok(setup_with(rig, station, imu))
+}
+
+fn setup_with(rig: &Rig, station: Station, imu: ImuSpec) -> Setup {
     let (angle_noise, wobble) = table_accuracy(rig);
     let latency = rig.log.table_angle().and_then(|angle| angle.latency).unwrap_or_default();
-    Ok(Setup {
+    Setup {
         station,
         axis: rig
             .attitude
@@ -25,7 +42,7 @@ pub(crate) fn setup_at(rig: &Rig, station: Station) -> anyhow::Result<Setup> {
         table: TableSpec { angle_noise, wobble, rate_noise: 0.0, latency },
         imu,
         velocity_noise: Setup::FIXED_TABLE_VELOCITY_NOISE,
-    })
+    }
 }
 
 /// The 1σ of the table angle and of the direction of the spin axis, from the rig file or by default \[rad\].

@@ -86,8 +86,9 @@ impl Axis {
     }
 }
 
-/// The station, table and IMU of a rig, after a check for gross errors of units, signs and axes; every estimation starts here.
-pub(crate) fn screened(loaded: &Loaded) -> anyhow::Result<Setup> {
+/// The station, table and IMU of a rig, after a check for gross errors of units, signs and axes, and what was assumed of
+/// data sheet and site; every estimation starts here.
+pub(crate) fn screened(loaded: &Loaded) -> anyhow::Result<(Setup, Vec<String>)> {
     let setup = setup(loaded)?;
     refuse_mistaken(loaded)?;
     Ok(setup)
@@ -97,7 +98,7 @@ impl Prepared {
     /// Prepares a log.
     pub(crate) fn of(log: Log, noise: NoiseChoice) -> anyhow::Result<Self> {
         let Log { name, mut loaded } = log;
-        let mut setup = screened(&loaded)?;
+        let (mut setup, assumptions) = screened(&loaded)?;
         let path = shown(&loaded.rig.log.path);
         let log = || path.clone();
         let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
@@ -149,6 +150,7 @@ impl Prepared {
             Some(first) if !told.is_empty() => *first = format!("{first} {}", told.join(" ")),
             _ => remarks.extend(told),
         }
+        remarks.extend(assumptions);
         remarks.extend(repeats.map(repeats_in_words));
         remarks.extend(run.angle_steps.map(|AngleSteps { step, .. }| {
             format!(

@@ -33,22 +33,23 @@ pub(crate) struct PaperCalibration {
     model: Model,
     /// The error budget over the calibrated span.
     budget: Budget,
-    /// What was taken out of the log, in words.
-    remark: Option<String>,
+    /// What was assumed of data sheet and site, and what was taken out of the log.
+    remarks: Vec<String>,
 }
 
 impl PaperCalibration {
     /// Calibrates a log; what repeats in it is taken out first.
     pub(super) fn of(mut log: Log, progress: &Progress) -> anyhow::Result<Self> {
         let loaded = &mut log.loaded;
-        let mut setup = screened(loaded)?;
+        let (mut setup, assumptions) = screened(loaded)?;
         refuse_standing(loaded)?;
-        let remark = Repeats::take_out_of(&mut loaded.recording).map(|repeats| {
+        let repeated = Repeats::take_out_of(&mut loaded.recording).map(|repeats| {
             format!(
                 "{} The paper's filter takes the rate over them for constant; --model full weighs what is not known of it.",
                 repeats_in_words(repeats)
             )
         });
+        let remarks = assumptions.into_iter().chain(repeated).collect();
         if loaded.rig.table.as_ref().is_none_or(|table| table.wobble.is_none()) {
             setup.table.wobble = likely_wobble(&loaded.recording, &setup)
                 .with_context(|| shown(&loaded.rig.log.path))?;
@@ -61,7 +62,7 @@ impl PaperCalibration {
         let model = model(&calibration);
         let budget = budget(&calibration, &model, loaded)?;
         let calibration = along_own(&calibration, &model, &SignedAxes::from(loaded.rig.spin));
-        Ok(Self { log, calibration, model, budget, remark })
+        Ok(Self { log, calibration, model, budget, remarks })
     }
 
     /// The samples that were estimated from.

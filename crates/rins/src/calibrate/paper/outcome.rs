@@ -36,7 +36,7 @@ impl PaperCalibration {
 impl fmt::Display for PaperCalibration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut text = calibration_text(&self.calibration, &self.title());
-        if let Some(remark) = &self.remark {
+        for remark in &self.remarks {
             writeln!(text, "  {remark}")?;
         }
         f.write_str(&with_repairs(text, &self.log.repairs()))
@@ -54,7 +54,7 @@ impl Outcome for PaperCalibration {
         let mut report = calibration_report(&self.calibration, &self.title(), &self.subtitle());
         report.sections.push(compensation_section(&self.model));
         report.sections.push(budget_section("Error budget", &self.ids(), &self.budget));
-        report.summary.extend(self.remark.clone());
+        report.summary.extend(self.remarks.iter().cloned());
         report.summary.extend(self.log.repairs());
         Some(report)
     }

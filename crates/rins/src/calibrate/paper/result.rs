@@ -14,7 +14,7 @@ use crate::identifiability::{
 use crate::log::{static_intervals, statics_result};
 
 pub(super) fn result(of: &PaperCalibration) -> CalibrateResult {
-    let PaperCalibration { log, calibration, budget, remark, .. } = of;
+    let PaperCalibration { log, calibration, budget, remarks, .. } = of;
     let rows = calibration.correlation.row_iter();
     let statics = statics_result(&static_intervals(&log.loaded), |interval| {
         (interval.span.start > 0).then(|| {
@@ -22,7 +22,7 @@ pub(super) fn result(of: &PaperCalibration) -> CalibrateResult {
         })
     });
     let mut notes = vec![SYSTEMATIC_NOTE.to_owned()];
-    notes.extend(remark.clone());
+    notes.extend(remarks.iter().cloned());
     CalibrateResult {
         schema: crate::SCHEMA,
         command: "calibrate".into(),
