@@ -295,6 +295,7 @@ fn mixed(one: &Noise, other: &Noise, part: f64) -> Noise {
     mixed.wobble = mix(one.wobble, other.wobble);
     mixed.encoder = mix(one.encoder, other.encoder);
     mixed.velocity = mix(one.velocity, other.velocity);
+    mixed.turn = mix(one.turn, other.turn);
     for (to, from) in mixed.sway.iter_mut().zip(other.sway) {
         *to = mix(*to, from);
     }

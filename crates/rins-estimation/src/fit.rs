@@ -18,6 +18,7 @@ use crate::noise_parameters::{Noise, NoiseKnowledge};
 use crate::posterior::{Evidence, Posterior};
 use crate::run::Run;
 use crate::stride::{Bottom, Damping, Place, Stride, Until, leaves_little};
+use crate::turn::{self, LinearTurn, Turning};
 
 /// The largest number of linearizations of a run.
 const MOST_ITERATIONS: usize = 20;
@@ -148,6 +149,8 @@ struct Problem<'a> {
     /// Each run, linearized at these values, and the resolution of the derivatives.
     linear: Vec<Linear>,
     pieces: Pieces,
+    /// The rotations between runs, linearized at these values.
+    turns: Vec<LinearTurn>,
     damping: Damping,
     /// The additional covariance of an estimate that does not converge to one point.
     about: DMatrix<f64>,
@@ -174,6 +177,7 @@ impl<'a> Problem<'a> {
             layout,
             linear: Vec::new(),
             pieces: Pieces::Coarse,
+            turns: Vec::new(),
             damping: Damping::none(),
             about,
         };
@@ -214,6 +218,8 @@ impl<'a> Problem<'a> {
         self.linear =
             runs.map(|((run, model), free)| linearised(run, model, free, pieces)).collect();
         self.pieces = pieces;
+        let Self { runs, models, free, layout, .. } = self;
+        self.turns = Turning { runs, models, free, layout }.linear();
     }
 
     /// Whether the residuals agree with the noise at the estimate.
@@ -231,6 +237,11 @@ impl<'a> Problem<'a> {
         let mut sum = Evidence::none(all.len());
         for (of_run, (places, signs)) in of_runs.iter().zip(places.iter().zip(signs)) {
             sum.add(of_run, places, signs);
+        }
+        if !self.turns.is_empty() {
+            let places: Vec<usize> = (0..all.len()).collect();
+            let of_turns = turn::evidence(&self.turns, linear, noise, all.len());
+            sum.add(&of_turns, &places, &vec![1.0; all.len()]);
         }
         Ok(sum)
     }
@@ -268,6 +279,7 @@ impl<'a> Problem<'a> {
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
             let from = self.pieces;
+            let from_turns = self.turns.clone();
             let squares = evidence.square + self.pull();
             visited.push(Place { squares, values: self.values.clone() });
             let stride = self.advance(&posterior, until);
@@ -278,6 +290,9 @@ impl<'a> Problem<'a> {
             let arrived = match until {
                 Until::NearEnough => {
                     calm(noise, &evidence, &posterior);
+                    if iterations.len() > 1 {
+                        turn::calm(&from_turns, &self.linear, noise);
+                    }
                     stride.is_over() || step < NEAR && iterations.len() > 1
                 }
                 Until::Converged => stride.is_over() && from == Pieces::Samples,

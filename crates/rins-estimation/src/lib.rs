@@ -42,6 +42,8 @@ mod prediction;
 mod stride;
 
 mod epoch;
+mod turn;
+
 mod estimate;
 mod filter;
 mod fit;
@@ -73,6 +75,7 @@ pub use prediction::{EpochPrediction, ParameterPosterior};
 pub use prior_consistency::{Departure, Quantity};
 pub use rounding::AngleSteps;
 pub use run::{LEAST_TILT, Reference, Rig, Run, RunError};
+pub use turn::{InSequence, StatedTurn, Turn, rotation};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

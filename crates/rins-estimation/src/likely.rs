@@ -27,6 +27,9 @@ const UNSTEADY: f64 = 3e-4;
 /// The initial random walk density of the attitude of such a base \[rad/√s\]: one arcsecond.
 const SWAYING: f64 = ARCSEC;
 
+/// The initial error of a rotation between static intervals, relative to the rotation: that of a consumer MEMS gyro.
+const TURNING: f64 = 1e-3;
+
 /// The same for a stationary base: one arcsecond in three hours.
 const FIRM: f64 = 0.01 * ARCSEC;
 
@@ -87,6 +90,7 @@ enum Which {
     Encoder(Vec<usize>),
     Velocity,
     Sway(usize),
+    Turn,
 }
 
 impl Which {
@@ -102,6 +106,7 @@ impl Which {
             Self::Wobble(runs) => on(noise, runs).map(|n| &mut n.wobble).collect(),
             Self::Encoder(runs) => on(noise, runs).map(|n| &mut n.encoder).collect(),
             Self::Velocity => noise.iter_mut().map(|n| &mut n.velocity).collect(),
+            Self::Turn => noise.iter_mut().map(|n| &mut n.turn).collect(),
             Self::Sway(axis) => noise.iter_mut().map(|n| &mut n.sway[*axis]).collect(),
         }
     }
@@ -235,6 +240,9 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     // Only the gyro measures how well a table follows its command.
     if linear.iter().any(|linear| matches!(linear.reference, Reference::Command { .. })) {
         add(Which::Sway(2), SWAYING, FIRM, ANYTHING);
+    }
+    if linear.iter().any(|linear| linear.follows_turn) {
+        add(Which::Turn, TURNING, expected[0].turn, ANYTHING);
     }
     if free {
         add(Which::Velocity, UNSTEADY, expected[0].velocity, ANYTHING);

@@ -46,6 +46,8 @@ pub struct Linear {
     pub(crate) reference: Reference,
     /// The power cycle that the run belongs to, or `None` if it has its own.
     pub(crate) turn_on: Option<usize>,
+    /// Whether the rotation since another run is known.
+    pub(crate) follows_turn: bool,
     /// The trajectory of the table at which the run is linearized.
     pub(crate) track: Track,
 }
@@ -157,6 +159,7 @@ pub(crate) fn linearised(
         parameters: free.len(),
         reference: run.rig.reference,
         turn_on: run.turn_on,
+        follows_turn: run.in_sequence.as_ref().is_some_and(|place| place.turn.is_some()),
         track,
     }
 }

@@ -104,7 +104,13 @@ pub struct Noise {
     /// zero for a stationary base. The third component is also the deviation of the table from its command, in addition to
     /// that of the rig.
     pub sway: [f64; 3],
+    /// 1σ of the error of a rotation between static intervals, relative to the rotation: what sampling, bandwidth and
+    /// nonlinearity of the gyros leave. It is not a random walk: a rotation takes seconds.
+    pub turn: f64,
 }
+
+/// The expected error of a rotation between static intervals, relative to the rotation.
+const TURN: f64 = 1e-5;
 
 impl Noise {
     /// The noise of these noise parameters on a rig with a stationary base.
@@ -113,7 +119,14 @@ impl Noise {
             crate::run::Reference::Encoder { noise } => noise,
             _ => rig.wobble,
         };
-        Self { imu: *imu, wobble: rig.wobble, encoder, velocity: rig.velocity, sway: [0.0; 3] }
+        Self {
+            imu: *imu,
+            wobble: rig.wobble,
+            encoder,
+            velocity: rig.velocity,
+            sway: [0.0; 3],
+            turn: TURN,
+        }
     }
 }
 

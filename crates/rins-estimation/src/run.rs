@@ -8,6 +8,7 @@ use rins_motion::{Recording, Station};
 
 use crate::epoch::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
+use crate::turn::InSequence;
 
 /// The smallest tilt of the spin axis (its sine) for which gravity determines the table angle: below it, an angle of a milliradian
 /// changes the specific force by less than 17 µg.
@@ -58,6 +59,8 @@ pub struct Run {
     pub left_out: Vec<Range<usize>>,
     /// The power cycle that the run belongs to, or `None` if it has its own.
     pub turn_on: Option<usize>,
+    /// The place of a static interval among those of its power cycle.
+    pub in_sequence: Option<InSequence>,
     /// The axes of the run, whose z is the spin axis, relative to the sensors' own axes.
     pub axes: SignedAxes,
     /// The quantization of the encoder, if it is the reference and its LSB is large compared with its noise.
@@ -156,6 +159,7 @@ impl Run {
             recording,
             left_out: Vec::new(),
             turn_on: None,
+            in_sequence: None,
             axes: SignedAxes::IDENTITY,
             angle_steps,
         })
@@ -176,6 +180,13 @@ impl Run {
     #[must_use]
     pub fn since(mut self, turn_on: usize) -> Self {
         self.turn_on = Some(turn_on);
+        self
+    }
+
+    /// The same run with its place among the static intervals of its power cycle, and the rotation since the one before.
+    #[must_use]
+    pub fn in_sequence(mut self, place: InSequence) -> Self {
+        self.in_sequence = Some(place);
         self
     }
 

@@ -147,7 +147,9 @@ mod tests {
     #[test]
     fn each_grade_is_narrower_than_the_one_before() {
         for pair in GRADES.windows(2) {
-            for (wide, narrow) in [(pair[0].imu.gyro, pair[1].imu.gyro), (pair[0].imu.accel, pair[1].imu.accel)] {
+            for (wide, narrow) in
+                [(pair[0].imu.gyro, pair[1].imu.gyro), (pair[0].imu.accel, pair[1].imu.accel)]
+            {
                 assert!(narrow.noise_density < wide.noise_density, "{}", pair[1].name);
                 assert!(narrow.bias_sigma < wide.bias_sigma, "{}", pair[1].name);
                 assert!(narrow.scale_sigma < wide.scale_sigma, "{}", pair[1].name);

@@ -79,7 +79,9 @@ pub(super) fn profile(page: &mut Page) {
 
 pub(super) fn imu(page: &mut Page) {
     page.blank();
-    page.remark("The data sheet: that of a grade or of a sensor, or values of your own, or both. If it is");
+    page.remark(
+        "The data sheet: that of a grade or of a sensor, or values of your own, or both. If it is",
+    );
     page.remark("left out, a grade is assumed from the readings at rest, and the result says so.");
     page.closed_section("imu");
     let names = |presets: &[Preset]| {

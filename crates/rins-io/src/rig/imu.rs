@@ -47,7 +47,8 @@ pub(super) fn read(
 /// The grade or the sensor.
 fn preset(imu: &Section<'_>) -> Result<Option<&'static Preset>, IoError> {
     let named = |key: &str, presets: &'static [Preset]| {
-        let names: Vec<String> = presets.iter().map(|preset| format!("{:?}", preset.name)).collect();
+        let names: Vec<String> =
+            presets.iter().map(|preset| format!("{:?}", preset.name)).collect();
         let expected = format!("one of {}", names.join(", "));
         let Some(name) = imu.text(key, &expected)? else { return Ok(None) };
         let known = presets.iter().any(|preset| preset.name.eq_ignore_ascii_case(name));

@@ -10,7 +10,9 @@ use super::log_spec::{
     TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
 };
 use super::log_times::Clock;
-use super::readings::{ACCEL, GYRO, NUMBERS, Readings, column, example, refuse_own, scale_of, unit};
+use super::readings::{
+    ACCEL, GYRO, NUMBERS, Readings, column, example, refuse_own, scale_of, unit,
+};
 use super::table_columns;
 use super::time_keys::{PATH, own_clock, time_column};
 use crate::error::IoError;

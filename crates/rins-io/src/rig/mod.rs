@@ -173,7 +173,10 @@ impl Rig {
             () if gyro != [true; 3] => ("[log] gyro.columns", "three columns".into()),
             () => ("[log] accel.columns", "three columns".into()),
         };
-        self.missing(key, &format!("{expected}; of fewer sensors only the noise is estimated (rins allan)"))
+        self.missing(
+            key,
+            &format!("{expected}; of fewer sensors only the noise is estimated (rins allan)"),
+        )
     }
 
     pub(crate) fn missing(&self, key: &str, expected: &str) -> IoError {

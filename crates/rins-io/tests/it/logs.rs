@@ -309,7 +309,9 @@ fn a_policy_may_accept_more() {
     let text = with_line(&log(40), 41, "9.9,1e-6,1e-6,1e-6,0.1,0.2,9.8,40");
     let folder = folder(&[("rig.toml", RIG.as_bytes()), ("run.csv", text.as_bytes())]);
     let rig = Rig::read(&folder.path().join("rig.toml")).unwrap();
-    let loaded = read_log(rig, LogPolicy { largest_gap: 60.0, largest_loss: 0.95, ..LogPolicy::default() }).unwrap();
+    let loaded =
+        read_log(rig, LogPolicy { largest_gap: 60.0, largest_loss: 0.95, ..LogPolicy::default() })
+            .unwrap();
     assert_eq!(loaded.summary.gaps.len(), 1);
 }
 

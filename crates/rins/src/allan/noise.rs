@@ -205,7 +205,8 @@ fn names_in_words(rig: &Rig) -> Option<String> {
     let LogFormat::Columns(columns) = &rig.log.format else { return None };
     let named = |sensor: &str, triad: &TriadColumns, axes: &Axes| -> Vec<String> {
         let SignedAxes { source, .. } = (*axes).into();
-        let column = |axis: &Axis| Some((axis.to_string(), triad.columns[source[axis.index()]].as_ref()?));
+        let column =
+            |axis: &Axis| Some((axis.to_string(), triad.columns[source[axis.index()]].as_ref()?));
         let of_triad: Vec<_> = Axis::ALL.iter().filter_map(column).collect();
         let is_incomplete = of_triad.len() < 3;
         let told = of_triad.into_iter().map(|(axis, name)| format!("{name:?} is {sensor} {axis}"));

@@ -108,17 +108,23 @@ impl Certificate {
             Some(log) => log.run.rig.reference != Reference::Rest && id != axis_attitude("z"),
             None => false,
         };
-        let fit = fit.marginal(|Estimate { parameter, run, .. }| {
+        let is_kept = |Estimate { parameter, run, .. }: &Estimate| {
             parameter.owner != Owner::Placement || run.is_none_or(|run| is_kept(run, &parameter.id))
-        });
-        let fit = fit.along(SignedAxes::IDENTITY);
+        };
+        let whole = fit.along(SignedAxes::IDENTITY);
+        let kept: Vec<usize> = (0..whole.parameters.len())
+            .filter(|&place| is_kept(&whole.parameters[place]))
+            .collect();
+        let fit = whole.clone().marginal(is_kept);
         let mut identifiability = fit.identifiability();
         if let [_] = case.runs[..] {
             identifiability.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
         }
         let departures = fit.prior_departures(&identifiability, &NoiseParameters::of(case.imu()));
         let held = held(&fit, &identifiability);
-        let fit = fit.with_prior_values_at(&held);
+        // The attitudes that are not kept change with the parameters that are left at their prior values.
+        let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();
+        let fit = whole.with_prior_values_at(&places).marginal(is_kept);
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
             let undone = undone(&prepared.run, &fit.models[place]);

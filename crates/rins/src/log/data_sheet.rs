@@ -45,7 +45,10 @@ impl DataSheet {
             return Ok(Self { imu: preset.imu, assumption: Some(seen.in_words(preset)) });
         }
         let assumption = loaded.rig.preset.map(|preset| {
-            format!("Values of the data sheet that the rig file does not state are those of {}: {}.", preset.name, preset.source)
+            format!(
+                "Values of the data sheet that the rig file does not state are those of {}: {}.",
+                preset.name, preset.source
+            )
         });
         Ok(Self { imu: *loaded.rig.require_imu()?, assumption })
     }
@@ -64,10 +67,13 @@ impl AtRest {
     fn of(recording: &Recording, rest: Range<usize>) -> Self {
         let samples = &recording.increments[rest];
         let lasting: f64 = samples.iter().map(|sample| sample.interval).sum();
-        let mean = |of: fn(&Increments) -> Vector3<f64>| samples.iter().map(of).sum::<Vector3<f64>>() / lasting;
+        let mean = |of: fn(&Increments) -> Vector3<f64>| {
+            samples.iter().map(of).sum::<Vector3<f64>>() / lasting
+        };
         let rate_of = |sample: &Increments| sample.angle.components() / sample.interval;
         // A difference of neighbors has twice the variance, and nothing of a slow drift.
-        let difference = |pair: &[Increments]| (rate_of(&pair[1]) - rate_of(&pair[0])).norm_squared();
+        let difference =
+            |pair: &[Increments]| (rate_of(&pair[1]) - rate_of(&pair[0])).norm_squared();
         let differences: f64 = samples.windows(2).map(difference).sum();
         let count = samples.len().max(2) as f64;
         Self {
@@ -83,7 +89,8 @@ impl AtRest {
             let ImuSpec { gyro, accel } = preset.imu;
             self.noise <= NOISIER * gyro.noise_density
                 && self.rate <= EARTH_RATE + LARGEST * gyro.bias_sigma
-                && (self.force - gravity).abs() <= LARGEST * accel.bias_sigma.hypot(accel.scale_sigma * gravity)
+                && (self.force - gravity).abs()
+                    <= LARGEST * accel.bias_sigma.hypot(accel.scale_sigma * gravity)
         };
         let assumed = GRADES.iter().position(|grade| grade.name == NARROWEST).unwrap_or_default();
         GRADES[..=assumed].iter().rev().find(allows).unwrap_or(&GRADES[0])

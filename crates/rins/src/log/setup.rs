@@ -2,8 +2,8 @@
 
 use anyhow::Context;
 use rins_calibration::{AxisAttitude, Setup, TableSpec};
-use rins_io::{Loaded, Rig};
 use rins_imu::ImuSpec;
+use rins_io::{Loaded, Rig};
 use rins_motion::Station;
 
 use super::DataSheet;

@@ -39,14 +39,17 @@ impl EstimationProblem {
 
     /// Whether a log has several static intervals, or its turn-on biases are those of another log too.
     pub(crate) fn shares_turn_on(&self, log: usize) -> bool {
-        let is_shared = |(other, _): (usize, &Prepared)| other != log && self.first_of(other) == self.first_of(log);
+        let is_shared = |(other, _): (usize, &Prepared)| {
+            other != log && self.first_of(other) == self.first_of(log)
+        };
         !self.runs[log].others.is_empty() || self.runs.iter().enumerate().any(is_shared)
     }
 
     /// The first log that was recorded in the power-on of a log.
     fn first_of(&self, log: usize) -> usize {
         let series = |run: &Prepared| run.loaded.rig.series.clone();
-        let same = |other: &Prepared| series(other).is_some() && series(other) == series(&self.runs[log]);
+        let same =
+            |other: &Prepared| series(other).is_some() && series(other) == series(&self.runs[log]);
         self.runs.iter().position(same).unwrap_or(log)
     }
 
@@ -116,7 +119,11 @@ impl EstimationProblem {
     /// and so on.
     pub(crate) fn given(&self) -> Vec<Run> {
         let of_log = |(log, _): (usize, &Prepared), run: &Run| {
-            if self.shares_turn_on(log) { run.clone().since(self.first_of(log)) } else { run.clone() }
+            if self.shares_turn_on(log) {
+                run.clone().since(self.first_of(log))
+            } else {
+                run.clone()
+            }
         };
         let logs = || self.runs.iter().enumerate();
         let first = logs().map(|log| of_log(log, &log.1.run));
@@ -174,7 +181,12 @@ fn series_in_words(runs: &[Prepared]) -> Option<String> {
     }
     let several = series.into_iter().filter(|(_, logs)| logs.len() > 1);
     let told: Vec<String> = several
-        .map(|(name, logs)| format!("The logs of the series {name:?} have the same turn-on biases: {}.", logs.join(", ")))
+        .map(|(name, logs)| {
+            format!(
+                "The logs of the series {name:?} have the same turn-on biases: {}.",
+                logs.join(", ")
+            )
+        })
         .collect();
     (!told.is_empty()).then(|| told.join(" "))
 }

@@ -2,9 +2,11 @@
 //! divided, and priors are set.
 
 mod attitude;
+mod axis;
 mod case;
 mod prepared;
 mod rests;
 
+pub(crate) use self::axis::across_axis;
 pub(crate) use self::case::EstimationProblem;
-pub(crate) use self::prepared::{Prepared, across_axis, repeats_in_words, screened};
+pub(crate) use self::prepared::{Prepared, repeats_in_words, screened};

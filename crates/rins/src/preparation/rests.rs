@@ -2,15 +2,17 @@
 //! axis before and after the rotation.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::Vector3;
-use rins_estimation::AXIS_BY_GRAVITY;
+use rins_estimation::{AXIS_BY_GRAVITY, InSequence, Turn, rotation};
 use rins_frames::units::DEG;
-use rins_frames::{Dcm, Nav, Table};
+use rins_frames::{Body, Dcm, Increments, Nav, Table};
 use rins_inspection::StaticIntervals;
 use rins_io::Loaded;
 use rins_motion::Recording;
 
+use super::attitude::aligned;
 use crate::align::{AlignmentSolution, found_over};
 
 /// The shortest static interval that is used \[s\].
@@ -18,6 +20,9 @@ pub(super) const SHORTEST: f64 = 2.0;
 
 /// Static intervals count as one attitude if the direction of gravity in the body differs by less \[rad\].
 const ALIKE: f64 = 5.0 * DEG;
+
+/// A gyro that reads its largest rate in this number of successive samples is at the limit of its range.
+const CLIPPED: usize = 3;
 
 /// With fewer attitudes, gravity gives hardly more information than the longest static interval.
 pub(super) const FEWEST_ATTITUDES: usize = 3;
@@ -59,10 +64,21 @@ fn up_in_body(recording: &Recording, span: Range<usize>) -> Vector3<f64> {
     gained.sum::<Vector3<f64>>().normalize()
 }
 
+/// A static interval, its attitude, and its place among others.
+pub(super) struct Still {
+    pub(super) recording: Recording,
+    pub(super) nav_from_table: Dcm<Nav, Table>,
+    pub(super) in_sequence: Option<InSequence>,
+}
+
 /// The static intervals of one log, their attitudes, and the number of distinct attitudes.
 pub(crate) struct Rests {
     /// In order of time.
     pub(super) found: Vec<AlignmentSolution>,
+    /// The attitude in each, with headings that the gyros lead from one to the next where none shows north.
+    nav_from_body: Vec<Dcm<Nav, Body>>,
+    /// The rotation from the one before to each.
+    turns: Vec<Option<Turn>>,
     /// The number of attitudes that gravity distinguishes.
     pub(super) attitudes: usize,
     /// The start of the first static interval and the end of the last \[s\].
@@ -88,7 +104,28 @@ impl Rests {
         let found = found.collect::<anyhow::Result<Vec<AlignmentSolution>>>()?;
         let end = found.last().map_or(0.0, |last| recording.times[last.span.end - 1]);
         let lasting = [found.first().map_or(0.0, |first| first.start), end];
-        Ok(Some(Self { found, attitudes: ways.len(), lasting }))
+        let (nav_from_body, turns) = connected(recording, &found);
+        Ok(Some(Self { found, nav_from_body, turns, attitudes: ways.len(), lasting }))
+    }
+
+    /// The static interval at this place.
+    pub(super) fn still(&self, recording: &Recording, place: usize) -> Still {
+        let span = &self.found[place].span;
+        Still {
+            recording: recording.slice(span.start, span.end),
+            nav_from_table: self.nav_from_table(place),
+            in_sequence: Some(InSequence { number: place, turn: self.turns[place].clone() }),
+        }
+    }
+
+    /// The 1σ of the attitude at this place about the axes of the body \[rad\].
+    pub(super) fn prior(&self, place: usize) -> [Option<f64>; 3] {
+        aligned(&self.nav_from_table(place), self.found[place].sigma).sigma
+    }
+
+    /// The attitude at this place, with the table angle defined as zero.
+    fn nav_from_table(&self, place: usize) -> Dcm<Nav, Table> {
+        self.nav_from_body[place] * Dcm::<Table, Body>::about_z(0.0).inverse()
     }
 
     /// The index of the longest.
@@ -102,9 +139,77 @@ impl Rests {
         let [from, to] = self.lasting;
         format!(
             "The log has no table angle and no rotation about the axis: {} static intervals in {} attitudes, from {from:.0} s to {to:.0} s, \
-             are used. The attitude in each is estimated too, and not listed.",
+             are used, and {} rotation(s) between them. The attitude in each is estimated too, and not listed.",
             self.found.len(),
-            self.attitudes
+            self.attitudes,
+            self.turns.iter().flatten().count()
         )
     }
+}
+
+/// The attitudes in static intervals and the rotation to each from the one before.
+///
+/// A rotation counts if every sample of it is there and no gyro is at its limit. Where the gyros do not show north, the heading of
+/// an interval is that to which the rotation leads from the interval before.
+fn connected(
+    recording: &Recording,
+    found: &[AlignmentSolution],
+) -> (Vec<Dcm<Nav, Body>>, Vec<Option<Turn>>) {
+    let mut attitudes: Vec<Dcm<Nav, Body>> = Vec::with_capacity(found.len());
+    let mut turns = Vec::with_capacity(found.len());
+    for (place, here) in found.iter().enumerate() {
+        let before = place.checked_sub(1).map(|before| (&found[before], attitudes[before]));
+        let Some((earlier, nav_from_earlier)) = before else {
+            attitudes.push(here.nav_from_body);
+            turns.push(None);
+            continue;
+        };
+        let span = earlier.span.end..here.span.start;
+        if !is_whole(recording, &span) {
+            attitudes.push(here.nav_from_body);
+            turns.push(None);
+            continue;
+        }
+        let between = recording.slice(span.start, span.end);
+        let led = nav_from_earlier * rotation(&between, &mean_rate(recording, &earlier.span));
+        let attitude = if here.north_found() {
+            here.nav_from_body
+        } else {
+            heading_of(&led, &here.nav_from_body)
+        };
+        attitudes.push(attitude);
+        turns.push(Some(Turn { recording: Arc::new(between), stated: None }));
+    }
+    (attitudes, turns)
+}
+
+/// Whether no sample of a span is lost, and no gyro stays at its largest reading, as at the limit of its range.
+fn is_whole(recording: &Recording, span: &Range<usize>) -> bool {
+    let with_neighbors = span.start.max(1)..(span.end + 1).min(recording.len());
+    let is_gap = |sample: usize| {
+        let elapsed = recording.times[sample] - recording.times[sample - 1];
+        elapsed > 1.5 * recording.increments[sample].interval
+    };
+    let samples = &recording.increments[span.clone()];
+    let rate = |sample: &Increments, axis: usize| sample.angle.components()[axis] / sample.interval;
+    let is_clipped = |axis: usize| {
+        let largest = samples.iter().map(|sample| rate(sample, axis).abs()).fold(0.0, f64::max);
+        let at_limit = |sample: &Increments| rate(sample, axis).abs() >= largest * (1.0 - 1e-6);
+        largest > 0.0 && samples.windows(CLIPPED).any(|run| run.iter().all(at_limit))
+    };
+    !span.is_empty() && !with_neighbors.clone().any(is_gap) && !(0..3).any(is_clipped)
+}
+
+/// The mean reading of the gyros over a span \[rad/s\].
+fn mean_rate(recording: &Recording, span: &Range<usize>) -> Vector3<f64> {
+    let samples = &recording.increments[span.clone()];
+    let lasting: f64 = samples.iter().map(|sample| sample.interval).sum();
+    samples.iter().map(|sample| sample.angle.components()).sum::<Vector3<f64>>() / lasting
+}
+
+/// An attitude with the tilt of `level` and the heading that is nearest to `led`.
+fn heading_of(led: &Dcm<Nav, Body>, level: &Dcm<Nav, Body>) -> Dcm<Nav, Body> {
+    let apart = led.matrix() * level.matrix().transpose();
+    let heading = (apart[(1, 0)] - apart[(0, 1)]).atan2(apart[(0, 0)] + apart[(1, 1)]);
+    Dcm::<Nav, Nav>::about_z(heading) * *level
 }
