@@ -57,8 +57,8 @@ pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
     AngleColumn, Axes, ColumnSpec, Gaps, InitialAttitude, LogFormat, LogSpec, OwnClock, Reading,
-    Rig, RowFilter, ScaledColumn, Stamp, Table, TableSpec, TemperatureColumn, TimeColumn, TimeUnit,
-    TriadColumns,
+    Rig, RowFilter, ScaledColumn, Stamp, StatedRotation, Table, TableSpec, TemperatureColumn,
+    TimeColumn, TimeUnit, TriadColumns,
 };
 pub use run::truth_json;
 pub use scenario::ScenarioFile;

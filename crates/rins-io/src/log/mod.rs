@@ -36,7 +36,7 @@ pub(crate) use table::{BinaryColumns, Head, MOST_COLUMNS, RawImu, all as all_col
 pub use table::{LogHead, peek};
 
 use crate::error::{IoError, LogError};
-use crate::rig::{LogFormat, Rig};
+use crate::rig::{LogFormat, Rig, StatedRotation};
 
 /// A run: its rig and its recording, in SI units and radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +49,8 @@ pub struct Loaded {
     pub recording: Recording,
     /// The findings while reading it.
     pub summary: LogSummary,
+    /// The rotations of known angle, in the time of the recording.
+    pub rotations: Vec<StatedRotation>,
     /// The header of a PSINS log.
     pub psins_header: Option<PsinsHeader>,
 }
@@ -97,8 +99,9 @@ pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
             summary.ramps = with_ramps(rates, &recording.increments);
         }
     }
+    let rotations = rotations(&rig, &recording, &summary);
     window(&mut rig, &mut recording, &mut summary)?;
-    Ok(Loaded { rig, station, recording, summary, psins_header })
+    Ok(Loaded { rig, station, recording, summary, rotations, psins_header })
 }
 
 /// Keeps the part of a recording in the rig's window, and refuses static intervals without any sample in it.
@@ -145,6 +148,21 @@ fn window(
         Some(span) => Err(outside("static", *span, recording)),
         None => Ok(()),
     }
+}
+
+/// The stated rotations in the time of the recording; the profile begins with the log.
+fn rotations(rig: &Rig, recording: &Recording, summary: &LogSummary) -> Vec<StatedRotation> {
+    let (Some(table), Some(first)) = (&rig.table, recording.increments.first()) else {
+        return Vec::new();
+    };
+    let late = summary.redivided.map_or(0.0, |redivided| redivided.late);
+    let start = recording.times[0] - first.interval - late;
+    let moved = |turn: &StatedRotation| StatedRotation {
+        start: turn.start + start,
+        end: turn.end + start,
+        ..*turn
+    };
+    table.turns.iter().map(moved).collect()
 }
 
 /// The commanded table rate over each interval, if the rig has a profile, which begins `late`

@@ -142,6 +142,8 @@ pub const ATTITUDE_SIGMA: Kind = Kind::new(
 /// The standard deviation of a small angle.
 pub(crate) const ANGLE_SIGMA: Kind =
     Kind::new("an angle", Dimension::ANGLE, "60 arcsec", Range::Positive);
+/// The total angle of a rotation, of any number of turns.
+pub(crate) const TOTAL_ANGLE: Kind = Kind::new("an angle", Dimension::ANGLE, "720 deg", Range::Any);
 /// The resolution of an angle; zero means none.
 pub(crate) const ANGLE_RESOLUTION: Kind =
     Kind::new("an angle", Dimension::ANGLE, "0.1 arcsec", Range::NotNegative);

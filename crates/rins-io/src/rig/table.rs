@@ -10,6 +10,21 @@ use crate::section::Section;
 /// The maximum number of segments of a profile.
 const MOST_SEGMENTS: usize = 100_000;
 
+/// A rotation about the spin axis of which the total angle is known, but not the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedRotation {
+    /// The time at which it is known to begin \[s\].
+    pub start: f64,
+    /// The time at which it is known to have ended \[s\].
+    pub end: f64,
+    /// The angle \[rad\].
+    pub angle: f64,
+    /// 1σ of the angle \[rad\].
+    pub sigma: f64,
+    /// 1σ of the readings before and after it of which the angle is the difference \[rad\].
+    pub mark: f64,
+}
+
 /// The data of the table that are not in the log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableSpec {
@@ -17,6 +32,8 @@ pub struct TableSpec {
     pub profile: Option<Profile>,
     /// The segments of the profile.
     pub segments: Vec<Segment>,
+    /// The rotations whose angles are stated instead of rates, with times from the beginning of the log. There is then no profile.
+    pub turns: Vec<StatedRotation>,
     /// The factor that was applied to the profile's rates: -1 for a table that counts opposite to the body's
     /// direction of rotation, otherwise 1.
     pub sense: f64,
@@ -27,14 +44,26 @@ pub struct TableSpec {
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
-    let Some(table) = root.section("table", &["profile", "sense", "acceleration", "wobble"])?
-    else {
-        return Ok(None);
-    };
+    let known = ["profile", "sense", "acceleration", "wobble", "angle_sigma"];
+    let Some(table) = root.section("table", &known)? else { return Ok(None) };
     let acceleration = table.quantity("acceleration", &kinds::TABLE_ACCELERATION)?;
     let sense = sense(&table)?;
+    let wobble = table.quantity("wobble", &kinds::ANGLE_SIGMA)?;
     let mut segments = Vec::new();
-    let profile = table.tables("profile", &["rate", "duration"])?;
+    let profile = table.tables("profile", &["rate", "angle", "duration"])?;
+    if let Some(profile) = profile.iter().flatten().find(|segment| segment.has("angle")) {
+        if table.has("acceleration") {
+            return Err(table.conflict("acceleration", "a rotation by an angle states no motion"));
+        }
+        let turns = turns(&table, sense)?;
+        if turns.is_empty() {
+            return Err(profile.not_allowed("angle", "an angle other than zero"));
+        }
+        return Ok(Some(TableSpec { profile: None, segments, turns, sense, acceleration, wobble }));
+    }
+    if table.has("angle_sigma") {
+        return Err(table.conflict("angle_sigma", "the profile states no angles"));
+    }
     for segment in profile.iter().flatten().take(MOST_SEGMENTS + 1) {
         let rate = segment.require_quantity("rate", &kinds::TABLE_RATE)?;
         segments.push(Segment {
@@ -56,6 +85,33 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
         }
         None => None,
     };
-    let wobble = table.quantity("wobble", &kinds::ANGLE_SIGMA)?;
-    Ok(Some(TableSpec { profile, segments, sense, acceleration, wobble }))
+    Ok(Some(TableSpec { profile, segments, turns: Vec::new(), sense, acceleration, wobble }))
+}
+
+/// The rotations of a profile of angles, between which the table rests.
+fn turns(table: &Section<'_>, sense: f64) -> Result<Vec<StatedRotation>, IoError> {
+    let sigma = table.quantity("angle_sigma", &kinds::ANGLE_SIGMA)?.unwrap_or(0.0);
+    let profile = table.tables("profile", &["rate", "angle", "duration"])?;
+    let mut turns = Vec::new();
+    let mut start = 0.0;
+    for segment in profile.iter().flatten() {
+        let end = start + segment.require_quantity("duration", &kinds::DURATION)?;
+        let rate = segment.quantity("rate", &kinds::TABLE_RATE)?;
+        match (segment.quantity("angle", &kinds::TOTAL_ANGLE)?, rate) {
+            (Some(_), Some(_)) => return Err(segment.conflict("angle", "a rate is stated too")),
+            (None, Some(rate)) if rate != 0.0 => {
+                let reason = "a profile with angles has rests between them, whose rate is zero";
+                return Err(segment.conflict("rate", reason));
+            }
+            (Some(angle), None) if angle != 0.0 => {
+                turns.push(StatedRotation { start, end, angle: sense * angle, sigma, mark: 0.0 });
+            }
+            (None, None) => {
+                return Err(segment.missing("angle", r#"an angle such as "720 deg", or a rate"#));
+            }
+            _ => {}
+        }
+        start = end;
+    }
+    Ok(turns)
 }

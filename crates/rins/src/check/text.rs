@@ -109,6 +109,14 @@ fn table_in_words(loaded: &Loaded) -> String {
             let (least, most) = extremes(rate);
             format!("table rate from {:.4} to {:.4} deg/s", least / DEG, most / DEG)
         }
+        (None, None) if !loaded.rotations.is_empty() => {
+            let turned: f64 = loaded.rotations.iter().map(|turn| turn.angle.abs()).sum();
+            format!(
+                "{} rotation(s) of known angle, {:.1} deg in all",
+                loaded.rotations.len(),
+                turned / DEG
+            )
+        }
         (None, None) => "neither angle nor rate".into(),
     }
 }

@@ -97,6 +97,7 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
     let given = loaded.rig.attitude;
     let turning = turning_span(recording).map(|span| (recording.slice(span.start, span.end), span));
     if let Some((turning, span)) = turning
+        && loaded.rotations.is_empty()
         && spin(&turning) > LEAST_SPIN
         && let Some(AxisSeen { nav_from_table, heading_known }) =
             axis_from_gravity(&turning, given.map(|given| given.angles))

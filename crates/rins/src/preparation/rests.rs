@@ -5,11 +5,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use rins_estimation::{AXIS_BY_GRAVITY, InSequence, Turn, rotation};
+use rins_estimation::{AXIS_BY_GRAVITY, InSequence, StatedTurn, Turn, rotation};
 use rins_frames::units::DEG;
 use rins_frames::{Body, Dcm, Increments, Nav, Table};
 use rins_inspection::StaticIntervals;
-use rins_io::Loaded;
+use rins_io::{Loaded, StatedRotation};
 use rins_motion::Recording;
 
 use super::attitude::aligned;
@@ -97,14 +97,15 @@ impl Rests {
                 ways.push(up);
             }
         }
-        if ways.len() < FEWEST_ATTITUDES {
+        let is_turned = !loaded.rotations.is_empty() && spans.len() > 1;
+        if ways.len() < FEWEST_ATTITUDES && !is_turned {
             return Ok(None);
         }
         let found = spans.into_iter().map(|span| found_over(loaded, span));
         let found = found.collect::<anyhow::Result<Vec<AlignmentSolution>>>()?;
         let end = found.last().map_or(0.0, |last| recording.times[last.span.end - 1]);
         let lasting = [found.first().map_or(0.0, |first| first.start), end];
-        let (nav_from_body, turns) = connected(recording, &found);
+        let (nav_from_body, turns) = connected(loaded, &found);
         Ok(Some(Self { found, nav_from_body, turns, attitudes: ways.len(), lasting }))
     }
 
@@ -152,9 +153,10 @@ impl Rests {
 /// A rotation counts if every sample of it is there and no gyro is at its limit. Where the gyros do not show north, the heading of
 /// an interval is that to which the rotation leads from the interval before.
 fn connected(
-    recording: &Recording,
+    loaded: &Loaded,
     found: &[AlignmentSolution],
 ) -> (Vec<Dcm<Nav, Body>>, Vec<Option<Turn>>) {
+    let recording = &loaded.recording;
     let mut attitudes: Vec<Dcm<Nav, Body>> = Vec::with_capacity(found.len());
     let mut turns = Vec::with_capacity(found.len());
     for (place, here) in found.iter().enumerate() {
@@ -178,9 +180,24 @@ fn connected(
             heading_of(&led, &here.nav_from_body)
         };
         attitudes.push(attitude);
-        turns.push(Some(Turn { recording: Arc::new(between), stated: None }));
+        let times = [recording.times[span.start], recording.times[span.end - 1]];
+        let stated = stated(&loaded.rotations, times);
+        turns.push(Some(Turn { recording: Arc::new(between), stated }));
     }
     (attitudes, turns)
+}
+
+/// The sum of the stated rotations whose middle lies between two times \[s\]: hands are not as punctual as a profile.
+fn stated(rotations: &[StatedRotation], [from, to]: [f64; 2]) -> Option<StatedTurn> {
+    let inside = |turn: &&StatedRotation| (from..to).contains(&(0.5 * (turn.start + turn.end)));
+    rotations.iter().filter(inside).fold(None, |sum: Option<StatedTurn>, turn| {
+        let (angle, sigma) = sum.map_or((0.0, 0.0), |sum| (sum.angle, sum.sigma));
+        Some(StatedTurn {
+            angle: angle + turn.angle,
+            sigma: sigma.hypot(turn.sigma),
+            mark: turn.mark,
+        })
+    })
 }
 
 /// Whether no sample of a span is lost, and no gyro stays at its largest reading, as at the limit of its range.
