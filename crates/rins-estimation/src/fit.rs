@@ -1,5 +1,6 @@
 //! The batch solution: iterated least squares over one run or several.
 
+mod curvature;
 mod priors;
 
 use nalgebra::DMatrix;
@@ -363,7 +364,7 @@ impl<'a> Problem<'a> {
     }
 
     fn finish(
-        self,
+        mut self,
         (evidence, posterior): (Evidence, Posterior),
         noise: Vec<Noise>,
         around: &[[Vec<Noise>; 2]],
@@ -371,7 +372,8 @@ impl<'a> Problem<'a> {
     ) -> Result<Fit, FitError> {
         // The bias instability is determined by few data: the covariance is the mean over its uncertainty and the resulting
         // changes of the estimate.
-        let mut covariance = &posterior.covariance + &self.about;
+        let curved = self.of_second_order(&posterior, &noise);
+        let mut covariance = &posterior.covariance + &self.about + curved;
         let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
         let others = sides.into_par_iter().map(|side| {
             self.posterior(&self.linear, side, iterations.len()).map(|(_, other)| other)
