@@ -53,6 +53,16 @@ impl Process {
         if self.time.is_finite() { self.strength } else { 0.0 }
     }
 
+    /// The covariance of the values at two times that are `apart`, the earlier of which is `since` after the start of a walk
+    /// \[s\].
+    pub(crate) fn covariance(&self, apart: f64, since: f64) -> f64 {
+        if self.time.is_finite() {
+            self.strength * (-apart / self.time).exp()
+        } else {
+            self.strength * since
+        }
+    }
+
     /// The response to a unit impulse after `elapsed` \[s\], its integral, and the integral of that.
     fn response(&self, elapsed: f64) -> [f64; 3] {
         if self.time.is_infinite() {
@@ -131,6 +141,15 @@ impl Colours {
             colours.processes.push(Process { time: f64::INFINITY, strength });
         }
         colours
+    }
+
+    /// The processes that a run of `duration` \[s\] does not have, and the random walk.
+    pub(crate) fn slower_than(&self, duration: f64) -> Vec<Process> {
+        self.processes
+            .iter()
+            .filter(|process| process.time >= LONGEST * duration)
+            .copied()
+            .collect()
     }
 }
 

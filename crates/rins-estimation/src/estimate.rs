@@ -58,6 +58,8 @@ pub struct Fit {
     pub noise: Vec<Noise>,
     /// Each run, linearized at the estimate.
     pub linear: Vec<Linear>,
+    /// For each run, the deviations of its biases from the estimated ones, as additions to its parameters.
+    pub(crate) moved: Vec<Vec<f64>>,
     /// The iterations.
     pub iterations: Vec<Iteration>,
     /// The approximate inverse Hessian at the estimated noise parameters, if they were estimated.
@@ -139,8 +141,7 @@ impl Fit {
     /// # Panics
     /// If there is no such run.
     pub fn innovations(&self, run: usize) -> Vec<SVector<f64, 6>> {
-        let none = vec![0.0; self.linear[run].parameters];
-        innovations(&self.linear[run], &self.noise[run], &none)
+        innovations(&self.linear[run], &self.noise[run], &self.moved[run])
             .expect("the same filter has been run to find the estimate")
     }
 

@@ -1,6 +1,7 @@
 //! The batch solution: iterated least squares over one run or several.
 
 mod curvature;
+mod drift;
 mod priors;
 
 use nalgebra::DMatrix;
@@ -9,6 +10,7 @@ use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
 use rins_terms::{FreeParameter, Model};
 
+use self::drift::{Deviations, Sequence};
 use crate::estimate::{Estimate, Fit, Iteration};
 use crate::evidence::Indefinite;
 use crate::fit_error::FitError;
@@ -152,6 +154,8 @@ struct Problem<'a> {
     pieces: Pieces,
     /// The rotations between runs, linearized at these values.
     turns: Vec<LinearTurn>,
+    /// The static intervals of each power cycle, between which the biases drift.
+    sequences: Vec<Sequence>,
     damping: Damping,
     /// The additional covariance of an estimate that does not converge to one point.
     about: DMatrix<f64>,
@@ -168,6 +172,7 @@ impl<'a> Problem<'a> {
             }
         }
         let values = expected.clone();
+        let sequences = Sequence::all(runs, &models, &free);
         let about = DMatrix::zeros(values.len(), values.len());
         let mut problem = Self {
             runs,
@@ -179,6 +184,7 @@ impl<'a> Problem<'a> {
             linear: Vec::new(),
             pieces: Pieces::Coarse,
             turns: Vec::new(),
+            sequences,
             damping: Damping::none(),
             about,
         };
@@ -230,21 +236,56 @@ impl<'a> Problem<'a> {
         (evidence.square - dof).abs() < MISJUDGED * figures
     }
 
+    /// The evidence of each run on its parameters.
+    fn of_runs(linear: &[Linear], noise: &[Noise]) -> Result<Vec<Evidence>, Indefinite> {
+        let runs = linear.par_iter().zip(noise);
+        runs.map(|(linear, noise)| Evidence::of(linear, noise)).collect()
+    }
+
+    /// The deviations of the biases of each run from the shared ones, as additions to its parameters.
+    fn moved(&self, noise: &[Noise]) -> Result<Vec<Vec<f64>>, Indefinite> {
+        let counts: Vec<usize> = self.linear.iter().map(|linear| linear.parameters).collect();
+        if self.sequences.is_empty() {
+            return Ok(counts.iter().map(|&count| vec![0.0; count]).collect());
+        }
+        let of_runs = Self::of_runs(&self.linear, noise)?;
+        let count = self.layout.all.len();
+        let deviations = Deviations::new(&self.sequences, &self.linear, noise, count);
+        let none = Evidence::none(count);
+        let extended = self.extended((&none, &of_runs), &deviations, (&self.linear, noise));
+        Ok(deviations.estimated(&extended, &counts))
+    }
+
     fn evidence(&self, linear: &[Linear], noise: &[Noise]) -> Result<Evidence, Indefinite> {
-        let of_runs =
-            linear.par_iter().zip(noise).map(|(linear, noise)| Evidence::of(linear, noise));
-        let of_runs = of_runs.collect::<Result<Vec<_>, _>>()?;
+        let of_runs = Self::of_runs(linear, noise)?;
         let Layout { all, places, signs } = &self.layout;
         let mut sum = Evidence::none(all.len());
         for (of_run, (places, signs)) in of_runs.iter().zip(places.iter().zip(signs)) {
             sum.add(of_run, places, signs);
         }
-        if !self.turns.is_empty() {
-            let places: Vec<usize> = (0..all.len()).collect();
-            let of_turns = turn::evidence(&self.turns, linear, noise, all.len());
-            sum.add(&of_turns, &places, &vec![1.0; all.len()]);
+        if self.sequences.is_empty() && self.turns.is_empty() {
+            return Ok(sum);
         }
-        Ok(sum)
+        let deviations = Deviations::new(&self.sequences, linear, noise, all.len());
+        let extended = self.extended((&sum, &of_runs), &deviations, (linear, noise));
+        Ok(deviations.integrated_out(&extended).unwrap_or(sum))
+    }
+
+    /// The evidence of runs and of the rotations between them on the joint parameters and on the deviations of the biases.
+    fn extended(
+        &self,
+        (sum, of_runs): (&Evidence, &[Evidence]),
+        deviations: &Deviations<'_>,
+        (linear, noise): (&[Linear], &[Noise]),
+    ) -> Evidence {
+        let count = self.layout.all.len();
+        let wide = |turn: &LinearTurn| deviations.widened(turn.slope(), turn.runs(), &self.layout);
+        let mut extended = turn::evidence(&self.turns, (linear, noise), deviations.len(), wide);
+        for (run, of_run) in of_runs.iter().enumerate() {
+            deviations.add_run(&mut extended, of_run, run, &self.layout);
+        }
+        extended.add(sum, &(0..count).collect::<Vec<_>>(), &vec![1.0; count]);
+        extended
     }
 
     fn log_likelihood(&self, noise: &[Noise]) -> Option<f64> {
@@ -383,6 +424,7 @@ impl<'a> Problem<'a> {
             covariance +=
                 (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
         }
+        let moved = self.moved(&noise)?;
         let estimate = |(place, (free, run)): (usize, &(FreeParameter, Option<usize>))| Estimate {
             parameter: free.clone(),
             run: *run,
@@ -400,6 +442,7 @@ impl<'a> Problem<'a> {
             run_axes: self.runs.iter().map(|run| run.axes).collect(),
             noise,
             linear: self.linear,
+            moved,
             iterations,
             inverse_curvature: None,
         })

@@ -205,16 +205,18 @@ pub fn rotation(recording: &Recording, bias: &Vector3<f64>) -> Dcm<Body, Body> {
 }
 
 /// The evidence of rotations, with the noise of the run after each.
+///
+/// `wide` gives the derivative of a rotation by `parameters` parameters.
 pub(crate) fn evidence(
     turns: &[LinearTurn],
-    linear: &[Linear],
-    noise: &[Noise],
+    (linear, noise): (&[Linear], &[Noise]),
     parameters: usize,
+    wide: impl Fn(&LinearTurn) -> DMatrix<f64>,
 ) -> Evidence {
     let mut sum = Evidence::none(parameters);
     for turn in turns {
         let variance = turn.variance(&linear[turn.to], &noise[turn.to]);
-        let slope = &turn.slope / variance.sqrt();
+        let slope = wide(turn) / variance.sqrt();
         let residual = turn.residual / variance.sqrt();
         sum.information += slope.transpose() * &slope;
         sum.score -= slope.transpose() * residual;
@@ -265,7 +267,10 @@ fn add_stated(sum: &mut Evidence, turns: &[LinearTurn], noise: &[Noise]) {
     });
     let Some(factor) = Cholesky::new(covariance).map(|factor| factor.unpack()) else { return };
     let residual = DVector::from_iterator(count, stated.iter().map(|(_, (_, off, _))| *off));
-    let rows: Vec<RowDVector<f64>> = stated.iter().map(|(_, (.., slope))| slope.clone()).collect();
+    let rows: Vec<RowDVector<f64>> = stated
+        .iter()
+        .map(|(_, (.., slope))| slope.clone().resize_horizontally(sum.score.len(), 0.0))
+        .collect();
     let slope = DMatrix::from_rows(&rows);
     let (Some(slope), Some(residual)) =
         (factor.solve_lower_triangular(&slope), factor.solve_lower_triangular(&residual))
@@ -280,6 +285,16 @@ fn add_stated(sum: &mut Evidence, turns: &[LinearTurn], noise: &[Noise]) {
 }
 
 impl LinearTurn {
+    /// The derivative of the residual by the joint parameters.
+    pub(crate) fn slope(&self) -> &DMatrix<f64> {
+        &self.slope
+    }
+
+    /// The run before and the run after.
+    pub(crate) fn runs(&self) -> [usize; 2] {
+        [self.from, self.to]
+    }
+
     /// The variance of each component of the residual: white noise and bias instability of the gyros, the placement before and
     /// after, and what is in proportion to the rotation.
     fn variance(&self, linear: &Linear, noise: &Noise) -> f64 {

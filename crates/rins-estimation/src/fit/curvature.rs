@@ -27,7 +27,11 @@ impl Problem<'_> {
     ///
     /// Along a direction `v` of one posterior sigma, the estimate of all parameters is `z v + z² c` with `z` normal; `c` is half
     /// the sum of the steps back from `v` and from `-v`.
-    pub(super) fn of_second_order(&mut self, posterior: &Posterior, noise: &[Noise]) -> DMatrix<f64> {
+    pub(super) fn of_second_order(
+        &mut self,
+        posterior: &Posterior,
+        noise: &[Noise],
+    ) -> DMatrix<f64> {
         let count = self.values.len();
         let mut added = DMatrix::zeros(count, count);
         let directions = self.hardly_shown(posterior);
@@ -37,7 +41,8 @@ impl Problem<'_> {
         let estimate = self.values.clone();
         let mut bend = |direction: &DVector<f64>| {
             let steps = [1.0, -1.0].map(|sign| {
-                self.values = estimate.iter().zip(direction).map(|(at, by)| at + sign * by).collect();
+                self.values =
+                    estimate.iter().zip(direction).map(|(at, by)| at + sign * by).collect();
                 self.take_values(Pieces::Coarse);
                 self.posterior(&self.linear, noise, 0).ok().map(|(_, posterior)| posterior.step)
             });
@@ -79,8 +84,10 @@ impl Problem<'_> {
         let finest = ratios.map(|place| posterior.sigma(place)).fold(f64::INFINITY, f64::min);
         let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(relative);
         let direction = |place: usize| {
-            let scaled = eigenvectors.column(place).component_mul(&sigmas) * eigenvalues[place].sqrt();
-            let angle: f64 = (0..scaled.len()).filter(|&at| is_angle(at)).map(|at| scaled[at].powi(2)).sum();
+            let scaled =
+                eigenvectors.column(place).component_mul(&sigmas) * eigenvalues[place].sqrt();
+            let angle: f64 =
+                (0..scaled.len()).filter(|&at| is_angle(at)).map(|at| scaled[at].powi(2)).sum();
             (0.5 * angle > MATTERS * finest).then_some(scaled)
         };
         let hardly = (0..sigmas.len()).filter(|&place| eigenvalues[place] > HARDLY_SHOWN);
