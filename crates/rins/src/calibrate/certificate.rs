@@ -8,7 +8,7 @@ use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freel
 use rins_design::{Budget, EstimatedParameter, Truth};
 use rins_estimation::{
     Departure, Estimate, Fit, FitError, Identifiability, InRun, NoiseParameters, Reference, Run,
-    Unobservable, fit,
+    Unobservable, fit, fit_near,
 };
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
@@ -22,6 +22,9 @@ use crate::log::repairs;
 use crate::options::NoiseChoice;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
+
+/// The gain of the log marginal likelihood for which an effect joins the model that no one asked for: odds of 150 to 1.
+const LIKELIER: f64 = 5.0;
 
 /// At most so many rates of a run are told one by one.
 const MOST_RATES: usize = 7;
@@ -76,8 +79,8 @@ pub(crate) struct CertifiedRun {
 impl Certificate {
     /// Estimates the model of a case from its runs.
     ///
-    /// Gyro biases that change with the attitude, as those of a g-sensitive MEMS, differ between static intervals by more than
-    /// constant biases allow. If the estimate does not converge for this reason, the g-sensitivity is estimated too.
+    /// Gyro biases of a g-sensitive MEMS differ between static intervals in different attitudes. If the g-sensitivity makes the
+    /// data more likely than [`LIKELIER`], it is estimated too.
     pub(crate) fn of(mut case: EstimationProblem, progress: &Progress) -> anyhow::Result<Self> {
         let stage = progress.begin("calibrating", None);
         let fitted = |case: &EstimationProblem| {
@@ -89,6 +92,16 @@ impl Certificate {
             Err(error @ FitError::Diverged { .. }) if case.can_be_g_sensitive() => {
                 case.add_g_sensitivity();
                 fitted(&case).ok().ok_or(error)
+            }
+            Ok(plain) if case.can_be_g_sensitive() => {
+                let model = case.with_g_sensitivity();
+                match fit_near(&plain, &case.given(), &model, case.imu(), case.knowledge()) {
+                    Ok(other) if other.log_likelihood > plain.log_likelihood + LIKELIER => {
+                        case.add_g_sensitivity();
+                        Ok(other)
+                    }
+                    _ => Ok(plain),
+                }
             }
             found => found,
         };

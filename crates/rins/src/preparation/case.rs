@@ -53,10 +53,15 @@ impl EstimationProblem {
         self.runs.iter().position(same).unwrap_or(log)
     }
 
+    /// The model with the g-sensitivity of the gyros.
+    pub(crate) fn with_g_sensitivity(&self) -> Model {
+        self.model.clone().with(TermInstance::new(&catalogue::GYRO_G_SENSITIVITY).estimated())
+    }
+
     /// Adds the g-sensitivity of the gyros to the model.
     pub(crate) fn add_g_sensitivity(&mut self) {
         let term = &catalogue::GYRO_G_SENSITIVITY;
-        self.model.terms.push(TermInstance::new(term).estimated());
+        self.model = self.with_g_sensitivity();
         self.name = format!("{FULL} with {}", term.id);
         self.remarks.push(format!(
             "The gyro biases differ between the attitudes by more than noise and bias instability explain: {} is estimated too.",
