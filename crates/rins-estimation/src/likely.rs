@@ -8,8 +8,8 @@ use crate::linear::Linear;
 use crate::noise_parameters::Noise;
 use crate::run::Reference;
 
-/// 1σ of the logarithm of a white noise density in a data sheet.
-pub(crate) const WHITE: f64 = 1.0;
+/// 1σ of the logarithm of a noise parameter in a data sheet.
+pub(crate) const STATED: f64 = 1.0;
 
 /// The same for noise parameters without prior knowledge.
 const UNKNOWN: f64 = 3.0;
@@ -72,7 +72,7 @@ struct Unknown {
 impl Unknown {
     /// Whether every data sheet or rig file states it, so that the prior is narrow.
     fn is_stated(&self) -> bool {
-        self.sigma <= WHITE
+        self.sigma <= STATED
     }
 }
 
@@ -138,8 +138,8 @@ const MOST_UNCERTAIN: f64 = 0.6;
 
 /// Estimates the noise parameters by restricted maximum likelihood: the parameters are integrated out.
 ///
-/// The priors are log-normal: white noise of the sensors is known to a factor of e about its stated value, everything else to
-/// a factor of twenty. An unobservable noise parameter stays where it has no effect. The search starts from `first`, with the
+/// The priors are log-normal: the noise parameters of a data sheet are known to a factor of e about their stated values, everything
+/// else to a factor of twenty. An unobservable noise parameter stays where it has no effect. The search starts from `first`, with the
 /// inverse Hessian of an earlier search if there is one.
 pub(crate) fn likely_noise(
     linear: &[Linear],
@@ -212,19 +212,19 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     let (imu, sheet) = (first[0].imu, expected[0].imu);
     // If no bias instability is stated, the prior mean is small, but the search starts where it is visible.
     let flicker = |given: f64, white: f64| {
-        if given > 0.0 { (given, given) } else { (SHOWING * white, UNSEEN * white) }
+        if given > 0.0 { (given, given, STATED) } else { (SHOWING * white, UNSEEN * white, UNKNOWN) }
     };
-    add(Which::GyroWhite, imu.gyro.white, sheet.gyro.white, WHITE);
-    let (start, expect) = flicker(sheet.gyro.flicker, sheet.gyro.white);
-    add(Which::GyroFlicker, start, expect, UNKNOWN);
-    add(Which::AccelWhite, imu.accel.white, sheet.accel.white, WHITE);
-    let (start, expect) = flicker(sheet.accel.flicker, sheet.accel.white);
-    add(Which::AccelFlicker, start, expect, UNKNOWN);
+    add(Which::GyroWhite, imu.gyro.white, sheet.gyro.white, STATED);
+    let (start, expect, sigma) = flicker(sheet.gyro.flicker, sheet.gyro.white);
+    add(Which::GyroFlicker, start, expect, sigma);
+    add(Which::AccelWhite, imu.accel.white, sheet.accel.white, STATED);
+    let (start, expect, sigma) = flicker(sheet.accel.flicker, sheet.accel.white);
+    add(Which::AccelFlicker, start, expect, sigma);
     if sheet.gyro.walk > 0.0 {
-        add(Which::GyroWalk, sheet.gyro.walk, sheet.gyro.walk, UNKNOWN);
+        add(Which::GyroWalk, sheet.gyro.walk, sheet.gyro.walk, STATED);
     }
     if sheet.accel.walk > 0.0 {
-        add(Which::AccelWalk, sheet.accel.walk, sheet.accel.walk, UNKNOWN);
+        add(Which::AccelWalk, sheet.accel.walk, sheet.accel.walk, STATED);
     }
     if sheet.jitter > 0.0 {
         add(Which::Jitter, sheet.jitter, sheet.jitter, UNKNOWN);
@@ -233,7 +233,7 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
         let (first, expected) = (first[runs[0]], expected[runs[0]]);
         let read = matches!(linear[runs[0]].reference, Reference::Encoder { .. });
         if read {
-            add(Which::Encoder(runs.clone()), first.encoder, expected.encoder, WHITE);
+            add(Which::Encoder(runs.clone()), first.encoder, expected.encoder, STATED);
         }
         add(Which::Wobble(runs), first.wobble, expected.wobble, UNKNOWN);
     }

@@ -2,7 +2,7 @@
 
 use crate::estimate::Fit;
 use crate::identifiability::{Identifiability, Observable};
-use crate::likely::WHITE;
+use crate::likely::STATED;
 use crate::noise_parameters::NoiseParameters;
 
 /// The departure of an estimate from its prior, in SI units.
@@ -63,8 +63,8 @@ impl Fit {
             Some(Departure { of: Quantity::Parameter(place), value, expected, sigma, sigmas })
         };
         let of_noise = |of: Quantity, found: f64, stated: f64| {
-            let sigmas = (found / stated).ln() / WHITE;
-            let sigma = WHITE * stated;
+            let sigmas = (found / stated).ln() / STATED;
+            let sigma = STATED * stated;
             sigmas.is_finite().then_some(Departure {
                 of,
                 value: found,

@@ -11,6 +11,9 @@ use rins_motion::Recording;
 /// over one second due to an encoder's noise of 2″ at 50 Hz.
 const SLOWEST: f64 = 0.002 * DEG_PER_SECOND;
 
+/// A table is not static if its rate exceeds this number of sigmas of the encoder's noise.
+const SIGMAS: f64 = 4.0;
+
 /// The window over which the rate is calculated from an angle \[s\].
 const WINDOW: f64 = 1.0;
 
@@ -32,10 +35,11 @@ pub(super) fn stands(recording: &Recording, cells: &Cells) -> Option<Vec<bool>> 
         }
         let window = start..end;
         let whole = cells.duration(&window) >= WINDOW * (1.0 - 1e-9);
-        if (whole || start == 0)
-            && slope(&angles[cells.samples(&window)], cells.duration(&window)).abs() < SLOWEST
-        {
-            stands[window].fill(true);
+        if whole || start == 0 {
+            let (slope, sigma) = slope(&angles[cells.samples(&window)], cells.duration(&window));
+            if slope.abs() < SLOWEST.max(SIGMAS * sigma) {
+                stands[window].fill(true);
+            }
         }
         if !whole {
             break;
@@ -44,13 +48,18 @@ pub(super) fn stands(recording: &Recording, cells: &Cells) -> Option<Vec<bool>> 
     Some(stands)
 }
 
-/// The mean slope of equally spaced readings: the mean of the last third minus that of the first third.
+/// The mean slope of equally spaced readings, the mean of the last third minus that of the first third, and its 1σ by the noise
+/// of the readings, which their second differences show.
 ///
 /// A difference of two readings would contain the encoder's noise without averaging.
-fn slope(angle: &[f64], duration: f64) -> f64 {
+fn slope(angle: &[f64], duration: f64) -> (f64, f64) {
     let third = (angle.len() / 3).max(1);
     let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
     let apart = duration * (angle.len() - third) as f64 / angle.len() as f64;
     let change = mean(&angle[angle.len() - third..]) - mean(&angle[..third]);
-    if apart > 0.0 { change / apart } else { 0.0 }
+    let second = |three: &[f64]| (three[2] - 2.0 * three[1] + three[0]).powi(2);
+    let count = angle.len().saturating_sub(2).max(1) as f64;
+    let variance = angle.windows(3).map(second).sum::<f64>() / (6.0 * count);
+    let sigma = (2.0 * variance / third as f64).sqrt();
+    if apart > 0.0 { (change / apart, sigma / apart) } else { (0.0, 0.0) }
 }
