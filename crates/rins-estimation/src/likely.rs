@@ -212,7 +212,11 @@ fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unkno
     let (imu, sheet) = (first[0].imu, expected[0].imu);
     // If no bias instability is stated, the prior mean is small, but the search starts where it is visible.
     let flicker = |given: f64, white: f64| {
-        if given > 0.0 { (given, given, STATED) } else { (SHOWING * white, UNSEEN * white, UNKNOWN) }
+        if given > 0.0 {
+            (given, given, STATED)
+        } else {
+            (SHOWING * white, UNSEEN * white, UNKNOWN)
+        }
     };
     add(Which::GyroWhite, imu.gyro.white, sheet.gyro.white, STATED);
     let (start, expect, sigma) = flicker(sheet.gyro.flicker, sheet.gyro.white);

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, RowDVector, Vector3};
-use rins_frames::{Body, Dcm, Table};
+use rins_frames::{Body, Dcm, Nav, Table, cross_matrix};
 use rins_motion::Recording;
 use rins_terms::{Acting, KinematicState, Model, Track, catalogue, compensated, derivatives};
 
@@ -121,11 +121,9 @@ impl Turning<'_> {
         let mut turned = Dcm::<Table, Table>::identity();
         let mut moments = track.moments();
         let mut path = 0.0;
-        let in_body = *(before.nav_from_table.inverse() * earth_rate).components();
         for sample in &recording.increments {
             let moment: KinematicState = moments.advance()?.feeling(sample);
-            let of_earth = turned.matrix().transpose() * in_body * sample.interval;
-            let angle = sample.angle.components() - of_earth;
+            let angle = *sample.angle.components();
             path += angle.norm();
             let middle = turned * Dcm::<Table, Table>::from_rotation_vector(&(0.5 * angle));
             for (slope, acting) in slopes.iter_mut().zip(&acting) {
@@ -134,7 +132,12 @@ impl Turning<'_> {
             }
             turned = turned * Dcm::from_rotation_vector(&angle);
         }
-        let to_after = turned.matrix().transpose();
+        // The Earth turns n with respect to inertial space, to which the gyros refer.
+        let of_earth =
+            Dcm::<Nav, Nav>::from_rotation_vector(&(-earth_rate.components() * duration));
+        let expected = of_earth * before.nav_from_table * turned;
+        let residual = (expected.inverse() * after.nav_from_table).rotation_vector();
+        let to_after = inverse_left_jacobian(&residual) * turned.matrix().transpose();
         let mut slope = DMatrix::zeros(3, self.layout.all.len());
         for (&column, own) in columns.iter().zip(&slopes) {
             let place = self.layout.places[to][column];
@@ -142,10 +145,8 @@ impl Turning<'_> {
             let mut at = slope.column_mut(place);
             at += to_after * own * sign;
         }
-        self.add_attitude(&mut slope, to, &Matrix3::identity());
+        self.add_attitude(&mut slope, to, &inverse_left_jacobian(&-residual));
         self.add_attitude(&mut slope, from, &-to_after);
-        let expected = before.nav_from_table * turned;
-        let residual = (expected.inverse() * after.nav_from_table).rotation_vector();
         let stated = turn.stated.map(|stated| {
             let expected = before.nav_from_table * Dcm::<Table, Table>::about_z(stated.angle);
             let off = (expected.inverse() * after.nav_from_table).rotation_vector().z;
@@ -167,6 +168,12 @@ impl Turning<'_> {
             at += factor.column(axis);
         }
     }
+}
+
+/// The derivative of the rotation vector of `exp(δ) exp(ρ)` by `δ` at zero; at `-ρ`, that of `exp(ρ) exp(δ)`.
+fn inverse_left_jacobian(vector: &Vector3<f64>) -> Matrix3<f64> {
+    let cross = cross_matrix(vector);
+    Matrix3::identity() - 0.5 * cross + cross * cross / 12.0
 }
 
 /// The angle about z before the first sample and at the end of each \[rad\].

@@ -16,4 +16,5 @@ mod support;
 mod sway;
 mod temperatures;
 mod terms;
+mod turns;
 mod unobservable;
