@@ -16,7 +16,7 @@ use super::problem::LogProblem;
 use super::redivide::redivide;
 use super::series::{between, smoothly_between, unwrap};
 use super::summary::{LogPolicy, LogSummary, Redivided, TableClock};
-use super::table::{self, Wanted};
+use super::table::{self, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
     AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn,
@@ -228,7 +228,8 @@ fn temperature(
     let (Some((path, time)), Some(mut instants)) = (file, instants) else {
         return Ok(None);
     };
-    let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)), rows: None };
+    let time = Some(WantedTime::of(time, &mut instants));
+    let wanted = Wanted { names: &[column], time, rows: None };
     let columns = table::read(path, Table::of(path), wanted)?;
     let mut file = OneFile::of_column(path, column, columns);
     let values = file.temperatures(column, *offset)?;

@@ -9,7 +9,7 @@ use super::instant::Instants;
 use super::overflow::{Overflow, continued};
 use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
-use super::table::{self, Columns, Wanted};
+use super::table::{self, Columns, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, RowFilter, Table, TimeUnit, TriadColumns};
 use crate::shown::shown;
@@ -193,16 +193,18 @@ impl Files {
         let mut rounded = None;
         let mut overflows = Vec::new();
         for (path, asked) in wanted {
-            let time = spec.time.as_ref().map(|time| time.column.as_str());
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
-            let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()), rows };
+            let time = spec.time.as_ref().zip(instants.as_mut());
+            let time = time.map(|(time, instants)| WantedTime::of(time, instants));
+            let wanted = Wanted { names: &asked.names(), time, rows };
             let mut columns = table::read(path, spec.table, wanted)?;
             if together && spec.gyro.path == spec.accel.path && path == spec.gyro.path {
                 let names = spec.gyro.columns.iter().chain(&spec.accel.columns);
                 let places = names.filter_map(|name| asked.place(name));
                 columns.leave_out_zeros(&places.collect::<Vec<_>>());
             }
-            if let Some(time) = &spec.time {
+            // The sum of two columns does not overflow.
+            if let Some(time) = spec.time.as_ref().filter(|time| time.split.is_none()) {
                 let continued = continued(&mut columns.time, time.unit.seconds());
                 if files.is_empty() {
                     overflows = continued;
@@ -307,10 +309,11 @@ pub(super) fn own_file(
 ) -> Result<OneFile, IoError> {
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
     let asked = Asked::of(columns);
-    let wanted =
-        Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)), rows };
-    let mut columns = table::read(path, table, wanted)?;
-    let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
+    let time = Some(WantedTime::of(&clock.time, &mut instants));
+    let mut columns = table::read(path, table, Wanted { names: &asked.names(), time, rows })?;
+    if clock.time.split.is_none() {
+        let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
+    }
     let _rounded = undo_rounding(&mut columns.time, None);
     let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
     if shift != 0.0 {

@@ -51,11 +51,12 @@ impl Instants {
         })
     }
 
-    /// The same for a stamp of `whole` units plus the decimal number of units in `text`.
-    pub(super) fn of_sum(&mut self, whole: i64, text: &str) -> Option<f64> {
-        let plain = whole as f64 + text.parse::<f64>().ok()?;
+    /// The same for stamps in seconds, of `whole` seconds plus the number in `text`, of which `per_second` are a second.
+    pub(super) fn of_sum(&mut self, whole: i64, text: &str, per_second: i64) -> Option<f64> {
+        let plain = whole as f64 + text.parse::<f64>().ok()? / per_second as f64;
         let whole = i128::from(whole) * 10_i128.pow(DECIMALS.unsigned_abs());
-        Some(self.after_origin(plain, || fixed(text)?.checked_add(whole)))
+        let part = || Some(fixed(text)? / i128::from(per_second));
+        Some(self.after_origin(plain, || part()?.checked_add(whole)))
     }
 
     /// The time after the origin of a stamp whose double is `plain`, and whose value to 10⁻¹² is `fixed`.
@@ -87,6 +88,13 @@ impl Instants {
     pub(super) fn origin(&self) -> f64 {
         self.origin.unwrap_or(0) as f64 / (10_f64.powi(DECIMALS) * self.per_second)
     }
+}
+
+/// The whole number in `text`.
+pub(super) fn whole(text: &str) -> Option<i64> {
+    let one = 10_i128.pow(DECIMALS.unsigned_abs());
+    let number = fixed(text).filter(|number| text.parse::<f64>().is_ok() && number % one == 0)?;
+    i64::try_from(number / one).ok()
 }
 
 /// A decimal number in units of 10⁻¹²; `None` if it is too large for that.

@@ -15,6 +15,7 @@ mod problem;
 mod psins;
 mod redivide;
 mod series;
+mod split_time;
 mod summary;
 mod table;
 

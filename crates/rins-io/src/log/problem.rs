@@ -85,6 +85,32 @@ pub enum LogProblem {
         /// The field.
         text: String,
     },
+    /// A field of the first of two time columns is not a date.
+    #[error("column {column:?}: {text:?} is not a date such as 2021-07-05 or 05.07.2021")]
+    NotADate {
+        /// The column.
+        column: String,
+        /// The field.
+        text: String,
+    },
+    /// A field of the first of two time columns is not a whole number.
+    #[error("column {column:?}: {text:?} is not a whole number")]
+    NotWhole {
+        /// The column.
+        column: String,
+        /// The field.
+        text: String,
+    },
+    /// A field of the second of two time columns is not a part of one unit of the first.
+    #[error("column {column:?}: {text:?} is not from 0 to less than {longest} s; check time.unit")]
+    BeyondPart {
+        /// The column.
+        column: String,
+        /// The field.
+        text: String,
+        /// The longest unit of the first column \[s\].
+        longest: i64,
+    },
     /// A field is infinite or NaN.
     #[error("column {column:?}: {text:?} is not finite")]
     NotFinite {

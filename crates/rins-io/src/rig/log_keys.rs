@@ -183,7 +183,7 @@ fn format(log: &Section<'_>, path: &str) -> Result<Format, IoError> {
 }
 
 fn time(log: &Section<'_>, rate: Option<f64>) -> Result<Option<TimeColumn>, IoError> {
-    let Some(time) = log.inline("time", &["column", "unit", "stamp"])? else {
+    let Some(time) = log.inline("time", &["column", "columns", "unit", "stamp"])? else {
         return match rate {
             Some(_) => Ok(None),
             None => Err(log.missing(
@@ -302,7 +302,8 @@ fn temperature(
                 return Err(section.conflict("path", reason));
             };
             let column = column(&section, "time")?;
-            let time = TimeColumn { column, unit: TimeUnit::Seconds(unit), stamp: Stamp::End };
+            let unit = TimeUnit::Seconds(unit);
+            let time = TimeColumn { column, unit, split: None, stamp: Stamp::End };
             Some((folder.join(path), time))
         }
     };

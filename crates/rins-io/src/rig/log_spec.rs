@@ -81,12 +81,34 @@ pub struct ColumnSpec {
 /// The time column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeColumn {
-    /// Its name.
+    /// Its name; that of the first column, if the time is in two.
     pub column: String,
-    /// Its unit.
+    /// Its unit; seconds, if the time is in two columns.
     pub unit: TimeUnit,
+    /// The second column of a time in two columns.
+    pub split: Option<SplitTime>,
     /// The instant of a sample's interval that it refers to.
     pub stamp: Stamp,
+}
+
+/// The second of the two columns whose sum is the time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SplitTime {
+    /// The unit of the first column.
+    pub coarse: Coarse,
+    /// The name of the second column.
+    pub column: String,
+    /// The number of units of the second column in a second.
+    pub per_second: i64,
+}
+
+/// The unit of the first of the two columns of a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coarse {
+    /// This number of seconds, of which the column has whole numbers.
+    Seconds(i64),
+    /// The day of a date in text.
+    Date,
 }
 
 /// The clock of a file that was not sampled together with the gyros' file.

@@ -24,6 +24,7 @@ mod rig;
 mod round_trip;
 mod rows;
 mod scenario;
+mod split_time;
 mod spoilt_parquet;
 mod support;
 mod table_clock;

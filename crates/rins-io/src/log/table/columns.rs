@@ -4,7 +4,7 @@ use super::rows::RowLines;
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
-use crate::rig::RowFilter;
+use crate::rig::{RowFilter, SplitTime, TimeColumn};
 use crate::section::quoted;
 use crate::suggestion::nearest;
 
@@ -70,9 +70,27 @@ impl Columns {
 /// The request: columns by name, and optionally a column of time stamps.
 pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) names: &'w [&'w str],
-    pub(in crate::log) time: Option<(&'w str, &'w mut Instants)>,
+    pub(in crate::log) time: Option<WantedTime<'w>>,
     /// The rows that are read, if not all are.
     pub(in crate::log) rows: Option<&'w RowFilter>,
+}
+
+/// The requested column of time stamps, or the two columns whose sum they are.
+pub(in crate::log) struct WantedTime<'w> {
+    pub(in crate::log) column: &'w str,
+    pub(in crate::log) split: Option<&'w SplitTime>,
+    pub(in crate::log) instants: &'w mut Instants,
+}
+
+impl<'w> WantedTime<'w> {
+    pub(in crate::log) fn of(time: &'w TimeColumn, instants: &'w mut Instants) -> Self {
+        Self { column: &time.column, split: time.split.as_ref(), instants }
+    }
+
+    /// The names of its columns.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'w str> + use<'w> {
+        [self.column].into_iter().chain(self.split.map(|split| split.column.as_str()))
+    }
 }
 
 /// A counter of rows that equal the previous row.

@@ -54,8 +54,8 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         before.clear();
         before.push_str(message.body);
         let (counts, week, seconds) = message.fields().map_err(refuse)?;
-        if let Some((_, instants)) = &mut time {
-            let stamp = instants.of_sum(week * SECONDS_OF_A_WEEK, seconds);
+        if let Some(time) = &mut time {
+            let stamp = time.instants.of_sum(week * SECONDS_OF_A_WEEK, seconds, 1);
             let stamp = stamp.filter(|stamp| stamp.is_finite());
             columns.time.push(stamp.ok_or_else(|| refuse(not_a_number("seconds", seconds)))?);
         }

@@ -8,8 +8,8 @@ use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
-use super::columns::{Columns, Wanted, place};
-use super::typed::{Numbers, together};
+use super::columns::{Columns, Wanted, WantedTime, place};
+use super::typed::{Numbers, stamps, together};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::sound_parquet::SoundParquet;
@@ -24,7 +24,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     let refuse = |problem| LogError::of(path, problem);
     let present: Vec<String> = file.columns().iter().map(|column| column.path().string()).collect();
     let Wanted { names, time, .. } = wanted;
-    let asked = names.iter().copied().chain(time.as_ref().map(|(name, _)| *name));
+    let asked = names.iter().copied().chain(time.iter().flat_map(WantedTime::names));
     let mut lists = Vec::with_capacity(names.len() + 1);
     for name in asked {
         let place = place(name, &present).map_err(refuse)?;
@@ -53,10 +53,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         }
         lists.push(list);
     }
-    let stamps = time.map(|(name, instants)| {
-        let list = lists.pop().map_or_else(Vec::new, |list| list.stamps(instants));
-        (name, list)
-    });
+    let stamps = time.map(|time| stamps(path, time, &mut lists)).transpose()?;
     let numbers = lists.into_iter().map(Numbers::plain).collect();
     together(path, names, numbers, stamps)
 }

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use super::columns::{Columns, MOST_ROWS};
+use super::columns::{Columns, MOST_ROWS, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
+use crate::log::split_time;
 use crate::log::summary::Omission;
 
 /// The number of rows that any file may have, however small it is.
@@ -42,8 +43,15 @@ impl Numbers {
         }
     }
 
+    fn text(&self, row: usize) -> String {
+        match self {
+            Self::Real(numbers) => numbers[row].to_string(),
+            Self::Whole(numbers) => numbers[row].to_string(),
+        }
+    }
+
     /// The numbers as time stamps \[s\].
-    pub(super) fn stamps(self, instants: &mut Instants) -> Vec<f64> {
+    fn stamps(self, instants: &mut Instants) -> Vec<f64> {
         match self {
             Self::Real(numbers) => {
                 numbers.into_iter().map(|number| instants.of_number(number)).collect()
@@ -53,6 +61,28 @@ impl Numbers {
             }
         }
     }
+}
+
+/// The name and the time stamps \[s\] of a time, whose column or columns are the last of `lists`.
+///
+/// # Errors
+/// [`IoError::Log`] if the two columns of a time do not fit.
+pub(super) fn stamps<'w>(
+    path: &Path,
+    time: WantedTime<'w>,
+    lists: &mut Vec<Numbers>,
+) -> Result<(&'w str, Vec<f64>), IoError> {
+    let mut last = || lists.pop().unwrap_or(Numbers::Real(Vec::new()));
+    let WantedTime { column, split, instants } = time;
+    let Some(split) = split else { return Ok((column, last().stamps(instants))) };
+    let (second, first) = (last(), last());
+    let stamp = |row: usize| {
+        let (first, second) = (first.text(row), second.text(row));
+        split_time::seconds(instants, split, (column, &first), &second)
+            .map_err(|problem| LogError::at(path, row as u64 + 1, problem))
+    };
+    let stamps = (0..first.len().min(second.len())).map(stamp).collect::<Result<_, _>>()?;
+    Ok((column, stamps))
 }
 
 /// Combines columns, without rows that repeat the previous row.
