@@ -7,6 +7,8 @@ use crate::quantity::Dimension;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Time,
+    /// A GNSS week.
+    Week,
     /// A sample counter.
     Counter,
     Gyro,
@@ -44,14 +46,23 @@ const TIME: &[&str] = &[
     "stamp",
     "t",
     "tow",
+    "itow",
+    "sow",
     "sec",
     "secs",
+    "msec",
+    "usec",
+    "nsec",
+    "nsecs",
+    "nanosec",
+    "nanosecs",
     "seconds",
     "millis",
     "micros",
     "epoch",
     "clock",
 ];
+const WEEK: &[&str] = &["week", "weeks", "gpsweek", "wn"];
 const COUNTER: &[&str] = &[
     "sample", "samples", "counter", "count", "index", "idx", "packet", "packets", "seq",
     "sequence", "frame", "n", "nr", "no",
@@ -137,6 +148,8 @@ impl Label {
         } else if has(TABLE) {
             let rate = has(RATE) || dimension == Some(Dimension::ANGULAR_RATE);
             role(if rate { Role::TableRate } else { Role::TableAngle }, true)
+        } else if has(WEEK) && !has(TIME) && !has(&["of"]) {
+            role(Role::Week, true)
         } else if has(TIME) || dimension == Some(Dimension::TIME) {
             role(Role::Time, true)
         } else if has(COUNTER) {
@@ -183,8 +196,15 @@ fn triad(words: &[String], dimension: Option<Dimension>) -> Option<(Role, bool)>
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = ' ';
-    for letter in name.chars() {
-        if !letter.is_alphanumeric() || (letter.is_uppercase() && before.is_lowercase()) {
+    let mut letters = name.chars().peekable();
+    while let Some(letter) = letters.next() {
+        // After an acronym, the last capital begins a word: `GPSWeek`, but `DTheta`.
+        let is_acronym = before.is_uppercase()
+            && words.last().is_some_and(|word| word.chars().count() > 1)
+            && letters.peek().is_some_and(|next| next.is_lowercase());
+        if !letter.is_alphanumeric()
+            || (letter.is_uppercase() && (before.is_lowercase() || is_acronym))
+        {
             words.push(String::new());
         }
         if letter.is_alphanumeric()

@@ -14,6 +14,7 @@ mod psins;
 mod sample;
 mod sections;
 mod spin;
+mod split_pace;
 mod stated;
 mod table_keys;
 mod units;
@@ -91,7 +92,7 @@ fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
     let names = sample.names.as_deref().unwrap_or_default();
     let label = |column: usize| names.get(column).map(|name| Label::of(name)).unwrap_or_default();
     let labels: Vec<Label> = (0..sample.count).map(label).collect();
-    let pace = Pace::find(sample, &labels);
+    let pace = split_pace::find(sample, &labels).or_else(|| Pace::find(sample, &labels));
     let layout = Layout::find(log, sample, &labels, pace.as_ref());
     let findings =
         Findings { log, folder, sample, labels: &labels, pace: pace.as_ref(), layout: &layout };

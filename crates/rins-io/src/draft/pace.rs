@@ -15,8 +15,10 @@ const ENOUGH: usize = 9;
 /// The time column and the properties of its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pace {
-    /// The column.
+    /// The column; the first of two whose sum is the time.
     pub(super) column: usize,
+    /// The second of two columns.
+    pub(super) split: Option<SplitPace>,
     /// The reason for the selection, if the column's name does not state it.
     pub(super) column_guess: Option<String>,
     /// The unit of the column.
@@ -31,6 +33,16 @@ pub(super) struct Pace {
     pub(super) gaps: usize,
     /// The number of examined steps in which time does not increase.
     pub(super) halts: usize,
+}
+
+/// The second of two columns whose sum is the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SplitPace {
+    pub(super) column: usize,
+    /// The units of both columns.
+    pub(super) units: [&'static str; 2],
+    /// What they are.
+    pub(super) why: &'static str,
 }
 
 /// The unit of a time column.
@@ -74,8 +86,7 @@ impl Pace {
         }
         let nameless = (0..sample.count).filter(|&column| labels[column].role.is_none());
         let mut rising = nameless.filter_map(|column| Self::of(sample, column));
-        let steadily = |pace: &Self| pace.steps >= ENOUGH && pace.halts == 0 && pace.jitter < 0.3;
-        let pace = rising.find(steadily)?;
+        let pace = rising.find(Self::is_steady)?;
         let why = "it increases steadily from row to row".to_string();
         let label = &labels[pace.column];
         Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
@@ -86,6 +97,16 @@ impl Pace {
         let name = self.unit.name()?;
         let (_, seconds) = UNITS.iter().find(|(unit, _)| *unit == name)?;
         Some(self.step * seconds)
+    }
+
+    /// Whether time increases in even steps, of which there are enough.
+    pub(super) fn is_steady(&self) -> bool {
+        self.steps >= ENOUGH && self.halts == 0 && self.jitter < 0.3
+    }
+
+    /// Whether the column is the time or a part of it.
+    pub(super) fn has(&self, column: usize) -> bool {
+        column == self.column || self.split.is_some_and(|split| split.column == column)
     }
 
     pub(super) fn counts_samples(&self) -> bool {
@@ -100,6 +121,11 @@ impl Pace {
             times.windows(2).map(|pair| pair[1] - pair[0]).collect()
         };
         let all: Vec<f64> = sample.runs.iter().flat_map(steps).collect();
+        Self::of_steps(column, &all)
+    }
+
+    /// The properties of these steps of a column; `None` if it does not increase.
+    pub(super) fn of_steps(column: usize, all: &[f64]) -> Option<Self> {
         let mut sorted: Vec<f64> = all.iter().copied().filter(|step| step.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
         let step = *sorted.get(sorted.len() / 2)?;
@@ -111,6 +137,7 @@ impl Pace {
         let sum: f64 = even.iter().map(|s| (s / step - 1.0) * (s / step - 1.0)).sum();
         Some(Self {
             column,
+            split: None,
             column_guess: None,
             unit: PaceUnit::Unknown,
             steps: all.len(),

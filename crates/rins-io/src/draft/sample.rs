@@ -6,7 +6,8 @@ use std::path::Path;
 
 use crate::error::{IoError, LogError};
 use crate::log::{
-    BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, nanoseconds,
+    BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, day, nanoseconds,
+    time_of_day,
 };
 use crate::source;
 
@@ -37,10 +38,29 @@ pub(super) struct Sample {
     pub(super) count: usize,
     /// The columns that distinguish rows of several kinds, and their texts.
     pub(super) kinds: Vec<(usize, Vec<String>)>,
+    /// What the first row has in each column, if it is a part of a time in text.
+    pub(super) clocks: Vec<Option<ClockText>>,
     /// Runs of consecutive rows.
     pub(super) runs: Vec<Run>,
     /// Whether these are all rows of the log.
     pub(super) whole: bool,
+}
+
+/// A part of a time in text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ClockText {
+    Date,
+    TimeOfDay,
+}
+
+impl ClockText {
+    fn of(field: &str) -> Option<Self> {
+        match (day(field), time_of_day(field)) {
+            (Some(_), _) => Some(Self::Date),
+            (None, Some(_)) => Some(Self::TimeOfDay),
+            (None, None) => None,
+        }
+    }
 }
 
 /// Consecutive rows: the numbers of each column, NaN where a field is not a number.
@@ -76,8 +96,8 @@ impl Sample {
             runs.extend(others(path, &head));
         }
         let Head { delimiter, names, count, .. } = head;
-        let kinds = first.kinds();
-        Ok(Self { format: "csv", delimiter, names, count, kinds, runs, whole })
+        let (kinds, clocks) = (first.kinds(), first.clocks);
+        Ok(Self { format: "csv", delimiter, names, count, kinds, clocks, runs, whole })
     }
 
     /// Reads a sample of a Parquet or MATLAB file; none of a file of another format.
@@ -102,7 +122,8 @@ impl Sample {
         let others = others.filter(|start| !whole && *start >= RUN * FIRST_RUNS);
         let runs = first.chain(others).map(run).collect();
         let (delimiter, count) = (Delimiter::Comma, names.len());
-        Self { format, delimiter, names: Some(names), count, kinds: Vec::new(), runs, whole }
+        let (kinds, clocks) = (Vec::new(), vec![None; count]);
+        Self { format, delimiter, names: Some(names), count, kinds, clocks, runs, whole }
     }
 
     /// The name of a column in a rig file: its own name or, if that is not unique, its number.
@@ -116,7 +137,15 @@ impl Sample {
 
     /// Whether the column holds numbers.
     pub(super) fn is_numeric(&self, column: usize) -> bool {
-        self.runs.iter().any(|run| run[column].iter().any(|number| number.is_finite()))
+        self.clocks[column].is_none()
+            && self.runs.iter().any(|run| run[column].iter().any(|number| number.is_finite()))
+    }
+
+    /// Whether the column's numbers differ.
+    pub(super) fn varies(&self, column: usize) -> bool {
+        let mut numbers = self.runs.iter().flat_map(|run| run[column].iter());
+        let first = numbers.next();
+        numbers.any(|number| Some(number) != first)
     }
 
     /// The number of rows.
@@ -149,12 +178,14 @@ fn run_at(path: &Path, head: &Head, place: u64) -> Option<Run> {
     (rows.length > 1).then_some(rows.columns)
 }
 
-/// The number in a field; the seconds since 1970 of a date with a time of day.
+/// The number in a field; the seconds since 1970 of a date, with or without a time of day; the seconds of a time of day.
 fn number(field: &str) -> Option<f64> {
-    match field.parse::<f64>() {
-        Ok(number) => Some(number).filter(|number| number.is_finite()),
-        Err(_) => nanoseconds(field).map(|instant| instant as f64 * 1e-9),
+    if let Ok(number) = field.parse::<f64>() {
+        return Some(number).filter(|number| number.is_finite());
     }
+    let instant = nanoseconds(field).or_else(|| time_of_day(field));
+    let start = || day(field).map(|start| start as f64);
+    instant.map(|instant| instant as f64 * 1e-9).or_else(start)
 }
 
 /// The rows while they are read.
@@ -162,6 +193,8 @@ struct Rows {
     delimiter: Delimiter,
     columns: Run,
     length: usize,
+    /// The parts of times in text in the first row.
+    clocks: Vec<Option<ClockText>>,
     /// Texts in the first rows where numbers are expected.
     texts: Vec<Option<(u64, String)>>,
     /// The different texts of each column, at most one more than [`MOST_KINDS`].
@@ -175,6 +208,7 @@ impl Rows {
             columns: vec![Vec::new(); head.count],
             different: vec![BTreeSet::new(); head.count],
             length: 0,
+            clocks: vec![None; head.count],
             texts: vec![None; head.count],
         }
     }
@@ -188,6 +222,10 @@ impl Rows {
         if fields.len() != expected && !trailing {
             let got = Fields::of(text, self.delimiter).count();
             return Err(LogProblem::FieldCount { got, expected });
+        }
+        if self.length == 0 {
+            let clocks = self.clocks.iter_mut().zip(&fields);
+            clocks.for_each(|(clock, field)| *clock = ClockText::of(field));
         }
         let columns = self.columns.iter_mut().zip(&mut self.different);
         for ((column, different), field) in columns.zip(fields) {

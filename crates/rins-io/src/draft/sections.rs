@@ -47,7 +47,7 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
     }
     page.remark(&rows);
     let words: Vec<String> = (0..sample.count)
-        .filter(|column| !sample.is_numeric(*column))
+        .filter(|column| !sample.is_numeric(*column) && sample.clocks[*column].is_none())
         .take(8)
         .map(|column| text(&sample.name(column)))
         .collect();

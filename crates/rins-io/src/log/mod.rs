@@ -23,7 +23,7 @@ use std::path::Path;
 
 use rins_motion::{Recording, Station, with_ramps};
 
-pub(crate) use date_time::nanoseconds;
+pub(crate) use date_time::{day, nanoseconds, time_of_day};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
 pub(crate) use lines::Lines;

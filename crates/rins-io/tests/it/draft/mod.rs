@@ -2,6 +2,7 @@
 
 mod formats;
 mod guesses;
+mod messages;
 mod refusals;
 mod support;
 
