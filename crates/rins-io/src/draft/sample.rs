@@ -9,6 +9,7 @@ use crate::log::{
     BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, day, nanoseconds,
     time_of_day,
 };
+use crate::rig::{Decimal, TextForm};
 use crate::source;
 
 /// The most kinds of rows that a column distinguishes.
@@ -32,6 +33,7 @@ pub(super) struct Sample {
     /// The format of its file, as a rig file names it.
     pub(super) format: &'static str,
     pub(super) delimiter: Delimiter,
+    pub(super) decimal: Decimal,
     /// The columns' names, if there are any.
     pub(super) names: Option<Vec<String>>,
     /// The number of columns.
@@ -72,8 +74,9 @@ impl Sample {
     /// # Errors
     /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if its first rows are not columns of numbers.
     pub(super) fn read(path: &Path) -> Result<Self, IoError> {
+        let form = TextForm { decimal: decimal(path)?, skip: None };
         let mut lines = Lines::open(path)?;
-        let head = Head::read(&mut lines)?;
+        let head = Head::read(&mut lines, form)?;
         let mut first = Rows::new(&head);
         for (line, text) in &head.rows {
             first.push(text).map_err(|problem| LogError::at(path, *line, problem))?;
@@ -95,9 +98,9 @@ impl Sample {
         if !whole {
             runs.extend(others(path, &head));
         }
-        let Head { delimiter, names, count, .. } = head;
+        let Head { delimiter, decimal, names, count, .. } = head;
         let (kinds, clocks) = (first.kinds(), first.clocks);
-        Ok(Self { format: "csv", delimiter, names, count, kinds, clocks, runs, whole })
+        Ok(Self { format: "csv", delimiter, decimal, names, count, kinds, clocks, runs, whole })
     }
 
     /// Reads a sample of a Parquet or MATLAB file; none of a file of another format.
@@ -123,7 +126,18 @@ impl Sample {
         let runs = first.chain(others).map(run).collect();
         let (delimiter, count) = (Delimiter::Comma, names.len());
         let (kinds, clocks) = (Vec::new(), vec![None; count]);
-        Self { format, delimiter, names: Some(names), count, kinds, clocks, runs, whole }
+        let names = Some(names);
+        Self {
+            format,
+            delimiter,
+            decimal: Decimal::Point,
+            names,
+            count,
+            kinds,
+            clocks,
+            runs,
+            whole,
+        }
     }
 
     /// The name of a column in a rig file: its own name or, if that is not unique, its number.
@@ -154,6 +168,30 @@ impl Sample {
     }
 }
 
+/// The decimal mark of the text log at `path`: a comma if with it more fields of the first rows are numbers, and none of them has
+/// a point.
+fn decimal(path: &Path) -> Result<Decimal, IoError> {
+    let numbers = |decimal: Decimal| -> Result<(usize, bool), IoError> {
+        let mut lines = Lines::open(path)?;
+        let head = Head::read(&mut lines, TextForm { decimal, skip: None })?;
+        let mut rows: Vec<String> = head.rows.iter().map(|(_, row)| row.clone()).collect();
+        while rows.len() < RUN
+            && let Some((_, row)) = lines.next()?
+        {
+            rows.push(row.to_string());
+        }
+        let (mut count, mut has_point) = (0, false);
+        for field in rows.iter().flat_map(|row| Fields::of(row, head.delimiter)) {
+            count += usize::from(decimal.number(&field).is_some());
+            has_point |= Decimal::Point.number(&field).is_some() && field.contains('.');
+        }
+        Ok((count, has_point))
+    };
+    let (points, _) = numbers(Decimal::Point)?;
+    let (commas, has_point) = numbers(Decimal::Comma)?;
+    Ok(if commas > points && !has_point { Decimal::Comma } else { Decimal::Point })
+}
+
 /// Runs from positions distributed over the log; fewer if it cannot be read there.
 fn others(path: &Path, head: &Head) -> Vec<Run> {
     let length = source::length(path).unwrap_or_default();
@@ -179,8 +217,8 @@ fn run_at(path: &Path, head: &Head, place: u64) -> Option<Run> {
 }
 
 /// The number in a field; the seconds since 1970 of a date, with or without a time of day; the seconds of a time of day.
-fn number(field: &str) -> Option<f64> {
-    if let Ok(number) = field.parse::<f64>() {
+fn number(field: &str, decimal: Decimal) -> Option<f64> {
+    if let Some(number) = decimal.number(field) {
         return Some(number).filter(|number| number.is_finite());
     }
     let instant = nanoseconds(field).or_else(|| time_of_day(field));
@@ -191,6 +229,7 @@ fn number(field: &str) -> Option<f64> {
 /// The rows while they are read.
 struct Rows {
     delimiter: Delimiter,
+    decimal: Decimal,
     columns: Run,
     length: usize,
     /// The parts of times in text in the first row.
@@ -205,6 +244,7 @@ impl Rows {
     fn new(head: &Head) -> Self {
         Self {
             delimiter: head.delimiter,
+            decimal: head.decimal,
             columns: vec![Vec::new(); head.count],
             different: vec![BTreeSet::new(); head.count],
             length: 0,
@@ -229,7 +269,7 @@ impl Rows {
         }
         let columns = self.columns.iter_mut().zip(&mut self.different);
         for ((column, different), field) in columns.zip(fields) {
-            let number = number(&field);
+            let number = number(&field, self.decimal);
             if number.is_none() && different.len() <= MOST_KINDS && !different.contains(&*field) {
                 different.insert(field.chars().take(LONGEST_KIND).collect());
             }
@@ -252,7 +292,7 @@ impl Rows {
 
     fn note_text(&mut self, line: u64, row: &str) {
         for (text, field) in self.texts.iter_mut().zip(Fields::of(row, self.delimiter)) {
-            if text.is_none() && !field.is_empty() && number(&field).is_none() {
+            if text.is_none() && !field.is_empty() && number(&field, self.decimal).is_none() {
                 *text = Some((line, field.chars().take(40).collect()));
             }
         }
@@ -265,7 +305,8 @@ impl Rows {
         let hopeless = !self.columns.iter().any(has_numbers);
         for (index, (text, column)) in self.texts.iter().zip(&self.columns).enumerate() {
             let Some((line, text)) = text else { continue };
-            if hopeless || has_numbers(column) {
+            let has_comma = text.contains(',') && Decimal::Comma.number(text).is_some();
+            if hopeless || has_numbers(column) || has_comma {
                 let column = names.and_then(|names| names.get(index).cloned());
                 let column = column.unwrap_or_else(|| (index + 1).to_string());
                 let problem = LogProblem::NotANumber { column, text: text.clone() };

@@ -3,6 +3,7 @@
 use super::page::{Page, text};
 use super::sample::Sample;
 use crate::log::Delimiter;
+use crate::rig::Decimal;
 
 pub(super) fn site(page: &mut Page) {
     page.blank();
@@ -40,6 +41,9 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
     } else {
         format!("{rows} rows, distributed over the log, were read.")
     };
+    if sample.decimal == Decimal::Comma {
+        page.known("decimal", &text(","));
+    }
     if sample.format == "csv" {
         page.remark(&format!("{count} columns between {between}, {header}."));
     } else {

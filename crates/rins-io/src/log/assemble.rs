@@ -19,7 +19,7 @@ use super::summary::{LogPolicy, LogSummary, Redivided, TableClock};
 use super::table::{self, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
-    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn,
+    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn, TextForm,
     TriadColumns,
 };
 use crate::shown::shown;
@@ -79,8 +79,8 @@ pub(super) fn read(
 
     let mut own_angles = None;
     if let Some(column @ AngleColumn { file: Some((path, own)), .. }) = &spec.table_angle {
-        let columns = slice::from_ref(&column.column);
-        let file = own_file((path, Table::of(path), None), columns, own, files.instants)?;
+        let file = (path.as_path(), Table::of(path), spec.text.of_another_file());
+        let file = own_file(file, (slice::from_ref(&column.column), None), own, files.instants)?;
         clock.summary.left_out.extend(file.left_out());
         let log = &files.main().path;
         let OwnAngles { angles, covered, rate } =
@@ -127,7 +127,8 @@ pub(super) fn read(
             Some(at_ends(files.file(&rig.log.path).temperatures(column, *offset)?, between))
         }
         Some(column) => {
-            let own = temperature(column, files.instants, &clock.ends)?;
+            let own =
+                temperature((column, spec.text.of_another_file()), files.instants, &clock.ends)?;
             own.map(|(file, temperatures)| {
                 clock.summary.left_out.extend(file.left_out());
                 temperatures
@@ -221,7 +222,7 @@ impl Channel<'_> {
 /// The file of the temperature, if it is not the log, and the temperatures at the ends of the
 /// intervals.
 fn temperature(
-    TemperatureColumn { file, column, offset }: &TemperatureColumn,
+    (TemperatureColumn { file, column, offset }, text): (&TemperatureColumn, TextForm),
     instants: Option<Instants>,
     ends: &[f64],
 ) -> Result<Option<(OneFile, Vec<f64>)>, IoError> {
@@ -229,7 +230,7 @@ fn temperature(
         return Ok(None);
     };
     let time = Some(WantedTime::of(time, &mut instants));
-    let wanted = Wanted { names: &[column], time, rows: None };
+    let wanted = Wanted { names: &[column], time, rows: None, text };
     let columns = table::read(path, Table::of(path), wanted)?;
     let mut file = OneFile::of_column(path, column, columns);
     let values = file.temperatures(column, *offset)?;

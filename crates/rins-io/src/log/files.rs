@@ -11,7 +11,9 @@ use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
-use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, RowFilter, Table, TimeUnit, TriadColumns};
+use crate::rig::{
+    ColumnSpec, OwnClock, Reading, Rig, RowFilter, Table, TextForm, TimeUnit, TriadColumns,
+};
 use crate::shown::shown;
 
 /// The maximum difference between the times of two files, in intervals.
@@ -196,7 +198,7 @@ impl Files {
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
             let time = spec.time.as_ref().zip(instants.as_mut());
             let time = time.map(|(time, instants)| WantedTime::of(time, instants));
-            let wanted = Wanted { names: &asked.names(), time, rows };
+            let wanted = Wanted { names: &asked.names(), time, rows, text: spec.text };
             let mut columns = table::read(path, spec.table, wanted)?;
             if together && spec.gyro.path == spec.accel.path && path == spec.gyro.path {
                 let names = spec.gyro.columns.iter().chain(&spec.accel.columns);
@@ -223,8 +225,9 @@ impl Files {
             files.push(OneFile { path: path.into(), asked, columns });
         }
         let accel = spec.accel_clock.as_ref().map(|clock| {
-            let file = (spec.accel.path.as_path(), spec.table, spec.accel.rows.as_ref());
-            own_file(file, &spec.accel.columns, clock, instants)
+            let file = (spec.accel.path.as_path(), spec.table, spec.text);
+            let rows = spec.accel.rows.as_ref();
+            own_file(file, (&spec.accel.columns, rows), clock, instants)
         });
         Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
@@ -302,15 +305,16 @@ impl Files {
 
 /// Reads columns of a file with its own clock, with its time stamps in the time of the gyros.
 pub(super) fn own_file(
-    (path, table, rows): (&Path, Table, Option<&RowFilter>),
-    columns: &[String],
+    (path, table, text): (&Path, Table, TextForm),
+    (columns, rows): (&[String], Option<&RowFilter>),
     clock: &OwnClock,
     gyro: Option<Instants>,
 ) -> Result<OneFile, IoError> {
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
     let asked = Asked::of(columns);
     let time = Some(WantedTime::of(&clock.time, &mut instants));
-    let mut columns = table::read(path, table, Wanted { names: &asked.names(), time, rows })?;
+    let wanted = Wanted { names: &asked.names(), time, rows, text };
+    let mut columns = table::read(path, table, wanted)?;
     if clock.time.split.is_none() {
         let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
     }

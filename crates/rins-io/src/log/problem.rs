@@ -15,6 +15,12 @@ pub enum LogProblem {
     /// The log has a header only.
     #[error("only a header, no samples")]
     OnlyHeader,
+    /// The log has not more lines than are skipped.
+    #[error("the file has no line after the {lines} that [log] skip leaves out")]
+    AllSkipped {
+        /// The number of skipped lines.
+        lines: u64,
+    },
     /// There are too few samples to determine an interval.
     #[error("{samples} sample, at least 2 are needed")]
     TooShort {
@@ -376,5 +382,5 @@ fn cut(got: usize, expected: usize) -> &'static str {
 
 fn comma(text: &str) -> &'static str {
     let decimal_comma = text.contains(',') && text.replace(',', ".").parse::<f64>().is_ok();
-    if decimal_comma { "; write decimals with a point" } else { "" }
+    if decimal_comma { "; if commas are decimal marks, state decimal = \",\" in [log]" } else { "" }
 }

@@ -1,5 +1,6 @@
 //! The place and format of a log.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -52,6 +53,52 @@ pub enum Table {
     NovAtel,
 }
 
+/// The form of text logs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TextForm {
+    /// The decimal mark.
+    pub decimal: Decimal,
+    /// The number of lines before the header, or before the first row; `None` if a preamble is recognized.
+    pub skip: Option<u64>,
+}
+
+impl TextForm {
+    /// The form of a file that is not the log: decimals are written alike, but it has a preamble of its own.
+    pub(crate) fn of_another_file(self) -> Self {
+        Self { skip: None, ..self }
+    }
+}
+
+/// The decimal mark of numbers in text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Decimal {
+    /// A point.
+    #[default]
+    Point,
+    /// A comma.
+    Comma,
+}
+
+impl Decimal {
+    /// A number in Rust's notation; the text itself if it has another decimal mark, as times of day may have.
+    pub(crate) fn plain(self, text: &str) -> Cow<'_, str> {
+        match self {
+            Self::Comma if text.contains(',') && !text.contains('.') => {
+                text.replace(',', ".").into()
+            }
+            _ => text.into(),
+        }
+    }
+
+    /// The number in a text.
+    pub(crate) fn number(self, text: &str) -> Option<f64> {
+        match self {
+            Self::Comma if text.contains('.') => None,
+            _ => self.plain(text).parse().ok(),
+        }
+    }
+}
+
 /// The assignment of columns.
 ///
 /// A column is named by its header or, if there is none, by its number from "1"; in a MATLAB
@@ -60,6 +107,8 @@ pub enum Table {
 pub struct ColumnSpec {
     /// The format of the columns.
     pub table: Table,
+    /// The form of text.
+    pub text: TextForm,
     /// The time; without it, the sampling rate is the nominal rate.
     pub time: Option<TimeColumn>,
     /// The gyros.

@@ -28,7 +28,7 @@ const LINES: &[(usize, &str, &str)] = &[
     (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,off", "run.csv:17: column \"table\": \"off\" is not a number"),
     (17, "nan,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"t\": \"nan\" is not finite"),
     (17, "12:00:00,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"t\": \"12:00:00\" is not a number"),
-    (17, "0.32,\"1,5\",1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": \"1,5\" is not a number; write decimals with a point"),
+    (17, "0.32,\"1,5\",1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": \"1,5\" is not a number; if commas are decimal marks, state decimal = \",\" in [log]"),
     (17, "0.32,1e-6,1e-6", "run.csv:17: 3 fields, expected 8; is the line cut short?"),
     (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,16,7,7", "run.csv:17: 10 fields, expected 8"),
     (17, "0.32;1e-6;1e-6;1e-6;0.1;0.2;9.8;16", "run.csv:17: column \"t\": \"0.32;1e-6;1e-6;1e-6;0.1;0.2;9.8;16\" is not a number"),

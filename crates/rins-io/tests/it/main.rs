@@ -29,3 +29,4 @@ mod spoilt_parquet;
 mod support;
 mod table_clock;
 mod terms;
+mod text_form;

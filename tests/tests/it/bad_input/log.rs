@@ -102,7 +102,7 @@ const LINES: &[Row] = &[
         All(&[
             Content(LOG, b"time;gyro_x;gyro_y;gyro_z;accel_x;accel_y;accel_z;table_angle\n0,1;1,5;2;3;4;5;6;7\n0,2;1;2;3;4;5;6;7\n"),
         ]),
-        &["run.csv:2: column", "is not a number; write decimals with a point"],
+        &["run.csv:2: column", "is not a number; if commas are decimal marks, state decimal = \",\" in [log]"],
     ),
 ];
 

@@ -4,7 +4,7 @@ use super::rows::RowLines;
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
-use crate::rig::{RowFilter, SplitTime, TimeColumn};
+use crate::rig::{RowFilter, SplitTime, TextForm, TimeColumn};
 use crate::section::quoted;
 use crate::suggestion::nearest;
 
@@ -73,6 +73,8 @@ pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) time: Option<WantedTime<'w>>,
     /// The rows that are read, if not all are.
     pub(in crate::log) rows: Option<&'w RowFilter>,
+    /// The form of text.
+    pub(in crate::log) text: TextForm,
 }
 
 /// The requested column of time stamps, or the two columns whose sum they are.

@@ -25,7 +25,7 @@ pub(crate) use typed::most_rows;
 use super::container::{MATLAB, PARQUET};
 use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
-use crate::rig::Table;
+use crate::rig::{Table, TextForm};
 use crate::source;
 
 /// All columns of numbers of a binary file.
@@ -51,7 +51,11 @@ pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
         _ => return Ok(None),
     };
     let asked: Vec<&str> = names.iter().map(String::as_str).collect();
-    let columns = read(path, table, Wanted { names: &asked, time: None, rows: None })?;
+    let columns = read(
+        path,
+        table,
+        Wanted { names: &asked, time: None, rows: None, text: TextForm::default() },
+    )?;
     Ok(Some(BinaryColumns { format, names, numbers: columns.numbers }))
 }
 

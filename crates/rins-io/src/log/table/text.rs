@@ -29,7 +29,7 @@ fn read_from<R: BufRead>(
     header: Header,
     wanted: Wanted<'_>,
 ) -> Result<Columns, IoError> {
-    let head = Head::read(lines)?;
+    let head = Head::read(lines, wanted.text)?;
     if let (Header::Refused, Some(first)) = (header, head.header()) {
         let problem = LogProblem::NotANumber { column: "1".into(), text: short(first) };
         return Err(LogError::at(lines.path(), head.line, problem));
@@ -84,7 +84,7 @@ struct Rows<'w> {
 
 impl<'w> Rows<'w> {
     fn new(head: &'w Head, path: &Path, wanted: Wanted<'w>) -> Result<Self, IoError> {
-        let Wanted { names, time, rows } = wanted;
+        let Wanted { names, time, rows, .. } = wanted;
         let mut places = Vec::with_capacity(names.len() + 2);
         for (index, name) in names.iter().enumerate() {
             places.push((head.place(name, path)?, Target::Number(index)));
@@ -151,6 +151,7 @@ impl<'w> Rows<'w> {
 
     /// Reads the numbers of a row, and returns its time stamp.
     fn values(&mut self, line: &str) -> Result<Option<f64>, LogProblem> {
+        let decimal = self.head.decimal;
         let mut places = self.places.iter().copied().peekable();
         let mut fields = Fields::of(line, self.head.delimiter);
         let mut time = None;
@@ -161,12 +162,16 @@ impl<'w> Rows<'w> {
             while let Some((_, target)) = places.next_if(|(place, _)| *place == count) {
                 match target {
                     Target::Number(index) => {
-                        let number = field.parse().ok();
+                        let number = decimal.number(&field);
                         self.values[index] = number_of(self.names[index], &field, number)?;
                     }
                     Target::Time => match &mut self.time {
                         Some(WantedTime { column, split: None, instants }) => {
-                            time = Some(number_of(column, &field, instants.seconds(&field))?);
+                            time = Some(number_of(
+                                column,
+                                &field,
+                                instants.seconds(&decimal.plain(&field)),
+                            )?);
                         }
                         _ => parts[0] = Some(field.clone()),
                     },
@@ -189,7 +194,12 @@ impl<'w> Rows<'w> {
             Some(WantedTime { column, split: Some(split), instants }),
         ) = (parts, &mut self.time)
         {
-            time = Some(split_time::seconds(instants, split, (column, &first), &second)?);
+            time = Some(split_time::seconds(
+                instants,
+                split,
+                (column, &first),
+                &decimal.plain(&second),
+            )?);
         }
         Ok(time)
     }
