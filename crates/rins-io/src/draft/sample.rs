@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::error::{IoError, LogError};
 use crate::log::{
-    BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, day, nanoseconds,
-    time_of_day,
+    BinaryColumns, Damage, Delimiter, Fields, Head, Lines, LogProblem, all_columns, day,
+    nanoseconds, time_of_day,
 };
 use crate::rig::{Decimal, TextForm};
 use crate::source;
@@ -23,6 +23,9 @@ const RUN: usize = 128;
 
 /// The number of runs at the beginning of a log.
 const FIRST_RUNS: usize = 8;
+
+/// The number of rows in these.
+const FIRST_ROWS: u64 = 1024;
 
 /// The number of runs from positions distributed over the rest of it.
 const OTHER_RUNS: u64 = 8;
@@ -78,18 +81,35 @@ impl Sample {
         let mut lines = Lines::open(path)?;
         let head = Head::read(&mut lines, form)?;
         let mut first = Rows::new(&head);
+        let mut damage = Damage::default();
+        let refused = |(line, problem)| LogError::at(path, line, problem);
+        if let Some((line, problem)) = head.cut.clone() {
+            damage.note(line, problem, FIRST_ROWS).map_err(refused)?;
+        }
         for (line, text) in &head.rows {
-            first.push(text).map_err(|problem| LogError::at(path, *line, problem))?;
-            first.note_text(*line, text);
+            match first.push(text) {
+                Ok(()) => first.note_text(*line, text),
+                Err(problem) => damage.note(*line, problem, FIRST_ROWS).map_err(refused)?,
+            }
         }
         let mut whole = false;
         while first.length < RUN * FIRST_RUNS {
-            let Some((line, text)) = lines.next()? else {
-                whole = true;
-                break;
+            let (line, pushed) = match lines.next() {
+                Ok(Some((line, text))) => (line, first.push(text)),
+                Ok(None) => {
+                    whole = true;
+                    break;
+                }
+                Err(IoError::Log(error)) if error.problem == LogProblem::NotText => {
+                    (error.line.unwrap_or_default(), Err(error.problem))
+                }
+                Err(error) => return Err(error),
             };
-            first.push(text).map_err(|problem| LogError::at(path, line, problem))?;
+            if let Err(problem) = pushed {
+                damage.note(line, problem, FIRST_ROWS).map_err(refused)?;
+            }
         }
+        damage.judge(first.length).map_err(refused)?;
         if first.length == 0 {
             return Err(LogError::of(path, LogProblem::OnlyHeader));
         }

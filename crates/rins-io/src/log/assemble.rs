@@ -9,13 +9,13 @@ use rins_frames::{InFrame, Increments};
 use rins_motion::Recording;
 
 use super::angle_file::{OwnAngles, angles_of_own_clock};
-use super::clock::{Clock, Stamps};
+use super::clock::Clock;
 use super::files::{Files, OneFile, TriadValues, own_file};
 use super::instant::Instants;
 use super::problem::LogProblem;
 use super::redivide::redivide;
 use super::series::{between, smoothly_between, unwrap};
-use super::summary::{LogPolicy, LogSummary, Redivided, TableClock};
+use super::summary::{Gap, LogPolicy, LogSummary, Redivided, TableClock};
 use super::table::{self, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
@@ -37,9 +37,9 @@ pub(super) fn read(
     let main = files.main();
     let stamp = spec.time.as_ref().map_or(Stamp::End, |time| time.stamp);
     let nominal = rig.log.rate.map(|rate| 1.0 / rate);
-    let stamps = Stamps { path: &main.path, lines: &main.columns.lines, stamp, nominal };
+    let stamps = main.stamps(stamp, nominal);
     let mut clock = match nominal {
-        Some(interval) if spec.time.is_none() => stamps.counted(interval)?,
+        Some(interval) if spec.time.is_none() => stamps.counted(interval, policy)?,
         _ => stamps.timed(&main.columns.time, policy)?,
     };
     clock.summary.left_out = files.left_out();
@@ -196,7 +196,8 @@ impl Channel<'_> {
     /// The increments over the intervals along the body's axes.
     fn increments(self, clock: &Clock, gaps: Option<Gaps>) -> Result<TriadValues, IoError> {
         let increments = matches!(self.spec.reading, Reading::Increment(_));
-        if let (true, None, Some(gap)) = (increments, gaps, clock.summary.gaps.first()) {
+        let mut unexplained = clock.summary.gaps.iter().filter(|gap| !gap.damaged);
+        if let (true, None, Some(gap)) = (increments, gaps, unexplained.next()) {
             let problem = LogProblem::LostIncrements { length: gap.length, after: gap.after };
             return Err(LogError::at(&self.spec.path, gap.line, problem));
         }
@@ -204,7 +205,8 @@ impl Channel<'_> {
         for list in [&mut x, &mut y, &mut z] {
             list.truncate(clock.intervals.len());
         }
-        let mut held = clock.summary.gaps.iter().filter(|_| gaps == Some(Gaps::Held)).peekable();
+        let is_held = |gap: &&Gap| gap.damaged || gaps == Some(Gaps::Held);
+        let mut held = clock.summary.gaps.iter().filter(is_held).peekable();
         for (sample, &interval) in clock.intervals.iter().enumerate() {
             let in_gap = held.next_if(|gap| gap.sample == sample).is_some();
             let scale = match (increments, in_gap) {

@@ -4,6 +4,7 @@ use std::mem;
 use std::path::{Path, PathBuf};
 
 use super::clock::{Clock, Stamps};
+use super::damage::leave_out_of_all;
 use super::even::undo_rounding;
 use super::instant::Instants;
 use super::overflow::{Overflow, continued};
@@ -12,7 +13,7 @@ use super::summary::{LeftOut, LogPolicy, Rounded};
 use super::table::{self, Columns, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
-    ColumnSpec, OwnClock, Reading, Rig, RowFilter, Table, TextForm, TimeUnit, TriadColumns,
+    ColumnSpec, OwnClock, Reading, Rig, RowFilter, Stamp, Table, TextForm, TimeUnit, TriadColumns,
 };
 use crate::shown::shown;
 
@@ -90,6 +91,12 @@ impl OneFile {
     pub(super) fn left_out(&self) -> impl Iterator<Item = LeftOut> {
         let named = |&(line, reason): &_| LeftOut { path: self.path.clone(), line, reason };
         self.columns.left_out.iter().map(named)
+    }
+
+    /// The time information in its rows.
+    pub(super) fn stamps(&self, stamp: Stamp, nominal: Option<f64>) -> Stamps<'_> {
+        let Columns { lines, damaged, .. } = &self.columns;
+        Stamps { path: &self.path, lines, damaged, stamp, nominal }
     }
 
     /// The file at `path`, of which one column was requested.
@@ -224,6 +231,7 @@ impl Files {
             }
             files.push(OneFile { path: path.into(), asked, columns });
         }
+        leave_out_of_all(&mut files.iter_mut().map(|file| &mut file.columns).collect::<Vec<_>>());
         let accel = spec.accel_clock.as_ref().map(|clock| {
             let file = (spec.accel.path.as_path(), spec.table, spec.text);
             let rows = spec.accel.rows.as_ref();
@@ -294,9 +302,7 @@ impl Files {
         policy: LogPolicy,
     ) -> Result<Option<Clock>, IoError> {
         let (Some(own), Some(file)) = (&spec.accel_clock, &self.accel) else { return Ok(None) };
-        let stamp = own.time.stamp;
-        let (path, lines) = (&file.path, &file.columns.lines);
-        let stamps = Stamps { path, lines, stamp, nominal: None };
+        let stamps = file.stamps(own.time.stamp, None);
         // A gap is equally long in both, whatever their sampling rates.
         let largest_gap = policy.largest_gap.max(gyro.summary.nominal_interval);
         stamps.timed(&file.columns.time, LogPolicy { largest_gap, ..policy }).map(Some)

@@ -4,6 +4,7 @@ mod angle_file;
 mod assemble;
 mod clock;
 mod container;
+mod damage;
 mod date_time;
 mod even;
 mod fields;
@@ -23,6 +24,7 @@ use std::path::Path;
 
 use rins_motion::{Recording, Station, with_ramps};
 
+pub(crate) use damage::Damage;
 pub(crate) use date_time::{day, nanoseconds, time_of_day};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
@@ -69,8 +71,7 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// first interval.
 ///
 /// # Errors
-/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if a requested column contains anything but finite numbers, if
-/// its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
+/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if more rows than one in a hundred cannot be read, if its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
 /// stuck, or if a step of the table angle is about half a turn.
 pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     let (mut recording, mut summary, psins_header) = match &rig.log.format {
@@ -79,7 +80,7 @@ pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
             (recording, summary, None)
         }
         LogFormat::Psins => {
-            let (recording, summary, header) = psins::read(&rig)?;
+            let (recording, summary, header) = psins::read(&rig, policy)?;
             (recording, summary, Some(header))
         }
     };

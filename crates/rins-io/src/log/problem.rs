@@ -241,6 +241,16 @@ pub enum LogProblem {
         /// The step, in turns.
         turns: f64,
     },
+    /// Too many rows cannot be read.
+    #[error("{first}; {count} of {rows} rows are damaged, more than one in a hundred")]
+    ManyDamaged {
+        /// The problem of the first of them.
+        first: Box<Self>,
+        /// Their number.
+        count: usize,
+        /// The number of rows that were read.
+        rows: usize,
+    },
     /// Two files of one run have different numbers of samples.
     #[error("{samples} samples, but {other} has {expected}; they must be sampled together")]
     UnequalLength {

@@ -17,6 +17,7 @@ mod formats;
 mod grid;
 mod log_refusals;
 mod logs;
+mod lost_rows;
 mod model;
 mod output;
 mod preamble;

@@ -133,7 +133,8 @@ fn wrong_parts_of_a_time_are_named() {
     }));
     let rig = rig("[\"s\", \"ns\"]");
     let line = "1600000000.5,320000000,1e-6,2e-6,1e-6,0.1,0.2,9.8,16";
-    let log = with_line(&right, 17, line);
+    let log = with_line(&with_line(&right, 17, line), 19, line);
     let said = refusal(&[("rig.toml", rig.as_bytes()), ("run.csv", log.as_bytes())]);
-    assert_eq!(said, "run.csv:17: column \"coarse\": \"1600000000.5\" is not a whole number");
+    let message = "run.csv:17: column \"coarse\": \"1600000000.5\" is not a whole number; ";
+    assert!(said.starts_with(message), "{said}");
 }

@@ -34,6 +34,8 @@ pub(in crate::log) struct Columns {
     pub(in crate::log) lines: RowLines,
     /// The omitted lines.
     pub(in crate::log) left_out: Vec<(u64, Omission)>,
+    /// The lines of damaged rows, which are among the omitted ones.
+    pub(in crate::log) damaged: Vec<u64>,
 }
 
 impl Columns {
@@ -47,18 +49,42 @@ impl Columns {
         self.leave_out(&empty, Omission::Empty);
     }
 
-    /// Removes the rows that are marked.
+    /// Adds damaged rows, which are not among the numbers.
+    pub(in crate::log) fn add_damaged(&mut self, lines: Vec<u64>) {
+        self.left_out.extend(lines.iter().map(|&line| (line, Omission::Damaged)));
+        self.damaged.extend(lines);
+        self.damaged.sort_unstable();
+    }
+
+    /// Removes the rows that are marked, because the same samples are damaged elsewhere.
+    pub(in crate::log) fn leave_out_damaged(&mut self, marked: &[bool]) {
+        let rows = marked.iter().enumerate().filter(|(_, marked)| **marked);
+        let lines = rows.map(|(row, _)| self.lines.of(row)).collect();
+        self.remove(marked);
+        self.add_damaged(lines);
+    }
+
+    /// The place of each row among all rows, with the damaged ones.
+    pub(in crate::log) fn places(&self) -> impl Iterator<Item = usize> {
+        self.lines.places(&self.damaged)
+    }
+
+    /// Removes the rows that are marked, for this reason.
     pub(super) fn leave_out(&mut self, marked: &[bool], reason: Omission) {
+        let rows = marked.iter().enumerate().filter(|(_, marked)| **marked);
+        let lines: Vec<_> = rows.map(|(row, _)| (self.lines.of(row), reason)).collect();
+        self.left_out.extend(lines);
+        self.remove(marked);
+    }
+
+    /// Removes the rows that are marked.
+    pub(super) fn remove(&mut self, marked: &[bool]) {
         if !marked.contains(&true) {
             return;
         }
         let mut lines = RowLines::default();
-        for (row, marked) in marked.iter().enumerate() {
-            match marked {
-                true => self.left_out.push((self.lines.of(row), reason)),
-                false => lines.push(self.lines.of(row)),
-            }
-        }
+        let kept = marked.iter().enumerate().filter(|(_, marked)| !**marked);
+        kept.for_each(|(row, _)| lines.push(self.lines.of(row)));
         self.lines = lines;
         for list in self.numbers.iter_mut().chain([&mut self.time]) {
             let mut marked = marked.iter();

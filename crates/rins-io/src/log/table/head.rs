@@ -147,8 +147,10 @@ fn preamble<R: BufRead>(
             Some(place) if is_header(place) => Some(place),
             _ => None,
         };
-        // Without a header, all lines above the rows are words.
-        return Ok(header.or_else(|| above.iter().all(|line| line.is_words).then_some(start)));
+        // Without a header, all lines above the rows are words, or a row whose beginning was not recorded is the only one.
+        let is_cut = || above.len() == 1 && above[0].count < count;
+        let is_start = || above.iter().all(|line| line.is_words) || is_cut();
+        return Ok(header.or_else(|| is_start().then_some(start)));
     }
     Ok(None)
 }
@@ -165,6 +167,8 @@ pub(crate) struct Head {
     pub(super) line: u64,
     /// The rows of numbers in these lines.
     pub(crate) rows: Vec<(u64, String)>,
+    /// The line and the problem of a first row whose beginning is missing.
+    pub(crate) cut: Option<(u64, LogProblem)>,
 }
 
 impl Head {
@@ -181,12 +185,22 @@ impl Head {
         let comment = lines.comment().map(str::to_string);
         let mut begun = vec![opening];
         begun.extend(lines.next()?.map(owned));
+        let mut before = Vec::new();
         if skip.is_none()
             && let Some(begins) = preamble(&mut begun, (stated, decimal), lines)?
         {
-            begun.drain(..begins);
+            before.extend(begun.drain(..begins));
         }
-        Self::of(begun, (stated, decimal), comment, lines)
+        let head = Self::of(begun, (stated, decimal), comment, lines)?;
+        let division = Division { delimiter: head.delimiter, decimal };
+        let cut = match &before[..] {
+            [(line, text)] if head.names.is_none() && !Shape::of(text, division).is_words => {
+                let got = Shape::of(text, division).count;
+                Some((*line, LogProblem::FieldCount { got, expected: head.count }))
+            }
+            _ => None,
+        };
+        Ok(Self { cut, ..head })
     }
 
     /// The head of a log that begins with these lines, without a preamble.
@@ -217,7 +231,15 @@ impl Head {
                     rest.extend(lines.next()?.map(|(line, text)| (line, text.to_string())));
                 }
             }
-            return Ok(Self { delimiter, decimal, names: Some(opening), count, line, rows: rest });
+            return Ok(Self {
+                delimiter,
+                decimal,
+                names: Some(opening),
+                count,
+                line,
+                rows: rest,
+                cut: None,
+            });
         }
         // Array libraries write the names in a comment.
         let names = comment.map(|text| fields(&text));
@@ -225,7 +247,7 @@ impl Head {
             names.len() == count && names.iter().all(|name| division.is_word(name))
         });
         rest.insert(0, (line, first));
-        Ok(Self { delimiter, decimal, names, count, line, rows: rest })
+        Ok(Self { delimiter, decimal, names, count, line, rows: rest, cut: None })
     }
 
     /// The first name in a line of names that is not a comment.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::columns::{Columns, MOST_ROWS, Repeated, Wanted, WantedTime};
 use super::head::Head;
 use crate::error::{IoError, LogError};
+use crate::log::damage::{Damage, is_of_a_row};
 use crate::log::fields::Fields;
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
@@ -36,13 +37,26 @@ fn read_from<R: BufRead>(
     }
     let filter = wanted.rows;
     let mut rows = Rows::new(&head, lines.path(), wanted)?;
+    if let Some((line, problem)) = head.cut.clone() {
+        rows.note_damage(line, problem)?;
+    }
     for (number, line) in &head.rows {
         rows.push(*number, line)?;
     }
-    while let Some((number, line)) = lines.next()? {
-        rows.push(number, line)?;
+    loop {
+        match lines.next() {
+            Ok(Some((number, line))) => rows.push(number, line)?,
+            Ok(None) => break,
+            // A part of a file that was not written is often zero.
+            Err(IoError::Log(error)) if is_of_a_row(&error.problem) => {
+                rows.note_damage(error.line.unwrap_or_default(), error.problem)?;
+            }
+            Err(error) => return Err(error),
+        }
     }
-    let mut columns = rows.columns;
+    let Rows { mut columns, damage, .. } = rows;
+    let refused = |(line, problem)| LogError::at(lines.path(), line, problem);
+    damage.settle(&mut columns).map_err(refused)?;
     columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     if columns.lines.is_empty() {
         let problem = filter.map_or(LogProblem::OnlyHeader, |rows| LogProblem::NoSuchRows {
@@ -80,6 +94,7 @@ struct Rows<'w> {
     values: Vec<f64>,
     before: String,
     repeated: Repeated,
+    damage: Damage,
 }
 
 impl<'w> Rows<'w> {
@@ -109,6 +124,7 @@ impl<'w> Rows<'w> {
             values: vec![0.0; names.len()],
             before: String::new(),
             repeated: Repeated::default(),
+            damage: Damage::default(),
         })
     }
 
@@ -133,7 +149,10 @@ impl<'w> Rows<'w> {
             self.before.clear();
             self.before.push_str(line);
         }
-        let time = self.values(line).map_err(|problem| self.refused(number, problem))?;
+        let time = match self.values(line) {
+            Ok(time) => time,
+            Err(problem) => return self.note_damage(number, problem),
+        };
         if self.columns.lines.len() as u64 >= MOST_ROWS {
             return Err(self.refused(number, LogProblem::ManyRows { most: MOST_ROWS }));
         }
@@ -143,6 +162,11 @@ impl<'w> Rows<'w> {
         self.columns.time.extend(time);
         self.columns.lines.push(number);
         Ok(())
+    }
+
+    fn note_damage(&mut self, line: u64, problem: LogProblem) -> Result<(), IoError> {
+        let noted = self.damage.note(line, problem, MOST_ROWS);
+        noted.map_err(|(line, problem)| self.refused(line, problem))
     }
 
     fn refused(&self, line: u64, problem: LogProblem) -> IoError {
