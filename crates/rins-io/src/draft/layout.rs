@@ -40,8 +40,8 @@ impl Layout {
     ) -> Self {
         let one = |role| one(sample, labels, role, pace);
         let mut layout = Self {
-            gyro: three(sample, labels, Role::Gyro),
-            accel: three(sample, labels, Role::Accel),
+            gyro: three(sample, labels, Role::Gyro, pace),
+            accel: three(sample, labels, Role::Accel, pace),
             table_angle: one(Role::TableAngle),
             table_rate: one(Role::TableRate),
             temperature: one(Role::Temperature),
@@ -55,7 +55,10 @@ impl Layout {
 
     /// Finds gyros and accelerometers among columns without meaningful names.
     fn by_numbers(&mut self, path: &Path, sample: &Sample, labels: &[Label], pace: Option<&Pace>) {
-        let triads = triads(sample, labels, pace);
+        let mut triads = triads(sample, labels, pace);
+        for triad in &mut triads {
+            along_axes(triad, labels);
+        }
         let interval = pace.and_then(Pace::interval);
         let picked =
             |column, why: &str| Some(Picked { column, guess: Some(why.into()), increment: false });
@@ -120,6 +123,15 @@ fn triads(sample: &Sample, labels: &[Label], pace: Option<&Pace>) -> Vec<[usize;
     let adjacent = all.chunk_by(|before, after| before + 1 == *after);
     let triads = adjacent.flat_map(|columns| columns.as_chunks::<3>().0.to_vec());
     triads.filter(|triad| triad.iter().any(|column| varying.contains(column))).collect()
+}
+
+/// Puts the columns of a triad in the order of their axes, if their names state three.
+fn along_axes(triad: &mut [usize; 3], labels: &[Label]) {
+    let mut ordered = *triad;
+    ordered.sort_by_key(|column| labels[*column].axis);
+    if ordered.map(|column| labels[column].axis) == [Some(0), Some(1), Some(2)] {
+        *triad = ordered;
+    }
 }
 
 /// The triads of adjacent columns; `None` if there are others beside them.
@@ -187,7 +199,12 @@ pub(super) fn sensor_by_file_name(path: &Path) -> Option<Role> {
 }
 
 /// The first complete triad of a role; unambiguous names take precedence.
-fn three(sample: &Sample, labels: &[Label], role: Role) -> Option<Picked<[usize; 3]>> {
+fn three(
+    sample: &Sample,
+    labels: &[Label],
+    role: Role,
+    pace: Option<&Pace>,
+) -> Option<Picked<[usize; 3]>> {
     let is_part = |column: &usize| {
         let label = &labels[*column];
         label.role == Some(role) && label.axis.is_some() && sample.is_numeric(*column)
@@ -207,7 +224,14 @@ fn three(sample: &Sample, labels: &[Label], role: Role) -> Option<Picked<[usize;
             found.push((labels[first].sure, [first, y, z]));
         }
     }
-    let (sure, column) = *found.iter().find(|(sure, _)| *sure).or(found.first())?;
+    let named = found.iter().find(|(sure, _)| *sure).or(found.first())?;
+    // Of several accelerometers, some may be without gravity.
+    let interval = pace.and_then(Pace::interval);
+    let is_gravity =
+        |(_, triad): &&(bool, [usize; 3])| accel_unit(sample, *triad, interval, false).is_ok();
+    let mut with_gravity = found.iter().filter(is_gravity).filter(|_| role == Role::Accel);
+    let only = with_gravity.next().filter(|_| with_gravity.next().is_none() && found.len() > 1);
+    let (sure, column) = *only.unwrap_or(named);
     let others: Vec<String> = found
         .iter()
         .filter(|(_, triad)| *triad != column)
@@ -216,7 +240,14 @@ fn three(sample: &Sample, labels: &[Label], role: Role) -> Option<Picked<[usize;
     let guess = match (others.is_empty(), sure) {
         (true, true) => None,
         (true, false) => Some("by their names".to_string()),
-        (false, _) => Some(format!("the first of several; there are also {}", others.join("; "))),
+        (false, _) => {
+            let why = if only.is_some() {
+                "their magnitude is that of gravity"
+            } else {
+                "the first of several"
+            };
+            Some(format!("{why}; there are also {}", others.join("; ")))
+        }
     };
     Some(Picked { column, guess, increment: labels[column[0]].increment })
 }
@@ -228,8 +259,11 @@ fn one(
     role: Role,
     pace: Option<&Pace>,
 ) -> Option<Picked<usize>> {
+    let has_attitude = labels.iter().any(|label| label.role == Some(Role::Attitude));
     let is_one = |column: &usize| {
         labels[*column].role == Some(role)
+            // Beside other angles of an attitude, an azimuth is one too.
+            && (labels[*column].sure || role != Role::TableAngle || !has_attitude)
             && sample.is_numeric(*column)
             && !pace.is_some_and(|pace| pace.has(*column))
     };

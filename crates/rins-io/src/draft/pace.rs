@@ -67,6 +67,8 @@ impl PaceUnit {
 
 /// The units of time, their values in seconds, and the step sizes in them between 10 Hz and 5 kHz.
 const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
+/// Words of clocks that count in units of their own.
+const TICKS: [&str; 3] = ["fine", "tick", "ticks"];
 const SLOWEST: f64 = 0.1;
 const FASTEST: f64 = 2e-4;
 
@@ -77,19 +79,23 @@ impl Pace {
             let named = (0..sample.count).filter(move |&column| labels[column].role == Some(role));
             named.filter_map(|column| Self::of(sample, column)).find(|pace| pace.jitter.is_finite())
         };
-        if let Some(pace) = named(Role::Time)
-            // Rows of several kinds have a counter each.
-            .or_else(|| named(Role::Counter).filter(|_| sample.kinds.is_empty()))
-        {
-            let label = &labels[pace.column];
-            return Some(pace.with_unit(label));
+        let time = named(Role::Time).map(|pace| pace.with_unit(labels));
+        // Rows of several kinds have a counter each.
+        let counter = || named(Role::Counter).filter(|_| sample.kinds.is_empty());
+        let counter = || counter().map(|pace| pace.with_unit(labels));
+        let has_unit = |pace: &&Self| pace.unit != PaceUnit::Unknown;
+        let known = time.as_ref().filter(has_unit).cloned();
+        if let Some(pace) = known.or_else(|| counter().filter(|pace| has_unit(&pace))).or(time) {
+            return Some(pace);
+        }
+        if let Some(pace) = counter() {
+            return Some(pace);
         }
         let nameless = (0..sample.count).filter(|&column| labels[column].role.is_none());
         let mut rising = nameless.filter_map(|column| Self::of(sample, column));
         let pace = rising.find(Self::is_steady)?;
         let why = "it increases steadily from row to row".to_string();
-        let label = &labels[pace.column];
-        Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
+        Some(Self { column_guess: Some(why), ..pace }.with_unit(labels))
     }
 
     /// The interval between rows \[s\], if the unit is known and is not samples.
@@ -148,8 +154,8 @@ impl Pace {
         })
     }
 
-    fn with_unit(self, label: &Label) -> Self {
-        let unit = self.judged_unit(label);
+    fn with_unit(self, labels: &[Label]) -> Self {
+        let unit = self.judged_unit(&labels[self.column]);
         Self { unit, ..self }
     }
 
@@ -175,6 +181,9 @@ impl Pace {
             } else {
                 PaceUnit::Unknown
             };
+        }
+        if label.stem.split(' ').any(|word| TICKS.contains(&word)) {
+            return PaceUnit::Unknown;
         }
         let sensible = |seconds: f64| (FASTEST..=SLOWEST).contains(&(step * seconds));
         match UNITS.iter().find(|(_, seconds)| sensible(*seconds)) {

@@ -182,6 +182,12 @@ impl Sample {
         numbers.any(|number| Some(number) != first)
     }
 
+    /// Whether all numbers of a triad are whole: they may be counts of any scale.
+    pub(super) fn is_whole(&self, triad: [usize; 3]) -> bool {
+        let whole = |number: &f64| number.fract() == 0.0 || number.is_nan();
+        self.runs.iter().all(|run| triad.iter().all(|&column| run[column].iter().all(whole)))
+    }
+
     /// The number of rows.
     pub(super) fn rows(&self) -> usize {
         self.runs.iter().map(|run| run.first().map_or(0, Vec::len)).sum()
