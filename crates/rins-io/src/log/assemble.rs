@@ -228,9 +228,10 @@ fn temperature(
     instants: Option<Instants>,
     ends: &[f64],
 ) -> Result<Option<(OneFile, Vec<f64>)>, IoError> {
-    let (Some((path, time)), Some(mut instants)) = (file, instants) else {
+    let (Some((path, time)), Some(instants)) = (file, instants) else {
         return Ok(None);
     };
+    let mut instants = instants.of_another_file();
     let time = Some(WantedTime::of(time, &mut instants));
     let wanted = Wanted { names: &[column], time, rows: None, text };
     let columns = table::read(path, Table::of(path), wanted)?;

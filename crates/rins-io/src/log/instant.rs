@@ -37,6 +37,11 @@ impl Instants {
         Self { per_second: if is_whole { whole } else { per_second }, origin: None, form: None }
     }
 
+    /// A parser for another file with the same unit and origin, whose stamps may be written otherwise.
+    pub(super) fn of_another_file(self) -> Self {
+        Self { form: None, ..self }
+    }
+
     /// The stamp's time after the origin \[s\]; `None` if it is neither a number nor, where stamps are in seconds, a time of day or a
     /// date with one, or if it is not written as the first stamp.
     pub(super) fn seconds(&mut self, text: &str) -> Option<f64> {

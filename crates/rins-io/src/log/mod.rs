@@ -71,7 +71,8 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// first interval.
 ///
 /// # Errors
-/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if more rows than one in a hundred cannot be read, if its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
+/// [`IoError::File`] if the log cannot be read, [`IoError::Log`] if more than one row and more than one in a hundred cannot be read,
+/// if its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
 /// stuck, or if a step of the table angle is about half a turn.
 pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     let (mut recording, mut summary, psins_header) = match &rig.log.format {
