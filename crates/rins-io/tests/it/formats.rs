@@ -237,8 +237,11 @@ fn parquet_columns_that_are_no_numbers_are_refused() {
     assert_eq!(text, "snappy.parquet: column \"word\" is BYTE_ARRAY, expected one number per row");
     let list = refused("\"gy\"", "\"list.list.element\"");
     assert!(list.contains("expected one number per row"), "{list}");
-    let hole = refused("\"gy\"", "\"hole\"");
-    assert_eq!(hole, "snappy.parquet:10: column \"hole\": empty, expected a number");
+    // A missing number is a lost sample.
+    let log = format!("{PARQUET}temperature = {{ column = \"hole\", unit = \"degC\" }}\n");
+    let hole = load(&log, "snappy.parquet").unwrap();
+    assert_eq!(hole.recording.temperature, Some(vec![1.0; 23]));
+    assert_eq!(hole.summary.left_out[0].line, 10);
     let missing = refused("\"gy\"", "\"gyy\"");
     assert!(missing.contains("no column \"gyy\"; the columns are \"t\", \"gx\""), "{missing}");
     let packed = load(PARQUET, "zstd.parquet").unwrap_err();
