@@ -56,9 +56,9 @@ pub use output::{
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
-    AngleColumn, Axes, ColumnSpec, Gaps, InitialAttitude, LogFormat, LogSpec, OwnClock, Reading,
-    Rig, RowFilter, ScaledColumn, Stamp, StatedRotation, Table, TableSpec, TemperatureColumn,
-    TimeColumn, TimeUnit, TriadColumns,
+    AngleColumn, Axes, Coarse, ColumnSpec, Decimal, Gaps, InitialAttitude, LogFormat, LogSpec,
+    OwnClock, Reading, Rig, RowFilter, ScaledColumn, SplitTime, Stamp, StatedRotation, Table,
+    TableSpec, TemperatureColumn, TextForm, TimeColumn, TimeUnit, TriadColumns,
 };
 pub use run::truth_json;
 pub use scenario::ScenarioFile;

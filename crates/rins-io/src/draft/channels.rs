@@ -190,6 +190,17 @@ fn gyro_measured(
         return Measured::of(surroundings.gyro_unit(picked.column, picked.increment));
     };
     let gain = per_row(stated.unit, kinds[0], surroundings.interval);
+    // A name such as gyro_rad may mean rad/s.
+    let turn = surroundings.by_table(picked.column).or(surroundings.by_gravity(picked.column));
+    let is_other = |(turn, gain): (f64, f64)| (gain / turn.abs()).ln().abs() > 1.6_f64.ln();
+    if stated.by_ending && turn.zip(gain).is_some_and(is_other) {
+        return Measured::of(surroundings.gyro_unit(picked.column, picked.increment));
+    }
+    if stated.by_ending && stated.unit.dimension == kinds[1] && turn.is_none() && !picked.increment
+    {
+        let unit = &stated.text;
+        return Measured::Unknown(format!("the names end in {unit}, which may mean {unit}/s"));
+    }
     let ratio = surroundings.by_table(picked.column).zip(gain).map(|(turn, gain)| gain / turn);
     let doubt = ratio.filter(|ratio| ratio.ln().abs() > 1.1_f64.ln());
     as_stated(
@@ -230,7 +241,7 @@ impl Triad<'_> {
             Measured::Unknown(seen) => {
                 page.remark(&format!("The unit of the {} is not stated; {seen}.", self.sensors()));
                 page.leave(&key("unit"), r#""?""#, units);
-                if is_raw(sample, picked.column) {
+                if sample.is_whole(picked.column) {
                     page.remark(
                         "Whole numbers: raw counts? A reading is (number - offset) * scale units.",
                     );
@@ -317,12 +328,6 @@ impl Triad<'_> {
         }
         page.leave(&key("unit"), r#""?""#, units);
     }
-}
-
-/// Whether all numbers of the triad are integers.
-fn is_raw(sample: &Sample, triad: [usize; 3]) -> bool {
-    let whole = |number: &f64| number.fract() == 0.0 || number.is_nan();
-    sample.runs.iter().all(|run| triad.iter().all(|&column| run[column].iter().all(whole)))
 }
 
 /// The only file beside `log` with the same extension and a name after the other sensor.

@@ -1,7 +1,7 @@
 //! The keys of time in a draft: `rate`, `time` and `gaps`.
 
 use super::pace::{Pace, PaceUnit};
-use super::page::{Page, short, text};
+use super::page::{Page, list, short, text};
 use super::sample::Sample;
 
 /// The relative difference up to which a rate counts as an integer.
@@ -20,6 +20,12 @@ pub(super) fn write(page: &mut Page, sample: &Sample, pace: Option<&Pace>, has_t
         return;
     };
     write_rate(page, pace);
+    if let Some(split) = pace.split {
+        let columns = [pace.column, split.column].map(|column| sample.name(column));
+        page.guess("time.columns", &list(columns.iter().map(String::as_str)), split.why);
+        page.guess("time.unit", &list(split.units), "their sum then increases steadily");
+        return write_stamp(page, has_table);
+    }
     let column = text(&sample.name(pace.column));
     match &pace.column_guess {
         None => page.known("time.column", &column),
@@ -33,6 +39,11 @@ pub(super) fn write(page: &mut Page, sample: &Sample, pace: Option<&Pace>, has_t
             page.leave("time.unit", r#""?""#, expected);
         }
     }
+    write_stamp(page, has_table);
+}
+
+/// The key of the instant that a time stamp refers to.
+fn write_stamp(page: &mut Page, has_table: bool) {
     if has_table {
         let why = r#"the most common of "start", "middle", "end"; it affects the comparison with the table"#;
         page.guess("time.stamp", r#""end""#, why);

@@ -7,6 +7,8 @@ use crate::quantity::Dimension;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Time,
+    /// A GNSS week.
+    Week,
     /// A sample counter.
     Counter,
     Gyro,
@@ -14,6 +16,8 @@ pub(super) enum Role {
     TableAngle,
     TableRate,
     Temperature,
+    /// An angle of an attitude, the result of a navigation solution.
+    Attitude,
 }
 
 /// The meaning of a column's name.
@@ -44,14 +48,23 @@ const TIME: &[&str] = &[
     "stamp",
     "t",
     "tow",
+    "itow",
+    "sow",
     "sec",
     "secs",
+    "msec",
+    "usec",
+    "nsec",
+    "nsecs",
+    "nanosec",
+    "nanosecs",
     "seconds",
     "millis",
     "micros",
     "epoch",
     "clock",
 ];
+const WEEK: &[&str] = &["week", "weeks", "gpsweek", "wn"];
 const COUNTER: &[&str] = &[
     "sample", "samples", "counter", "count", "index", "idx", "packet", "packets", "seq",
     "sequence", "frame", "n", "nr", "no",
@@ -82,8 +95,10 @@ const ACCEL: &[&str] = &[
     "deltav",
 ];
 /// Letters and words that mean a gyro or an accelerometer by convention only.
-const WEAK_GYRO: &[&str] = &["g", "w", "om", "rate"];
+const WEAK_GYRO: &[&str] = &["g", "w", "wb", "om", "rate"];
 const WEAK_ACCEL: &[&str] = &["a", "f", "sf", "fb"];
+/// Words of the axes x, y and z, and of the rotations about them.
+const AXES: [&[&str]; 3] = [&["roll", "front", "forward"], &["pitch", "left"], &["yaw", "up"]];
 const INCREMENT: &[&str] =
     &["dtheta", "dang", "dth", "dvel", "dv", "deltav", "inc", "delta", "increment", "d"];
 /// Words of triads that are not inertial sensors.
@@ -112,6 +127,7 @@ impl Label {
             None => (None, name.to_string()),
         };
         let mut words = words(&bare);
+        let attitude = words.iter().any(|word| ATTITUDE.contains(&word.as_str()));
         let mut axis = take_axis(&mut words);
         let mut unit = bracketed;
         if unit.is_none()
@@ -123,25 +139,31 @@ impl Label {
         axis = axis.or_else(|| take_axis(&mut words));
         let stem = words.join(" ");
         let label = Self { axis, stem, unit, ..Self::default() };
-        label.judged(&words)
+        label.judged(&words, attitude)
     }
 
-    fn judged(self, words: &[String]) -> Self {
+    fn judged(self, words: &[String], attitude: bool) -> Self {
         let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
         let dimension = self.unit.as_ref().map(|stated| stated.unit.dimension);
         let role = |role, sure| Some((role, sure));
         let found = if has(TEMPERATURE) || dimension == Some(Dimension::TEMPERATURE) {
             role(Role::Temperature, true)
+        } else if let Some(found) = self.axis.and_then(|_| triad(words, dimension)) {
+            Some(found)
+        } else if attitude {
+            role(Role::Attitude, true)
         } else if self.axis.is_some() {
-            triad(words, dimension)
+            None
         } else if has(TABLE) {
             let rate = has(RATE) || dimension == Some(Dimension::ANGULAR_RATE);
             role(if rate { Role::TableRate } else { Role::TableAngle }, true)
+        } else if has(WEEK) && !has(TIME) && !has(&["of"]) {
+            role(Role::Week, true)
         } else if has(TIME) || dimension == Some(Dimension::TIME) {
             role(Role::Time, true)
         } else if has(COUNTER) {
             role(Role::Counter, true)
-        } else if has(ANGLE) && !has(ATTITUDE) {
+        } else if has(ANGLE) {
             role(Role::TableAngle, false)
         } else {
             None
@@ -167,7 +189,8 @@ fn triad(words: &[String], dimension: Option<Dimension>) -> Option<(Role, bool)>
     if has(GYRO) || turning || angle {
         return Some((Role::Gyro, true));
     }
-    if has(ACCEL) || velocity || (has(&["specific"]) && has(&["force"])) {
+    let in_g = has(&["g"]) && has(&["f", "force"]);
+    if has(ACCEL) || in_g || velocity || (has(&["specific"]) && has(&["force"])) {
         return Some((Role::Accel, true));
     }
     match dimension {
@@ -183,8 +206,15 @@ fn triad(words: &[String], dimension: Option<Dimension>) -> Option<(Role, bool)>
 fn words(name: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = ' ';
-    for letter in name.chars() {
-        if !letter.is_alphanumeric() || (letter.is_uppercase() && before.is_lowercase()) {
+    let mut letters = name.chars().peekable();
+    while let Some(letter) = letters.next() {
+        // After an acronym, the last capital begins a word: `GPSWeek`, but `DTheta`.
+        let is_acronym = before.is_uppercase()
+            && words.last().is_some_and(|word| word.chars().count() > 1)
+            && letters.peek().is_some_and(|next| next.is_lowercase());
+        if !letter.is_alphanumeric()
+            || (letter.is_uppercase() && (before.is_lowercase() || is_acronym))
+        {
             words.push(String::new());
         }
         if letter.is_alphanumeric()
@@ -203,6 +233,11 @@ fn take_axis(words: &mut Vec<String>) -> Option<usize> {
     let axis = |word: &str| ["x", "y", "z"].iter().position(|axis| *axis == word);
     if let Some(place) = words.iter().rposition(|word| axis(word).is_some()) {
         return axis(&words.remove(place));
+    }
+    // The directions of a vehicle, right-handed: front, left, up.
+    let direction = |word: &str| AXES.iter().position(|directions| directions.contains(&word));
+    if let Some(place) = words.iter().rposition(|word| direction(word).is_some()) {
+        return direction(&words.remove(place));
     }
     let sensor = |word: &str, lists: &[&[&str]]| lists.iter().any(|list| list.contains(&word));
     for word in words.iter_mut().rev() {
@@ -248,6 +283,9 @@ mod tests {
             ("linear_acceleration.y", Role::Accel, 1, None),
             ("specific force z", Role::Accel, 2, None),
             ("fx", Role::Accel, 0, None),
+            ("gFy", Role::Accel, 1, None),
+            ("acc_front", Role::Accel, 0, None),
+            ("Yaw rate (deg/s)", Role::Gyro, 2, Some("deg/s")),
             ("dvz", Role::Accel, 2, None),
         ];
         for (name, role, axis, unit) in triads {
@@ -270,6 +308,10 @@ mod tests {
             ("temp", Role::Temperature),
             ("table_temperature", Role::Temperature),
             ("IMU (degC)", Role::Temperature),
+            ("GPSWeek", Role::Week),
+            ("SecondsOfWeek", Role::Time),
+            ("roll angle", Role::Attitude),
+            ("Yaw (deg)", Role::Attitude),
         ];
         for (name, role) in others {
             assert_eq!(Label::of(name).role, Some(role), "{name}");
@@ -278,17 +320,9 @@ mod tests {
 
     #[test]
     fn other_sensors_are_left_alone() {
-        for name in [
-            "Magnetometer X (uT)",
-            "mx",
-            "qx",
-            "mag_z",
-            "Barometer (hPa)",
-            "vx",
-            "pos_x",
-            "x",
-            "roll angle",
-        ] {
+        for name in
+            ["Magnetometer X (uT)", "mx", "qx", "mag_z", "Barometer (hPa)", "vx", "pos_x", "x"]
+        {
             assert_eq!(Label::of(name).role, None, "{name}");
         }
     }

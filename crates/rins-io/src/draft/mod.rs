@@ -4,6 +4,7 @@ mod channels;
 mod clock_keys;
 mod evidence;
 mod findings;
+mod indexed;
 mod label;
 mod layout;
 mod novatel;
@@ -14,6 +15,7 @@ mod psins;
 mod sample;
 mod sections;
 mod spin;
+mod split_pace;
 mod stated;
 mod table_keys;
 mod units;
@@ -89,9 +91,15 @@ pub fn draft_rig(log: &Path, folder: &Path) -> Result<Draft, IoError> {
 /// Drafts the rig file of a log with columns.
 fn columns(page: &mut Page, log: &Path, folder: &Path, sample: &Sample) {
     let names = sample.names.as_deref().unwrap_or_default();
-    let label = |column: usize| names.get(column).map(|name| Label::of(name)).unwrap_or_default();
+    let indexed = indexed::with_axes(names);
+    let label = |column: usize| match (names.get(column), indexed.get(column)) {
+        // That an index counts axes is a guess.
+        (_, Some(Some(name))) => Label { sure: false, ..Label::of(name) },
+        (Some(name), _) => Label::of(name),
+        _ => Label::default(),
+    };
     let labels: Vec<Label> = (0..sample.count).map(label).collect();
-    let pace = Pace::find(sample, &labels);
+    let pace = split_pace::find(sample, &labels).or_else(|| Pace::find(sample, &labels));
     let layout = Layout::find(log, sample, &labels, pace.as_ref());
     let findings =
         Findings { log, folder, sample, labels: &labels, pace: pace.as_ref(), layout: &layout };

@@ -15,8 +15,10 @@ const ENOUGH: usize = 9;
 /// The time column and the properties of its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pace {
-    /// The column.
+    /// The column; the first of two whose sum is the time.
     pub(super) column: usize,
+    /// The second of two columns.
+    pub(super) split: Option<SplitPace>,
     /// The reason for the selection, if the column's name does not state it.
     pub(super) column_guess: Option<String>,
     /// The unit of the column.
@@ -31,6 +33,16 @@ pub(super) struct Pace {
     pub(super) gaps: usize,
     /// The number of examined steps in which time does not increase.
     pub(super) halts: usize,
+}
+
+/// The second of two columns whose sum is the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SplitPace {
+    pub(super) column: usize,
+    /// The units of both columns.
+    pub(super) units: [&'static str; 2],
+    /// What they are.
+    pub(super) why: &'static str,
 }
 
 /// The unit of a time column.
@@ -55,6 +67,8 @@ impl PaceUnit {
 
 /// The units of time, their values in seconds, and the step sizes in them between 10 Hz and 5 kHz.
 const UNITS: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)];
+/// Words of clocks that count in units of their own.
+const TICKS: [&str; 3] = ["fine", "tick", "ticks"];
 const SLOWEST: f64 = 0.1;
 const FASTEST: f64 = 2e-4;
 
@@ -65,20 +79,23 @@ impl Pace {
             let named = (0..sample.count).filter(move |&column| labels[column].role == Some(role));
             named.filter_map(|column| Self::of(sample, column)).find(|pace| pace.jitter.is_finite())
         };
-        if let Some(pace) = named(Role::Time)
-            // Rows of several kinds have a counter each.
-            .or_else(|| named(Role::Counter).filter(|_| sample.kinds.is_empty()))
-        {
-            let label = &labels[pace.column];
-            return Some(pace.with_unit(label));
+        let time = named(Role::Time).map(|pace| pace.with_unit(labels));
+        // Rows of several kinds have a counter each.
+        let counter = || named(Role::Counter).filter(|_| sample.kinds.is_empty());
+        let counter = || counter().map(|pace| pace.with_unit(labels));
+        let has_unit = |pace: &&Self| pace.unit != PaceUnit::Unknown;
+        let known = time.as_ref().filter(has_unit).cloned();
+        if let Some(pace) = known.or_else(|| counter().filter(|pace| has_unit(&pace))).or(time) {
+            return Some(pace);
+        }
+        if let Some(pace) = counter() {
+            return Some(pace);
         }
         let nameless = (0..sample.count).filter(|&column| labels[column].role.is_none());
         let mut rising = nameless.filter_map(|column| Self::of(sample, column));
-        let steadily = |pace: &Self| pace.steps >= ENOUGH && pace.halts == 0 && pace.jitter < 0.3;
-        let pace = rising.find(steadily)?;
+        let pace = rising.find(Self::is_steady)?;
         let why = "it increases steadily from row to row".to_string();
-        let label = &labels[pace.column];
-        Some(Self { column_guess: Some(why), ..pace }.with_unit(label))
+        Some(Self { column_guess: Some(why), ..pace }.with_unit(labels))
     }
 
     /// The interval between rows \[s\], if the unit is known and is not samples.
@@ -86,6 +103,16 @@ impl Pace {
         let name = self.unit.name()?;
         let (_, seconds) = UNITS.iter().find(|(unit, _)| *unit == name)?;
         Some(self.step * seconds)
+    }
+
+    /// Whether time increases in even steps, of which there are enough.
+    pub(super) fn is_steady(&self) -> bool {
+        self.steps >= ENOUGH && self.halts == 0 && self.jitter < 0.3
+    }
+
+    /// Whether the column is the time or a part of it.
+    pub(super) fn has(&self, column: usize) -> bool {
+        column == self.column || self.split.is_some_and(|split| split.column == column)
     }
 
     pub(super) fn counts_samples(&self) -> bool {
@@ -100,6 +127,11 @@ impl Pace {
             times.windows(2).map(|pair| pair[1] - pair[0]).collect()
         };
         let all: Vec<f64> = sample.runs.iter().flat_map(steps).collect();
+        Self::of_steps(column, &all)
+    }
+
+    /// The properties of these steps of a column; `None` if it does not increase.
+    pub(super) fn of_steps(column: usize, all: &[f64]) -> Option<Self> {
         let mut sorted: Vec<f64> = all.iter().copied().filter(|step| step.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
         let step = *sorted.get(sorted.len() / 2)?;
@@ -111,6 +143,7 @@ impl Pace {
         let sum: f64 = even.iter().map(|s| (s / step - 1.0) * (s / step - 1.0)).sum();
         Some(Self {
             column,
+            split: None,
             column_guess: None,
             unit: PaceUnit::Unknown,
             steps: all.len(),
@@ -121,8 +154,8 @@ impl Pace {
         })
     }
 
-    fn with_unit(self, label: &Label) -> Self {
-        let unit = self.judged_unit(label);
+    fn with_unit(self, labels: &[Label]) -> Self {
+        let unit = self.judged_unit(&labels[self.column]);
         Self { unit, ..self }
     }
 
@@ -148,6 +181,9 @@ impl Pace {
             } else {
                 PaceUnit::Unknown
             };
+        }
+        if label.stem.split(' ').any(|word| TICKS.contains(&word)) {
+            return PaceUnit::Unknown;
         }
         let sensible = |seconds: f64| (FASTEST..=SLOWEST).contains(&(step * seconds));
         match UNITS.iter().find(|(_, seconds)| sensible(*seconds)) {

@@ -6,8 +6,10 @@ use std::path::Path;
 
 use crate::error::{IoError, LogError};
 use crate::log::{
-    BinaryColumns, Delimiter, Fields, Head, Lines, LogProblem, all_columns, nanoseconds,
+    BinaryColumns, Damage, Delimiter, Fields, Head, Lines, LogProblem, all_columns, day,
+    nanoseconds, time_of_day,
 };
+use crate::rig::{Decimal, TextForm};
 use crate::source;
 
 /// The most kinds of rows that a column distinguishes.
@@ -22,6 +24,9 @@ const RUN: usize = 128;
 /// The number of runs at the beginning of a log.
 const FIRST_RUNS: usize = 8;
 
+/// The number of rows in these.
+const FIRST_ROWS: u64 = 1024;
+
 /// The number of runs from positions distributed over the rest of it.
 const OTHER_RUNS: u64 = 8;
 
@@ -31,16 +36,36 @@ pub(super) struct Sample {
     /// The format of its file, as a rig file names it.
     pub(super) format: &'static str,
     pub(super) delimiter: Delimiter,
+    pub(super) decimal: Decimal,
     /// The columns' names, if there are any.
     pub(super) names: Option<Vec<String>>,
     /// The number of columns.
     pub(super) count: usize,
     /// The columns that distinguish rows of several kinds, and their texts.
     pub(super) kinds: Vec<(usize, Vec<String>)>,
+    /// What the first row has in each column, if it is a part of a time in text.
+    pub(super) clocks: Vec<Option<ClockText>>,
     /// Runs of consecutive rows.
     pub(super) runs: Vec<Run>,
     /// Whether these are all rows of the log.
     pub(super) whole: bool,
+}
+
+/// A part of a time in text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ClockText {
+    Date,
+    TimeOfDay,
+}
+
+impl ClockText {
+    fn of(field: &str) -> Option<Self> {
+        match (day(field), time_of_day(field)) {
+            (Some(_), _) => Some(Self::Date),
+            (None, Some(_)) => Some(Self::TimeOfDay),
+            (None, None) => None,
+        }
+    }
 }
 
 /// Consecutive rows: the numbers of each column, NaN where a field is not a number.
@@ -52,21 +77,39 @@ impl Sample {
     /// # Errors
     /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if its first rows are not columns of numbers.
     pub(super) fn read(path: &Path) -> Result<Self, IoError> {
+        let form = TextForm { decimal: decimal(path)?, skip: None };
         let mut lines = Lines::open(path)?;
-        let head = Head::read(&mut lines)?;
+        let head = Head::read(&mut lines, form)?;
         let mut first = Rows::new(&head);
+        let mut damage = Damage::default();
+        let refused = |(line, problem)| LogError::at(path, line, problem);
+        if let Some((line, problem)) = head.cut.clone() {
+            damage.note(line, problem, FIRST_ROWS).map_err(refused)?;
+        }
         for (line, text) in &head.rows {
-            first.push(text).map_err(|problem| LogError::at(path, *line, problem))?;
-            first.note_text(*line, text);
+            match first.push(text) {
+                Ok(()) => first.note_text(*line, text),
+                Err(problem) => damage.note(*line, problem, FIRST_ROWS).map_err(refused)?,
+            }
         }
         let mut whole = false;
         while first.length < RUN * FIRST_RUNS {
-            let Some((line, text)) = lines.next()? else {
-                whole = true;
-                break;
+            let (line, pushed) = match lines.next() {
+                Ok(Some((line, text))) => (line, first.push(text)),
+                Ok(None) => {
+                    whole = true;
+                    break;
+                }
+                Err(IoError::Log(error)) if error.problem == LogProblem::NotText => {
+                    (error.line.unwrap_or_default(), Err(error.problem))
+                }
+                Err(error) => return Err(error),
             };
-            first.push(text).map_err(|problem| LogError::at(path, line, problem))?;
+            if let Err(problem) = pushed {
+                damage.note(line, problem, FIRST_ROWS).map_err(refused)?;
+            }
         }
+        damage.judge(first.length).map_err(refused)?;
         if first.length == 0 {
             return Err(LogError::of(path, LogProblem::OnlyHeader));
         }
@@ -75,9 +118,9 @@ impl Sample {
         if !whole {
             runs.extend(others(path, &head));
         }
-        let Head { delimiter, names, count, .. } = head;
-        let kinds = first.kinds();
-        Ok(Self { format: "csv", delimiter, names, count, kinds, runs, whole })
+        let Head { delimiter, decimal, names, count, .. } = head;
+        let (kinds, clocks) = (first.kinds(), first.clocks);
+        Ok(Self { format: "csv", delimiter, decimal, names, count, kinds, clocks, runs, whole })
     }
 
     /// Reads a sample of a Parquet or MATLAB file; none of a file of another format.
@@ -102,7 +145,19 @@ impl Sample {
         let others = others.filter(|start| !whole && *start >= RUN * FIRST_RUNS);
         let runs = first.chain(others).map(run).collect();
         let (delimiter, count) = (Delimiter::Comma, names.len());
-        Self { format, delimiter, names: Some(names), count, kinds: Vec::new(), runs, whole }
+        let (kinds, clocks) = (Vec::new(), vec![None; count]);
+        let names = Some(names);
+        Self {
+            format,
+            delimiter,
+            decimal: Decimal::Point,
+            names,
+            count,
+            kinds,
+            clocks,
+            runs,
+            whole,
+        }
     }
 
     /// The name of a column in a rig file: its own name or, if that is not unique, its number.
@@ -116,13 +171,51 @@ impl Sample {
 
     /// Whether the column holds numbers.
     pub(super) fn is_numeric(&self, column: usize) -> bool {
-        self.runs.iter().any(|run| run[column].iter().any(|number| number.is_finite()))
+        self.clocks[column].is_none()
+            && self.runs.iter().any(|run| run[column].iter().any(|number| number.is_finite()))
+    }
+
+    /// Whether the column's numbers differ.
+    pub(super) fn varies(&self, column: usize) -> bool {
+        let mut numbers = self.runs.iter().flat_map(|run| run[column].iter());
+        let first = numbers.next();
+        numbers.any(|number| Some(number) != first)
+    }
+
+    /// Whether all numbers of a triad are whole: they may be counts of any scale.
+    pub(super) fn is_whole(&self, triad: [usize; 3]) -> bool {
+        let whole = |number: &f64| number.fract() == 0.0 || number.is_nan();
+        self.runs.iter().all(|run| triad.iter().all(|&column| run[column].iter().all(whole)))
     }
 
     /// The number of rows.
     pub(super) fn rows(&self) -> usize {
         self.runs.iter().map(|run| run.first().map_or(0, Vec::len)).sum()
     }
+}
+
+/// The decimal mark of the text log at `path`: a comma if with it more fields of the first rows are numbers, and none of them has
+/// a point.
+fn decimal(path: &Path) -> Result<Decimal, IoError> {
+    let numbers = |decimal: Decimal| -> Result<(usize, bool), IoError> {
+        let mut lines = Lines::open(path)?;
+        let head = Head::read(&mut lines, TextForm { decimal, skip: None })?;
+        let mut rows: Vec<String> = head.rows.iter().map(|(_, row)| row.clone()).collect();
+        while rows.len() < RUN
+            && let Some((_, row)) = lines.next()?
+        {
+            rows.push(row.to_string());
+        }
+        let (mut count, mut has_point) = (0, false);
+        for field in rows.iter().flat_map(|row| Fields::of(row, head.delimiter)) {
+            count += usize::from(decimal.number(&field).is_some());
+            has_point |= Decimal::Point.number(&field).is_some() && field.contains('.');
+        }
+        Ok((count, has_point))
+    };
+    let (points, _) = numbers(Decimal::Point)?;
+    let (commas, has_point) = numbers(Decimal::Comma)?;
+    Ok(if commas > points && !has_point { Decimal::Comma } else { Decimal::Point })
 }
 
 /// Runs from positions distributed over the log; fewer if it cannot be read there.
@@ -149,19 +242,24 @@ fn run_at(path: &Path, head: &Head, place: u64) -> Option<Run> {
     (rows.length > 1).then_some(rows.columns)
 }
 
-/// The number in a field; the seconds since 1970 of a date with a time of day.
-fn number(field: &str) -> Option<f64> {
-    match field.parse::<f64>() {
-        Ok(number) => Some(number).filter(|number| number.is_finite()),
-        Err(_) => nanoseconds(field).map(|instant| instant as f64 * 1e-9),
+/// The number in a field; the seconds since 1970 of a date, with or without a time of day; the seconds of a time of day.
+fn number(field: &str, decimal: Decimal) -> Option<f64> {
+    if let Some(number) = decimal.number(field) {
+        return Some(number).filter(|number| number.is_finite());
     }
+    let instant = nanoseconds(field).or_else(|| time_of_day(field));
+    let start = || day(field).map(|start| start as f64);
+    instant.map(|instant| instant as f64 * 1e-9).or_else(start)
 }
 
 /// The rows while they are read.
 struct Rows {
     delimiter: Delimiter,
+    decimal: Decimal,
     columns: Run,
     length: usize,
+    /// The parts of times in text in the first row.
+    clocks: Vec<Option<ClockText>>,
     /// Texts in the first rows where numbers are expected.
     texts: Vec<Option<(u64, String)>>,
     /// The different texts of each column, at most one more than [`MOST_KINDS`].
@@ -172,9 +270,11 @@ impl Rows {
     fn new(head: &Head) -> Self {
         Self {
             delimiter: head.delimiter,
+            decimal: head.decimal,
             columns: vec![Vec::new(); head.count],
             different: vec![BTreeSet::new(); head.count],
             length: 0,
+            clocks: vec![None; head.count],
             texts: vec![None; head.count],
         }
     }
@@ -189,9 +289,13 @@ impl Rows {
             let got = Fields::of(text, self.delimiter).count();
             return Err(LogProblem::FieldCount { got, expected });
         }
+        if self.length == 0 {
+            let clocks = self.clocks.iter_mut().zip(&fields);
+            clocks.for_each(|(clock, field)| *clock = ClockText::of(field));
+        }
         let columns = self.columns.iter_mut().zip(&mut self.different);
         for ((column, different), field) in columns.zip(fields) {
-            let number = number(&field);
+            let number = number(&field, self.decimal);
             if number.is_none() && different.len() <= MOST_KINDS && !different.contains(&*field) {
                 different.insert(field.chars().take(LONGEST_KIND).collect());
             }
@@ -214,7 +318,7 @@ impl Rows {
 
     fn note_text(&mut self, line: u64, row: &str) {
         for (text, field) in self.texts.iter_mut().zip(Fields::of(row, self.delimiter)) {
-            if text.is_none() && !field.is_empty() && number(&field).is_none() {
+            if text.is_none() && !field.is_empty() && number(&field, self.decimal).is_none() {
                 *text = Some((line, field.chars().take(40).collect()));
             }
         }
@@ -227,7 +331,8 @@ impl Rows {
         let hopeless = !self.columns.iter().any(has_numbers);
         for (index, (text, column)) in self.texts.iter().zip(&self.columns).enumerate() {
             let Some((line, text)) = text else { continue };
-            if hopeless || has_numbers(column) {
+            let has_comma = text.contains(',') && Decimal::Comma.number(text).is_some();
+            if hopeless || has_numbers(column) || has_comma {
                 let column = names.and_then(|names| names.get(index).cloned());
                 let column = column.unwrap_or_else(|| (index + 1).to_string());
                 let problem = LogProblem::NotANumber { column, text: text.clone() };

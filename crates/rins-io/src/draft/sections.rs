@@ -5,6 +5,7 @@ use rins_imu::{GRADES, Preset, SENSORS};
 use super::page::{Page, text};
 use super::sample::Sample;
 use crate::log::Delimiter;
+use crate::rig::Decimal;
 
 pub(super) fn site(page: &mut Page) {
     page.section("site");
@@ -39,6 +40,9 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
     } else {
         format!("{rows} rows, distributed over the log, were read.")
     };
+    if sample.decimal == Decimal::Comma {
+        page.known("decimal", &text(","));
+    }
     if sample.format == "csv" {
         page.remark(&format!("{count} columns between {between}, {header}."));
     } else {
@@ -46,7 +50,7 @@ pub(super) fn shape(page: &mut Page, sample: &Sample) {
     }
     page.remark(&rows);
     let words: Vec<String> = (0..sample.count)
-        .filter(|column| !sample.is_numeric(*column))
+        .filter(|column| !sample.is_numeric(*column) && sample.clocks[*column].is_none())
         .take(8)
         .map(|column| text(&sample.name(column)))
         .collect();

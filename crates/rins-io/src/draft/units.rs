@@ -47,8 +47,8 @@ pub(super) fn accel_unit(
     };
     let candidates = candidates(&FORCES, &VELOCITIES, interval, increment);
     // Small sensors can have biases of a tenth of gravity.
-    match unique(&candidates, STANDARD_GRAVITY * interval.unwrap_or(1.0) / seen.norm, &[1.03, 1.15])
-    {
+    let tolerances = tolerances(sample, accel, &[1.03, 1.15]);
+    match unique(&candidates, STANDARD_GRAVITY * interval.unwrap_or(1.0) / seen.norm, tolerances) {
         Some(text) => {
             let norm = short(seen.norm);
             Ok(UnitFound { text, why: format!("their steady magnitude, {norm}, is then gravity") })
@@ -89,6 +89,10 @@ impl Surroundings<'_> {
     /// # Errors
     /// A description of what the numbers indicate instead.
     pub(super) fn gyro_unit(&self, gyro: [usize; 3], increment: bool) -> Result<UnitFound, String> {
+        // Motion between rows shows a unit only if the time between them is known.
+        if self.interval.is_none() {
+            return Err("it depends on the rate, which is not known".into());
+        }
         let candidates = candidates(&RATES, &ANGLES, self.interval, increment);
         let found = |text, why: &str| Ok(UnitFound { text, why: why.into() });
         let mut seen = Vec::new();
@@ -99,7 +103,9 @@ impl Surroundings<'_> {
             seen.push(self.one_count("the table's motion", turn));
         }
         if let Some(turn) = self.by_gravity(gyro).map(f64::abs) {
-            if let Some(text) = unique(&candidates, turn, &[1.05, 1.6]) {
+            if let Some(text) =
+                unique(&candidates, turn, tolerances(self.sample, gyro, &[1.05, 1.6]))
+            {
                 return found(
                     text,
                     "the rotation of gravity in the accelerometers then equals that of the gyros",
@@ -108,7 +114,8 @@ impl Surroundings<'_> {
             seen.push(self.one_count("the rotation of gravity", turn));
         }
         if let (Some(rate), Some(interval)) = (least_rate(self.sample, gyro), self.interval) {
-            if let Some(text) = unique(&candidates, EARTH_RATE * interval / rate, &[1.05, 1.3]) {
+            let near = tolerances(self.sample, gyro, &[1.05, 1.3]);
+            if let Some(text) = unique(&candidates, EARTH_RATE * interval / rate, near) {
                 let seen = short(rate);
                 let why = format!("the quietest rows, {seen}, then show the Earth's rate");
                 return Ok(UnitFound { text, why });
@@ -178,6 +185,11 @@ fn candidates(
             rates.chain(increments.iter().copied()).collect()
         }
     }
+}
+
+/// The tolerances for a triad. Counts can have any scale, of which many are near one of the units: only the closest is applied.
+fn tolerances<'t>(sample: &Sample, triad: [usize; 3], all: &'t [f64]) -> &'t [f64] {
+    if sample.is_whole(triad) { &all[..all.len().min(1)] } else { all }
 }
 
 /// The only candidate whose factor is within a tolerance of `factor`; the tolerances are applied in

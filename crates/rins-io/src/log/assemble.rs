@@ -9,17 +9,17 @@ use rins_frames::{InFrame, Increments};
 use rins_motion::Recording;
 
 use super::angle_file::{OwnAngles, angles_of_own_clock};
-use super::clock::{Clock, Stamps};
+use super::clock::Clock;
 use super::files::{Files, OneFile, TriadValues, own_file};
 use super::instant::Instants;
 use super::problem::LogProblem;
 use super::redivide::redivide;
 use super::series::{between, smoothly_between, unwrap};
-use super::summary::{LogPolicy, LogSummary, Redivided, TableClock};
-use super::table::{self, Wanted};
+use super::summary::{Gap, LogPolicy, LogSummary, Redivided, TableClock};
+use super::table::{self, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
-    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn,
+    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn, TextForm,
     TriadColumns,
 };
 use crate::shown::shown;
@@ -37,9 +37,9 @@ pub(super) fn read(
     let main = files.main();
     let stamp = spec.time.as_ref().map_or(Stamp::End, |time| time.stamp);
     let nominal = rig.log.rate.map(|rate| 1.0 / rate);
-    let stamps = Stamps { path: &main.path, lines: &main.columns.lines, stamp, nominal };
+    let stamps = main.stamps(stamp, nominal);
     let mut clock = match nominal {
-        Some(interval) if spec.time.is_none() => stamps.counted(interval)?,
+        Some(interval) if spec.time.is_none() => stamps.counted(interval, policy)?,
         _ => stamps.timed(&main.columns.time, policy)?,
     };
     clock.summary.left_out = files.left_out();
@@ -79,8 +79,8 @@ pub(super) fn read(
 
     let mut own_angles = None;
     if let Some(column @ AngleColumn { file: Some((path, own)), .. }) = &spec.table_angle {
-        let columns = slice::from_ref(&column.column);
-        let file = own_file((path, Table::of(path), None), columns, own, files.instants)?;
+        let file = (path.as_path(), Table::of(path), spec.text.of_another_file());
+        let file = own_file(file, (slice::from_ref(&column.column), None), own, files.instants)?;
         clock.summary.left_out.extend(file.left_out());
         let log = &files.main().path;
         let OwnAngles { angles, covered, rate } =
@@ -127,7 +127,8 @@ pub(super) fn read(
             Some(at_ends(files.file(&rig.log.path).temperatures(column, *offset)?, between))
         }
         Some(column) => {
-            let own = temperature(column, files.instants, &clock.ends)?;
+            let own =
+                temperature((column, spec.text.of_another_file()), files.instants, &clock.ends)?;
             own.map(|(file, temperatures)| {
                 clock.summary.left_out.extend(file.left_out());
                 temperatures
@@ -195,7 +196,8 @@ impl Channel<'_> {
     /// The increments over the intervals along the body's axes.
     fn increments(self, clock: &Clock, gaps: Option<Gaps>) -> Result<TriadValues, IoError> {
         let increments = matches!(self.spec.reading, Reading::Increment(_));
-        if let (true, None, Some(gap)) = (increments, gaps, clock.summary.gaps.first()) {
+        let mut unexplained = clock.summary.gaps.iter().filter(|gap| !gap.damaged);
+        if let (true, None, Some(gap)) = (increments, gaps, unexplained.next()) {
             let problem = LogProblem::LostIncrements { length: gap.length, after: gap.after };
             return Err(LogError::at(&self.spec.path, gap.line, problem));
         }
@@ -203,7 +205,8 @@ impl Channel<'_> {
         for list in [&mut x, &mut y, &mut z] {
             list.truncate(clock.intervals.len());
         }
-        let mut held = clock.summary.gaps.iter().filter(|_| gaps == Some(Gaps::Held)).peekable();
+        let is_held = |gap: &&Gap| gap.damaged || gaps == Some(Gaps::Held);
+        let mut held = clock.summary.gaps.iter().filter(is_held).peekable();
         for (sample, &interval) in clock.intervals.iter().enumerate() {
             let in_gap = held.next_if(|gap| gap.sample == sample).is_some();
             let scale = match (increments, in_gap) {
@@ -221,14 +224,16 @@ impl Channel<'_> {
 /// The file of the temperature, if it is not the log, and the temperatures at the ends of the
 /// intervals.
 fn temperature(
-    TemperatureColumn { file, column, offset }: &TemperatureColumn,
+    (TemperatureColumn { file, column, offset }, text): (&TemperatureColumn, TextForm),
     instants: Option<Instants>,
     ends: &[f64],
 ) -> Result<Option<(OneFile, Vec<f64>)>, IoError> {
-    let (Some((path, time)), Some(mut instants)) = (file, instants) else {
+    let (Some((path, time)), Some(instants)) = (file, instants) else {
         return Ok(None);
     };
-    let wanted = Wanted { names: &[column], time: Some((&time.column, &mut instants)), rows: None };
+    let mut instants = instants.of_another_file();
+    let time = Some(WantedTime::of(time, &mut instants));
+    let wanted = Wanted { names: &[column], time, rows: None, text };
     let columns = table::read(path, Table::of(path), wanted)?;
     let mut file = OneFile::of_column(path, column, columns);
     let values = file.temperatures(column, *offset)?;

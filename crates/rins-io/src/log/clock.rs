@@ -56,14 +56,22 @@ pub(super) struct Stamps<'l> {
     pub(super) path: &'l Path,
     /// The line of each row.
     pub(super) lines: &'l RowLines,
+    /// The lines of damaged rows, in order.
+    pub(super) damaged: &'l [u64],
     pub(super) stamp: Stamp,
     /// The nominal interval, if the rig states it \[s\].
     pub(super) nominal: Option<f64>,
 }
 
 impl Stamps<'_> {
-    /// Intervals of rows without a time column: consecutive nominal intervals from zero.
-    pub(super) fn counted(&self, interval: f64) -> Result<Clock, IoError> {
+    /// Intervals of rows without a time column: consecutive nominal intervals from zero. A damaged row is a gap.
+    pub(super) fn counted(&self, interval: f64, policy: LogPolicy) -> Result<Clock, IoError> {
+        if !self.damaged.is_empty() {
+            let places = self.lines.places(self.damaged);
+            let times: Vec<f64> = places.map(|place| (place + 1) as f64 * interval).collect();
+            let stamps = Self { nominal: Some(interval), ..*self };
+            return stamps.timed(&times, policy);
+        }
         self.need_two()?;
         let count = self.lines.len();
         Ok(Clock {
@@ -163,6 +171,12 @@ impl Stamps<'_> {
         }
     }
 
+    /// The number of damaged rows between a row and the next one.
+    fn damaged_in(&self, row: usize) -> f64 {
+        let before = |line: u64| self.damaged.partition_point(|damaged| *damaged < line);
+        (before(self.lines.of(row + 1)) - before(self.lines.of(row))) as f64
+    }
+
     fn gaps(&self, times: &[f64], steps: &[f64], nominal: f64) -> Vec<Gap> {
         let gap = |(row, &length): (usize, &f64)| {
             (length > GAP * nominal).then(|| Gap {
@@ -170,6 +184,7 @@ impl Stamps<'_> {
                 line: self.lines.of(row + 1),
                 after: times[row],
                 length,
+                damaged: self.damaged_in(row) >= length / nominal - GAP,
             })
         };
         steps.iter().enumerate().filter_map(gap).collect()

@@ -1,7 +1,7 @@
 //! Dates with times of day, as time stamps.
 
 use jiff::Timestamp;
-use jiff::civil::DateTime;
+use jiff::civil::{Date, DateTime, Time};
 use jiff::tz::TimeZone;
 
 /// A date with a time of day, such as `2021-07-05T10:00:00.010Z` (ISO 8601), as nanoseconds since 1970; `None` for any other text.
@@ -22,9 +22,49 @@ pub(crate) fn nanoseconds(text: &str) -> Option<i128> {
     Some(timestamp.as_nanosecond())
 }
 
+/// The seconds from 1970 to the start of a day: of a date that begins with the year, with hyphens or slashes, or of one as in
+/// `05.07.2021`; `None` for any other text. A date such as `05/07/2021` is ambiguous.
+pub(crate) fn day(text: &str) -> Option<i64> {
+    let date = match text.split('.').collect::<Vec<_>>()[..] {
+        [day, month, year] if year.len() == 4 => {
+            Date::new(year.parse().ok()?, month.parse().ok()?, day.parse().ok()?).ok()?
+        }
+        _ => text.replace('/', "-").parse().ok().filter(|_| !text.contains(':'))?,
+    };
+    Some(TimeZone::UTC.to_timestamp(date.at(0, 0, 0, 0)).ok()?.as_second())
+}
+
+/// The time of day of a text such as `10:00:00.010`, in nanoseconds; `None` for any other text.
+pub(crate) fn time_of_day(text: &str) -> Option<i128> {
+    let time: Time = text.replace(',', ".").parse().ok().filter(|_| text.contains(':'))?;
+    let seconds = 3600 * i128::from(time.hour()) + 60 * i128::from(time.minute());
+    let nanoseconds = i128::from(time.subsec_nanosecond());
+    Some((seconds + i128::from(time.second())) * 1_000_000_000 + nanoseconds)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::nanoseconds;
+    use super::{day, nanoseconds, time_of_day};
+
+    #[test]
+    fn days_and_times_of_day_add_up_to_instants() {
+        for date in ["2021-07-05", "2021/07/05", "05.07.2021", "5.7.2021"] {
+            let start = i128::from(day(date).unwrap()) * 1_000_000_000;
+            let time = time_of_day("10:00:00.01").unwrap();
+            assert_eq!(Some(start + time), nanoseconds("2021-07-05T10:00:00.010Z"), "{date}");
+        }
+        assert_eq!(time_of_day("00:00:01,000000001"), Some(1_000_000_001));
+    }
+
+    #[test]
+    fn ambiguous_days_are_refused() {
+        for text in ["05/07/2021", "07-05-2021", "1.2.3", "32.1.2021", "2021-07-05T10:00", "1.5"] {
+            assert_eq!(day(text), None, "{text}");
+        }
+        for text in ["10", "25:00:00", "10.5", "100000", "2021-07-05", "noon"] {
+            assert_eq!(time_of_day(text), None, "{text}");
+        }
+    }
 
     #[test]
     fn all_ways_to_write_an_instant_say_the_same() {

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::rig::Decimal;
+
 /// The delimiter between two fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
@@ -22,8 +24,12 @@ impl Delimiter {
     ///
     /// If several do, the first of tab, semicolon, comma and blanks is used: blanks may
     /// surround a comma, and a comma may be the decimal mark of a number between semicolons.
-    pub(super) fn sniff(first: &str, second: Option<&str>) -> Self {
-        let all = [Self::Tab, Self::Semicolon, Self::Comma, Self::Blanks];
+    pub(super) fn sniff(first: &str, second: Option<&str>, decimal: Decimal) -> Self {
+        let all = match decimal {
+            Decimal::Point => [Self::Tab, Self::Semicolon, Self::Comma, Self::Blanks],
+            // A comma then divides fields in quotation marks only.
+            Decimal::Comma => [Self::Tab, Self::Semicolon, Self::Blanks, Self::Comma],
+        };
         let fields = |line| all.map(|delimiter| Fields::of(line, delimiter).count());
         let (first, second) = (fields(first), second.map(fields));
         let agree = |&index: &usize| {
@@ -139,7 +145,7 @@ fn closing_quote(quoted: &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Delimiter, Fields};
+    use super::{Decimal, Delimiter, Fields};
     use proptest::prelude::*;
 
     #[test]
@@ -155,7 +161,20 @@ mod tests {
             ("\"t, s\";\"x\"", "1;2", Delimiter::Semicolon),
         ];
         for (first, second, delimiter) in cases {
-            assert_eq!(Delimiter::sniff(first, Some(second)), delimiter, "{first}");
+            assert_eq!(Delimiter::sniff(first, Some(second), Decimal::Point), delimiter, "{first}");
+        }
+    }
+
+    #[test]
+    fn a_decimal_comma_divides_no_fields() {
+        let cases = [
+            ("0,1 2,5 3,5", "0,2 2,5 3,5", Delimiter::Blanks),
+            ("0,1\t2,5", "0,2\t2,5", Delimiter::Tab),
+            ("t,gx", "\"0,1\",\"2,5\"", Delimiter::Comma),
+        ];
+        for (first, second, delimiter) in cases {
+            let found = Delimiter::sniff(first, Some(second), Decimal::Comma);
+            assert_eq!(found, delimiter, "{first}");
         }
     }
 

@@ -4,14 +4,17 @@ use std::mem;
 use std::path::{Path, PathBuf};
 
 use super::clock::{Clock, Stamps};
+use super::damage::leave_out_of_all;
 use super::even::undo_rounding;
 use super::instant::Instants;
 use super::overflow::{Overflow, continued};
 use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
-use super::table::{self, Columns, Wanted};
+use super::table::{self, Columns, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
-use crate::rig::{ColumnSpec, OwnClock, Reading, Rig, RowFilter, Table, TimeUnit, TriadColumns};
+use crate::rig::{
+    ColumnSpec, OwnClock, Reading, Rig, RowFilter, Stamp, Table, TextForm, TimeUnit, TriadColumns,
+};
 use crate::shown::shown;
 
 /// The maximum difference between the times of two files, in intervals.
@@ -88,6 +91,12 @@ impl OneFile {
     pub(super) fn left_out(&self) -> impl Iterator<Item = LeftOut> {
         let named = |&(line, reason): &_| LeftOut { path: self.path.clone(), line, reason };
         self.columns.left_out.iter().map(named)
+    }
+
+    /// The time information in its rows.
+    pub(super) fn stamps(&self, stamp: Stamp, nominal: Option<f64>) -> Stamps<'_> {
+        let Columns { lines, damaged, .. } = &self.columns;
+        Stamps { path: &self.path, lines, damaged, stamp, nominal }
     }
 
     /// The file at `path`, of which one column was requested.
@@ -193,9 +202,10 @@ impl Files {
         let mut rounded = None;
         let mut overflows = Vec::new();
         for (path, asked) in wanted {
-            let time = spec.time.as_ref().map(|time| time.column.as_str());
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
-            let wanted = Wanted { names: &asked.names(), time: time.zip(instants.as_mut()), rows };
+            let time = spec.time.as_ref().zip(instants.as_mut());
+            let time = time.map(|(time, instants)| WantedTime::of(time, instants));
+            let wanted = Wanted { names: &asked.names(), time, rows, text: spec.text };
             let mut columns = table::read(path, spec.table, wanted)?;
             let all_six = together && spec.gyro.path == spec.accel.path && rig.log.is_complete();
             if all_six && path == spec.gyro.path {
@@ -203,7 +213,8 @@ impl Files {
                 let places = names.filter_map(|name| asked.place(name));
                 columns.leave_out_zeros(&places.collect::<Vec<_>>());
             }
-            if let Some(time) = &spec.time {
+            // The sum of two columns does not overflow.
+            if let Some(time) = spec.time.as_ref().filter(|time| time.split.is_none()) {
                 let continued = continued(&mut columns.time, time.unit.seconds());
                 if files.is_empty() {
                     overflows = continued;
@@ -221,10 +232,12 @@ impl Files {
             }
             files.push(OneFile { path: path.into(), asked, columns });
         }
+        leave_out_of_all(&mut files.iter_mut().map(|file| &mut file.columns).collect::<Vec<_>>());
         let accel = spec.accel_clock.as_ref().map(|clock| {
-            let file = (spec.accel.path.as_path(), spec.table, spec.accel.rows.as_ref());
+            let file = (spec.accel.path.as_path(), spec.table, spec.text);
             let names: Vec<String> = spec.accel.names().cloned().collect();
-            own_file(file, &names, clock, instants)
+            let rows = spec.accel.rows.as_ref();
+            own_file(file, (&names, rows), clock, instants)
         });
         Ok(Self { together: files, instants, accel: accel.transpose()?, rounded, overflows })
     }
@@ -291,9 +304,7 @@ impl Files {
         policy: LogPolicy,
     ) -> Result<Option<Clock>, IoError> {
         let (Some(own), Some(file)) = (&spec.accel_clock, &self.accel) else { return Ok(None) };
-        let stamp = own.time.stamp;
-        let (path, lines) = (&file.path, &file.columns.lines);
-        let stamps = Stamps { path, lines, stamp, nominal: None };
+        let stamps = file.stamps(own.time.stamp, None);
         // A gap is equally long in both, whatever their sampling rates.
         let largest_gap = policy.largest_gap.max(gyro.summary.nominal_interval);
         stamps.timed(&file.columns.time, LogPolicy { largest_gap, ..policy }).map(Some)
@@ -302,17 +313,19 @@ impl Files {
 
 /// Reads columns of a file with its own clock, with its time stamps in the time of the gyros.
 pub(super) fn own_file(
-    (path, table, rows): (&Path, Table, Option<&RowFilter>),
-    columns: &[String],
+    (path, table, text): (&Path, Table, TextForm),
+    (columns, rows): (&[String], Option<&RowFilter>),
     clock: &OwnClock,
     gyro: Option<Instants>,
 ) -> Result<OneFile, IoError> {
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
     let asked = Asked::of(columns);
-    let wanted =
-        Wanted { names: &asked.names(), time: Some((&clock.time.column, &mut instants)), rows };
+    let time = Some(WantedTime::of(&clock.time, &mut instants));
+    let wanted = Wanted { names: &asked.names(), time, rows, text };
     let mut columns = table::read(path, table, wanted)?;
-    let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
+    if clock.time.split.is_none() {
+        let _overflows = continued(&mut columns.time, clock.time.unit.seconds());
+    }
     let _rounded = undo_rounding(&mut columns.time, None);
     let shift = instants.origin() - gyro.map_or(0.0, |gyro| gyro.origin()) - clock.offset;
     if shift != 0.0 {

@@ -1,6 +1,6 @@
 //! Time stamps, parsed without the loss of digits that a double cannot represent.
 
-use super::date_time::nanoseconds;
+use super::date_time::{nanoseconds, time_of_day};
 
 /// Stamps beyond this \[s\] (48 days) are counted from an integer second near the first: near this limit the spacing of doubles
 /// is a nanosecond, and near the seconds since 1970 a quarter of a microsecond.
@@ -16,6 +16,16 @@ pub(super) struct Instants {
     per_second: f64,
     /// The origin of the stamps, in units of 10⁻¹² s; `None` until the first is read.
     origin: Option<i128>,
+    /// How the first stamp is written.
+    form: Option<Form>,
+}
+
+/// How a stamp is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Number,
+    DateTime,
+    TimeOfDay,
 }
 
 impl Instants {
@@ -24,19 +34,36 @@ impl Instants {
         let per_second = unit.recip();
         let whole = per_second.round();
         let is_whole = (per_second - whole).abs() <= 1e-15 * per_second;
-        Self { per_second: if is_whole { whole } else { per_second }, origin: None }
+        Self { per_second: if is_whole { whole } else { per_second }, origin: None, form: None }
     }
 
-    /// The stamp's time after the origin \[s\]; `None` if it is neither a number nor, where stamps are in seconds, a date with a
-    /// time of day.
+    /// A parser for another file with the same unit and origin, whose stamps may be written otherwise.
+    pub(super) fn of_another_file(self) -> Self {
+        Self { form: None, ..self }
+    }
+
+    /// The stamp's time after the origin \[s\]; `None` if it is neither a number nor, where stamps are in seconds, a time of day or a
+    /// date with one, or if it is not written as the first stamp.
     pub(super) fn seconds(&mut self, text: &str) -> Option<f64> {
         if let Ok(stamp) = text.parse() {
+            self.is_written_as(Form::Number)?;
             return Some(self.after_origin(stamp, || fixed(text)));
         }
-        let nanoseconds =
-            nanoseconds(text).filter(|_| self.per_second.to_bits() == 1_f64.to_bits())?;
+        if self.per_second.to_bits() != 1_f64.to_bits() {
+            return None;
+        }
+        let (nanoseconds, form) = match nanoseconds(text) {
+            Some(instant) => (instant, Form::DateTime),
+            None => (time_of_day(text)?, Form::TimeOfDay),
+        };
+        self.is_written_as(form)?;
         let scale = 10_i128.pow(DECIMALS.unsigned_abs() - 9);
         Some(self.after_origin(nanoseconds as f64 * 1e-9, || nanoseconds.checked_mul(scale)))
+    }
+
+    /// Refuses a stamp that is not written as the first one.
+    fn is_written_as(&mut self, form: Form) -> Option<()> {
+        (*self.form.get_or_insert(form) == form).then_some(())
     }
 
     /// The same for a stamp that is a number.
@@ -51,11 +78,12 @@ impl Instants {
         })
     }
 
-    /// The same for a stamp of `whole` units plus the decimal number of units in `text`.
-    pub(super) fn of_sum(&mut self, whole: i64, text: &str) -> Option<f64> {
-        let plain = whole as f64 + text.parse::<f64>().ok()?;
+    /// The same for stamps in seconds, of `whole` seconds plus the number in `text`, of which `per_second` are a second.
+    pub(super) fn of_sum(&mut self, whole: i64, text: &str, per_second: i64) -> Option<f64> {
+        let plain = whole as f64 + text.parse::<f64>().ok()? / per_second as f64;
         let whole = i128::from(whole) * 10_i128.pow(DECIMALS.unsigned_abs());
-        Some(self.after_origin(plain, || fixed(text)?.checked_add(whole)))
+        let part = || Some(fixed(text)? / i128::from(per_second));
+        Some(self.after_origin(plain, || part()?.checked_add(whole)))
     }
 
     /// The time after the origin of a stamp whose double is `plain`, and whose value to 10⁻¹² is `fixed`.
@@ -87,6 +115,13 @@ impl Instants {
     pub(super) fn origin(&self) -> f64 {
         self.origin.unwrap_or(0) as f64 / (10_f64.powi(DECIMALS) * self.per_second)
     }
+}
+
+/// The whole number in `text`.
+pub(super) fn whole(text: &str) -> Option<i64> {
+    let one = 10_i128.pow(DECIMALS.unsigned_abs());
+    let number = fixed(text).filter(|number| text.parse::<f64>().is_ok() && number % one == 0)?;
+    i64::try_from(number / one).ok()
 }
 
 /// A decimal number in units of 10⁻¹²; `None` if it is too large for that.

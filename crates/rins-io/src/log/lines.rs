@@ -19,6 +19,8 @@ pub(crate) struct Lines<R> {
     buffer: Vec<u8>,
     number: u64,
     unfinished: Option<u64>,
+    /// The number of lines that were passed over.
+    skipped: u64,
     comment: Option<String>,
     /// Whether lines that begin with `#`, `%` or `//` are comments.
     commented: bool,
@@ -50,6 +52,7 @@ impl<R: BufRead> Lines<R> {
             buffer: Vec::new(),
             number: 0,
             unfinished: None,
+            skipped: 0,
             comment: None,
             commented: true,
         }
@@ -79,6 +82,17 @@ impl<R: BufRead> Lines<R> {
         Ok(None)
     }
 
+    /// Passes over this number of lines, whatever is in them.
+    pub(crate) fn skip(&mut self, lines: u64) -> Result<(), IoError> {
+        self.skipped = lines;
+        for _ in 0..lines {
+            if !self.fill()? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// The last comment so far, without its comment mark.
     pub(super) fn comment(&self) -> Option<&str> {
         self.comment.as_deref()
@@ -95,9 +109,10 @@ impl<R: BufRead> Lines<R> {
 
     /// The reason why a log has no readable line.
     pub(super) fn emptiness(&self) -> LogProblem {
-        match self.unfinished {
-            Some(_) => LogProblem::NoLineEnd,
-            None => LogProblem::Empty,
+        match (self.unfinished, self.skipped) {
+            (_, lines @ 1..) => LogProblem::AllSkipped { lines },
+            (Some(_), 0) => LogProblem::NoLineEnd,
+            (None, 0) => LogProblem::Empty,
         }
     }
 

@@ -4,6 +4,7 @@ mod angle_file;
 mod assemble;
 mod clock;
 mod container;
+mod damage;
 mod date_time;
 mod even;
 mod fields;
@@ -15,6 +16,7 @@ mod problem;
 mod psins;
 mod redivide;
 mod series;
+mod split_time;
 mod summary;
 mod table;
 
@@ -22,7 +24,8 @@ use std::path::Path;
 
 use rins_motion::{Recording, Station, with_ramps};
 
-pub(crate) use date_time::nanoseconds;
+pub(crate) use damage::Damage;
+pub(crate) use date_time::{day, nanoseconds, time_of_day};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
 pub(crate) use lines::Lines;
@@ -70,8 +73,9 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// first interval.
 ///
 /// # Errors
-/// [`IoError::Key`] if the log lacks sensors and `policy` does not accept that, [`IoError::File`] if the log cannot be read, [`IoError::Log`] if a requested column contains anything but finite numbers, if
-/// its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
+/// [`IoError::Key`] if the log lacks sensors and `policy` does not accept that, [`IoError::File`] if the log cannot be read,
+/// [`IoError::Log`] if more than one row and more than one in a hundred cannot be read,
+/// if its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
 /// stuck, or if a step of the table angle is about half a turn.
 pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
     if !policy.incomplete && !rig.log.is_complete() {
@@ -83,7 +87,7 @@ pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
             (recording, summary, None)
         }
         LogFormat::Psins => {
-            let (recording, summary, header) = psins::read(&rig)?;
+            let (recording, summary, header) = psins::read(&rig, policy)?;
             (recording, summary, Some(header))
         }
     };

@@ -15,6 +15,12 @@ pub enum LogProblem {
     /// The log has a header only.
     #[error("only a header, no samples")]
     OnlyHeader,
+    /// The log has not more lines than are skipped.
+    #[error("the file has no line after the {lines} that [log] skip leaves out")]
+    AllSkipped {
+        /// The number of skipped lines.
+        lines: u64,
+    },
     /// There are too few samples to determine an interval.
     #[error("{samples} sample, at least 2 are needed")]
     TooShort {
@@ -84,6 +90,32 @@ pub enum LogProblem {
         column: String,
         /// The field.
         text: String,
+    },
+    /// A field of the first of two time columns is not a date.
+    #[error("column {column:?}: {text:?} is not a date such as 2021-07-05 or 05.07.2021")]
+    NotADate {
+        /// The column.
+        column: String,
+        /// The field.
+        text: String,
+    },
+    /// A field of the first of two time columns is not a whole number.
+    #[error("column {column:?}: {text:?} is not a whole number")]
+    NotWhole {
+        /// The column.
+        column: String,
+        /// The field.
+        text: String,
+    },
+    /// A field of the second of two time columns is not a part of one unit of the first.
+    #[error("column {column:?}: {text:?} is not from 0 to less than {longest} s; check time.unit")]
+    BeyondPart {
+        /// The column.
+        column: String,
+        /// The field.
+        text: String,
+        /// The longest unit of the first column \[s\].
+        longest: i64,
     },
     /// A field is infinite or NaN.
     #[error("column {column:?}: {text:?} is not finite")]
@@ -208,6 +240,16 @@ pub enum LogProblem {
     AmbiguousAngle {
         /// The step, in turns.
         turns: f64,
+    },
+    /// Too many rows cannot be read.
+    #[error("{first}; {count} of {rows} rows are damaged, more than one in a hundred")]
+    ManyDamaged {
+        /// The problem of the first of them.
+        first: Box<Self>,
+        /// Their number.
+        count: usize,
+        /// The number of rows that were read.
+        rows: usize,
     },
     /// Two files of one run have different numbers of samples.
     #[error("{samples} samples, but {other} has {expected}; they must be sampled together")]
@@ -350,5 +392,5 @@ fn cut(got: usize, expected: usize) -> &'static str {
 
 fn comma(text: &str) -> &'static str {
     let decimal_comma = text.contains(',') && text.replace(',', ".").parse::<f64>().is_ok();
-    if decimal_comma { "; write decimals with a point" } else { "" }
+    if decimal_comma { "; if commas are decimal marks, state decimal = \",\" in [log]" } else { "" }
 }

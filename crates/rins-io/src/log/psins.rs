@@ -8,12 +8,13 @@ use rins_frames::{EulerAngles, InFrame, Increments, Site};
 use rins_motion::Recording;
 
 use super::clock::Stamps;
+use super::damage::{Damage, is_of_a_row};
 use super::fields::{Delimiter, Fields};
 use super::files::BEYOND_REASON;
 use super::lines::Lines;
 use super::problem::LogProblem;
-use super::summary::{LeftOut, LogSummary, Omission};
-use super::table::{MOST_ROWS, RowLines};
+use super::summary::{LeftOut, LogPolicy, LogSummary, Omission};
+use super::table::{Columns, MOST_ROWS};
 use crate::error::{IoError, LogError};
 use crate::quantity::kinds;
 use crate::rig::{Rig, Stamp};
@@ -59,13 +60,17 @@ const HEADER: [[&str; 6]; 3] = [
 const NUMBERS: [&str; 6] = ["gyro x", "gyro y", "gyro z", "accel x", "accel y", "accel z"];
 
 /// Reads the log of a rig whose format is `psins`. The ends of the samples are one interval apart.
-pub(super) fn read(rig: &Rig) -> Result<(Recording, LogSummary, PsinsHeader), IoError> {
-    read_from(&mut Lines::open(&rig.log.path)?, rig)
+pub(super) fn read(
+    rig: &Rig,
+    policy: LogPolicy,
+) -> Result<(Recording, LogSummary, PsinsHeader), IoError> {
+    read_from(&mut Lines::open(&rig.log.path)?, rig, policy)
 }
 
 pub(super) fn read_from<R: BufRead>(
     lines: &mut Lines<R>,
     rig: &Rig,
+    policy: LogPolicy,
 ) -> Result<(Recording, LogSummary, PsinsHeader), IoError> {
     let path = lines.path().to_path_buf();
     let header = header(lines)?;
@@ -78,10 +83,21 @@ pub(super) fn read_from<R: BufRead>(
     let gyro_axes = rig.spin.after(&rig.log.gyro_axes);
     let accel_axes = rig.spin.after(&rig.log.accel_axes);
     let mut recording = Recording::default();
-    let mut numbers_of_lines = RowLines::default();
+    let mut columns = Columns::default();
+    let mut damage = Damage::default();
+    let refused = |(line, problem)| LogError::at(&path, line, problem);
     let mut first = None;
     let mut moved = [false; 6];
-    while let Some(row) = row(lines, &NUMBERS)? {
+    loop {
+        let row = match row(lines, &NUMBERS) {
+            Ok(Some(row)) => row,
+            Ok(None) => break,
+            Err(IoError::Log(error)) if is_of_a_row(&error.problem) => {
+                damage.note(lines.number(), error.problem, MOST_ROWS).map_err(refused)?;
+                continue;
+            }
+            Err(error) => return Err(error),
+        };
         let first = first.get_or_insert(row);
         for (moved, (now, first)) in moved.iter_mut().zip(row.iter().zip(first.iter())) {
             *moved |= now - first != 0.0;
@@ -103,8 +119,8 @@ pub(super) fn read_from<R: BufRead>(
             velocity: InFrame::from_components(accel_axes.apply(&velocity)),
             interval: header.interval,
         });
-        numbers_of_lines.push(lines.number());
-        if numbers_of_lines.len() as u64 > MOST_ROWS {
+        columns.lines.push(lines.number());
+        if columns.lines.len() as u64 > MOST_ROWS {
             return Err(LogError::of(&path, LogProblem::ManyRows { most: MOST_ROWS }));
         }
     }
@@ -113,12 +129,21 @@ pub(super) fn read_from<R: BufRead>(
         let problem = LogProblem::Stuck { channel: NUMBERS[axis].into(), value: first[axis] };
         return Err(LogError::of(&path, problem));
     }
-    let stamps = Stamps { path: &path, lines: &numbers_of_lines, stamp: Stamp::End, nominal: None };
-    let mut clock = stamps.counted(header.interval)?;
-    clock.summary.left_out.extend(lines.unfinished().map(|line| LeftOut {
+    damage.settle(&mut columns).map_err(refused)?;
+    let Columns { lines: of_rows, damaged, .. } = &columns;
+    let stamps = Stamps { path: &path, lines: of_rows, damaged, stamp: Stamp::End, nominal: None };
+    let mut clock = stamps.counted(header.interval, policy)?;
+    for gap in &clock.summary.gaps {
+        // The increment after a damaged row does not cover it.
+        let sample = &mut recording.increments[gap.sample];
+        *sample = sample.rates().over(gap.length);
+    }
+    let unfinished = lines.unfinished().map(|line| (line, Omission::Unfinished));
+    let left_out = columns.left_out.iter().copied().chain(unfinished);
+    clock.summary.left_out.extend(left_out.map(|(line, reason)| LeftOut {
         path: path.clone(),
         line,
-        reason: Omission::Unfinished,
+        reason,
     }));
     recording.times = clock.ends.iter().map(|end| header.start + end).collect();
     Ok((recording, clock.summary, header))

@@ -101,6 +101,8 @@ pub enum Omission {
     Repeated,
     /// It is the last line and has no line end: its last number may be truncated.
     Unfinished,
+    /// It cannot be read, or the row of the same sample in another file cannot.
+    Damaged,
     /// All six readings are exactly zero: an empty message of a driver, as no accelerometers on Earth read.
     Empty,
 }
@@ -116,6 +118,8 @@ pub struct Gap {
     pub after: f64,
     /// The time from the previous line to the line at its end \[s\].
     pub length: f64,
+    /// Whether all its samples are damaged rows, which the sensor did not accumulate in the next one.
+    pub damaged: bool,
 }
 
 impl LogSummary {

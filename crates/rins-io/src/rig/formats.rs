@@ -94,7 +94,7 @@ impl Fixed {
             })
         };
         let unit = TimeUnit::Seconds(seconds);
-        let time = Some(TimeColumn { column: time.into(), unit, stamp: Stamp::End });
+        let time = Some(TimeColumn { column: time.into(), unit, split: None, stamp: Stamp::End });
         let [gyro_section, accel_section] = triads;
         let gyro = triad(gyros, gyro, gyro_section)?;
         let accel = triad(accels, accel, accel_section)?;

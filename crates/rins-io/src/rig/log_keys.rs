@@ -6,8 +6,8 @@ use std::path::Path;
 use super::axes::Axes;
 use super::formats::Fixed;
 use super::log_spec::{
-    ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, RowFilter, Stamp, Table,
-    TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+    ColumnSpec, Decimal, Gaps, LogFormat, LogSpec, OwnClock, Reading, RowFilter, Stamp, Table,
+    TemperatureColumn, TextForm, TimeColumn, TimeUnit, TriadColumns,
 };
 use super::log_times::Clock;
 use super::readings::{
@@ -20,9 +20,11 @@ use crate::quantity::kinds;
 use crate::section::Section;
 
 /// The keys of `[log]`.
-pub(crate) const KEYS: [&str; 13] = [
+pub(crate) const KEYS: [&str; 15] = [
     "path",
     "format",
+    "decimal",
+    "skip",
     "imu",
     "rate",
     "time",
@@ -37,6 +39,9 @@ pub(crate) const KEYS: [&str; 13] = [
 ];
 
 const SOME_COLUMNS: &str = r#"one to three columns such as ["x", "y", "z"]"#;
+
+/// The keys of columns of text.
+const TEXT_KEYS: [&str; 2] = ["decimal", "skip"];
 
 const FORMATS: [(&str, Format); 8] = [
     ("csv", Format::Table(Table::Text)),
@@ -121,6 +126,7 @@ fn of_format(
         Format::Psins => {
             let own = ["time", "table_angle", "table_rate", "temperature", "gaps"];
             refuse_own(log, &own, "a psins log has no such column")?;
+            refuse_own(log, &TEXT_KEYS, "a psins log has numbers of a fixed form")?;
             let own = ["path", "where", "time", "columns", "unit", "scale", "offset"];
             for triad in [gyro, accel].into_iter().flatten() {
                 refuse_own(triad, &own, "the header of a psins log states it")?;
@@ -218,7 +224,7 @@ fn format(log: &Section<'_>, path: &str) -> Result<Format, IoError> {
 }
 
 fn time(log: &Section<'_>, rate: Option<f64>) -> Result<Option<TimeColumn>, IoError> {
-    let Some(time) = log.inline("time", &["column", "unit", "stamp"])? else {
+    let Some(time) = log.inline("time", &["column", "columns", "unit", "stamp"])? else {
         return match rate {
             Some(_) => Ok(None),
             None => Err(log.missing(
@@ -305,6 +311,7 @@ impl ColumnSpec {
     ) -> Self {
         Self {
             table,
+            text: TextForm::default(),
             time,
             gyro,
             accel,
@@ -317,14 +324,26 @@ impl ColumnSpec {
     }
 }
 
+/// The form of a log's text.
+fn text_form(log: &Section<'_>, table: Table) -> Result<TextForm, IoError> {
+    if !matches!(table, Table::Text | Table::Numbers) {
+        refuse_own(log, &TEXT_KEYS, "only columns of text have it")?;
+    }
+    let decimals = [(".", Decimal::Point), (",", Decimal::Comma)];
+    let skip =
+        log.count("skip", "a number of lines before the header or the first row, such as 12")?;
+    Ok(TextForm { decimal: log.choice("decimal", &decimals)?.unwrap_or_default(), skip })
+}
+
 /// Adds the columns other than the IMU's.
 fn others(log: &Section<'_>, folder: &Path, imu: ColumnSpec) -> Result<ColumnSpec, IoError> {
+    let text = text_form(log, imu.table)?;
     let table_angle = table_columns::angle(log, folder, imu.time.as_ref())?;
     let table_rate = table_columns::rate(log)?;
     let gaps = [("accumulated", Gaps::Accumulated), ("held", Gaps::Held)];
     let gaps = log.choice("gaps", &gaps)?;
     let temperature = temperature(log, folder, imu.time.as_ref())?;
-    Ok(ColumnSpec { table_angle, table_rate, temperature, gaps, ..imu })
+    Ok(ColumnSpec { text, table_angle, table_rate, temperature, gaps, ..imu })
 }
 
 fn temperature(
@@ -347,7 +366,8 @@ fn temperature(
                 return Err(section.conflict("path", reason));
             };
             let column = column(&section, "time")?;
-            let time = TimeColumn { column, unit: TimeUnit::Seconds(unit), stamp: Stamp::End };
+            let unit = TimeUnit::Seconds(unit);
+            let time = TimeColumn { column, unit, split: None, stamp: Stamp::End };
             Some((folder.join(path), time))
         }
     };

@@ -1,5 +1,6 @@
 //! The place and format of a log.
 
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -54,6 +55,52 @@ pub enum Table {
     NovAtel,
 }
 
+/// The form of text logs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TextForm {
+    /// The decimal mark.
+    pub decimal: Decimal,
+    /// The number of lines before the header, or before the first row; `None` if a preamble is recognized.
+    pub skip: Option<u64>,
+}
+
+impl TextForm {
+    /// The form of a file that is not the log: decimals are written alike, but it has a preamble of its own.
+    pub(crate) fn of_another_file(self) -> Self {
+        Self { skip: None, ..self }
+    }
+}
+
+/// The decimal mark of numbers in text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Decimal {
+    /// A point.
+    #[default]
+    Point,
+    /// A comma.
+    Comma,
+}
+
+impl Decimal {
+    /// A number in Rust's notation; the text itself if it has another decimal mark, as times of day may have.
+    pub(crate) fn plain(self, text: &str) -> Cow<'_, str> {
+        match self {
+            Self::Comma if text.contains(',') && !text.contains('.') => {
+                text.replace(',', ".").into()
+            }
+            _ => text.into(),
+        }
+    }
+
+    /// The number in a text.
+    pub(crate) fn number(self, text: &str) -> Option<f64> {
+        match self {
+            Self::Comma if text.contains('.') => None,
+            _ => self.plain(text).parse().ok(),
+        }
+    }
+}
+
 /// The assignment of columns.
 ///
 /// A column is named by its header or, if there is none, by its number from "1"; in a MATLAB
@@ -62,6 +109,8 @@ pub enum Table {
 pub struct ColumnSpec {
     /// The format of the columns.
     pub table: Table,
+    /// The form of text.
+    pub text: TextForm,
     /// The time; without it, the sampling rate is the nominal rate.
     pub time: Option<TimeColumn>,
     /// The gyros.
@@ -83,12 +132,34 @@ pub struct ColumnSpec {
 /// The time column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeColumn {
-    /// Its name.
+    /// Its name; that of the first column, if the time is in two.
     pub column: String,
-    /// Its unit.
+    /// Its unit; seconds, if the time is in two columns.
     pub unit: TimeUnit,
+    /// The second column of a time in two columns.
+    pub split: Option<SplitTime>,
     /// The instant of a sample's interval that it refers to.
     pub stamp: Stamp,
+}
+
+/// The second of the two columns whose sum is the time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SplitTime {
+    /// The unit of the first column.
+    pub coarse: Coarse,
+    /// The name of the second column.
+    pub column: String,
+    /// The number of units of the second column in a second.
+    pub per_second: i64,
+}
+
+/// The unit of the first of the two columns of a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coarse {
+    /// This number of seconds, of which the column has whole numbers.
+    Seconds(i64),
+    /// The day of a date in text.
+    Date,
 }
 
 /// The clock of a file that was not sampled together with the gyros' file.

@@ -21,8 +21,9 @@ use rins_motion::Station;
 pub use axes::Axes;
 pub(crate) use log_keys::KEYS as LOG_KEYS;
 pub use log_spec::{
-    AngleColumn, ColumnSpec, Gaps, LogFormat, LogSpec, OwnClock, Reading, RowFilter, ScaledColumn,
-    Stamp, Table, TemperatureColumn, TimeColumn, TimeUnit, TriadColumns,
+    AngleColumn, Coarse, ColumnSpec, Decimal, Gaps, LogFormat, LogSpec, OwnClock, Reading,
+    RowFilter, ScaledColumn, SplitTime, Stamp, Table, TemperatureColumn, TextForm, TimeColumn,
+    TimeUnit, TriadColumns,
 };
 pub(crate) use novatel::of_type as novatel_imu;
 pub use place::InitialAttitude;

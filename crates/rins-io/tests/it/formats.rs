@@ -122,18 +122,31 @@ fn novatel_messages_are_read() {
     is_the_run(&load(by_hand, "novatel.asc").unwrap(), 3e-8);
 }
 
+/// One message whose checksum fails is a lost sample; several are refused.
+#[test]
+fn novatel_messages_with_wrong_checksums_are_lost_samples() {
+    let log = "format = \"novatel\"\nimu = \"HG1700-AG58\"\n";
+    let mut bytes = data("novatel.asc");
+    let good = load_bytes(log, "novatel.asc", &bytes).unwrap();
+    let place = bytes.len() - 20;
+    bytes[place] ^= 1;
+    let loaded = load_bytes(log, "novatel.asc", &bytes).unwrap();
+    assert_eq!(loaded.recording.len() + 1, good.recording.len());
+    assert_eq!(loaded.recording.times[..], good.recording.times[..loaded.recording.len()]);
+    let messages = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'*');
+    let (second, _) = messages.map(|(place, byte)| (place - 3, *byte)).nth(9).unwrap();
+    bytes[second] ^= 1;
+    let refused = load_bytes(log, "novatel.asc", &bytes).unwrap_err();
+    assert!(refused.contains("the checksum is") && refused.contains("2 of 24 rows"), "{refused}");
+}
+
 #[test]
 fn novatel_log_of_an_unknown_imu_is_refused() {
     let refused = load("format = \"novatel\"\nimu = \"HG1700\"\n", "novatel.asc").unwrap_err();
     assert!(refused.starts_with("rig.toml:9: [log] imu: \"HG1700\" is not allowed"), "{refused}");
     let refused = load("format = \"novatel\"\n", "novatel.asc").unwrap_err();
     assert!(refused.contains("[log] imu: missing, expected the IMU's model"), "{refused}");
-    let mut bytes = data("novatel.asc");
-    let place = bytes.len() - 20;
-    bytes[place] ^= 1;
     let log = "format = \"novatel\"\nimu = \"HG1700-AG58\"\n";
-    let refused = load_bytes(log, "novatel.asc", &bytes).unwrap_err();
-    assert!(refused.contains("novatel.asc:25: ") && refused.contains("checksum"), "{refused}");
     let refused = load_bytes(log, "novatel.asc", b"$GPGGA,1,2\n").unwrap_err();
     assert!(refused.starts_with("novatel.asc: no RAWIMUA"), "{refused}");
 }
@@ -224,8 +237,11 @@ fn parquet_columns_that_are_no_numbers_are_refused() {
     assert_eq!(text, "snappy.parquet: column \"word\" is BYTE_ARRAY, expected one number per row");
     let list = refused("\"gy\"", "\"list.list.element\"");
     assert!(list.contains("expected one number per row"), "{list}");
-    let hole = refused("\"gy\"", "\"hole\"");
-    assert_eq!(hole, "snappy.parquet:10: column \"hole\": empty, expected a number");
+    // A missing number is a lost sample.
+    let log = format!("{PARQUET}temperature = {{ column = \"hole\", unit = \"degC\" }}\n");
+    let hole = load(&log, "snappy.parquet").unwrap();
+    assert_eq!(hole.recording.temperature, Some(vec![1.0; 23]));
+    assert_eq!(hole.summary.left_out[0].line, 10);
     let missing = refused("\"gy\"", "\"gyy\"");
     assert!(missing.contains("no column \"gyy\"; the columns are \"t\", \"gx\""), "{missing}");
     let packed = load(PARQUET, "zstd.parquet").unwrap_err();
@@ -327,8 +343,9 @@ fn separators_and_units_on_lines_of_their_own_are_understood() {
         let loaded = load_bytes(log, "run.csv", text.as_bytes()).unwrap();
         assert_eq!(loaded.recording.len(), 12, "{separator}");
     }
-    // A row of words between numbers is an error, not a row of units.
+    // A row of words between numbers is a damaged row, not a row of units.
     let late = text.replacen("\n0.02|2|2", "\ns|x|y", 1);
-    let refused = load_bytes(log, "run.csv", late.as_bytes()).unwrap_err();
-    assert!(refused.starts_with("run.csv:5: column \"t\": \"s\" is not a number"), "{refused}");
+    let loaded = load_bytes(log, "run.csv", late.as_bytes()).unwrap();
+    assert_eq!(loaded.recording.len(), 11);
+    assert_eq!(loaded.summary.left_out[0].reason, rins_io::Omission::Damaged);
 }

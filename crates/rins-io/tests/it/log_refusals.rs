@@ -1,9 +1,11 @@
 //! Refused logs, with their error messages.
 
-use rins_io::{LogPolicy, Rig, read_log};
+use rins_io::{LogPolicy, Omission, Rig, read_log};
 use rins_testing::{assert_rows, is};
 
-use crate::support::{RIG, folder, log, plain_rig, refusal, replaced, with_line, without};
+use crate::support::{
+    RIG, folder, log, plain_rig, read_files, refusal, replaced, with_line, without,
+};
 
 /// Asserts that this log with this rig is refused with this message.
 fn check(rig: &str, log: impl AsRef<[u8]>, message: &str) {
@@ -14,28 +16,52 @@ fn said(rig: &str, log: impl AsRef<[u8]>) -> String {
     refusal(&[("rig.toml", rig.as_bytes()), ("run.csv", log.as_ref())])
 }
 
+/// A row that cannot be read, and the problem.
+#[rustfmt::skip]
+const DAMAGED: &[(&str, &str)] = &[
+    ("0.32,abc,1e-6,1e-6,0.1,0.2,9.8,16", "column \"gx\": \"abc\" is not a number"),
+    ("0.32,,1e-6,1e-6,0.1,0.2,9.8,16", "column \"gx\": empty, expected a number"),
+    ("0.32,nan,1e-6,1e-6,0.1,0.2,9.8,16", "column \"gx\": \"nan\" is not finite"),
+    ("0.32,1e-6,1e-6,-inf,0.1,0.2,9.8,16", "column \"gz\": \"-inf\" is not finite"),
+    ("0.32,1e-6,1e-6,1e999,0.1,0.2,9.8,16", "column \"gz\": \"1e999\" is not finite"),
+    ("0.32,1e-6,1e-6,0x10,0.1,0.2,9.8,16", "column \"gz\": \"0x10\" is not a number"),
+    ("0.32,1e-6,1e-6,1e-6,0.1,0.2,NaN,16", "column \"az\": \"NaN\" is not finite"),
+    ("0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,off", "column \"table\": \"off\" is not a number"),
+    ("nan,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "column \"t\": \"nan\" is not finite"),
+    ("12:00:00,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "column \"t\": \"12:00:00\" is not a number"),
+    ("0.32,\"1,5\",1e-6,1e-6,0.1,0.2,9.8,16", "column \"gx\": \"1,5\" is not a number; if commas are decimal marks, state decimal = \",\" in [log]"),
+    ("0.32,1e-6,1e-6", "3 fields, expected 8; is the line cut short?"),
+    ("0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,16,7,7", "10 fields, expected 8"),
+    ("0.32;1e-6;1e-6;1e-6;0.1;0.2;9.8;16", "column \"t\": \"0.32;1e-6;1e-6;1e-6;0.1;0.2;9.8;16\" is not a number"),
+    ("0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,\"16", "a quotation mark is not closed"),
+    ("0.32,\0,1e-6,1e-6,0.1,0.2,9.8,16", "not UTF-8 text; is it binary or UTF-16?"),
+    ("0.80,1e-6", "2 fields, expected 8; is the line cut short?"),
+    ("0.80,1e-6,1e-6,1e-6,0.1,0.2,9.8,", "column \"table\": empty, expected a number"),
+];
+
+/// One such row is a lost sample; two of forty are refused.
+#[test]
+fn one_damaged_row_is_a_lost_sample() {
+    let right = log(40);
+    assert_rows(DAMAGED.iter().map(|(text, problem)| {
+        let one = with_line(&right, 17, text);
+        let loaded = read_files(&[("rig.toml", RIG.as_bytes()), ("run.csv", one.as_bytes())]);
+        let left_out = loaded.map(|loaded| (loaded.recording.len(), loaded.summary.left_out));
+        let left_out = left_out.map(|(rows, out)| (rows, out[0].line, out[0].reason, out.len()));
+        let fault = match left_out {
+            Ok(found) => is(&found, &(39, 17, Omission::Damaged, 1)),
+            Err(error) => Err(error.to_string()),
+        };
+        let said = said(RIG, with_line(&one, 19, text));
+        let message =
+            format!("run.csv:17: {problem}; 2 of 40 rows are damaged, more than one in a hundred");
+        (format!("{text:?}"), fault.and(is(said.as_str(), message.as_str())))
+    }));
+}
+
 /// The number of a line in a log of 40 rows, its replacement, and the message.
 #[rustfmt::skip]
 const LINES: &[(usize, &str, &str)] = &[
-    // Fields.
-    (17, "0.32,abc,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": \"abc\" is not a number"),
-    (17, "0.32,,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": empty, expected a number"),
-    (17, "0.32,nan,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": \"nan\" is not finite"),
-    (17, "0.32,1e-6,1e-6,-inf,0.1,0.2,9.8,16", "run.csv:17: column \"gz\": \"-inf\" is not finite"),
-    (17, "0.32,1e-6,1e-6,1e999,0.1,0.2,9.8,16", "run.csv:17: column \"gz\": \"1e999\" is not finite"),
-    (17, "0.32,1e-6,1e-6,0x10,0.1,0.2,9.8,16", "run.csv:17: column \"gz\": \"0x10\" is not a number"),
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,NaN,16", "run.csv:17: column \"az\": \"NaN\" is not finite"),
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,off", "run.csv:17: column \"table\": \"off\" is not a number"),
-    (17, "nan,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"t\": \"nan\" is not finite"),
-    (17, "12:00:00,1e-6,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"t\": \"12:00:00\" is not a number"),
-    (17, "0.32,\"1,5\",1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: column \"gx\": \"1,5\" is not a number; write decimals with a point"),
-    (17, "0.32,1e-6,1e-6", "run.csv:17: 3 fields, expected 8; is the line cut short?"),
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,16,7,7", "run.csv:17: 10 fields, expected 8"),
-    (17, "0.32;1e-6;1e-6;1e-6;0.1;0.2;9.8;16", "run.csv:17: column \"t\": \"0.32;1e-6;1e-6;1e-6;0.1;0.2;9.8;16\" is not a number"),
-    (17, "0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,\"16", "run.csv:17: a quotation mark is not closed"),
-    (17, "0.32,\0,1e-6,1e-6,0.1,0.2,9.8,16", "run.csv:17: not UTF-8 text; is it binary or UTF-16?"),
-    (41, "0.80,1e-6", "run.csv:41: 2 fields, expected 8; is the line cut short?"),
-    (41, "0.80,1e-6,1e-6,1e-6,0.1,0.2,9.8,", "run.csv:41: column \"table\": empty, expected a number"),
     // The header.
     (1, "t,gx,gy,wz,ax,ay,az,table", "run.csv:1: no column \"gz\"; the columns are \"t\", \"gx\", \"gy\", \"wz\", \"ax\", \"ay\", \"az\", \"table\"; did you mean \"gx\"?"),
     (1, "time,a,b,c,d,e,f,g", "run.csv:1: no column \"gx\"; the columns are \"time\", \"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\""),
@@ -250,7 +276,10 @@ fn temperatures_must_cover_the_log() {
         files("t,T\n0.01,20\n0.6,-999\n"),
         "t.csv:3: column \"T\": -9.99e2 degC is not plausible; check this line and the unit"
     );
-    assert_eq!(files("t,T\n0.5,20\n0.6,warm\n"), "t.csv:3: column \"T\": \"warm\" is not a number");
+    assert_eq!(
+        files("t,T\n0.5,cold\n0.6,warm\n"),
+        "t.csv:2: column \"T\": \"cold\" is not a number; 2 of 2 rows are damaged, more than one in a hundred"
+    );
 }
 
 #[test]
@@ -291,10 +320,26 @@ const PSINS_CASES: &[(&str, &str, &str)] = &[
         "0 0 -90.6 0 0",
         "laser.imu:3: 5 fields, expected 6; is the line cut short?",
     ),
-    ("4 5 6 0 0 80", "4 5 x 0 0 80", "laser.imu:7: column \"gyro z\": \"x\" is not a number"),
-    ("4 5 6 0 0 80", "4 5 6 0 0 inf", "laser.imu:7: column \"accel z\": \"inf\" is not finite"),
-    ("4 5 6 0 0 80", "4 5 6 0 0", "laser.imu:7: 5 fields, expected 6; is the line cut short?"),
-    ("4 5 6 0 0 80", "4 5 6 0 0 80 9", "laser.imu:7: 7 fields, expected 6"),
+    (
+        "1 2 3 0 0 80\n4 5 6 0 0 80",
+        "1 2 x 0 0 80\n4 5 x 0 0 80",
+        "laser.imu:6: column \"gyro z\": \"x\" is not a number; 2 of 2 rows are damaged, more than one in a hundred",
+    ),
+    (
+        "1 2 3 0 0 80\n4 5 6 0 0 80",
+        "1 2 3 0 0 inf\n4 5 6 0 0 inf",
+        "laser.imu:6: column \"accel z\": \"inf\" is not finite; 2 of 2 rows are damaged, more than one in a hundred",
+    ),
+    (
+        "1 2 3 0 0 80\n4 5 6 0 0 80",
+        "1 2 3 0 0\n4 5 6 0 0",
+        "laser.imu:6: 5 fields, expected 6; is the line cut short?; 2 of 2 rows are damaged, more than one in a hundred",
+    ),
+    (
+        "1 2 3 0 0 80\n4 5 6 0 0 80",
+        "1 2 3 0 0 80 9\n4 5 6 0 0 80 9",
+        "laser.imu:6: 7 fields, expected 6; 2 of 2 rows are damaged, more than one in a hundred",
+    ),
 ];
 
 const PSINS: &str = "% PSINS\n\n0 0 -90.6 0 0 0\n34.2 108.9 380 0 10 9.78\n\

@@ -106,7 +106,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("height = \"400 m\"", "height = true", "rig.toml:5: [site] height: true is a flag, expected a height such as \"400 m\""),
     ("height = \"400 m\"", "height = 1979-05-27", "rig.toml:5: [site] height: 1979-05-27 is a date, expected a height such as \"400 m\""),
     ("height = \"400 m\"", "height = [\"400 m\"]", "rig.toml:5: [site] height: a list, expected a height such as \"400 m\""),
-    ("time = { column = \"t\", unit = \"s\" }", "time = \"t\"", "rig.toml:10: [log] time: \"t\" is a text, expected a table with the keys column, unit, stamp"),
+    ("time = { column = \"t\", unit = \"s\" }", "time = \"t\"", "rig.toml:10: [log] time: \"t\" is a text, expected a table with the keys column, columns, unit, stamp"),
     ("[\"gx\", \"gy\", \"gz\"]", "[\"gx\", \"gy\"]", "rig.toml:11: [log] gyro.columns: a list of 2, expected three columns such as [\"x\", \"y\", \"z\"]"),
     ("[\"gx\", \"gy\", \"gz\"]", "[1, 2, 3]", "rig.toml:11: [log] gyro.columns: 1 is a bare number, expected three columns such as [\"x\", \"y\", \"z\"]"),
     ("[\"gx\", \"gy\", \"gz\"]", "\"gx\"", "rig.toml:11: [log] gyro.columns: \"gx\" is a text, expected three columns such as [\"x\", \"y\", \"z\"]"),

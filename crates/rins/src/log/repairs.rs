@@ -60,7 +60,7 @@ pub(crate) fn repairs(rig: &Rig, summary: &LogSummary) -> Vec<String> {
         ));
     }
     if !has_time(rig) {
-        told.push("no time column: samples are taken to follow each other without a gap".into());
+        told.push("no time column: rows are taken to follow each other without a gap".into());
     }
     told
 }
@@ -105,6 +105,10 @@ fn left_out(summary: &LogSummary, folder: Option<&Path>) -> Vec<String> {
                 "{path}: {count} line(s), from {} on, have zero in all six readings: they are lost samples and are left out",
                 first.line
             ),
+            Omission::Damaged => format!(
+                "{path}: {count} line(s), from {} on, are damaged here or in another file: they are lost samples and are left out",
+                first.line
+            ),
             Omission::Unfinished => format!(
                 "{path}:{}: the last line has no line end and is left out: it may be cut short",
                 first.line
@@ -128,7 +132,7 @@ fn gaps(rig: &Rig, summary: &LogSummary) -> Option<String> {
         LogFormat::Psins => false,
         _ => true,
     };
-    let over = if rates {
+    let over = if rates || gaps.iter().all(|gap| gap.damaged) {
         "the mean rate of the sample after each is held over it"
     } else {
         "the increment after each is taken to cover it"

@@ -4,7 +4,8 @@ use super::files::Spoil;
 use super::files::Spoil::{
     All, Column, Content, Field, Folder, Line, Lines, Nothing, Replace, Without,
 };
-use super::{DATA, Row, refused};
+use super::{DATA, Row, files, refused};
+use crate::support::rins_in;
 
 const LOG: &str = "run.csv";
 const CHECK: &str = "check rig.toml";
@@ -19,8 +20,8 @@ const FILE: &[Row] = &[
     ("blank lines", CHECK, Content(LOG, b"\n\n \n"), &["run.csv: ", "empty"]),
     ("only a header", CHECK, Lines(LOG, 1), &["run.csv: only a header, no samples"]),
     ("one sample", CHECK, Lines(LOG, 2), &["run.csv: 1 sample, at least 2 are needed"]),
-    ("not UTF-8", CHECK, Line(LOG, 5, b"\xff\xfe,1,2,3,4,5,6,7"), &["run.csv:5: not UTF-8 text"]),
-    ("zero bytes", CHECK, Line(LOG, 5, b"0.4,\0\0\0,2,3,4,5,6,7"), &["run.csv:5: not UTF-8 text"]),
+    ("not UTF-8", CHECK, Line(LOG, 1, b"\xff\xfe,1,2,3,4,5,6,7"), &["run.csv:2: not UTF-8 text"]),
+    ("zero bytes", CHECK, Line(LOG, 1, b"0.4,\0\0\0,2,3,4,5,6,7"), &["run.csv:2: not UTF-8 text"]),
     (
         "UTF-16",
         CHECK,
@@ -46,7 +47,7 @@ const DRAFTED: &[Row] = &[
     ("no file", "init no.csv", Nothing, &["cannot read no.csv", "No such file"]),
     ("a folder", "init run.csv", Folder(LOG), &["cannot read run.csv", "directory"]),
     ("empty", "init run.csv", Content(LOG, b""), &["run.csv: ", "empty"]),
-    ("not UTF-8", "init run.csv", Line(LOG, 5, b"\xff\xfe,1"), &["run.csv:5: not UTF-8 text"]),
+    ("not UTF-8", "init run.csv", Line(LOG, 1, b"\xff\xfe,1"), &["run.csv:2: not UTF-8 text"]),
 ];
 
 /// The text of a rig that states only that its log has the format of PSINS.
@@ -75,34 +76,60 @@ const PSINS: &[Row] = &[
     (
         "a word",
         CHECK,
-        All(&[PSINS_RIG, Content(LOG, b"0 0 0 0 0 0\n34.2 108.9 400 0 10 9.8\n.1 .1 .1 1 1 1\n1 2 3 4 5 6\n1 two 3 4 5 6\n")]),
-        &["run.csv:5:", "\"two\" is not a number"],
+        All(&[PSINS_RIG, Content(LOG, b"0 0 0 0 0 0\n34.2 108.9 400 0 10 9.8\n.1 .1 .1 1 1 1\n1 two 3 4 5 6\n1 two 3 4 5 7\n")]),
+        &["run.csv:4:", "\"two\" is not a number"],
     ),
 ];
 
-/// Single lines.
+/// A damaged line: its name, the command, and the damage.
+#[rustfmt::skip]
+const DAMAGED: &[(&str, &str, Spoil)] = &[
+    ("text in a number", CHECK, Field(9, "gyro_y", "1.2.3")),
+    ("a word", NAVIGATE, Field(9, "accel_z", "error")),
+    ("hexadecimal", CHECK, Field(9, "gyro_y", "0x1f")),
+    ("nothing in a number", CHECK, Field(9, "gyro_y", "")),
+    ("NaN", CALIBRATE, Field(100, "gyro_z", "nan")),
+    ("NaN of the table", CALIBRATE, Field(100, "table_angle", "NaN")),
+    ("infinity", CALIBRATE, Field(100, "accel_x", "inf")),
+    ("minus infinity", NAVIGATE, Field(100, "accel_x", "-Infinity")),
+    ("1e400", ALIGN, Field(100, "accel_x", "1e400")),
+    ("NaN as a time", CHECK, Field(7, "time", "nan")),
+    ("a line is cut", CHECK, Line(LOG, 1601, b"50,1,2,3,4")),
+    ("the last number is cut", CHECK, Replace(LOG, "e0\n", "e\n")),
+    ("a field too many", CHECK, Line(LOG, 4, b"0.3,1,2,3,4,5,6,7,8")),
+    ("an open quotation mark", CHECK, Field(6, "time", "\"0.5")),
+    ("not UTF-8", CHECK, Line(LOG, 5, b"\xff\xfe,1,2,3,4,5,6,7")),
+    ("zero bytes", CALIBRATE, Line(LOG, 5, b"0.4,\0\0\0,2,3,4,5,6,7")),
+];
+
+/// One damaged line is a lost sample for every command, and its result states it.
+#[test]
+fn one_damaged_line_is_a_lost_sample() {
+    for (name, arguments, spoil) in DAMAGED {
+        let folder = files::Folder::new();
+        folder.spoil(spoil);
+        let finished = rins_in(folder.path(), &format!("{arguments} -o out --json"));
+        assert_eq!((finished.code, finished.err.as_str()), (Some(0), ""), "{name}");
+        assert!(finished.out.contains("1 line(s), from "), "{name}: {}", finished.out);
+        assert!(finished.out.contains("are damaged"), "{name}: {}", finished.out);
+    }
+}
+
+/// Lines that are all alike.
 const LINES: &[Row] = &[
-    ("text in a number", CHECK, Field(9, "gyro_y", "1.2.3"), &["run.csv:9: column \"gyro_y\": \"1.2.3\" is not a number"]),
-    ("a word", NAVIGATE, Field(9, "accel_z", "error"), &["run.csv:9: column \"accel_z\": \"error\" is not a number"]),
-    ("hexadecimal", CHECK, Field(9, "gyro_y", "0x1f"), &["run.csv:9: column \"gyro_y\": \"0x1f\" is not a number"]),
-    ("nothing in a number", CHECK, Field(9, "gyro_y", ""), &["run.csv:9: column \"gyro_y\": empty, expected a number"]),
-    ("NaN", CALIBRATE, Field(100, "gyro_z", "nan"), &["run.csv:100: column \"gyro_z\": \"nan\" is not finite"]),
-    ("NaN of the table", CALIBRATE, Field(100, "table_angle", "NaN"), &["run.csv:100: column \"table_angle\": \"NaN\" is not finite"]),
-    ("infinity", CALIBRATE, Field(100, "accel_x", "inf"), &["run.csv:100: column \"accel_x\": \"inf\" is not finite"]),
-    ("minus infinity", NAVIGATE, Field(100, "accel_x", "-Infinity"), &["run.csv:100: column \"accel_x\": \"-Infinity\" is not finite"]),
-    ("1e400", ALIGN, Field(100, "accel_x", "1e400"), &["run.csv:100: column \"accel_x\": \"1e400\" is not finite"]),
-    ("NaN as a time", CHECK, Field(7, "time", "nan"), &["run.csv:7: column \"time\": \"nan\""]),
-    ("a line is cut", CHECK, Line(LOG, 1601, b"50,1,2,3,4"), &["run.csv:1601: 5 fields, expected 8; is the line cut short?"]),
-    ("the last number is cut", CHECK, Replace(LOG, "e0\n", "e\n"), &["run.csv:{line}: column \"table_angle\":", "is not a number"]),
-    ("a field too many", CHECK, Line(LOG, 4, b"0.3,1,2,3,4,5,6,7,8"), &["run.csv:4: 9 fields, expected 8"]),
-    ("an open quotation mark", CHECK, Field(6, "time", "\"0.5"), &["run.csv:6:"]),
+    (
+        "a column of words",
+        CHECK,
+        Column("gyro_y", "x"),
+        &["run.csv:2: column \"gyro_y\": \"x\" is not a number; ", "rows are damaged, more than one in a hundred"],
+    ),
     (
         "decimal commas",
         CHECK,
         All(&[
             Content(LOG, b"time;gyro_x;gyro_y;gyro_z;accel_x;accel_y;accel_z;table_angle\n0,1;1,5;2;3;4;5;6;7\n0,2;1;2;3;4;5;6;7\n"),
         ]),
-        &["run.csv:2: column", "is not a number; write decimals with a point"],
+        &["run.csv:2: column", "is not a number; if commas are decimal marks, state decimal = \",\" in [log]"],
     ),
 ];
 

@@ -4,7 +4,7 @@ use super::rows::RowLines;
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
-use crate::rig::RowFilter;
+use crate::rig::{RowFilter, SplitTime, TextForm, TimeColumn};
 use crate::section::quoted;
 use crate::suggestion::nearest;
 
@@ -34,6 +34,8 @@ pub(in crate::log) struct Columns {
     pub(in crate::log) lines: RowLines,
     /// The omitted lines.
     pub(in crate::log) left_out: Vec<(u64, Omission)>,
+    /// The lines of damaged rows, which are among the omitted ones.
+    pub(in crate::log) damaged: Vec<u64>,
 }
 
 impl Columns {
@@ -47,18 +49,42 @@ impl Columns {
         self.leave_out(&empty, Omission::Empty);
     }
 
-    /// Removes the rows that are marked.
+    /// Adds damaged rows, which are not among the numbers.
+    pub(in crate::log) fn add_damaged(&mut self, lines: Vec<u64>) {
+        self.left_out.extend(lines.iter().map(|&line| (line, Omission::Damaged)));
+        self.damaged.extend(lines);
+        self.damaged.sort_unstable();
+    }
+
+    /// Removes the rows that are marked, because the same samples are damaged elsewhere.
+    pub(in crate::log) fn leave_out_damaged(&mut self, marked: &[bool]) {
+        let rows = marked.iter().enumerate().filter(|(_, marked)| **marked);
+        let lines = rows.map(|(row, _)| self.lines.of(row)).collect();
+        self.remove(marked);
+        self.add_damaged(lines);
+    }
+
+    /// The place of each row among all rows, with the damaged ones.
+    pub(in crate::log) fn places(&self) -> impl Iterator<Item = usize> {
+        self.lines.places(&self.damaged)
+    }
+
+    /// Removes the rows that are marked, for this reason.
     pub(super) fn leave_out(&mut self, marked: &[bool], reason: Omission) {
+        let rows = marked.iter().enumerate().filter(|(_, marked)| **marked);
+        let lines: Vec<_> = rows.map(|(row, _)| (self.lines.of(row), reason)).collect();
+        self.left_out.extend(lines);
+        self.remove(marked);
+    }
+
+    /// Removes the rows that are marked.
+    pub(super) fn remove(&mut self, marked: &[bool]) {
         if !marked.contains(&true) {
             return;
         }
         let mut lines = RowLines::default();
-        for (row, marked) in marked.iter().enumerate() {
-            match marked {
-                true => self.left_out.push((self.lines.of(row), reason)),
-                false => lines.push(self.lines.of(row)),
-            }
-        }
+        let kept = marked.iter().enumerate().filter(|(_, marked)| !**marked);
+        kept.for_each(|(row, _)| lines.push(self.lines.of(row)));
         self.lines = lines;
         for list in self.numbers.iter_mut().chain([&mut self.time]) {
             let mut marked = marked.iter();
@@ -70,9 +96,29 @@ impl Columns {
 /// The request: columns by name, and optionally a column of time stamps.
 pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) names: &'w [&'w str],
-    pub(in crate::log) time: Option<(&'w str, &'w mut Instants)>,
+    pub(in crate::log) time: Option<WantedTime<'w>>,
     /// The rows that are read, if not all are.
     pub(in crate::log) rows: Option<&'w RowFilter>,
+    /// The form of text.
+    pub(in crate::log) text: TextForm,
+}
+
+/// The requested column of time stamps, or the two columns whose sum they are.
+pub(in crate::log) struct WantedTime<'w> {
+    pub(in crate::log) column: &'w str,
+    pub(in crate::log) split: Option<&'w SplitTime>,
+    pub(in crate::log) instants: &'w mut Instants,
+}
+
+impl<'w> WantedTime<'w> {
+    pub(in crate::log) fn of(time: &'w TimeColumn, instants: &'w mut Instants) -> Self {
+        Self { column: &time.column, split: time.split.as_ref(), instants }
+    }
+
+    /// The names of its columns.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'w str> + use<'w> {
+        [self.column].into_iter().chain(self.split.map(|split| split.column.as_str()))
+    }
 }
 
 /// A counter of rows that equal the previous row.

@@ -3,7 +3,7 @@
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use super::columns::{Columns, MOST_ROWS, Repeated, Wanted};
+use super::columns::{Columns, MOST_ROWS, Repeated, Wanted, WantedTime};
 use super::typed;
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
@@ -20,7 +20,8 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
         super::columns::place(name, &present).map_err(|problem| LogError::of(path, problem))
     };
     let places = names.iter().map(|name| place(name)).collect::<Result<Vec<_>, _>>()?;
-    let time_place = time.as_ref().map(|(name, _)| place(name)).transpose()?;
+    // The format has one time column.
+    let time_place = time.as_ref().map(|time| place(time.column)).transpose()?;
     let mut numbers = vec![Vec::new(); names.len()];
     let mut stamps = Vec::new();
     let mut row = vec![0; count * size_of::<f64>()];
@@ -51,8 +52,8 @@ pub(super) fn read(path: &Path, count: usize, wanted: Wanted<'_>) -> Result<Colu
     if rows == 0 {
         return Err(LogError::of(path, LogProblem::Empty));
     }
-    let time = time.map(|(name, instants)| {
-        (name, stamps.into_iter().map(|stamp| instants.of_number(stamp)).collect())
+    let time = time.map(|WantedTime { column, instants, .. }| {
+        (column, stamps.into_iter().map(|stamp| instants.of_number(stamp)).collect())
     });
     typed::together(path, names, numbers, time)
 }

@@ -8,6 +8,7 @@ use crate::error::{IoError, LogError};
 use crate::log::fields::{Delimiter, Fields};
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
+use crate::rig::{Decimal, TextForm};
 
 /// The maximum number of lines of a preamble.
 const LONGEST_PREAMBLE: usize = 200;
@@ -34,7 +35,8 @@ pub struct LogHead {
 /// # Errors
 /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it is empty or not text.
 pub fn peek(path: &Path) -> Result<LogHead, IoError> {
-    let Head { delimiter, names, rows, .. } = Head::read(&mut Lines::open(path)?)?;
+    let Head { delimiter, names, rows, .. } =
+        Head::read(&mut Lines::open(path)?, TextForm::default())?;
     let fields = |(_, row): &(u64, String)| Fields::of(row, delimiter).map(String::from).collect();
     Ok(LogHead { delimiter, names, rows: rows.iter().take(2).map(fields).collect() })
 }
@@ -46,9 +48,18 @@ fn fields(text: &str, delimiter: Delimiter) -> Vec<String> {
     Fields::of(text, delimiter).map(String::from).collect()
 }
 
-/// Whether a field is not a number.
-fn is_word(field: &str) -> bool {
-    field.parse::<f64>().is_err()
+/// How the lines are divided into fields and numbers.
+#[derive(Clone, Copy, Debug)]
+struct Division {
+    delimiter: Delimiter,
+    decimal: Decimal,
+}
+
+impl Division {
+    /// Whether a field is not a number.
+    fn is_word(self, field: &str) -> bool {
+        self.decimal.number(field).is_none()
+    }
 }
 
 /// What the fields of a line have in common.
@@ -65,11 +76,11 @@ struct Shape {
 }
 
 impl Shape {
-    fn of(text: &str, delimiter: Delimiter) -> Self {
+    fn of(text: &str, division: Division) -> Self {
         let (mut count, mut words) = (0, 0);
         let (mut is_units, mut ends_empty) = (true, false);
-        for field in Fields::of(text, delimiter) {
-            let is_word = is_word(&field);
+        for field in Fields::of(text, division.delimiter) {
+            let is_word = division.is_word(&field);
             let is_malformed = field.starts_with(|l: char| l.is_ascii_digit() || "+-.".contains(l));
             count += 1;
             words += usize::from(is_word);
@@ -92,14 +103,16 @@ impl Shape {
 /// Lines that are read are appended to `begun`.
 fn preamble<R: BufRead>(
     begun: &mut Vec<Line>,
-    stated: Option<Delimiter>,
+    (stated, decimal): (Option<Delimiter>, Decimal),
     lines: &mut Lines<R>,
 ) -> Result<Option<usize>, IoError> {
-    let sniffed =
-        |first: &str, second: &str| stated.unwrap_or_else(|| Delimiter::sniff(first, Some(second)));
+    let divided = |first: &str, second: &str| {
+        let sniffed = || Delimiter::sniff(first, Some(second), decimal);
+        Division { delimiter: stated.unwrap_or_else(sniffed), decimal }
+    };
     let [(_, first), (_, second)] = &begun[..] else { return Ok(None) };
-    let delimiter = sniffed(first, second);
-    let (names, row) = (Shape::of(first, delimiter), Shape::of(second, delimiter));
+    let division = divided(first, second);
+    let (names, row) = (Shape::of(first, division), Shape::of(second, division));
     let is_below = row.count == names.count || row.ends_empty && row.count == names.count + 1;
     if is_below && !row.is_words {
         return Ok(None);
@@ -110,8 +123,8 @@ fn preamble<R: BufRead>(
         };
         begun.push(line);
         let Some(start) = begun.len().checked_sub(ROWS) else { continue };
-        let delimiter = sniffed(&begun[start].1, &begun[start + 1].1);
-        let shape = |(_, text): &Line| Shape::of(text, delimiter);
+        let division = divided(&begun[start].1, &begun[start + 1].1);
+        let shape = |(_, text): &Line| Shape::of(text, division);
         let rows: Vec<Shape> = begun[start..].iter().map(shape).collect();
         let count = rows[0].count;
         let are_rows = rows.iter().all(|row| row.count == count && !row.is_words);
@@ -134,8 +147,10 @@ fn preamble<R: BufRead>(
             Some(place) if is_header(place) => Some(place),
             _ => None,
         };
-        // Without a header, all lines above the rows are words.
-        return Ok(header.or_else(|| above.iter().all(|line| line.is_words).then_some(start)));
+        // Without a header, all lines above the rows are words, or a row whose beginning was not recorded is the only one.
+        let is_cut = || above.len() == 1 && above[0].count < count;
+        let is_start = || above.iter().all(|line| line.is_words) || is_cut();
+        return Ok(header.or_else(|| is_start().then_some(start)));
     }
     Ok(None)
 }
@@ -143,6 +158,7 @@ fn preamble<R: BufRead>(
 /// The first lines of a text log.
 pub(crate) struct Head {
     pub(crate) delimiter: Delimiter,
+    pub(crate) decimal: Decimal,
     /// The columns' names, if there are any.
     pub(crate) names: Option<Vec<String>>,
     /// The number of columns.
@@ -151,10 +167,14 @@ pub(crate) struct Head {
     pub(super) line: u64,
     /// The rows of numbers in these lines.
     pub(crate) rows: Vec<(u64, String)>,
+    /// The line and the problem of a first row whose beginning is missing.
+    pub(crate) cut: Option<(u64, LogProblem)>,
 }
 
 impl Head {
-    pub(crate) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Self, IoError> {
+    pub(crate) fn read<R: BufRead>(lines: &mut Lines<R>, form: TextForm) -> Result<Self, IoError> {
+        let TextForm { decimal, skip } = form;
+        lines.skip(skip.unwrap_or_default())?;
         let owned = |(line, text): (u64, &str)| (line, text.to_string());
         let empty = |lines: &Lines<R>| LogError::of(lines.path(), lines.emptiness());
         let mut opening = lines.next()?.map(owned).ok_or_else(|| empty(lines))?;
@@ -165,24 +185,37 @@ impl Head {
         let comment = lines.comment().map(str::to_string);
         let mut begun = vec![opening];
         begun.extend(lines.next()?.map(owned));
-        if let Some(begins) = preamble(&mut begun, stated, lines)? {
-            begun.drain(..begins);
+        let mut before = Vec::new();
+        if skip.is_none()
+            && let Some(begins) = preamble(&mut begun, (stated, decimal), lines)?
+        {
+            before.extend(begun.drain(..begins));
         }
-        Self::of(begun, stated, comment, lines)
+        let head = Self::of(begun, (stated, decimal), comment, lines)?;
+        let division = Division { delimiter: head.delimiter, decimal };
+        let cut = match &before[..] {
+            [(line, text)] if head.names.is_none() && !Shape::of(text, division).is_words => {
+                let got = Shape::of(text, division).count;
+                Some((*line, LogProblem::FieldCount { got, expected: head.count }))
+            }
+            _ => None,
+        };
+        Ok(Self { cut, ..head })
     }
 
     /// The head of a log that begins with these lines, without a preamble.
     fn of<R: BufRead>(
         begun: Vec<Line>,
-        stated: Option<Delimiter>,
+        (stated, decimal): (Option<Delimiter>, Decimal),
         comment: Option<String>,
         lines: &mut Lines<R>,
     ) -> Result<Self, IoError> {
         let mut begun = begun.into_iter();
         let (line, first) = begun.next().expect("the first line is there");
         let mut rest: Vec<Line> = begun.collect();
-        let delimiter = stated
-            .unwrap_or_else(|| Delimiter::sniff(&first, rest.first().map(|(_, text)| &text[..])));
+        let second = rest.first().map(|(_, text)| &text[..]);
+        let delimiter = stated.unwrap_or_else(|| Delimiter::sniff(&first, second, decimal));
+        let division = Division { delimiter, decimal };
         let fields = |text: &str| fields(text, delimiter);
         let opening = fields(&first);
         let count = opening.len();
@@ -190,22 +223,31 @@ impl Head {
             let problem = LogProblem::ManyColumns { most: MOST_COLUMNS };
             return Err(LogError::at(lines.path(), line, problem));
         }
-        if Shape::of(&first, delimiter).is_words {
-            let is_units = |(_, text): &Line| Shape::of(text, delimiter).is_units_of(count);
+        if Shape::of(&first, division).is_words {
+            let is_units = |(_, text): &Line| Shape::of(text, division).is_units_of(count);
             if rest.first().is_some_and(is_units) {
                 rest.remove(0);
                 if rest.is_empty() {
                     rest.extend(lines.next()?.map(|(line, text)| (line, text.to_string())));
                 }
             }
-            return Ok(Self { delimiter, names: Some(opening), count, line, rows: rest });
+            return Ok(Self {
+                delimiter,
+                decimal,
+                names: Some(opening),
+                count,
+                line,
+                rows: rest,
+                cut: None,
+            });
         }
         // Array libraries write the names in a comment.
         let names = comment.map(|text| fields(&text));
-        let names =
-            names.filter(|names| names.len() == count && names.iter().all(|name| is_word(name)));
+        let names = names.filter(|names| {
+            names.len() == count && names.iter().all(|name| division.is_word(name))
+        });
         rest.insert(0, (line, first));
-        Ok(Self { delimiter, names, count, line, rows: rest })
+        Ok(Self { delimiter, decimal, names, count, line, rows: rest, cut: None })
     }
 
     /// The first name in a line of names that is not a comment.

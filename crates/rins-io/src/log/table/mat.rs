@@ -11,8 +11,8 @@ use std::path::Path;
 use flate2::read::ZlibDecoder;
 
 use self::element::{Elements, Matrix};
-use super::columns::{Columns, MOST_COLUMNS, Wanted, place};
-use super::typed::{Numbers, most_rows, together};
+use super::columns::{Columns, MOST_COLUMNS, Wanted, WantedTime, place};
+use super::typed::{Numbers, most_rows, stamps, together};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::source;
@@ -32,12 +32,10 @@ const COMPRESSED: u32 = 15;
 pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> {
     let Wanted { names, time, .. } = wanted;
     let asked: Vec<&str> =
-        names.iter().copied().chain(time.as_ref().map(|(name, _)| *name)).collect();
+        names.iter().copied().chain(time.iter().flat_map(WantedTime::names)).collect();
     let mut found = found(path, &asked)?;
     let mut lists = found.lists(&asked).map_err(|problem| LogError::of(path, problem))?;
-    let stamps = time.map(|(name, instants)| {
-        (name, lists.pop().map_or_else(Vec::new, |list| list.stamps(instants)))
-    });
+    let stamps = time.map(|time| stamps(path, time, &mut lists)).transpose()?;
     together(path, names, lists.into_iter().map(Numbers::plain).collect(), stamps)
 }
 

@@ -14,7 +14,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 pub(crate) use self::columns::MOST_COLUMNS;
-pub(super) use self::columns::{Columns, MOST_ROWS, Wanted};
+pub(super) use self::columns::{Columns, MOST_ROWS, Wanted, WantedTime};
 use self::text::Header;
 pub(crate) use head::Head;
 pub use head::{LogHead, peek};
@@ -25,7 +25,7 @@ pub(crate) use typed::most_rows;
 use super::container::{MATLAB, PARQUET};
 use super::problem::LogProblem;
 use crate::error::{IoError, LogError};
-use crate::rig::Table;
+use crate::rig::{Table, TextForm};
 use crate::source;
 
 /// All columns of numbers of a binary file.
@@ -51,7 +51,11 @@ pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
         _ => return Ok(None),
     };
     let asked: Vec<&str> = names.iter().map(String::as_str).collect();
-    let columns = read(path, table, Wanted { names: &asked, time: None, rows: None })?;
+    let columns = read(
+        path,
+        table,
+        Wanted { names: &asked, time: None, rows: None, text: TextForm::default() },
+    )?;
     Ok(Some(BinaryColumns { format, names, numbers: columns.numbers }))
 }
 
@@ -64,7 +68,7 @@ const LATEST: f64 = 1e12;
 /// [`IoError::File`] if it cannot be read, [`IoError::Log`] if it does not have this format, if
 /// a column does not exist, or if one contains anything but finite numbers.
 pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Columns, IoError> {
-    let time = wanted.time.as_ref().map(|(name, _)| *name);
+    let time = wanted.time.as_ref().map(|time| time.column);
     let columns = match table {
         Table::Text => text::read(path, Header::Allowed, wanted),
         Table::Numbers => text::read(path, Header::Refused, wanted),

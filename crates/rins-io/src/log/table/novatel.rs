@@ -8,6 +8,7 @@ use std::path::Path;
 
 use super::columns::{Columns, MOST_ROWS, Repeated, Wanted, place};
 use crate::error::{IoError, LogError};
+use crate::log::damage::Damage;
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
 use crate::log::summary::Omission;
@@ -39,34 +40,50 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     let mut any = false;
     let mut before = String::new();
     let mut repeated = Repeated::default();
+    let mut damage = Damage::default();
     while let Some((line, text)) = lines.next()? {
         any = true;
-        let refuse = |problem| LogError::at(path, line, problem);
-        let Some(message) = Message::of(text.trim_end()).map_err(refuse)? else { continue };
+        let refuse_at = |(line, problem)| LogError::at(path, line, problem);
+        let message = match Message::of(text.trim_end()) {
+            Ok(Some(message)) => message,
+            Ok(None) => continue,
+            Err(problem) => {
+                damage.note(line, problem, MOST_ROWS).map_err(refuse_at)?;
+                continue;
+            }
+        };
         let is_same = message.body == before;
-        repeated
-            .count(line, is_same)
-            .map_err(|(line, problem)| LogError::at(path, line, problem))?;
+        repeated.count(line, is_same).map_err(refuse_at)?;
         if is_same {
             columns.left_out.push((line, Omission::Repeated));
             continue;
         }
         before.clear();
         before.push_str(message.body);
-        let (counts, week, seconds) = message.fields().map_err(refuse)?;
-        if let Some((_, instants)) = &mut time {
-            let stamp = instants.of_sum(week * SECONDS_OF_A_WEEK, seconds);
+        let read = message.fields().and_then(|(counts, week, seconds)| {
+            let Some(time) = &mut time else { return Ok((counts, None)) };
+            let stamp = time.instants.of_sum(week * SECONDS_OF_A_WEEK, seconds, 1);
             let stamp = stamp.filter(|stamp| stamp.is_finite());
-            columns.time.push(stamp.ok_or_else(|| refuse(not_a_number("seconds", seconds)))?);
-        }
+            Ok((counts, Some(stamp.ok_or_else(|| not_a_number("seconds", seconds))?)))
+        });
+        let (counts, stamp) = match read {
+            Ok(read) => read,
+            Err(problem) => {
+                damage.note(line, problem, MOST_ROWS).map_err(refuse_at)?;
+                continue;
+            }
+        };
+        columns.time.extend(stamp);
         for (list, &place) in columns.numbers.iter_mut().zip(&places) {
             list.push(counts[place]);
         }
         if columns.lines.len() as u64 >= MOST_ROWS {
-            return Err(refuse(LogProblem::ManyRows { most: MOST_ROWS }));
+            return Err(refuse_at((line, LogProblem::ManyRows { most: MOST_ROWS })));
         }
         columns.lines.push(line);
     }
+    let refused = |(line, problem)| LogError::at(path, line, problem);
+    damage.settle(&mut columns).map_err(refused)?;
     columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     match (any, columns.lines.is_empty()) {
         (_, false) => Ok(columns),

@@ -8,8 +8,8 @@ use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
-use super::columns::{Columns, Wanted, place};
-use super::typed::{Numbers, together};
+use super::columns::{Columns, Wanted, WantedTime, place};
+use super::typed::{Numbers, stamps, together};
 use crate::error::{IoError, LogError};
 use crate::log::problem::LogProblem;
 use crate::sound_parquet::SoundParquet;
@@ -24,7 +24,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
     let refuse = |problem| LogError::of(path, problem);
     let present: Vec<String> = file.columns().iter().map(|column| column.path().string()).collect();
     let Wanted { names, time, .. } = wanted;
-    let asked = names.iter().copied().chain(time.as_ref().map(|(name, _)| *name));
+    let asked = names.iter().copied().chain(time.iter().flat_map(WantedTime::names));
     let mut lists = Vec::with_capacity(names.len() + 1);
     for name in asked {
         let place = place(name, &present).map_err(refuse)?;
@@ -53,10 +53,7 @@ pub(super) fn read(path: &Path, wanted: Wanted<'_>) -> Result<Columns, IoError> 
         }
         lists.push(list);
     }
-    let stamps = time.map(|(name, instants)| {
-        let list = lists.pop().map_or_else(Vec::new, |list| list.stamps(instants));
-        (name, list)
-    });
+    let stamps = time.map(|time| stamps(path, time, &mut lists)).transpose()?;
     let numbers = lists.into_iter().map(Numbers::plain).collect();
     together(path, names, numbers, stamps)
 }
@@ -103,7 +100,7 @@ impl Kind {
     }
 }
 
-/// Appends a row group's numbers to `list`; returns the index of the first missing number, if there is one.
+/// Appends a row group's numbers to `list`, NaN where one is missing; of integers, returns the index of the first missing number, if there is one.
 fn read_part(
     pages: ColumnReader,
     kind: Kind,
@@ -113,27 +110,37 @@ fn read_part(
     let unsigned = kind == Kind::Unsigned;
     match (pages, list) {
         (ColumnReader::DoubleColumnReader(pages), Numbers::Real(list)) => {
-            batches(pages, most, list, Some)
+            batches(pages, most, list, Reading { number: Some, missing: Some(f64::NAN) })
         }
         (ColumnReader::FloatColumnReader(pages), Numbers::Real(list)) => {
-            batches(pages, most, list, |number| Some(number.into()))
+            let number = |number: f32| Some(number.into());
+            batches(pages, most, list, Reading { number, missing: Some(f64::NAN) })
         }
         (ColumnReader::Int32ColumnReader(pages), Numbers::Whole(list)) => {
             let widen = |n: i32| Some(if unsigned { n.cast_unsigned().into() } else { n.into() });
-            batches(pages, most, list, widen)
+            batches(pages, most, list, Reading { number: widen, missing: None })
         }
         (ColumnReader::Int64ColumnReader(pages), Numbers::Whole(list)) => {
-            batches(pages, most, list, |n| (n >= 0 || !unsigned).then_some(n))
+            let number = |n: i64| (n >= 0 || !unsigned).then_some(n);
+            batches(pages, most, list, Reading { number, missing: None })
         }
         _ => Err(ParquetError::General("a column changes its type".into())),
     }
 }
 
-fn batches<T: DataType, N>(
+/// The reading of a column's values.
+struct Reading<F, N> {
+    /// The number of a value; `None` if it is too large.
+    number: F,
+    /// What stands for a missing number, if anything can.
+    missing: Option<N>,
+}
+
+fn batches<T: DataType, N: Copy, F: Fn(T::T) -> Option<N>>(
     mut pages: ColumnReaderImpl<T>,
     most: u64,
     list: &mut Vec<N>,
-    number: impl Fn(T::T) -> Option<N>,
+    Reading { number, missing }: Reading<F, N>,
 ) -> Result<Option<usize>, ParquetError>
 where
     T::T: Copy,
@@ -144,16 +151,20 @@ where
         batch.clear();
         levels.clear();
         let (rows, values, _) = pages.read_records(BATCH, Some(&mut levels), None, &mut batch)?;
-        if values < rows {
-            let most = levels.iter().copied().max().unwrap_or_default().max(1);
-            let null = levels.iter().position(|level| *level < most).unwrap_or_default();
-            return Ok(Some(list.len() - before + null));
-        }
         if rows == 0 {
             return Ok(None);
         }
-        for &value in &batch {
-            list.push(number(value).ok_or_else(|| {
+        let present = levels.iter().copied().max().unwrap_or_default().max(1);
+        let mut read = batch.iter();
+        for row in 0..rows {
+            let is_missing = values < rows && levels.get(row).is_none_or(|level| *level < present);
+            let value = if is_missing { None } else { read.next() };
+            let number = match (value, missing) {
+                (Some(&value), _) => number(value),
+                (None, Some(missing)) => Some(missing),
+                (None, None) => return Ok(Some(list.len() - before)),
+            };
+            list.push(number.ok_or_else(|| {
                 ParquetError::General("a number is larger than any time or count".into())
             })?);
         }

@@ -28,6 +28,18 @@ impl RowLines {
         self.rows == 0
     }
 
+    /// The place of each row among all rows and these other lines, which are in order.
+    pub(in crate::log) fn places(&self, others: &[u64]) -> impl Iterator<Item = usize> {
+        let mut before = 0;
+        (0..self.rows).map(move |row| {
+            let line = self.of(row);
+            while others.get(before).is_some_and(|other| *other < line) {
+                before += 1;
+            }
+            row + before
+        })
+    }
+
     /// The line of a row; zero, which is not a line number, if the row does not exist.
     pub(in crate::log) fn of(&self, row: usize) -> u64 {
         let after = self.series.partition_point(|(first, _)| *first <= row);

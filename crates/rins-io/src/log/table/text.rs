@@ -1,14 +1,16 @@
 //! Columns of text, whose delimiter is determined automatically.
 
 use std::io::BufRead;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::columns::{Columns, MOST_ROWS, Repeated, Wanted};
+use super::columns::{Columns, MOST_ROWS, Repeated, Wanted, WantedTime};
 use super::head::Head;
 use crate::error::{IoError, LogError};
+use crate::log::damage::{Damage, is_of_a_row};
 use crate::log::fields::Fields;
 use crate::log::lines::Lines;
 use crate::log::problem::LogProblem;
+use crate::log::split_time;
 use crate::log::summary::Omission;
 
 /// Whether the columns may have names.
@@ -28,97 +30,203 @@ fn read_from<R: BufRead>(
     header: Header,
     wanted: Wanted<'_>,
 ) -> Result<Columns, IoError> {
-    let Wanted { names, mut time, rows } = wanted;
-    let head = Head::read(lines)?;
+    let head = Head::read(lines, wanted.text)?;
     if let (Header::Refused, Some(first)) = (header, head.header()) {
         let problem = LogProblem::NotANumber { column: "1".into(), text: short(first) };
         return Err(LogError::at(lines.path(), head.line, problem));
     }
-    let mut places = Vec::with_capacity(names.len() + 1);
-    for (index, name) in names.iter().enumerate() {
-        places.push((head.place(name, lines.path())?, Some(index)));
+    let filter = wanted.rows;
+    let mut rows = Rows::new(&head, lines.path(), wanted)?;
+    if let Some((line, problem)) = head.cut.clone() {
+        rows.note_damage(line, problem)?;
     }
-    if let Some((name, _)) = &time {
-        places.push((head.place(name, lines.path())?, None));
-    }
-    places.sort_by_key(|(place, _)| *place);
-    let filter = match rows {
-        Some(rows) => Some((head.place(&rows.column, lines.path())?, rows.value.as_str())),
-        None => None,
-    };
-
-    let mut columns = Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() };
-    let path = lines.path().to_path_buf();
-    let mut before = String::new();
-    let mut repeated = Repeated::default();
-    let mut row = |number: u64, line: &str| -> Result<(), IoError> {
-        if let Some((place, value)) = filter
-            && Fields::of(line, head.delimiter).nth(place).is_none_or(|field| field != value)
-        {
-            return Ok(());
-        }
-        // Some loggers write a sample twice; without a time stamp it could be two samples.
-        if time.is_some() {
-            let is_same = line == before;
-            repeated
-                .count(number, is_same)
-                .map_err(|(line, problem)| LogError::at(&path, line, problem))?;
-            if is_same {
-                columns.left_out.push((number, Omission::Repeated));
-                return Ok(());
-            }
-            before.clear();
-            before.push_str(line);
-        }
-        let refuse = |problem| LogError::at(&path, number, problem);
-        let mut places = places.iter().copied().peekable();
-        let mut fields = Fields::of(line, head.delimiter);
-        let mut count = 0;
-        let mut ends_empty = false;
-        for field in fields.by_ref() {
-            while let Some((_, index)) = places.next_if(|(place, _)| *place == count) {
-                let (name, value) = match (index, &mut time) {
-                    (None, Some((name, instants))) => (*name, instants.seconds(&field)),
-                    (index, _) => (names[index.unwrap_or_default()], field.parse().ok()),
-                };
-                let value = number_of(name, &field, value).map_err(refuse)?;
-                match index {
-                    Some(index) => columns.numbers[index].push(value),
-                    None => columns.time.push(value),
-                }
-            }
-            count += 1;
-            ends_empty = field.is_empty();
-        }
-        if fields.has_open_quote() {
-            return Err(refuse(LogProblem::OpenQuote));
-        }
-        // Some loggers end each line of numbers, but not the header, with a delimiter.
-        let trailing = count == head.count + 1 && ends_empty;
-        if count != head.count && !trailing {
-            return Err(refuse(LogProblem::FieldCount { got: count, expected: head.count }));
-        }
-        if columns.lines.len() as u64 >= MOST_ROWS {
-            return Err(refuse(LogProblem::ManyRows { most: MOST_ROWS }));
-        }
-        columns.lines.push(number);
-        Ok(())
-    };
     for (number, line) in &head.rows {
-        row(*number, line)?;
+        rows.push(*number, line)?;
     }
-    while let Some((number, line)) = lines.next()? {
-        row(number, line)?;
+    loop {
+        match lines.next() {
+            Ok(Some((number, line))) => rows.push(number, line)?,
+            Ok(None) => break,
+            // A part of a file that was not written is often zero.
+            Err(IoError::Log(error)) if is_of_a_row(&error.problem) => {
+                rows.note_damage(error.line.unwrap_or_default(), error.problem)?;
+            }
+            Err(error) => return Err(error),
+        }
     }
+    let Rows { mut columns, damage, .. } = rows;
+    let refused = |(line, problem)| LogError::at(lines.path(), line, problem);
+    damage.settle(&mut columns).map_err(refused)?;
     columns.left_out.extend(lines.unfinished().map(|line| (line, Omission::Unfinished)));
     if columns.lines.is_empty() {
-        let problem = rows.map_or(LogProblem::OnlyHeader, |rows| LogProblem::NoSuchRows {
+        let problem = filter.map_or(LogProblem::OnlyHeader, |rows| LogProblem::NoSuchRows {
             column: rows.column.clone(),
             value: rows.value.clone(),
         });
         return Err(LogError::of(lines.path(), problem));
     }
     Ok(columns)
+}
+
+/// What a field is read as.
+#[derive(Clone, Copy, Debug)]
+enum Target {
+    /// The number of the requested column with this index.
+    Number(usize),
+    /// The time stamp, or the first part of it.
+    Time,
+    /// The second part of the time stamp.
+    SecondPart,
+}
+
+/// The rows while they are read.
+struct Rows<'w> {
+    head: &'w Head,
+    path: PathBuf,
+    names: &'w [&'w str],
+    time: Option<WantedTime<'w>>,
+    /// The places of the requested fields, in their order.
+    places: Vec<(usize, Target)>,
+    /// The place and the text of the field that selects rows.
+    filter: Option<(usize, &'w str)>,
+    columns: Columns,
+    /// The numbers of the row.
+    values: Vec<f64>,
+    before: String,
+    repeated: Repeated,
+    damage: Damage,
+}
+
+impl<'w> Rows<'w> {
+    fn new(head: &'w Head, path: &Path, wanted: Wanted<'w>) -> Result<Self, IoError> {
+        let Wanted { names, time, rows, .. } = wanted;
+        let mut places = Vec::with_capacity(names.len() + 2);
+        for (index, name) in names.iter().enumerate() {
+            places.push((head.place(name, path)?, Target::Number(index)));
+        }
+        let parts = [Target::Time, Target::SecondPart];
+        for (name, part) in time.iter().flat_map(WantedTime::names).zip(parts) {
+            places.push((head.place(name, path)?, part));
+        }
+        places.sort_by_key(|(place, _)| *place);
+        let filter = match rows {
+            Some(rows) => Some((head.place(&rows.column, path)?, rows.value.as_str())),
+            None => None,
+        };
+        Ok(Self {
+            head,
+            path: path.into(),
+            names,
+            time,
+            places,
+            filter,
+            columns: Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() },
+            values: vec![0.0; names.len()],
+            before: String::new(),
+            repeated: Repeated::default(),
+            damage: Damage::default(),
+        })
+    }
+
+    /// Appends the row in `line`, unless it is that of another sensor or repeats the one before.
+    fn push(&mut self, number: u64, line: &str) -> Result<(), IoError> {
+        let delimiter = self.head.delimiter;
+        if let Some((place, value)) = self.filter
+            && Fields::of(line, delimiter).nth(place).is_none_or(|field| field != value)
+        {
+            return Ok(());
+        }
+        // Some loggers write a sample twice; without a time stamp it could be two samples.
+        if self.time.is_some() {
+            let is_same = line == self.before;
+            self.repeated
+                .count(number, is_same)
+                .map_err(|(line, problem)| LogError::at(&self.path, line, problem))?;
+            if is_same {
+                self.columns.left_out.push((number, Omission::Repeated));
+                return Ok(());
+            }
+            self.before.clear();
+            self.before.push_str(line);
+        }
+        let time = match self.values(line) {
+            Ok(time) => time,
+            Err(problem) => return self.note_damage(number, problem),
+        };
+        if self.columns.lines.len() as u64 >= MOST_ROWS {
+            return Err(self.refused(number, LogProblem::ManyRows { most: MOST_ROWS }));
+        }
+        for (list, value) in self.columns.numbers.iter_mut().zip(&self.values) {
+            list.push(*value);
+        }
+        self.columns.time.extend(time);
+        self.columns.lines.push(number);
+        Ok(())
+    }
+
+    fn note_damage(&mut self, line: u64, problem: LogProblem) -> Result<(), IoError> {
+        let noted = self.damage.note(line, problem, MOST_ROWS);
+        noted.map_err(|(line, problem)| self.refused(line, problem))
+    }
+
+    fn refused(&self, line: u64, problem: LogProblem) -> IoError {
+        LogError::at(&self.path, line, problem)
+    }
+
+    /// Reads the numbers of a row, and returns its time stamp.
+    fn values(&mut self, line: &str) -> Result<Option<f64>, LogProblem> {
+        let decimal = self.head.decimal;
+        let mut places = self.places.iter().copied().peekable();
+        let mut fields = Fields::of(line, self.head.delimiter);
+        let mut time = None;
+        let mut parts = [None, None];
+        let mut count = 0;
+        let mut ends_empty = false;
+        for field in fields.by_ref() {
+            while let Some((_, target)) = places.next_if(|(place, _)| *place == count) {
+                match target {
+                    Target::Number(index) => {
+                        let number = decimal.number(&field);
+                        self.values[index] = number_of(self.names[index], &field, number)?;
+                    }
+                    Target::Time => match &mut self.time {
+                        Some(WantedTime { column, split: None, instants }) => {
+                            time = Some(number_of(
+                                column,
+                                &field,
+                                instants.seconds(&decimal.plain(&field)),
+                            )?);
+                        }
+                        _ => parts[0] = Some(field.clone()),
+                    },
+                    Target::SecondPart => parts[1] = Some(field.clone()),
+                }
+            }
+            count += 1;
+            ends_empty = field.is_empty();
+        }
+        if fields.has_open_quote() {
+            return Err(LogProblem::OpenQuote);
+        }
+        // Some loggers end each line of numbers, but not the header, with a delimiter.
+        let expected = self.head.count;
+        if count != expected && !(count == expected + 1 && ends_empty) {
+            return Err(LogProblem::FieldCount { got: count, expected });
+        }
+        if let (
+            [Some(first), Some(second)],
+            Some(WantedTime { column, split: Some(split), instants }),
+        ) = (parts, &mut self.time)
+        {
+            time = Some(split_time::seconds(
+                instants,
+                split,
+                (column, &first),
+                &decimal.plain(&second),
+            )?);
+        }
+        Ok(time)
+    }
 }
 
 /// A field, shortened for an error message.

@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
-use super::columns::{Columns, MOST_ROWS};
+use super::columns::{Columns, MOST_ROWS, WantedTime};
 use crate::error::{IoError, LogError};
+use crate::log::damage::Damage;
 use crate::log::instant::Instants;
 use crate::log::problem::LogProblem;
+use crate::log::split_time;
 use crate::log::summary::Omission;
 
 /// The number of rows that any file may have, however small it is.
@@ -42,8 +44,15 @@ impl Numbers {
         }
     }
 
+    fn text(&self, row: usize) -> String {
+        match self {
+            Self::Real(numbers) => numbers[row].to_string(),
+            Self::Whole(numbers) => numbers[row].to_string(),
+        }
+    }
+
     /// The numbers as time stamps \[s\].
-    pub(super) fn stamps(self, instants: &mut Instants) -> Vec<f64> {
+    fn stamps(self, instants: &mut Instants) -> Vec<f64> {
         match self {
             Self::Real(numbers) => {
                 numbers.into_iter().map(|number| instants.of_number(number)).collect()
@@ -53,6 +62,28 @@ impl Numbers {
             }
         }
     }
+}
+
+/// The name and the time stamps \[s\] of a time, whose column or columns are the last of `lists`.
+///
+/// # Errors
+/// [`IoError::Log`] if the two columns of a time do not fit.
+pub(super) fn stamps<'w>(
+    path: &Path,
+    time: WantedTime<'w>,
+    lists: &mut Vec<Numbers>,
+) -> Result<(&'w str, Vec<f64>), IoError> {
+    let mut last = || lists.pop().unwrap_or(Numbers::Real(Vec::new()));
+    let WantedTime { column, split, instants } = time;
+    let Some(split) = split else { return Ok((column, last().stamps(instants))) };
+    let (second, first) = (last(), last());
+    let stamp = |row: usize| {
+        let (first, second) = (first.text(row), second.text(row));
+        split_time::seconds(instants, split, (column, &first), &second)
+            .map_err(|problem| LogError::at(path, row as u64 + 1, problem))
+    };
+    let stamps = (0..first.len().min(second.len())).map(stamp).collect::<Result<_, _>>()?;
+    Ok((column, stamps))
 }
 
 /// Combines columns, without rows that repeat the previous row.
@@ -69,18 +100,13 @@ pub(super) fn together(
     if rows == 0 {
         return Err(LogError::of(path, LogProblem::OnlyHeader));
     }
-    let of_time = time.iter().map(|(name, list)| (*name, list));
-    for (name, list) in names.iter().copied().zip(&numbers).chain(of_time) {
-        if let Some(row) = list.iter().position(|number| !number.is_finite()) {
-            let (column, text) = (name.into(), list[row].to_string());
-            let problem = LogProblem::NotFinite { column, text };
-            return Err(LogError::at(path, row as u64 + 1, problem));
-        }
-    }
     let timed = time.is_some();
-    let time = time.map_or_else(Vec::new, |(_, list)| list);
+    let (time_name, time) = time.unwrap_or_default();
     let mut columns = Columns { time, numbers, ..Columns::default() };
     (1..=rows as u64).for_each(|row| columns.lines.push(row));
+    leave_out_damaged(&mut columns, names, time_name)
+        .map_err(|(row, problem)| LogError::at(path, row, problem))?;
+    let rows = columns.lines.len();
     // Without a time stamp, a repeated row could be two samples.
     if timed {
         let is_same = |row: usize| {
@@ -91,4 +117,31 @@ pub(super) fn together(
         columns.leave_out(&repeated, Omission::Repeated);
     }
     Ok(columns)
+}
+
+/// Leaves out the rows with a number that is not finite.
+fn leave_out_damaged(
+    columns: &mut Columns,
+    names: &[&str],
+    time_name: &str,
+) -> Result<(), (u64, LogProblem)> {
+    let mut is_damaged = vec![false; columns.lines.len()];
+    for list in columns.numbers.iter().chain([&columns.time]) {
+        for (mark, number) in is_damaged.iter_mut().zip(list) {
+            *mark |= !number.is_finite();
+        }
+    }
+    let mut damage = Damage::default();
+    let damaged = is_damaged.iter().enumerate().filter(|(_, damaged)| **damaged);
+    for (row, _) in damaged {
+        let lists = names.iter().copied().zip(&columns.numbers);
+        let mut lists = lists.chain([(time_name, &columns.time)]);
+        let (column, number) = lists
+            .find_map(|(name, list)| list.get(row).filter(|n| !n.is_finite()).map(|n| (name, n)))
+            .unwrap_or((time_name, &f64::NAN));
+        let problem = LogProblem::NotFinite { column: column.into(), text: number.to_string() };
+        damage.note(row as u64 + 1, problem, MOST_ROWS)?;
+    }
+    columns.remove(&is_damaged);
+    damage.settle(columns)
 }

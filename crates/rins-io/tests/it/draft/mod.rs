@@ -2,6 +2,9 @@
 
 mod formats;
 mod guesses;
+mod layout_table;
+mod layouts;
+mod messages;
 mod refusals;
 mod support;
 

@@ -166,11 +166,17 @@ fn what_is_no_log_is_refused() {
         (b"t,gx,gy\n", "run.csv: only a header, no samples"),
         (b"t,gx\ns,deg/s\nx,y\n2,3\n", "run.csv:3: column \"t\": \"x\" is not a number"),
         (
-            b"t;gx\n0,1;2,5\n0,2;2,5\n",
-            "run.csv:2: column \"t\": \"0,1\" is not a number; write decimals with a point",
+            b"t;gx\n0,1;2.5\n0,2;2.5\n",
+            "run.csv:2: column \"t\": \"0,1\" is not a number; if commas are decimal marks, state decimal = \",\" in [log]",
         ),
-        (b"t,gx\n1,2\n2,3,4,5\n", "run.csv:3: 4 fields, expected 2"),
-        (b"t,gx\n1,2\n2\n", "run.csv:3: 1 fields, expected 2; is the line cut short?"),
+        (
+            b"t,gx\n1,2\n2,3,4,5\n1,2,3,4\n",
+            "run.csv:3: 4 fields, expected 2; 2 of 3 rows are damaged, more than one in a hundred",
+        ),
+        (
+            b"t,gx\n1,2\n2\n3\n",
+            "run.csv:3: 1 fields, expected 2; is the line cut short?; 2 of 3 rows are damaged, more than one in a hundred",
+        ),
         (b"t,\xff\n1,2\n", "run.csv:1: not UTF-8 text; is it binary or UTF-16?"),
         (
             b"% PSINS-format SIMU log file\n0 0 0 0 0 0\n134 0 0 0 10 9.78\n1 1 1 1 1 1\n",
