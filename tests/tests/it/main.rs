@@ -20,6 +20,7 @@ mod mistakes;
 mod monte_carlo;
 mod no_room;
 mod observe;
+mod population;
 mod prior_consistency;
 mod repairs;
 mod replaced;

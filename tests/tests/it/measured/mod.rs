@@ -4,6 +4,7 @@
 //! them; none is an output of `rins`. The rigs are in `tests/rigs`, with the origin of their values.
 
 mod drafts;
+mod least_squares;
 mod logs;
 
 use std::fs;
