@@ -144,45 +144,51 @@ fn of_format(
             })
         }
         Format::Table(table) => {
-            let time = time(log, spec.rate)?;
-            let (gyro, accel) = match (gyro, accel) {
-                (Some(gyro), Some(accel)) => (gyro, accel),
+            let layout = (table, time(log, spec.rate)?);
+            let imu = match (gyro, accel) {
+                (Some(gyro), Some(accel)) => {
+                    both_triads((gyro, accel), layout, &spec.path, folder)?
+                }
                 (None, None) => return Err(log.missing("gyro", example(&GYRO))),
-                (gyro, accel) => {
-                    let imu = some_sensors((gyro, accel), (table, time), &spec.path, folder)?;
-                    let columns = others(log, folder, imu)?;
-                    return Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec });
-                }
+                some => some_sensors(some, layout, &spec.path, folder)?,
             };
-            let gyro = triad(gyro, folder, &spec.path, &GYRO)?;
-            let accel_clock = own_clock(accel, time.as_ref())?;
-            let accel_section = accel;
-            let accel = triad(accel, folder, &spec.path, &ACCEL)?;
-            if table != Table::Text && (gyro.rows.is_some() || accel.rows.is_some()) {
-                return Err(accel_section.conflict("where", "selects rows of text logs"));
-            }
-            if accel.path == gyro.path && accel.rows != gyro.rows {
-                if accel.rows.is_none() || gyro.rows.is_none() {
-                    let reason = "rows of one sensor: state those of gyro and of accel";
-                    return Err(accel_section.conflict("where", reason));
-                }
-                if time.is_none() {
-                    let reason = "rows of two sensors need a time column";
-                    return Err(accel_section.conflict("where", reason));
-                }
-            }
-            // Rows of their own have times of their own.
-            let accel_clock = match (accel_clock, &time) {
-                (None, Some(time)) if accel.rows != gyro.rows && accel.path == gyro.path => {
-                    Some(OwnClock { time: time.clone(), offset: 0.0 })
-                }
-                (clock, _) => clock,
-            };
-            let imu = ColumnSpec { accel_clock, ..ColumnSpec::of(table, time, gyro, accel) };
             let columns = others(log, folder, imu)?;
             Ok(LogSpec { format: LogFormat::Columns(Box::new(columns)), ..spec })
         }
     }
+}
+
+/// The columns of three gyros and three accelerometers.
+fn both_triads(
+    (gyro, accel_section): (&Section<'_>, &Section<'_>),
+    (table, time): (Table, Option<TimeColumn>),
+    path: &Path,
+    folder: &Path,
+) -> Result<ColumnSpec, IoError> {
+    let gyro = triad(gyro, folder, path, &GYRO)?;
+    let accel_clock = own_clock(accel_section, time.as_ref())?;
+    let accel = triad(accel_section, folder, path, &ACCEL)?;
+    if table != Table::Text && (gyro.rows.is_some() || accel.rows.is_some()) {
+        return Err(accel_section.conflict("where", "selects rows of text logs"));
+    }
+    if accel.path == gyro.path && accel.rows != gyro.rows {
+        if accel.rows.is_none() || gyro.rows.is_none() {
+            let reason = "rows of one sensor: state those of gyro and of accel";
+            return Err(accel_section.conflict("where", reason));
+        }
+        if time.is_none() {
+            let reason = "rows of two sensors need a time column";
+            return Err(accel_section.conflict("where", reason));
+        }
+    }
+    // Rows of their own have times of their own.
+    let accel_clock = match (accel_clock, &time) {
+        (None, Some(time)) if accel.rows != gyro.rows && accel.path == gyro.path => {
+            Some(OwnClock { time: time.clone(), offset: 0.0 })
+        }
+        (clock, _) => clock,
+    };
+    Ok(ColumnSpec { accel_clock, ..ColumnSpec::of(table, time, gyro, accel) })
 }
 
 /// The columns of a log of gyros alone, or of accelerometers alone: one to three of them.
