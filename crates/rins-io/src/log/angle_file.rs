@@ -16,7 +16,7 @@ use crate::shown::shown;
 
 /// The longest interval of the readings \[s\], with the jitter of a median: that of the shortest epochs of the estimator, which
 /// would take one slower reading for several.
-const LONGEST_INTERVAL: f64 = 0.101;
+pub(super) const LONGEST_INTERVAL: f64 = 0.101;
 
 /// The smallest singular value of the normal matrix of the gyro's errors, relative to its norm, that is not zero.
 const SINGULAR: f64 = 1e-12;

@@ -15,6 +15,7 @@ use super::instant::Instants;
 use super::problem::LogProblem;
 use super::redivide::redivide;
 use super::series::{between, smoothly_between, unwrap};
+use super::sparse_angle::SparseAngle;
 use super::summary::{Gap, LogPolicy, LogSummary, Redivided, TableClock};
 use super::table::{self, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
@@ -105,13 +106,15 @@ pub(super) fn read(
     let table_angle = match &spec.table_angle {
         Some(AngleColumn { file: Some(_), .. }) => own_angles,
         Some(column) => {
-            let file = files.file(&rig.log.path);
-            let mut angles = file.column(&column.column, column.factor, "rad")?;
-            unwrap(&mut angles).map_err(|(row, turns)| {
-                let problem = LogProblem::AmbiguousAngle { turns };
-                LogError::at(&file.path, file.columns.lines.of(row), problem)
-            })?;
-            Some(at_ends(angles, smoothly_between))
+            let moments = times.as_ref().unwrap_or(&clock.ends);
+            match angle_in_log(files.file(&rig.log.path), column, moments)? {
+                SparseAngle::Rotations(rotations) => {
+                    clock.summary.rotations = rotations;
+                    None
+                }
+                SparseAngle::Filled(angles) => Some(at_ends(angles, smoothly_between)),
+                SparseAngle::Ambiguous(..) => None,
+            }
         }
         None => None,
     };
@@ -138,6 +141,30 @@ pub(super) fn read(
     };
     let Clock { ends: times, summary, .. } = clock;
     Ok((Recording { times, increments, table_angle, table_rate, temperature }, summary))
+}
+
+/// The table angle in the rows of a log.
+fn angle_in_log(
+    file: &mut OneFile,
+    column: &AngleColumn,
+    times: &[f64],
+) -> Result<SparseAngle, IoError> {
+    let mut angles = file.sparse_column(&column.column, column.factor, "rad")?;
+    let found = if angles.iter().any(|angle| angle.is_nan()) {
+        SparseAngle::of(&angles, times)
+    } else {
+        match unwrap(&mut angles) {
+            Ok(()) => SparseAngle::Filled(angles),
+            Err((row, turns)) => SparseAngle::Ambiguous(row, turns),
+        }
+    };
+    match found {
+        SparseAngle::Ambiguous(row, turns) => {
+            let problem = LogProblem::AmbiguousAngle { turns };
+            Err(LogError::at(&file.path, file.columns.lines.of(row), problem))
+        }
+        found => Ok(found),
+    }
 }
 
 /// Keeps a range of a list.
@@ -233,7 +260,7 @@ fn temperature(
     };
     let mut instants = instants.of_another_file();
     let time = Some(WantedTime::of(time, &mut instants));
-    let wanted = Wanted { names: &[column], time, rows: None, text };
+    let wanted = Wanted { names: &[column], time, rows: None, sparse: None, text };
     let columns = table::read(path, Table::of(path), wanted)?;
     let mut file = OneFile::of_column(path, column, columns);
     let values = file.temperatures(column, *offset)?;

@@ -145,6 +145,19 @@ impl OneFile {
         Ok(self.take(name, read))
     }
 
+    /// The values of a column that is not a number in rows without a reading.
+    pub(super) fn sparse_column(
+        &mut self,
+        name: &str,
+        factor: f64,
+        unit: &'static str,
+    ) -> Result<Vec<f64>, IoError> {
+        let read = |number| number * factor;
+        let plausible = |value: f64| value.is_nan() || value.abs() <= BEYOND_REASON;
+        self.refuse_unless(name, unit, read, plausible)?;
+        Ok(self.take(name, read))
+    }
+
     /// The temperatures \[°C\] of a column with numbers that are lower by `offset`.
     pub(super) fn temperatures(&mut self, name: &str, offset: f64) -> Result<Vec<f64>, IoError> {
         let read = |number| number + offset;
@@ -205,7 +218,9 @@ impl Files {
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
             let time = spec.time.as_ref().zip(instants.as_mut());
             let time = time.map(|(time, instants)| WantedTime::of(time, instants));
-            let wanted = Wanted { names: &asked.names(), time, rows, text: spec.text };
+            let angle = spec.table_angle.as_ref().filter(|angle| angle.file.is_none());
+            let sparse = angle.filter(|_| path == log).map(|angle| angle.column.as_str());
+            let wanted = Wanted { names: &asked.names(), time, rows, sparse, text: spec.text };
             let mut columns = table::read(path, spec.table, wanted)?;
             let all_six = together && spec.gyro.path == spec.accel.path && rig.log.is_complete();
             if all_six && path == spec.gyro.path {
@@ -321,7 +336,7 @@ pub(super) fn own_file(
     let mut instants = Instants::new(clock.time.unit.seconds().unwrap_or(1.0));
     let asked = Asked::of(columns);
     let time = Some(WantedTime::of(&clock.time, &mut instants));
-    let wanted = Wanted { names: &asked.names(), time, rows, text };
+    let wanted = Wanted { names: &asked.names(), time, rows, sparse: None, text };
     let mut columns = table::read(path, table, wanted)?;
     if clock.time.split.is_none() {
         let _overflows = continued(&mut columns.time, clock.time.unit.seconds());

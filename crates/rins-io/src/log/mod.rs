@@ -16,6 +16,7 @@ mod problem;
 mod psins;
 mod redivide;
 mod series;
+mod sparse_angle;
 mod split_time;
 mod summary;
 mod table;
@@ -103,7 +104,7 @@ pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
             summary.ramps = with_ramps(rates, &recording.increments);
         }
     }
-    let rotations = rotations(&rig, &recording, &summary);
+    let rotations = rotations(&rig, &recording, &mut summary);
     window(&mut rig, &mut recording, &mut summary)?;
     Ok(Loaded { rig, station, recording, summary, rotations, psins_header })
 }
@@ -154,8 +155,11 @@ fn window(
     }
 }
 
-/// The stated rotations in the time of the recording; the profile begins with the log.
-fn rotations(rig: &Rig, recording: &Recording, summary: &LogSummary) -> Vec<StatedRotation> {
+/// The rotations of known angle in the time of the recording: between readings, or of a profile, which begins with the log.
+fn rotations(rig: &Rig, recording: &Recording, summary: &mut LogSummary) -> Vec<StatedRotation> {
+    if !summary.rotations.is_empty() {
+        return std::mem::take(&mut summary.rotations);
+    }
     let (Some(table), Some(first)) = (&rig.table, recording.increments.first()) else {
         return Vec::new();
     };

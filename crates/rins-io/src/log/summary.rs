@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::overflow::Overflow;
+use crate::rig::StatedRotation;
 
 /// The limits that a log must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +52,9 @@ pub struct LogSummary {
     pub ramps: usize,
     /// A table angle in a file with its own clock.
     pub table_clock: Option<TableClock>,
+    /// The rotations between readings of a table angle that is not read in every row; [`Loaded::rotations`](crate::Loaded::rotations)
+    /// has them in the end.
+    pub(crate) rotations: Vec<StatedRotation>,
 }
 
 /// The rounded time stamps of an even clock.
@@ -136,6 +140,7 @@ impl LogSummary {
             overflows: Vec::new(),
             rounded: None,
             table_clock: None,
+            rotations: Vec::new(),
             ramps: 0,
         }
     }

@@ -21,8 +21,8 @@ pub struct StatedRotation {
     pub angle: f64,
     /// 1σ of the angle \[rad\].
     pub sigma: f64,
-    /// 1σ of the readings before and after it of which the angle is the difference \[rad\].
-    pub mark: f64,
+    /// Whether the angle is the difference of two readings, at the start and at the end.
+    pub read: bool,
 }
 
 /// The data of the table that are not in the log.
@@ -104,7 +104,7 @@ fn turns(table: &Section<'_>, sense: f64) -> Result<Vec<StatedRotation>, IoError
                 return Err(segment.conflict("rate", reason));
             }
             (Some(angle), None) if angle != 0.0 => {
-                turns.push(StatedRotation { start, end, angle: sense * angle, sigma, mark: 0.0 });
+                turns.push(StatedRotation { start, end, angle: sense * angle, sigma, read: false });
             }
             (None, None) => {
                 return Err(segment.missing("angle", r#"an angle such as "720 deg", or a rate"#));

@@ -14,12 +14,16 @@ use rins_motion::Recording;
 
 use super::attitude::aligned;
 use crate::align::{AlignmentSolution, found_over};
+use crate::log::table_accuracy;
 
 /// The shortest static interval that is used \[s\].
 pub(super) const SHORTEST: f64 = 2.0;
 
 /// Static intervals count as one attitude if the direction of gravity in the body differs by less \[rad\].
 const ALIKE: f64 = 5.0 * DEG;
+
+/// The longest time by which a reading may be taken after the end of a static interval, or before its start \[s\].
+const AT_REST: f64 = 0.2;
 
 /// A gyro that reads its largest rate in this number of successive samples is at the limit of its range.
 const CLIPPED: usize = 3;
@@ -181,22 +185,26 @@ fn connected(
         };
         attitudes.push(attitude);
         let times = [recording.times[span.start], recording.times[span.end - 1]];
-        let stated = stated(&loaded.rotations, times);
+        let stated = stated(loaded, table_accuracy(&loaded.rig).0, times);
         turns.push(Some(Turn { recording: Arc::new(between), stated }));
     }
     (attitudes, turns)
 }
 
-/// The sum of the stated rotations whose middle lies between two times \[s\]: hands are not as punctual as a profile.
-fn stated(rotations: &[StatedRotation], [from, to]: [f64; 2]) -> Option<StatedTurn> {
+/// The sum of the stated rotations whose middle lies between two times \[s\]: hands are not as punctual as a profile. Readings must
+/// have been taken before and after, at rest; `mark` is their 1σ \[rad\].
+fn stated(loaded: &Loaded, mark: f64, [from, to]: [f64; 2]) -> Option<StatedTurn> {
     let inside = |turn: &&StatedRotation| (from..to).contains(&(0.5 * (turn.start + turn.end)));
-    rotations.iter().filter(inside).fold(None, |sum: Option<StatedTurn>, turn| {
-        let (angle, sigma) = sum.map_or((0.0, 0.0), |sum| (sum.angle, sum.sigma));
-        Some(StatedTurn {
-            angle: angle + turn.angle,
-            sigma: sigma.hypot(turn.sigma),
-            mark: turn.mark,
-        })
+    let found: Vec<&StatedRotation> = loaded.rotations.iter().filter(inside).collect();
+    let (first, last) = (found.first()?, found.last()?);
+    let is_read = first.read;
+    if is_read && (first.start > from + AT_REST || last.end < to - AT_REST) {
+        return None;
+    }
+    Some(StatedTurn {
+        angle: found.iter().map(|turn| turn.angle).sum(),
+        sigma: found.iter().map(|turn| turn.sigma.powi(2)).sum::<f64>().sqrt(),
+        mark: if is_read { mark } else { 0.0 },
     })
 }
 

@@ -30,8 +30,11 @@ use crate::support::rins_in;
 
 /// The population of the study.
 const FULL: Population = Population {
-    misalignment: 0.3,
-    drifts: [&[Drift::None, Drift::Flicker, Drift::Walk], &[Drift::None]],
+    misalignment: 1.0,
+    drifts: [
+        &[Drift::None, Drift::Flicker, Drift::Walk],
+        &[Drift::None, Drift::Flicker, Drift::Walk],
+    ],
     length: 1.0,
     samples: 60_000.0,
 };

@@ -99,6 +99,8 @@ pub(in crate::log) struct Wanted<'w> {
     pub(in crate::log) time: Option<WantedTime<'w>>,
     /// The rows that are read, if not all are.
     pub(in crate::log) rows: Option<&'w RowFilter>,
+    /// The column of text that may be empty in a row, where its number is then not a number.
+    pub(in crate::log) sparse: Option<&'w str>,
     /// The form of text.
     pub(in crate::log) text: TextForm,
 }

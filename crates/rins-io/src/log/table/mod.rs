@@ -54,7 +54,7 @@ pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
     let columns = read(
         path,
         table,
-        Wanted { names: &asked, time: None, rows: None, text: TextForm::default() },
+        Wanted { names: &asked, time: None, rows: None, sparse: None, text: TextForm::default() },
     )?;
     Ok(Some(BinaryColumns { format, names, numbers: columns.numbers }))
 }

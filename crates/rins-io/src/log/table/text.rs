@@ -87,6 +87,8 @@ struct Rows<'w> {
     time: Option<WantedTime<'w>>,
     /// The places of the requested fields, in their order.
     places: Vec<(usize, Target)>,
+    /// The requested column that may be empty.
+    sparse: Option<&'w str>,
     /// The place and the text of the field that selects rows.
     filter: Option<(usize, &'w str)>,
     columns: Columns,
@@ -99,7 +101,7 @@ struct Rows<'w> {
 
 impl<'w> Rows<'w> {
     fn new(head: &'w Head, path: &Path, wanted: Wanted<'w>) -> Result<Self, IoError> {
-        let Wanted { names, time, rows, .. } = wanted;
+        let Wanted { names, time, rows, sparse, .. } = wanted;
         let mut places = Vec::with_capacity(names.len() + 2);
         for (index, name) in names.iter().enumerate() {
             places.push((head.place(name, path)?, Target::Number(index)));
@@ -119,6 +121,7 @@ impl<'w> Rows<'w> {
             names,
             time,
             places,
+            sparse,
             filter,
             columns: Columns { numbers: vec![Vec::new(); names.len()], ..Columns::default() },
             values: vec![0.0; names.len()],
@@ -185,6 +188,11 @@ impl<'w> Rows<'w> {
         for field in fields.by_ref() {
             while let Some((_, target)) = places.next_if(|(place, _)| *place == count) {
                 match target {
+                    Target::Number(index)
+                        if field.is_empty() && self.sparse == Some(self.names[index]) =>
+                    {
+                        self.values[index] = f64::NAN;
+                    }
                     Target::Number(index) => {
                         let number = decimal.number(&field);
                         self.values[index] = number_of(self.names[index], &field, number)?;
