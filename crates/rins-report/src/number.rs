@@ -34,6 +34,12 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     signed(&plain)
 }
 
+/// The number with this number of decimals; one that is rounded to zero has no sign.
+pub fn decimal(value: f64, decimals: usize) -> String {
+    let plain = format!("{value:.decimals$}");
+    if is_zero(&plain) { plain.trim_start_matches('-').to_owned() } else { plain }
+}
+
 /// A value and its standard deviation, both rounded to the second digit of the standard deviation, with a minus sign (U+2212).
 ///
 /// Without a valid standard deviation the value has six digits.

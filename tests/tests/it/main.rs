@@ -12,6 +12,7 @@ mod effects;
 mod help;
 mod hostile;
 mod identifiability;
+mod in_the_hand;
 mod interrupted;
 mod level_table;
 mod library;

@@ -9,6 +9,7 @@ use rins_imu::TriadSpec;
 use rins_inspection::{SensorFigures, StaticInterval, StaticIntervals, StaticOptions};
 use rins_io::{Loaded, Rig};
 use rins_motion::Recording;
+use rins_report::number::decimal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -83,7 +84,7 @@ pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
 }
 
 fn span(interval: &StaticInterval) -> String {
-    format!("{:.1}-{:.1} s", interval.start, interval.end)
+    format!("{}-{} s", decimal(interval.start, 1), decimal(interval.end, 1))
 }
 
 /// A span over which the IMU is static, or might be.

@@ -6,6 +6,7 @@ use rins_frames::{Body, Dcm, Nav, Table};
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_io::{Loaded, shown};
 use rins_motion::Recording;
+use rins_report::number::decimal;
 use rins_terms::{Model, Surroundings, compensated};
 
 use crate::align::found;
@@ -54,10 +55,10 @@ pub(super) fn start(loaded: &Loaded) -> anyhow::Result<Start> {
         nav_from_table: found.nav_from_body * table_from_body.inverse(),
         gyro_bias: found.north_found().then(|| ImuError { gyro, ..ImuError::default() }),
         source: format!(
-            "the attitude{} found over the static interval from {:.0} s to {:.0} s, which is part of the navigated span",
+            "the attitude{} found over the static interval from {} s to {} s, which is part of the navigated span",
             if found.north_found() { " and the gyro bias" } else { " (yaw arbitrary)" },
-            found.start,
-            recording.times[found.span.end - 1]
+            decimal(found.start, 0),
+            decimal(recording.times[found.span.end - 1], 0)
         ),
         recording: recording.slice(first, recording.len()),
         angles: angles[first..].to_vec(),

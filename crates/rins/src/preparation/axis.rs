@@ -12,6 +12,7 @@ use rins_frames::{Body, Dcm, Nav, Table};
 use rins_inspection::StaticIntervals;
 use rins_io::Loaded;
 use rins_motion::Recording;
+use rins_report::number::decimal;
 
 use super::attitude::{Attitude, FOUND_HERE, aligned};
 use super::rests::{self, OnAxis, Rests, Still};
@@ -84,9 +85,9 @@ pub(super) fn axis(
     let azimuth = (!is_shown).then_some(ANY_AZIMUTH);
     let attitude = Attitude { azimuth, ..aligned(&nav_from_table, (east, north, about_up)) };
     let remarks = vec![format!(
-        "The attitude of the axis was found over the static interval from {:.0} s to {:.0} s.",
-        rest.start,
-        loaded.recording.times[rest.span.end - 1]
+        "The attitude of the axis was found over the static interval from {} s to {} s.",
+        decimal(rest.start, 0),
+        decimal(loaded.recording.times[rest.span.end - 1], 0)
     )];
     Ok(Axis { brought_forward, remarks, ..Axis::of(reference, nav_from_table, attitude) })
 }
@@ -154,9 +155,9 @@ fn unread(loaded: &Loaded, statics: &StaticIntervals) -> anyhow::Result<Axis> {
         .context("the log has no table angle, and there are no two turns about the axis that gravity would show")?;
     let mut remarks = vec![format!(
         "The log has no table angle and no rotation about a tilted axis, of which gravity would show the angle: only the longest static \
-         interval, from {:.0} s to {:.0} s, is used.",
-        rest.start,
-        recording.times[rest.span.end - 1]
+         interval, from {} s to {} s, is used.",
+        decimal(rest.start, 0),
+        decimal(recording.times[rest.span.end - 1], 0)
     )];
     if statics.spans(rests::SHORTEST).len() > 1 {
         remarks.push(format!(

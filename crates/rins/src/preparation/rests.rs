@@ -11,6 +11,7 @@ use rins_frames::{Body, Dcm, Increments, Nav, Table};
 use rins_inspection::StaticIntervals;
 use rins_io::{Loaded, StatedRotation};
 use rins_motion::Recording;
+use rins_report::number::decimal;
 
 use super::attitude::aligned;
 use crate::align::{AlignmentSolution, found_over};
@@ -141,13 +142,22 @@ impl Rests {
 
     /// Their number and time span as a sentence.
     pub(super) fn in_words(&self) -> String {
-        let [from, to] = self.lasting;
+        let [from, to] = self.lasting.map(|time| decimal(time, 0));
+        let count = |number: usize, one: &str| {
+            format!("{number} {one}{}", if number == 1 { "" } else { "s" })
+        };
+        let turns: Vec<&Turn> = self.turns.iter().flatten().collect();
+        let stated = turns.iter().filter(|turn| turn.stated.is_some()).count();
+        let stated = match stated {
+            0 => String::new(),
+            _ => format!(", {stated} of them by a known angle"),
+        };
         format!(
-            "The log has no table angle and no rotation about the axis: {} static intervals in {} attitudes, from {from:.0} s to {to:.0} s, \
-             are used, and {} rotation(s) between them. The attitude in each is estimated too, and not listed.",
-            self.found.len(),
-            self.attitudes,
-            self.turns.iter().flatten().count()
+            "The log has no table angle during rotation: {} in {}, from {from} s to {to} s, and {} between them{stated} are used. The \
+             attitude in each interval is estimated too, and not listed.",
+            count(self.found.len(), "static interval"),
+            count(self.attitudes, "attitude"),
+            count(turns.len(), "rotation"),
         )
     }
 }
