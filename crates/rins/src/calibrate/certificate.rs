@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, SVector};
 use rins_calibration::{Consistency, FreeNavigation, MEASUREMENTS, navigate_freely};
 use rins_design::{Budget, EstimatedParameter, Truth};
 use rins_estimation::{
-    Departure, Estimate, Fit, FitError, Identifiability, InRun, NoiseParameters, Reference, Run,
-    Unobservable, fit, fit_near,
+    Departure, Estimate, Fit, FitError, Identifiability, InRun, NoiseParameters, Quantity,
+    Reference, Run, Unobservable, fit, fit_near,
 };
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
@@ -133,7 +133,14 @@ impl Certificate {
         if let [_] = case.runs[..] {
             identifiability.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
         }
-        let departures = fit.prior_departures(&identifiability, &NoiseParameters::of(case.imu()));
+        let mut departures =
+            fit.prior_departures(&identifiability, &NoiseParameters::of(case.imu()));
+        // An IMU may be quieter than its grade.
+        let states_noise =
+            |run: &Prepared| run.loaded.rig.imu.is_some() && run.loaded.rig.preset.is_none();
+        if !case.runs.iter().all(states_noise) {
+            departures.retain(|departure| matches!(departure.of, Quantity::Parameter(_)));
+        }
         let held = held(&fit, &identifiability);
         // The attitudes that are not kept change with the parameters that are left at their prior values.
         let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();

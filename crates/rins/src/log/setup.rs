@@ -13,16 +13,15 @@ use super::DataSheet;
 /// If the rig file does not state the wobble of the spin axis, the resolution of the encoder is the preliminary value.
 ///
 /// The second value is what was assumed of data sheet and site, in sentences.
-pub(crate) fn setup(loaded: &Loaded) -> anyhow::Result<(Setup, Vec<String>)> {
-    let DataSheet { imu, assumption } =
-        DataSheet::of(loaded).context("the calibration needs the IMU's data sheet")?;
+pub(crate) fn setup(loaded: &Loaded) -> (Setup, Vec<String>) {
+    let DataSheet { imu, assumption } = DataSheet::of(loaded);
     let mut assumptions = Vec::from_iter(assumption);
     if loaded.rig.at_sea_level {
         assumptions.push(
             "The site has no height: gravity is that of sea level; it decreases by 0.03 % in 1000 m.".into(),
         );
     }
-    Ok((setup_with(&loaded.rig, loaded.station, imu), assumptions))
+    (setup_with(&loaded.rig, loaded.station, imu), assumptions)
 }
 
 /// [`setup`] where the station is known.

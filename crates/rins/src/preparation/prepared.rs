@@ -47,7 +47,7 @@ pub(crate) struct Prepared {
 /// The station, table and IMU of a rig, after a check for gross errors of units, signs and axes, and what was assumed of
 /// data sheet and site; every estimation starts here.
 pub(crate) fn screened(loaded: &Loaded) -> anyhow::Result<(Setup, Vec<String>)> {
-    let setup = setup(loaded)?;
+    let setup = setup(loaded);
     refuse_mistaken(loaded)?;
     Ok(setup)
 }
