@@ -20,6 +20,7 @@ mod layout;
 mod noise_parameters;
 mod rounding;
 mod run;
+mod sequence;
 
 mod gravity;
 mod held;
@@ -75,7 +76,7 @@ pub use prediction::{EpochPrediction, ParameterPosterior};
 pub use prior_consistency::{Departure, Quantity};
 pub use rounding::AngleSteps;
 pub use run::{LEAST_TILT, Reference, Rig, Run, RunError};
-pub use turn::{InSequence, StatedTurn, Turn, rotation};
+pub use sequence::{InSequence, StatedTurn, Turn, rotation};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,7 +8,7 @@ use rins_motion::{Recording, Station};
 
 use crate::epoch::SHORTEST_EPOCH;
 use crate::rounding::AngleSteps;
-use crate::turn::InSequence;
+use crate::sequence::InSequence;
 
 /// The smallest tilt of the spin axis (its sine) for which gravity determines the table angle: below it, an angle of a milliradian
 /// changes the specific force by less than 17 µg.

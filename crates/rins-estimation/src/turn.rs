@@ -5,52 +5,21 @@
 //! the one attitude to the other (tedaldi2014). A stated angle of rotation about the body's z axis shows the scale error of the z
 //! gyro even if gravity shows nothing, as on a level table.
 
-use std::sync::Arc;
-
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3, RowDVector, Vector3};
-use rins_frames::{Body, Dcm, Nav, Table, cross_matrix};
+use rins_frames::{Dcm, Nav, Table, cross_matrix};
 use rins_motion::Recording;
 use rins_terms::{Acting, KinematicState, Model, Track, catalogue, compensated, derivatives};
 
-use crate::colour::Colours;
+use crate::colour::{Colours, Process};
 use crate::layout::{Layout, attitude_of};
 use crate::linear::{Linear, with_attitude};
 use crate::noise_parameters::Noise;
 use crate::posterior::Evidence;
 use crate::run::Run;
+use crate::sequence::{InSequence, StatedTurn, Turn};
 
 /// The mean square of the residuals in sigmas above which the error of rotations is increased.
 const CALM: f64 = 2.25;
-
-/// The rotation of an IMU since the static interval before this one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Turn {
-    /// The samples from the end of the interval before to the start of this one.
-    pub recording: Arc<Recording>,
-    /// The angle of the rotation about the body's z axis, if it is known otherwise than from the gyros.
-    pub stated: Option<StatedTurn>,
-}
-
-/// A known angle of rotation about the body's z axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StatedTurn {
-    /// The angle \[rad\]. Whole turns count through the gyros.
-    pub angle: f64,
-    /// 1σ of the angle \[rad\]; zero if it is exact.
-    pub sigma: f64,
-    /// 1σ of the angle that is read in each of the two static intervals \[rad\]. The reading between two rotations is an error
-    /// of both.
-    pub mark: f64,
-}
-
-/// The place of a static interval among those of its power cycle.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InSequence {
-    /// Its number in the order of time.
-    pub number: usize,
-    /// The rotation since the one before, if it is known.
-    pub turn: Option<Turn>,
-}
 
 /// A rotation, linearized with respect to the joint parameters.
 #[derive(Clone, Debug)]
@@ -192,25 +161,6 @@ fn is_placement(model: &Model, term: usize) -> bool {
     chosen.is(&catalogue::AXIS_ATTITUDE) || chosen.is(&catalogue::AXIS_AZIMUTH)
 }
 
-/// The rotation by the gyros' readings over a recording, minus a constant rate \[rad/s\].
-///
-/// ```
-/// use nalgebra::Vector3;
-/// use rins_frames::{Increments, InFrame};
-/// use rins_motion::Recording;
-/// let sample = Increments { angle: InFrame::new(0.0, 0.0, 0.1), velocity: InFrame::new(0.0, 0.0, 0.098), interval: 0.01 };
-/// let times = (1..=10).map(|count| 0.01 * f64::from(count)).collect();
-/// let recording = Recording { times, increments: vec![sample; 10], ..Recording::default() };
-/// let turned = rins_estimation::rotation(&recording, &Vector3::new(0.0, 0.0, 1.0));
-/// assert!((turned.rotation_vector().z - 0.9).abs() < 1e-12);
-/// ```
-pub fn rotation(recording: &Recording, bias: &Vector3<f64>) -> Dcm<Body, Body> {
-    let start = Dcm::<Body, Body>::identity();
-    recording.increments.iter().fold(start, |turned, sample| {
-        turned * Dcm::from_rotation_vector(&(sample.angle.components() - bias * sample.interval))
-    })
-}
-
 /// The evidence of rotations, with the noise of the run after each.
 ///
 /// `wide` gives the derivative of a rotation by `parameters` parameters.
@@ -272,7 +222,7 @@ fn add_stated(sum: &mut Evidence, turns: &[LinearTurn], noise: &[Noise]) {
             () => 0.0,
         }
     });
-    let Some(factor) = Cholesky::new(covariance).map(|factor| factor.unpack()) else { return };
+    let Some(factor) = Cholesky::new(covariance).map(Cholesky::unpack) else { return };
     let residual = DVector::from_iterator(count, stated.iter().map(|(_, (_, off, _))| *off));
     let rows: Vec<RowDVector<f64>> = stated
         .iter()
@@ -306,7 +256,7 @@ impl LinearTurn {
     /// after, and what is in proportion to the rotation.
     fn variance(&self, linear: &Linear, noise: &Noise) -> f64 {
         let gyro = Colours::of(&noise.imu.gyro, linear.mean_epoch(), linear.duration());
-        let of_bias: f64 = gyro.processes.iter().map(|process| process.initial_variance()).sum();
+        let of_bias: f64 = gyro.processes.iter().map(Process::initial_variance).sum();
         let white = noise.imu.gyro.white.powi(2) + gyro.white;
         white * self.duration
             + of_bias * self.duration.powi(2)

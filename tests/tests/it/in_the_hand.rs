@@ -74,7 +74,9 @@ impl Rows {
         let mut text = String::from("t,gx,gy,gz,ax,ay,az,angle\n");
         for (time, row, angle, at_rest) in &self.rows {
             write!(text, "{time:.2}").unwrap();
-            row.iter().for_each(|value| write!(text, ",{value:.7}").unwrap());
+            for value in row {
+                write!(text, ",{value:.7}").unwrap();
+            }
             let angle = if *at_rest { format!("{:.3}", angle / DEG) } else { String::new() };
             writeln!(text, ",{angle}").unwrap();
         }

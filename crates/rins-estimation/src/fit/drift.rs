@@ -76,8 +76,7 @@ impl Sequence {
         // A walk is zero at the first interval: its variance there is raised above rounding.
         let least = 1e-12 * covariance.diagonal().max().max(f64::MIN_POSITIVE);
         let covariance = covariance + DMatrix::identity(count, count) * least;
-        Cholesky::new(covariance)
-            .map_or_else(|| DMatrix::zeros(count, count), |factor| factor.unpack())
+        Cholesky::new(covariance).map_or_else(|| DMatrix::zeros(count, count), Cholesky::unpack)
     }
 }
 

@@ -20,8 +20,8 @@ use super::summary::{Gap, LogPolicy, LogSummary, Redivided, TableClock};
 use super::table::{self, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
-    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, Table, TemperatureColumn, TextForm,
-    TriadColumns,
+    AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, StatedRotation, Table,
+    TemperatureColumn, TextForm, TriadColumns,
 };
 use crate::shown::shown;
 
@@ -107,14 +107,9 @@ pub(super) fn read(
         Some(AngleColumn { file: Some(_), .. }) => own_angles,
         Some(column) => {
             let moments = times.as_ref().unwrap_or(&clock.ends);
-            match angle_in_log(files.file(&rig.log.path), column, moments)? {
-                SparseAngle::Rotations(rotations) => {
-                    clock.summary.rotations = rotations;
-                    None
-                }
-                SparseAngle::Filled(angles) => Some(at_ends(angles, smoothly_between)),
-                SparseAngle::Ambiguous(..) => None,
-            }
+            let (angles, rotations) = angle_in_log(files.file(&rig.log.path), column, moments)?;
+            clock.summary.rotations = rotations;
+            angles.map(|angles| at_ends(angles, smoothly_between))
         }
         None => None,
     };
@@ -143,28 +138,25 @@ pub(super) fn read(
     Ok((Recording { times, increments, table_angle, table_rate, temperature }, summary))
 }
 
-/// The table angle in the rows of a log.
+/// The table angle in the rows of a log, or the rotations between its readings if these are rare.
 fn angle_in_log(
     file: &mut OneFile,
     column: &AngleColumn,
     times: &[f64],
-) -> Result<SparseAngle, IoError> {
-    let mut angles = file.sparse_column(&column.column, column.factor, "rad")?;
-    let found = if angles.iter().any(|angle| angle.is_nan()) {
-        SparseAngle::of(&angles, times)
-    } else {
-        match unwrap(&mut angles) {
-            Ok(()) => SparseAngle::Filled(angles),
-            Err((row, turns)) => SparseAngle::Ambiguous(row, turns),
-        }
+) -> Result<(Option<Vec<f64>>, Vec<StatedRotation>), IoError> {
+    let mut angles = file.column(&column.column, column.factor, "rad")?;
+    let ambiguous = |(row, turns)| {
+        let problem = LogProblem::AmbiguousAngle { turns };
+        LogError::at(&file.path, file.columns.lines.of(row), problem)
     };
-    match found {
-        SparseAngle::Ambiguous(row, turns) => {
-            let problem = LogProblem::AmbiguousAngle { turns };
-            Err(LogError::at(&file.path, file.columns.lines.of(row), problem))
-        }
-        found => Ok(found),
+    if !angles.iter().any(|angle| angle.is_nan()) {
+        unwrap(&mut angles).map_err(ambiguous)?;
+        return Ok((Some(angles), Vec::new()));
     }
+    Ok(match SparseAngle::of(&angles, times).map_err(ambiguous)? {
+        SparseAngle::Filled(angles) => (Some(angles), Vec::new()),
+        SparseAngle::Rotations(rotations) => (None, rotations),
+    })
 }
 
 /// Keeps a range of a list.

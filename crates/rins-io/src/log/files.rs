@@ -133,20 +133,8 @@ impl OneFile {
         taken
     }
 
-    /// The numbers of a column whose unit is `factor` times an SI `unit`.
+    /// The numbers of a column whose unit is `factor` times an SI `unit`; not a number without a reading, if that is allowed.
     pub(super) fn column(
-        &mut self,
-        name: &str,
-        factor: f64,
-        unit: &'static str,
-    ) -> Result<Vec<f64>, IoError> {
-        let read = |number| number * factor;
-        self.refuse_unless(name, unit, read, |value| value.abs() <= BEYOND_REASON)?;
-        Ok(self.take(name, read))
-    }
-
-    /// The values of a column that is not a number in rows without a reading.
-    pub(super) fn sparse_column(
         &mut self,
         name: &str,
         factor: f64,
@@ -218,8 +206,9 @@ impl Files {
             let rows = spec.gyro.rows.as_ref().filter(|_| path == spec.gyro.path);
             let time = spec.time.as_ref().zip(instants.as_mut());
             let time = time.map(|(time, instants)| WantedTime::of(time, instants));
-            let angle = spec.table_angle.as_ref().filter(|angle| angle.file.is_none());
-            let sparse = angle.filter(|_| path == log).map(|angle| angle.column.as_str());
+            let angle =
+                spec.table_angle.as_ref().filter(|angle| angle.file.is_none() && path == log);
+            let sparse = angle.map(|angle| angle.column.as_str());
             let wanted = Wanted { names: &asked.names(), time, rows, sparse, text: spec.text };
             let mut columns = table::read(path, spec.table, wanted)?;
             let all_six = together && spec.gyro.path == spec.accel.path && rig.log.is_complete();

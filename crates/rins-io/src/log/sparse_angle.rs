@@ -14,19 +14,22 @@ pub(super) enum SparseAngle {
     Filled(Vec<f64>),
     /// The rotations from the last reading before to the first after each time without readings.
     Rotations(Vec<StatedRotation>),
-    /// A step between two readings of successive rows is about half a turn: the row, and the step in turns.
-    Ambiguous(usize, f64),
 }
+
+/// A step between two readings of successive rows that is about half a turn: the row, and the step in turns.
+type Ambiguous = (usize, f64);
 
 impl SparseAngle {
     /// From the angle in each row, which is not a number without a reading, and from the times of the rows.
-    pub(super) fn of(angles: &[f64], times: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// If a step between two readings of successive rows is about half a turn: the row, and the step in turns.
+    pub(super) fn of(angles: &[f64], times: &[f64]) -> Result<Self, Ambiguous> {
         let stretches = stretches(angles);
         let mut read = angles.to_vec();
         for stretch in &stretches {
-            if let Err((row, turns)) = unwrap(&mut read[stretch.clone()]) {
-                return Self::Ambiguous(stretch.start + row, turns);
-            }
+            unwrap(&mut read[stretch.clone()])
+                .map_err(|(row, turns)| (stretch.start + row, turns))?;
         }
         let covers_ends = stretches
             .first()
@@ -49,15 +52,13 @@ impl SparseAngle {
                 read: true,
             }
         };
-        Self::Rotations(pairs().map(rotation).collect())
+        Ok(Self::Rotations(pairs().map(rotation).collect()))
     }
 
-    fn filled(angles: &[f64], times: &[f64]) -> Self {
+    fn filled(angles: &[f64], times: &[f64]) -> Result<Self, Ambiguous> {
         let (rows, mut known): (Vec<usize>, Vec<f64>) =
             angles.iter().enumerate().filter(|(_, angle)| !angle.is_nan()).unzip();
-        if let Err((place, turns)) = unwrap(&mut known) {
-            return Self::Ambiguous(rows[place], turns);
-        }
+        unwrap(&mut known).map_err(|(place, turns)| (rows[place], turns))?;
         let moments: Vec<f64> = rows.iter().map(|&row| times[row]).collect();
         let (first, last) = (known[0], known[known.len() - 1]);
         let at = |time: &f64| {
@@ -67,7 +68,7 @@ impl SparseAngle {
                 last
             })
         };
-        Self::Filled(times.iter().map(at).collect())
+        Ok(Self::Filled(times.iter().map(at).collect()))
     }
 }
 
@@ -106,7 +107,7 @@ mod tests {
     #[test]
     fn readings_at_rest_are_rotations_between() {
         let angles = [[0.1; 3], [NONE; 3], [2.0 * TAU; 3]].concat();
-        let SparseAngle::Rotations(found) = SparseAngle::of(&angles, &times(9, 1.0)) else {
+        let Ok(SparseAngle::Rotations(found)) = SparseAngle::of(&angles, &times(9, 1.0)) else {
             panic!("rare readings")
         };
         let [turn] = found[..] else { panic!("{found:?}") };
@@ -119,7 +120,7 @@ mod tests {
         let angle = |row: u32| 0.3 * f64::from(row);
         let angles: Vec<f64> =
             (0..60).map(|row| if row % 3 == 1 { NONE } else { angle(row) % TAU }).collect();
-        let SparseAngle::Filled(found) = SparseAngle::of(&angles, &times(60, 0.02)) else {
+        let Ok(SparseAngle::Filled(found)) = SparseAngle::of(&angles, &times(60, 0.02)) else {
             panic!("frequent readings")
         };
         for (row, found) in (0..60).zip(&found) {
@@ -130,6 +131,6 @@ mod tests {
     #[test]
     fn half_turn_between_rows_is_ambiguous() {
         let angles = [0.0, 0.5 * TAU, NONE, NONE, NONE, NONE];
-        assert_eq!(SparseAngle::of(&angles, &times(6, 1.0)), SparseAngle::Ambiguous(1, 0.5));
+        assert_eq!(SparseAngle::of(&angles, &times(6, 1.0)), Err((1, 0.5)));
     }
 }
