@@ -35,12 +35,6 @@ const FAR: f64 = 10.0;
 /// The largest number of noise estimations.
 const MOST_JUDGED: usize = 3;
 
-/// A step is too long if it increases the sum of squares by more than this.
-const WORSE: f64 = 1.0;
-
-/// A step is taken back by half at most so many times.
-const MOST_RETREATS: usize = 6;
-
 /// Estimates the free parameters of `model` from `runs` of one IMU.
 ///
 /// The model, and the ids of all parameters, are along the axes of the first run. Parameters of the sensors are shared;
@@ -245,28 +239,12 @@ impl<'a> Problem<'a> {
             Until::Converged => iterations.len() + MOST_ITERATIONS,
         };
         self.about.fill(0.0);
-        let mut visited: Vec<Place> = Vec::new();
-        let mut retreats = 0;
-        let mut resolution = self.pieces;
+        let mut visited = Vec::new();
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
             let from = self.pieces;
             let from_turns = self.turns.clone();
             let squares = evidence.square + self.pull();
-            // A heading that the data hardly show is far from linear: too long a step is taken back by half.
-            if until == Until::Converged
-                && from == resolution
-                && retreats < MOST_RETREATS
-                && let Some(last) = visited.last()
-                && squares > last.squares + WORSE
-            {
-                retreats += 1;
-                self.values =
-                    self.values.iter().zip(&last.values).map(|(a, b)| 0.5 * (a + b)).collect();
-                self.take_values(from);
-                continue;
-            }
-            (retreats, resolution) = (0, from);
             visited.push(Place { squares, values: self.values.clone() });
             let stride = self.advance(&posterior, until);
             let step = stride.to_estimate;
