@@ -36,7 +36,7 @@ const DAMAGED: &[(&str, &str)] = &[
     ("0.32,1e-6,1e-6,1e-6,0.1,0.2,9.8,\"16", "a quotation mark is not closed"),
     ("0.32,\0,1e-6,1e-6,0.1,0.2,9.8,16", "not UTF-8 text; is it binary or UTF-16?"),
     ("0.80,1e-6", "2 fields, expected 8; is the line cut short?"),
-    ("0.80,1e-6,1e-6,1e-6,0.1,0.2,9.8,", "column \"table\": empty, expected a number"),
+    ("0.80,,1e-6,1e-6,0.1,0.2,9.8,16", "column \"gx\": empty, expected a number"),
 ];
 
 /// One such row is a lost sample; two of forty are refused.

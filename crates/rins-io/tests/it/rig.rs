@@ -38,7 +38,7 @@ fn a_psins_rig_needs_no_more_than_a_path() {
     assert_eq!((rig.log.format.clone(), rig.station), (LogFormat::Psins, None));
     assert_eq!(
         rig.require_station().unwrap_err().to_string(),
-        "rig.toml: [site]: missing, expected latitude, longitude and height"
+        "rig.toml: [site]: missing, expected latitude, and height or gravity"
     );
     assert_eq!(
         rig.require_attitude().unwrap_err().to_string(),
@@ -87,7 +87,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("[attitude]", "[site]", "rig.toml:15: duplicate key"),
     // Sections and keys.
     ("[attitude]", "[atitude]", "rig.toml:15: atitude: unknown key; did you mean \"attitude\"?"),
-    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis"),
+    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis, run"),
     ("[attitude]", "[axis]", "rig.toml:16: [axis] roll: unknown key, expected one of spin"),
     ("latitude = ", "latitud = ", "rig.toml:3: [site] latitud: unknown key; did you mean \"latitude\"?"),
     ("latitude = \"34.25 deg\"\n", "", "rig.toml:2: [site] latitude: missing, expected a latitude such as \"34.25 deg\""),
@@ -95,8 +95,6 @@ const CASES: &[(&str, &str, &str)] = &[
     ("noise = \"30 ug/sqrt(Hz)\"", "", "rig.toml:27: [imu.accel] noise: missing, expected an acceleration noise density such as \"30 ug/sqrt(Hz)\""),
     ("path = \"run.csv\"\n", "", "rig.toml:7: [log] path: missing, expected the log's file, such as \"run.csv\""),
     ("path = \"run.csv\"", "path = \"run.bin\"", "rig.toml:7: [log] format: missing, expected \"csv\", \"parquet\", \"mat\", \"psins\", \"psins-bin\", \"kf-gins\", \"euroc\" or \"novatel\" for a file of this name"),
-    ("gyro = { columns = [\"gx\", \"gy\", \"gz\"], unit = \"rad/s\" }\n", "", "rig.toml:7: [log] gyro: missing, expected { columns = [\"x\", \"y\", \"z\"], unit = \"deg/s\" }"),
-    ("accel = { columns = [\"ax\", \"ay\", \"az\"], unit = \"m/s^2\" }\n", "", "rig.toml:7: [log] accel: missing, expected { columns = [\"x\", \"y\", \"z\"], unit = \"m/s^2\" }"),
     ("rate = \"50 Hz\"\ntime = { column = \"t\", unit = \"s\" }\n", "", "rig.toml:7: [log] time: missing, expected { column = \"t\", unit = \"s\" }, or a rate where there is no time column"),
     ("time = { column = \"t\", unit = \"s\" }", "time = { column = \"t\" }", "rig.toml:10: [log] time.unit: missing, expected \"s\", \"ms\", \"us\", \"ns\" or \"sample\""),
     ("time = { column = \"t\", unit = \"s\" }", "time = { unit = \"s\" }", "rig.toml:10: [log] time.column: missing, expected a column's name, or its number as in \"1\""),
@@ -159,9 +157,9 @@ const CASES: &[(&str, &str, &str)] = &[
     ("path = \"run.csv\"", "path = \"run.imu\"\nformat = \"kf-gins\"", "rig.toml:11: [log] time: the time column of a kf-gins log is fixed"),
     // Tables and axes.
     ("[attitude]", "[table]\nprofile = []\n[attitude]", "rig.toml:16: [table] profile: a table profile needs at least one segment"),
-    ("[attitude]", "[table]\nprofile = \"fast\"\n[attitude]", "rig.toml:16: [table] profile: \"fast\" is a text, expected a list of tables with the keys rate, duration"),
-    ("[attitude]", "[table]\nprofile = [5]\n[attitude]", "rig.toml:16: [table] profile[1]: 5 is a bare number, expected a list of tables with the keys rate, duration"),
-    ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\", time = \"1 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].time: unknown key, expected one of rate, duration"),
+    ("[attitude]", "[table]\nprofile = \"fast\"\n[attitude]", "rig.toml:16: [table] profile: \"fast\" is a text, expected a list of tables with the keys rate, angle, duration"),
+    ("[attitude]", "[table]\nprofile = [5]\n[attitude]", "rig.toml:16: [table] profile[1]: 5 is a bare number, expected a list of tables with the keys rate, angle, duration"),
+    ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\", time = \"1 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].time: unknown key, expected one of rate, angle, duration"),
     ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].duration: missing, expected a time such as \"60 s\""),
     ("[attitude]", "[table]\nprofile = [{ rate = \"1 deg/s\", duration = \"0 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].duration: \"0 s\" is out of range, expected more than zero"),
     ("[attitude]", "[table]\nprofile = [{ rate = \"1 Hz\", duration = \"1 s\" }]\n[attitude]", "rig.toml:16: [table] profile[1].rate: \"1 Hz\" is a frequency, expected an angular rate such as \"10 deg/s\""),
@@ -243,12 +241,12 @@ fn rigs_without_their_sections_are_refused() {
     let site = &RIG[RIG.find("[site]").unwrap()..RIG.find("[log]").unwrap()];
     assert_eq!(
         parse(&replaced(RIG, site, "")).unwrap_err().to_string(),
-        "rig.toml: [site]: missing, expected latitude, longitude and height"
+        "rig.toml: [site]: missing, expected latitude, and height or gravity"
     );
     let accel = &RIG[RIG.find("[imu.accel]").unwrap()..];
     assert_eq!(
         parse(&replaced(RIG, accel, "")).unwrap_err().to_string(),
-        "rig.toml:21: [imu] accel: missing, expected a section [imu.accel]"
+        "rig.toml:21: [imu] accel: missing, expected a section [imu.accel], or a grade of the IMU"
     );
 }
 

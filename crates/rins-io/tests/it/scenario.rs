@@ -194,7 +194,7 @@ fn noise_can_be_switched_off() {
     assert_eq!(
         parse(&bare).unwrap_err().to_string(),
         "scenario.toml: [imu.gyro]: missing, expected the gyros' data sheet figures noise, \
-         bias_sigma, scale_sigma and misalignment_sigma"
+         bias_sigma, scale_sigma and misalignment_sigma, or [imu] grade"
     );
 }
 

@@ -107,7 +107,6 @@ fn decimal_commas_are_drafted_where_they_are_certain() {
                 ("log.gyro.unit", "\"rad/s\""),
                 ("log.table_angle.unit", "\"deg\""),
                 ("site.latitude", "\"34.25 deg\""),
-                ("site.longitude", "\"108.9 deg\""),
                 ("site.height", "\"400 m\""),
             ];
             let open =

@@ -60,7 +60,7 @@ const KEYS: &[Row] = &[
             "[site]\nlatitude = \"34.25 deg\"\nlongitude = \"108.9 deg\"\nheight = \"400 m\"\n",
             "",
         ),
-        &["rig.toml: [site]: missing", "latitude, longitude and height"],
+        &["rig.toml: [site]: missing", "latitude, and height or gravity"],
     ),
     ("no log path", CHECK, Replace(RIG, "path = \"run.csv\"\n", ""), &["[log] path: missing"]),
     ("no gyro", CHECK, Replace(RIG, "gyro = ", "#"), &["[log] gyro: missing", "columns"]),

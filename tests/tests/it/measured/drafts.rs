@@ -7,11 +7,7 @@ use rins_testing::{assert_close, filled};
 use rins_tests::outside_data;
 
 /// A site for the keys that a draft leaves open.
-const SITE: [(&str, &str); 3] = [
-    ("site.latitude", "\"34.25 deg\""),
-    ("site.longitude", "\"108.9 deg\""),
-    ("site.height", "\"400 m\""),
-];
+const SITE: [(&str, &str); 2] = [("site.latitude", "\"34.25 deg\""), ("site.height", "\"400 m\"")];
 
 /// Reads a measured log with its draft and these values filled in.
 fn load(name: &str, log: &str, values: &[(&str, &str)]) -> Loaded {

@@ -6,11 +6,8 @@ use nalgebra::{Rotation3, Vector3};
 use rins_io::{Draft, draft_rig};
 
 /// A site for the keys that a draft leaves open.
-pub(super) const SITE: [(&str, &str); 3] = [
-    ("site.latitude", "\"34.25 deg\""),
-    ("site.longitude", "\"108.9 deg\""),
-    ("site.height", "\"400 m\""),
-];
+pub(super) const SITE: [(&str, &str); 2] =
+    [("site.latitude", "\"34.25 deg\""), ("site.height", "\"400 m\"")];
 
 /// Static intervals of 20 s before and between rotations of 20 s at 10 and -25 deg/s, about a tilted axis.
 pub(super) struct Motion {
