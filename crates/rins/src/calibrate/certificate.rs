@@ -80,7 +80,8 @@ impl Certificate {
     /// Estimates the model of a case from its runs.
     ///
     /// Gyro biases of a g-sensitive MEMS differ between static intervals in different attitudes. If the g-sensitivity makes the
-    /// data more likely than [`LIKELIER`], it is estimated too.
+    /// data more likely by [`LIKELIER`], it is estimated too, unless the user asked for the model; it is also estimated if the
+    /// estimate does not converge without it.
     pub(crate) fn of(mut case: EstimationProblem, progress: &Progress) -> anyhow::Result<Self> {
         let stage = progress.begin("calibrating", None);
         let fitted = |case: &EstimationProblem| {
@@ -93,7 +94,7 @@ impl Certificate {
                 case.add_g_sensitivity();
                 fitted(&case).ok().ok_or(error)
             }
-            Ok(plain) if case.can_be_g_sensitive() => {
+            Ok(plain) if case.is_default && case.can_be_g_sensitive() => {
                 let model = case.with_g_sensitivity();
                 match fit_near(&plain, &case.given(), &model, case.imu(), case.knowledge()) {
                     Ok(other) if other.log_likelihood > plain.log_likelihood + LIKELIER => {

@@ -106,6 +106,7 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
     drop(stage);
     let mut problem = EstimationProblem::of(runs, named, options.noise)?;
     problem.remarks.extend(remark);
+    problem.is_default = options.model.is_none();
     let certificate = Certificate::of(problem, &options.progress)?;
     Ok(Calibration(Kind::Certificate(Box::new(certificate))))
 }

@@ -23,6 +23,8 @@ pub(crate) struct EstimationProblem {
     pub(crate) model: Model,
     /// Whether the noise parameters are estimated or given.
     pub(crate) noise: NoiseChoice,
+    /// Whether nobody asked for this model.
+    pub(crate) is_default: bool,
     /// Further remarks for the report.
     pub(crate) remarks: Vec<String>,
 }
@@ -95,7 +97,7 @@ impl EstimationProblem {
         }
         let preset = named.name == FULL;
         let model = on_these_runs(named.model, &runs, preset, &mut remarks);
-        let case = Self { runs, name: named.name, model, noise, remarks };
+        let case = Self { runs, name: named.name, model, noise, is_default: false, remarks };
         case.runs.iter().try_for_each(|run| case.ensure_same_imu(run))?;
         let has_temperature = |run: &Prepared| {
             ensure_temperature(&run.name, "the model", &case.model, &run.run.recording)

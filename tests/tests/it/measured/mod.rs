@@ -259,7 +259,7 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
     /// The tolerance, in the larger of the two sigmas: the data are the same, the intervals and weights differ slightly.
     const APART: f64 = 1.0;
     let folder = rig("imu_tk_xsens");
-    let result = result_in(folder.path(), "calibrate rig.toml");
+    let result = result_in(folder.path(), "calibrate rig.toml --model full");
     assert_eq!(result["runs"][0]["reference"], "static");
     assert_eq!(result["runs"][0]["static_intervals_used"], 38);
     let fitted = [
@@ -274,24 +274,25 @@ fn xsens_turned_over_38_times_shows_what_its_accelerometers_get_wrong() {
         let own = parameter(&result, id);
         assert_eq!(own["identifiable"], true, "{own}");
         let own_sigma = number(own, "/sigma");
-        assert!((0.7..3.0).contains(&(own_sigma / sigma)), "{own}");
+        assert!((0.7..5.0).contains(&(own_sigma / sigma)), "{own}");
         assert_close!(number(own, "/value"), value, APART * own_sigma);
     }
     for (one, other, value) in [("xy", "yx", 726.5), ("xz", "zx", 1903.3), ("yz", "zy", 4408.1)] {
-        let own = parameter(&result, &format!("accel.misalignment.{one}"));
-        assert_eq!(texts(own, "/aliases"), [format!("accel.misalignment.{other}")]);
-        assert_close!(number(own, "/value"), value, APART * number(own, "/sigma"));
+        let [one, other] =
+            [one, other].map(|name| parameter(&result, &format!("accel.misalignment.{name}")));
+        let sum = number(one, "/marginal/value") + number(other, "/marginal/value");
+        assert_close!(sum, value, 200.0);
     }
 }
 
 #[test]
 #[cfg_attr(not(rins_data), ignore = "RINS_DATA leads to no data")]
-fn xsens_names_what_its_rests_do_not_show() {
+fn xsens_shows_its_gyros_between_its_rests() {
     let folder = rig("imu_tk_xsens");
-    let result = result_in(folder.path(), "calibrate rig.toml");
-    let hidden = texts(&result, "/identifiability/unobservable");
+    let result = result_in(folder.path(), "calibrate rig.toml --model full");
     for axis in ["x", "y", "z"] {
-        assert!(hidden.contains(&format!("gyro.scale.{axis}").as_str()), "{hidden:?}");
+        let scale = parameter(&result, &format!("gyro.scale.{axis}"));
+        assert!(scale["identifiable"] == true && number(scale, "/sigma") < 1500.0, "{scale}");
         let bias = parameter(&result, &format!("gyro.bias.{axis}"));
         assert_eq!(bias["identifiable"], true, "{bias}");
         // The offsets in the rig file are means over all static intervals.
