@@ -23,6 +23,11 @@ fn mountings() -> [SignedAxes; 6] {
 
 /// An IMU from a population of this sheet.
 pub(crate) fn drawn(seed: u64) -> ImuError {
+    drawn_from(&fibre(), seed)
+}
+
+/// Errors drawn from a data sheet.
+pub(crate) fn drawn_from(sheet: &ImuSpec, seed: u64) -> ImuError {
     let mut random = Seed::new(seed).stream(Sensor::Encoder);
     let mut triad = |spec: &TriadSpec| {
         let mut error = TriadError::default();
@@ -35,7 +40,6 @@ pub(crate) fn drawn(seed: u64) -> ImuError {
         }
         error
     };
-    let sheet = fibre();
     ImuError { gyro: triad(&sheet.gyro), accel: triad(&sheet.accel) }
 }
 

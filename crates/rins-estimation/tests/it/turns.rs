@@ -13,7 +13,7 @@ use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadError, TriadSpec};
 use rins_motion::Recording;
 use rins_terms::{Model, Owner, Role};
 
-use crate::mountings::truth;
+use crate::mountings::{drawn_from, truth};
 use crate::support::{fibre, profile, run, scenario, station, white};
 
 /// The 1σ of an unknown attitude \[rad\].
@@ -38,22 +38,8 @@ fn consumer() -> ImuSpec {
     }
 }
 
-/// Errors drawn from the data sheet.
 fn drawn(seed: u64) -> ImuError {
-    let mut random = Seed::new(seed).stream(Sensor::Encoder);
-    let sheet = consumer();
-    let mut triad = |spec: &TriadSpec| {
-        let mut error = TriadError::default();
-        for row in 0..3 {
-            error.bias[row] = spec.bias_sigma * random.sample();
-            for column in 0..3 {
-                let sigma = if row == column { spec.scale_sigma } else { spec.misalignment_sigma };
-                error.matrix[(row, column)] = sigma * random.sample();
-            }
-        }
-        error
-    };
-    ImuError { gyro: triad(&sheet.gyro), accel: triad(&sheet.accel) }
+    drawn_from(&consumer(), seed)
 }
 
 /// The gyros' readings while the IMU turns by `whole` turns more than the shortest way about a constant axis, from one attitude to

@@ -77,12 +77,6 @@ const KEYS: &[Row] = &[
         &["[log] time: missing", "a rate where there is no time column"],
     ),
     (
-        "no data sheet",
-        CALIBRATE,
-        Without(RIG, 20..=30),
-        &["rig.toml: [imu.gyro]: missing, expected the gyros' data sheet figures", "data sheet"],
-    ),
-    (
         "no gyro noise",
         CALIBRATE,
         Replace(RIG, "noise = \"0.02 deg/h/sqrt(Hz)\"\n", ""),
