@@ -47,10 +47,10 @@ const KEYS: &[Row] = &[
     ),
     ("key given twice", CHECK, Replace(RIG, "yaw", "roll"), &["rig.toml:{line}:", "duplicate key"]),
     (
-        "no height",
+        "no latitude",
         CHECK,
-        Replace(RIG, "height = \"400 m\"\n", ""),
-        &["rig.toml:1: [site] height: missing", "\"400 m\""],
+        Replace(RIG, "latitude = \"34.25 deg\"\n", ""),
+        &["rig.toml:1: [site] latitude: missing", "\"34.25 deg\""],
     ),
     (
         "no site",
