@@ -1,6 +1,6 @@
 //! Invalid rig files.
 
-use super::files::Spoil::{All, Content, Cut, Folder, Nothing, Replace, Without};
+use super::files::Spoil::{All, Content, Cut, Folder, Nothing, Replace};
 use super::{DATA, Row, refused};
 
 const RIG: &str = "rig.toml";
