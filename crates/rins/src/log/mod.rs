@@ -43,7 +43,7 @@ impl Log {
         Ok(Self { name: shown(rig), loaded: rins_io::read(rig)? })
     }
 
-    /// Reads a rig file and a log that may have fewer than three gyros and three accelerometers, for [`allan`](crate::allan).
+    /// Reads a rig file and a log that may have fewer than three gyros and three accelerometers, for [`allan`](crate::allan()).
     ///
     /// # Errors
     /// As [`open`](Self::open).
