@@ -243,22 +243,21 @@ impl<'a> Problem<'a> {
         loop {
             let (evidence, posterior) = self.posterior(&self.linear, noise, iterations.len())?;
             let from = self.pieces;
-            let from_turns = self.turns.clone();
             let squares = evidence.square + self.pull();
             visited.push(Place { squares, values: self.values.clone() });
+            if until == Until::NearEnough {
+                calm(noise, &evidence, &posterior);
+                if !iterations.is_empty() {
+                    turn::calm(&self.turns, &self.linear, noise);
+                }
+            }
             let stride = self.advance(&posterior, until);
             let step = stride.to_estimate;
             let iteration = Iteration { step, log_likelihood: posterior.log_likelihood };
             progress(&iteration);
             iterations.push(iteration);
             let arrived = match until {
-                Until::NearEnough => {
-                    calm(noise, &evidence, &posterior);
-                    if iterations.len() > 1 {
-                        turn::calm(&from_turns, &self.linear, noise);
-                    }
-                    stride.is_over() || step < NEAR && iterations.len() > 1
-                }
+                Until::NearEnough => stride.is_over() || step < NEAR && iterations.len() > 1,
                 Until::Converged => stride.is_over() && from == Pieces::Samples,
             };
             if arrived {

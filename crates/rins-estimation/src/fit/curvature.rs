@@ -39,17 +39,17 @@ impl Problem<'_> {
             return added;
         }
         let estimate = self.values.clone();
+        let mut step_from = |sign: f64, direction: &DVector<f64>| {
+            self.values = estimate.iter().zip(direction).map(|(at, by)| at + sign * by).collect();
+            self.take_values(Pieces::Coarse);
+            self.posterior(&self.linear, noise, 0).ok().map(|(_, posterior)| posterior.step)
+        };
+        let none = step_from(0.0, &directions[0]).unwrap_or_else(|| DVector::zeros(count));
         let mut bend = |direction: &DVector<f64>| {
-            let steps = [1.0, -1.0].map(|sign| {
-                self.values =
-                    estimate.iter().zip(direction).map(|(at, by)| at + sign * by).collect();
-                self.take_values(Pieces::Coarse);
-                self.posterior(&self.linear, noise, 0).ok().map(|(_, posterior)| posterior.step)
-            });
+            let steps = [1.0, -1.0].map(|sign| step_from(sign, direction));
             let [Some(there), Some(back)] = steps else { return DVector::zeros(count) };
             0.5 * (there + back)
         };
-        let none = bend(&DVector::zeros(count));
         let bends: Vec<DVector<f64>> =
             directions.iter().map(|direction| bend(direction) - &none).collect();
         // The moments of products of independent normal variables.

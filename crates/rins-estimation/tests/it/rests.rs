@@ -9,22 +9,26 @@ use rins_terms::{Model, Owner, Role};
 use crate::support::{fibre, profile, run, scenario, white};
 
 /// The 1σ of an unknown attitude \[rad\].
-const ANY: f64 = 1.8;
+pub(crate) const ANY: f64 = 1.8;
 
-/// The data sheet of a handheld IMU.
-fn consumer() -> ImuSpec {
+/// The data sheet of a handheld IMU, with this noise density of the gyros \[rad/s/√Hz\] and 1σ of the scale errors.
+pub(crate) fn handheld(gyro_noise: f64, scale_sigma: f64) -> ImuSpec {
     let fibre = fibre();
     let triad = |sheet: TriadSpec, noise_density, bias_sigma| TriadSpec {
         noise_density,
         bias_sigma,
-        scale_sigma: 3000.0 * PPM,
+        scale_sigma,
         misalignment_sigma: 0.2 * DEG,
         ..sheet
     };
     ImuSpec {
-        gyro: triad(fibre.gyro, 50.0 * DEG_PER_HOUR, 300.0 * DEG_PER_HOUR),
+        gyro: triad(fibre.gyro, gyro_noise, 300.0 * DEG_PER_HOUR),
         accel: triad(fibre.accel, 100.0 * MICRO_G, 3000.0 * MICRO_G),
     }
+}
+
+fn consumer() -> ImuSpec {
+    handheld(50.0 * DEG_PER_HOUR, 3000.0 * PPM)
 }
 
 /// Its true errors after it was switched on.

@@ -7,35 +7,22 @@ use rayon::prelude::*;
 use rins_estimation::{
     Fit, InSequence, NoiseKnowledge, NoiseParameters, Reference, Run, StatedTurn, Turn, fit,
 };
-use rins_frames::units::{DEG, DEG_PER_HOUR, MICRO_G, PPM};
+use rins_frames::units::{DEG, DEG_PER_HOUR, PPM};
 use rins_frames::{Dcm, EulerAngles, InFrame, Increments, Nav, Table};
-use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadError, TriadSpec};
+use rins_imu::{ImuError, ImuSpec, Seed, Sensor, TriadError};
 use rins_motion::Recording;
 use rins_terms::{Model, Owner, Role};
 
 use crate::mountings::{drawn_from, truth};
-use crate::support::{fibre, profile, run, scenario, station, white};
-
-/// The 1σ of an unknown attitude \[rad\].
-const ANY: f64 = 1.8;
+use crate::rests::{ANY, handheld};
+use crate::support::{profile, run, scenario, station, white};
 
 /// The sampling interval of a rotation, and its duration \[s\].
 const INTERVAL: f64 = 0.01;
 const LASTING: f64 = 3.0;
 
 fn consumer() -> ImuSpec {
-    let fibre = fibre();
-    let triad = |sheet: TriadSpec, noise_density, bias_sigma| TriadSpec {
-        noise_density,
-        bias_sigma,
-        scale_sigma: 10_000.0 * PPM,
-        misalignment_sigma: 0.2 * DEG,
-        ..sheet
-    };
-    ImuSpec {
-        gyro: triad(fibre.gyro, 20.0 * DEG_PER_HOUR, 300.0 * DEG_PER_HOUR),
-        accel: triad(fibre.accel, 100.0 * MICRO_G, 3000.0 * MICRO_G),
-    }
+    handheld(20.0 * DEG_PER_HOUR, 10_000.0 * PPM)
 }
 
 fn drawn(seed: u64) -> ImuError {

@@ -51,13 +51,13 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
     let wobble = table.quantity("wobble", &kinds::ANGLE_SIGMA)?;
     let mut segments = Vec::new();
     let profile = table.tables("profile", &["rate", "angle", "duration"])?;
-    if let Some(profile) = profile.iter().flatten().find(|segment| segment.has("angle")) {
+    if let Some(first) = profile.iter().flatten().find(|segment| segment.has("angle")) {
         if table.has("acceleration") {
             return Err(table.conflict("acceleration", "a rotation by an angle states no motion"));
         }
-        let turns = turns(&table, sense)?;
+        let turns = turns(&table, profile.iter().flatten(), sense)?;
         if turns.is_empty() {
-            return Err(profile.not_allowed("angle", "an angle other than zero"));
+            return Err(first.not_allowed("angle", "an angle other than zero"));
         }
         return Ok(Some(TableSpec { profile: None, segments, turns, sense, acceleration, wobble }));
     }
@@ -89,12 +89,15 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
 }
 
 /// The rotations of a profile of angles, between which the table rests.
-fn turns(table: &Section<'_>, sense: f64) -> Result<Vec<StatedRotation>, IoError> {
+fn turns<'s>(
+    table: &Section<'_>,
+    profile: impl Iterator<Item = &'s Section<'s>>,
+    sense: f64,
+) -> Result<Vec<StatedRotation>, IoError> {
     let sigma = table.quantity("angle_sigma", &kinds::ANGLE_SIGMA)?.unwrap_or(0.0);
-    let profile = table.tables("profile", &["rate", "angle", "duration"])?;
     let mut turns = Vec::new();
     let mut start = 0.0;
-    for segment in profile.iter().flatten() {
+    for segment in profile {
         let end = start + segment.require_quantity("duration", &kinds::DURATION)?;
         let rate = segment.quantity("rate", &kinds::TABLE_RATE)?;
         match (segment.quantity("angle", &kinds::TOTAL_ANGLE)?, rate) {

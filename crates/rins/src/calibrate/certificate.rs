@@ -125,7 +125,9 @@ impl Certificate {
         let is_kept = |Estimate { parameter, run, .. }: &Estimate| {
             parameter.owner != Owner::Placement || run.is_none_or(|run| is_kept(run, &parameter.id))
         };
-        let whole = fit.along(SignedAxes::IDENTITY);
+        let mut whole = fit.along(SignedAxes::IDENTITY);
+        // Those of a run of a day are too large for a copy.
+        let linear = std::mem::take(&mut whole.linear);
         let kept: Vec<usize> = (0..whole.parameters.len())
             .filter(|&place| is_kept(&whole.parameters[place]))
             .collect();
@@ -145,6 +147,7 @@ impl Certificate {
         let held = held(&fit, &identifiability);
         // The attitudes that are not kept change with the parameters that are left at their prior values.
         let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();
+        whole.linear = linear;
         let fit = whole.with_prior_values_at(&places).marginal(is_kept);
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {

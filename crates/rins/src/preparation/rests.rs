@@ -174,18 +174,17 @@ fn connected(
     let mut attitudes: Vec<Dcm<Nav, Body>> = Vec::with_capacity(found.len());
     let mut turns = Vec::with_capacity(found.len());
     for (place, here) in found.iter().enumerate() {
-        let before = place.checked_sub(1).map(|before| (&found[before], attitudes[before]));
-        let Some((earlier, nav_from_earlier)) = before else {
+        let before = place.checked_sub(1).map(|before| {
+            let span = found[before].span.end..here.span.start;
+            (&found[before], attitudes[before], span)
+        });
+        let Some((earlier, nav_from_earlier, span)) =
+            before.filter(|(.., span)| is_whole(recording, span))
+        else {
             attitudes.push(here.nav_from_body);
             turns.push(None);
             continue;
         };
-        let span = earlier.span.end..here.span.start;
-        if !is_whole(recording, &span) {
-            attitudes.push(here.nav_from_body);
-            turns.push(None);
-            continue;
-        }
         let between = recording.slice(span.start, span.end);
         let led = nav_from_earlier * rotation(&between, &mean_rate(recording, &earlier.span));
         let attitude = if here.north_found() {
