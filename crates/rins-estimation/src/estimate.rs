@@ -64,6 +64,9 @@ pub struct Fit {
     pub iterations: Vec<Iteration>,
     /// The approximate inverse Hessian at the estimated noise parameters, if they were estimated.
     pub(crate) inverse_curvature: Option<DMatrix<f64>>,
+    /// The logarithm of the posterior widths of the bias instabilities relative to those of their priors, if they were
+    /// estimated: what Laplace's approximation of the integral over them adds to the logarithm of their likelihood.
+    pub ln_width: f64,
 }
 
 impl Fit {

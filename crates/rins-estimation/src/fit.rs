@@ -80,12 +80,12 @@ fn fitted(
     let joined = Joined::of(model, imu, runs);
     joined.refuse_number()?;
     let strengths = knowledge.sheet();
-    let find_noise = matches!(knowledge, NoiseKnowledge::Likely(_));
+    let (find_noise, open) = (knowledge.is_estimated(), knowledge.open());
     let mut problem = Problem::new((runs, near), joined);
     let sheet: Vec<Noise> = runs.iter().map(|run| Noise::on(&run.rig, &strengths)).collect();
     let mut noise = sheet.clone();
     let mut iterations = Vec::new();
-    let (mut around, mut inverse_curvature) = (Vec::new(), None);
+    let (mut around, mut inverse_curvature, mut ln_width) = (Vec::new(), None, 0.0);
     if find_noise {
         let inverse = near.and_then(|near| near.inverse_curvature.as_ref());
         if let (Some(near), Some(_)) = (near, inverse) {
@@ -100,12 +100,12 @@ fn fitted(
             let log_likelihood = |noise: &[Noise]| problem.log_likelihood(noise);
             let likely = likely_noise(
                 &problem.linear,
-                &sheet,
+                (&sheet, &open),
                 &noise,
                 inverse_curvature.as_ref(),
                 log_likelihood,
             );
-            (noise, around) = (likely.noise, likely.around);
+            (noise, around, ln_width) = (likely.noise, likely.around, likely.ln_width);
             inverse_curvature = Some(likely.inverse_curvature);
             judged += 1;
         }
@@ -119,7 +119,7 @@ fn fitted(
         }
     };
     let fit = problem.finish(said, noise, &around, iterations)?;
-    Ok(Fit { inverse_curvature, ..fit })
+    Ok(Fit { inverse_curvature, ln_width, ..fit })
 }
 
 /// Increases the noise to the level of the residuals if these are larger: an inadequate model would otherwise vary the
@@ -366,6 +366,7 @@ impl<'a> Problem<'a> {
             moved,
             iterations,
             inverse_curvature: None,
+            ln_width: 0.0,
         })
     }
 }

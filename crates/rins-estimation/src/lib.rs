@@ -51,6 +51,7 @@ mod fit;
 mod fit_error;
 mod likely;
 mod named;
+mod noise_prior;
 mod prior_consistency;
 mod unobservable;
 

@@ -2,39 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use rins_frames::units::ARCSEC;
 
 use crate::linear::Linear;
-use crate::noise_parameters::Noise;
-use crate::run::Reference;
-
-/// 1σ of the logarithm of a noise parameter in a data sheet.
-pub(crate) const STATED: f64 = 1.0;
-
-/// The same for noise parameters without prior knowledge.
-const UNKNOWN: f64 = 3.0;
-
-/// The initial bias instability relative to the white noise over one second: an effect visible within minutes.
-const SHOWING: f64 = 0.25;
-
-/// The prior mean of this ratio if no bias instability is stated: no visible effect within an hour.
-const UNSEEN: f64 = 0.01;
-
-/// The initial velocity noise of a base that is not stationary \[m/s\]. A velocity with a resolution of 1 mm/s has about this
-/// noise too.
-const UNSTEADY: f64 = 3e-4;
-
-/// The initial random walk density of the attitude of such a base \[rad/√s\]: one arcsecond.
-const SWAYING: f64 = ARCSEC;
-
-/// The initial error of a rotation between static intervals, relative to the rotation: that of a consumer MEMS gyro.
-const TURNING: f64 = 1e-3;
-
-/// The same for a stationary base: one arcsecond in three hours.
-const FIRM: f64 = 0.01 * ARCSEC;
-
-/// 1σ of the logarithm of base motion: from rock to a boat.
-const ANYTHING: f64 = 5.0;
+use crate::noise_parameters::{Noise, NoiseParameters};
+use crate::noise_prior::{Unknown, Which, unknowns};
 
 /// The smallest curvature that is used.
 const LEAST_CURVATURE: f64 = 0.1;
@@ -57,67 +28,6 @@ const LEAST_GAIN: f64 = 0.02;
 /// with the uncertainty from thousands of innovations, and large compared with rounding.
 const DIFFERENCE: f64 = 0.004;
 
-/// A noise parameter to be estimated.
-#[derive(Clone, Debug, PartialEq)]
-struct Unknown {
-    which: Which,
-    /// The initial value, in SI units.
-    start: f64,
-    /// The logarithm of the prior mean relative to the initial value.
-    centre: f64,
-    /// 1σ of the logarithm in the prior.
-    sigma: f64,
-}
-
-impl Unknown {
-    /// Whether every data sheet or rig file states it, so that the prior is narrow.
-    fn is_stated(&self) -> bool {
-        self.sigma <= STATED
-    }
-}
-
-#[derive(Clone, Debug, PartialEq)]
-enum Which {
-    GyroWhite,
-    GyroFlicker,
-    GyroWalk,
-    AccelWhite,
-    AccelFlicker,
-    AccelWalk,
-    Jitter,
-    /// Of the runs on one rig.
-    Wobble(Vec<usize>),
-    Encoder(Vec<usize>),
-    Velocity,
-    Sway(usize),
-    Turn,
-}
-
-impl Which {
-    fn of<'a>(&self, noise: &'a mut [Noise]) -> Vec<&'a mut f64> {
-        match self {
-            Self::GyroWhite => noise.iter_mut().map(|n| &mut n.imu.gyro.white).collect(),
-            Self::GyroFlicker => noise.iter_mut().map(|n| &mut n.imu.gyro.flicker).collect(),
-            Self::GyroWalk => noise.iter_mut().map(|n| &mut n.imu.gyro.walk).collect(),
-            Self::AccelWhite => noise.iter_mut().map(|n| &mut n.imu.accel.white).collect(),
-            Self::AccelFlicker => noise.iter_mut().map(|n| &mut n.imu.accel.flicker).collect(),
-            Self::AccelWalk => noise.iter_mut().map(|n| &mut n.imu.accel.walk).collect(),
-            Self::Jitter => noise.iter_mut().map(|n| &mut n.imu.jitter).collect(),
-            Self::Wobble(runs) => on(noise, runs).map(|n| &mut n.wobble).collect(),
-            Self::Encoder(runs) => on(noise, runs).map(|n| &mut n.encoder).collect(),
-            Self::Velocity => noise.iter_mut().map(|n| &mut n.velocity).collect(),
-            Self::Turn => noise.iter_mut().map(|n| &mut n.turn).collect(),
-            Self::Sway(axis) => noise.iter_mut().map(|n| &mut n.sway[*axis]).collect(),
-        }
-    }
-}
-
-/// The noise of these runs.
-fn on<'a>(noise: &'a mut [Noise], runs: &[usize]) -> impl Iterator<Item = &'a mut Noise> {
-    let all = noise.iter_mut().enumerate();
-    all.filter(move |(run, _)| runs.contains(run)).map(|(_, noise)| noise)
-}
-
 /// The estimated noise parameters and their uncertainty.
 pub(crate) struct Likely {
     /// The maximum of the likelihood.
@@ -125,6 +35,9 @@ pub(crate) struct Likely {
     /// Pairs of a larger and a smaller bias instability at ±√3 σ: the outer nodes of a Gauss-Hermite quadrature, each with a
     /// weight of one sixth.
     pub(crate) around: Vec<[Vec<Noise>; 2]>,
+    /// The logarithm of the posterior widths of the bias instabilities relative to those of their priors: the Occam factor of
+    /// Laplace's approximation.
+    pub(crate) ln_width: f64,
     /// The approximate inverse Hessian at the estimate, from which another search can start.
     pub(crate) inverse_curvature: DMatrix<f64>,
 }
@@ -143,12 +56,12 @@ const MOST_UNCERTAIN: f64 = 0.6;
 /// inverse Hessian of an earlier search if there is one.
 pub(crate) fn likely_noise(
     linear: &[Linear],
-    expected: &[Noise],
+    prior: (&[Noise], &NoiseParameters),
     first: &[Noise],
     inverse_curvature: Option<&DMatrix<f64>>,
     log_likelihood: impl Fn(&[Noise]) -> Option<f64> + Sync,
 ) -> Likely {
-    let unknown = unknowns(linear, expected, first);
+    let unknown = unknowns(linear, prior, first);
     let noise_at = |x: &DVector<f64>| {
         let mut noise = first.to_vec();
         for (unknown, x) in unknown.iter().zip(x.iter()) {
@@ -181,9 +94,18 @@ pub(crate) fn likely_noise(
         found = minimum(start, None, cost);
     }
     let (best, least, inverse_curvature) = found;
-    let flickers: Vec<usize> = (0..unknown.len())
-        .filter(|&axis| matches!(unknown[axis].which, Which::GyroFlicker | Which::AccelFlicker))
-        .collect();
+    let is_colored = |which: &Which| {
+        matches!(
+            which,
+            Which::GyroFlicker
+                | Which::AccelFlicker
+                | Which::GyroWalk
+                | Which::AccelWalk
+                | Which::Jitter
+        )
+    };
+    let flickers: Vec<usize> =
+        (0..unknown.len()).filter(|&axis| is_colored(&unknown[axis].which)).collect();
     let around = flickers.into_par_iter().map(|axis| {
         let away = |by: f64| {
             let mut x = best.clone();
@@ -194,82 +116,15 @@ pub(crate) fn likely_noise(
             rayon::join(|| cost(&away(CURVATURE_STEP)), || cost(&away(-CURVATURE_STEP)));
         let sides = more + less;
         let curvature = (sides - 2.0 * least) / (CURVATURE_STEP * CURVATURE_STEP);
-        let sigma = curvature.max(0.0).sqrt().recip().min(MOST_UNCERTAIN);
-        [3.0_f64.sqrt() * sigma, -(3.0_f64.sqrt()) * sigma].map(|by| noise_at(&away(by)))
+        let width = curvature.max(0.0).sqrt().recip();
+        let sigma = width.min(MOST_UNCERTAIN);
+        let sides =
+            [3.0_f64.sqrt() * sigma, -(3.0_f64.sqrt()) * sigma].map(|by| noise_at(&away(by)));
+        (sides, (width / unknown[axis].sigma).min(1.0).ln())
     });
-    Likely { noise: noise_at(&best), around: around.collect(), inverse_curvature }
-}
-
-fn unknowns(linear: &[Linear], expected: &[Noise], first: &[Noise]) -> Vec<Unknown> {
-    let mut unknown = Vec::new();
-    let mut add = |which, start: f64, expected: f64, sigma| {
-        unknown.push(Unknown { which, start, centre: (expected / start).ln(), sigma });
-    };
-    // Without a measured table angle no pier holds the base: its motion is not sensor noise.
-    let unread = |linear: &Linear| matches!(linear.reference, Reference::Gravity | Reference::Rest);
-    let free = linear.iter().all(unread);
-    let first = if free { expected } else { first };
-    let (imu, sheet) = (first[0].imu, expected[0].imu);
-    // If no bias instability is stated, the prior mean is small, but the search starts where it is visible.
-    let flicker = |given: f64, white: f64| {
-        if given > 0.0 {
-            (given, given, STATED)
-        } else {
-            (SHOWING * white, UNSEEN * white, UNKNOWN)
-        }
-    };
-    add(Which::GyroWhite, imu.gyro.white, sheet.gyro.white, STATED);
-    let (start, expect, sigma) = flicker(sheet.gyro.flicker, sheet.gyro.white);
-    add(Which::GyroFlicker, start, expect, sigma);
-    add(Which::AccelWhite, imu.accel.white, sheet.accel.white, STATED);
-    let (start, expect, sigma) = flicker(sheet.accel.flicker, sheet.accel.white);
-    add(Which::AccelFlicker, start, expect, sigma);
-    if sheet.gyro.walk > 0.0 {
-        add(Which::GyroWalk, sheet.gyro.walk, sheet.gyro.walk, STATED);
-    }
-    if sheet.accel.walk > 0.0 {
-        add(Which::AccelWalk, sheet.accel.walk, sheet.accel.walk, STATED);
-    }
-    if sheet.jitter > 0.0 {
-        add(Which::Jitter, sheet.jitter, sheet.jitter, UNKNOWN);
-    }
-    for runs in rigs(linear) {
-        let (first, expected) = (first[runs[0]], expected[runs[0]]);
-        let read = matches!(linear[runs[0]].reference, Reference::Encoder { .. });
-        if read {
-            add(Which::Encoder(runs.clone()), first.encoder, expected.encoder, STATED);
-        }
-        add(Which::Wobble(runs), first.wobble, expected.wobble, UNKNOWN);
-    }
-    // Only the gyro measures how well a table follows its command.
-    if linear.iter().any(|linear| matches!(linear.reference, Reference::Command { .. })) {
-        add(Which::Sway(2), SWAYING, FIRM, ANYTHING);
-    }
-    if linear.iter().any(|linear| linear.follows_turn) {
-        add(Which::Turn, TURNING, expected[0].turn, ANYTHING);
-    }
-    if free {
-        add(Which::Velocity, UNSTEADY, expected[0].velocity, ANYTHING);
-        let axes = if linear.iter().all(Linear::shows_angle) { 3 } else { 2 };
-        for axis in 0..axes {
-            add(Which::Sway(axis), SWAYING, FIRM, ANYTHING);
-        }
-    }
-    unknown
-}
-
-/// The runs on each rig: runs without a power cycle in between are on the same one.
-fn rigs(linear: &[Linear]) -> Vec<Vec<usize>> {
-    let mut rigs: Vec<Vec<usize>> = Vec::new();
-    for (run, one) in linear.iter().enumerate() {
-        let same =
-            |rig: &&mut Vec<usize>| one.turn_on.is_some() && linear[rig[0]].turn_on == one.turn_on;
-        match rigs.iter_mut().find(same) {
-            Some(rig) => rig.push(run),
-            None => rigs.push(vec![run]),
-        }
-    }
-    rigs
+    let (around, widths): (Vec<_>, Vec<f64>) = around.unzip();
+    let ln_width = widths.iter().sum();
+    Likely { noise: noise_at(&best), around, ln_width, inverse_curvature }
 }
 
 /// The start of the search: without a fixed base, the best of several levels of base motion, from rock to a boat.

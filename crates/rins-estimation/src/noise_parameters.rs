@@ -79,13 +79,33 @@ pub enum NoiseKnowledge {
     /// These are prior values; the noise parameters of the sensors, of the encoder and of the axis wobble are estimated
     /// from the data by restricted maximum likelihood.
     Likely(NoiseParameters),
+    /// The same, with further processes that the data sheet does not state: random walks of the biases and timing jitter.
+    Open {
+        /// The prior values of what is stated.
+        stated: NoiseParameters,
+        /// The prior values of what is not, each known to a factor of twenty; zero where a process is absent.
+        open: NoiseParameters,
+    },
 }
 
 impl NoiseKnowledge {
     /// The stated noise parameters, whether fixed or prior values.
     pub const fn sheet(&self) -> NoiseParameters {
-        let (Self::Given(strengths) | Self::Likely(strengths)) = self;
-        *strengths
+        let (Self::Given(stated) | Self::Likely(stated) | Self::Open { stated, .. }) = self;
+        *stated
+    }
+
+    /// The prior values of the processes that are not stated; zero where there is none.
+    pub fn open(&self) -> NoiseParameters {
+        match self {
+            Self::Open { open, .. } => *open,
+            Self::Given(_) | Self::Likely(_) => NoiseParameters::default(),
+        }
+    }
+
+    /// Whether the noise parameters are estimated.
+    pub const fn is_estimated(&self) -> bool {
+        matches!(self, Self::Likely(_) | Self::Open { .. })
     }
 }
 

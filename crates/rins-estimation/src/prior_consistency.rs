@@ -2,8 +2,8 @@
 
 use crate::estimate::Fit;
 use crate::identifiability::{Identifiability, Observable};
-use crate::likely::STATED;
 use crate::noise_parameters::NoiseParameters;
+use crate::noise_prior::STATED;
 
 /// The departure of an estimate from its prior, in SI units.
 #[derive(Clone, Debug, PartialEq)]
