@@ -25,21 +25,38 @@ const DRAWS: usize = 4000;
 /// What is left of an interval on each side: 95 % are within.
 const TAIL: f64 = 0.025;
 
-/// How well a model foretells what was held out.
+/// The misfit of a prediction that is called consistent, relative to that of a correct model: the mean NIS may be larger by this
+/// part, which a wrong noise density of 10 % causes.
+const CONSISTENT: f64 = 0.2;
+
+/// How well a model predicts the held-out data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PredictiveScore {
     /// The logarithm of the probability density of all that was held out \[nats\].
     pub log_score: f64,
     /// The mean normalised innovation squared of an epoch; `nis_dof` if the model is right.
     pub nis_mean: f64,
-    /// How many figures an epoch shows.
+    /// The number of measurements in an epoch.
     pub nis_dof: usize,
+}
+
+impl PredictiveScore {
+    /// Whether the innovations are as large as predicted: an absolute check, which a comparison of two models is not.
+    pub fn is_consistent(&self) -> bool {
+        self.nis_mean < (1.0 + CONSISTENT) * self.nis_dof as f64
+    }
+
+    /// How much larger the mean NIS is than that of a correct model.
+    fn misfit(&self) -> f64 {
+        (self.nis_mean - self.nis_dof as f64).max(0.0)
+    }
 }
 
 /// What came of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GainVerdict {
-    /// The extended model foretells better, and not by chance.
+    /// The extended model predicts better, not by chance, and either its innovations are as large as predicted or most of the
+    /// misfit of the given model is gone.
     Improved,
     /// It does not.
     NoImprovement,
@@ -72,9 +89,8 @@ pub struct Gain {
 pub enum GainError {
     /// Nothing, or too little, can be held out.
     #[error(
-        "{blocks} revolutions or pieces of static intervals can be held out; {FEWEST_BLOCKS} are needed. \
-         Held out are whole revolutions of the last 30 % or all of a segment of constant rate, and \
-         pieces of 10 s of a static interval"
+        "{blocks} revolutions or pieces of 10 s can be held out; {FEWEST_BLOCKS} are needed. Held out is the last 30 % of \
+         each segment of constant or of varying rate, in whole revolutions or pieces of 10 s"
     )]
     TooLittle {
         /// How many revolutions or pieces of a rest.
@@ -197,9 +213,13 @@ impl Gain {
         let interval = interval(&rises);
         let drifts = drifts(runs, &spans, [&first, &second])?;
         let samples = spans.iter().flatten().map(Range::len).sum();
-        let verdict =
-            if interval.0 > 0.0 { GainVerdict::Improved } else { GainVerdict::NoImprovement };
         let [before, after] = scores.map(|score| score.foresight);
+        let explains = after.is_consistent() || after.misfit() < 0.5 * before.misfit();
+        let verdict = if interval.0 > 0.0 && explains {
+            GainVerdict::Improved
+        } else {
+            GainVerdict::NoImprovement
+        };
         Ok(Self { spans, samples, blocks, before, after, interval, drifts, verdict })
     }
 }

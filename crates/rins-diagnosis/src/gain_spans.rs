@@ -1,4 +1,4 @@
-//! Which part of a run is held out: the last of every stretch of constant rate, or all at the fastest rate, in whole
+//! The held-out part of a run: the end of every segment of constant or of varying rate, or all at the fastest rate, in whole
 //! revolutions.
 
 use std::f64::consts::TAU;
@@ -45,10 +45,14 @@ pub(crate) struct Held {
     pub(crate) blocks: Vec<Range<usize>>,
 }
 
-/// What is held out of a run: nothing of stretches of less than one and a half revolutions.
+/// What is held out of a run: the end of every segment of constant rate, and of every segment of varying rate such as a
+/// coast-down. Nothing is held out of segments shorter than [`SHORTEST`].
 pub(crate) fn held_out(run: &Run) -> Vec<Held> {
     let epochs = epochs(run);
-    stretches(&epochs).into_iter().filter_map(|stretch| end_of(&epochs[stretch], SHARE)).collect()
+    with_varying(&epochs, &stretches(&epochs))
+        .into_iter()
+        .filter_map(|stretch| end_of(&epochs[stretch], SHARE))
+        .collect()
 }
 
 /// All stretches at the fastest rate of a run that turns at slower ones too, in whole revolutions; nothing of other runs.
@@ -98,26 +102,35 @@ fn stretches(epochs: &[Epoch]) -> Vec<Range<usize>> {
     stretches
 }
 
-/// The last part of a stretch, if it is long enough.
+/// The same with successive short segments joined: while the rate varies, none of them is long.
+fn with_varying(epochs: &[Epoch], segments: &[Range<usize>]) -> Vec<Range<usize>> {
+    let is_short = |segment: &Range<usize>| {
+        epochs[segment.clone()].iter().map(|epoch| epoch.duration).sum::<f64>() < SHORTEST
+    };
+    let joined = segments.chunk_by(|one, other| is_short(one) && is_short(other));
+    joined.map(|group| group[0].start..group[group.len() - 1].end).collect()
+}
+
+/// The last part of a segment, if it is long enough.
+///
+/// It is cut at revolutions, in either direction, or, if the table turns less than that, by time.
 fn end_of(stretch: &[Epoch], share: f64) -> Option<Held> {
     let duration: f64 = stretch.iter().map(|epoch| epoch.duration).sum();
     if duration < SHORTEST {
         return None;
     }
-    let (first, last) = (stretch.first()?, stretch.last()?);
-    let turned = (last.angle - first.angle).abs();
-    let rests = turned / duration < REST;
-    let least = if turned > LEAST_TURNED { 1.0 } else { 0.0 };
-    let revolutions = (share * turned / TAU).floor().max(least);
-    if !rests && revolutions < 1.0 {
-        return None;
-    }
-    // How far each epoch is from the stretch's end, in blocks.
-    let mut left = 0.0;
+    let last = stretch.last()?;
+    let turned: f64 = stretch.windows(2).map(|pair| (pair[1].angle - pair[0].angle).abs()).sum();
+    let by_time = turned / duration < REST || turned < LEAST_TURNED;
+    let revolutions = (share * turned / TAU).floor().max(1.0);
+    // The duration and the angle from each epoch to the end of the segment.
+    let (mut left, mut angle, mut path) = (0.0, last.angle, 0.0);
     let mut blocks: Vec<Range<usize>> = Vec::new();
-    let most = if rests { share * duration / BLOCK } else { revolutions };
+    let most = if by_time { share * duration / BLOCK } else { revolutions };
     for epoch in stretch.iter().rev() {
-        let from_end = if rests { left / BLOCK } else { (last.angle - epoch.angle).abs() / TAU };
+        path += (angle - epoch.angle).abs();
+        angle = epoch.angle;
+        let from_end = if by_time { left / BLOCK } else { path / TAU };
         left += epoch.duration;
         if from_end >= most {
             break;

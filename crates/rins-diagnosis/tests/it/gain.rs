@@ -6,7 +6,7 @@ use rins_frames::EulerAngles;
 use rins_frames::units::{ARCSEC, DEG, PPM};
 use rins_terms::{Model, SettingKind, TermInstance, catalogue};
 
-use crate::support::{SEED, fibre, run, run_at};
+use crate::support::{SEED, fibre, run, run_at, run_of};
 
 /// Stretches of 50 s: a rest, and such of five revolutions and more.
 const RATES: [f64; 5] = [0.0, 40.0, -40.0, 80.0, -80.0];
@@ -157,11 +157,27 @@ fn base_that_gave_way_is_where_navigation_starts() {
 
 #[test]
 fn too_short_a_run_holds_nothing_to_measure_by() {
-    let run = run(&[5.0, -5.0], Model::default(), 0.0, SEED);
+    // Less than a revolution in 50 s is cut in pieces of 10 s: 15 s are held out.
+    let run = run(&[5.0], Model::default(), 0.0, SEED);
     let (before, after) = fits(&run);
     let known = NoiseKnowledge::Given(NoiseParameters::of(&fibre()));
     let refused = Gain::within(std::slice::from_ref(&run), (&before, &after), &fibre(), known);
-    assert_eq!(refused, Err(GainError::TooLittle { blocks: 0 }));
+    assert_eq!(refused, Err(GainError::TooLittle { blocks: 2 }));
+}
+
+/// A table that never has a constant rate for 10 s: the last revolutions are held out as of any other.
+#[test]
+fn coast_down_is_held_out_by_revolutions() {
+    let rates: Vec<f64> = (0..18).map(|step| 40.0 - 1.2 * f64::from(step)).collect();
+    let there = asymmetric().with_values(&[6.0 * PPM]);
+    let slow = run_of(&rates, 9.5, Model::default().with(there), SEED);
+    let gain = within(&slow);
+    assert!(gain.blocks >= 4, "{gain:?}");
+    let last = gain.spans[0].last().unwrap();
+    assert!(last.end > slow.recording.len() - 20, "{:?} of {}", gain.spans, slow.recording.len());
+    let held: usize = gain.spans[0].iter().map(ExactSizeIterator::len).sum();
+    let share = held as f64 / slow.recording.len() as f64;
+    assert!((0.1..0.6).contains(&share), "{share}");
 }
 
 /// Of an eccentric encoder the second harmonic stays in gyro z, in the table angle, until the model has it.

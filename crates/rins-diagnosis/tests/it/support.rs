@@ -40,9 +40,25 @@ pub(crate) fn run(rates: &[f64], effects: Model, flicker: f64, seed: u64) -> Run
     run_at(attitude, rates, effects, flicker, seed)
 }
 
-/// The same with the table in some attitude.
+/// A run over these rates \[deg/s\], so long each \[s\].
+pub(crate) fn run_of(rates: &[f64], duration: f64, effects: Model, seed: u64) -> Run {
+    let attitude = EulerAngles { roll: 25.0 * DEG, pitch: 5.0 * DEG, yaw: 40.0 * DEG };
+    made((attitude, duration), rates, effects, 0.0, seed)
+}
+
+/// The same as [`run`] with the table in some attitude.
 pub(crate) fn run_at(
     attitude: EulerAngles,
+    rates: &[f64],
+    effects: Model,
+    flicker: f64,
+    seed: u64,
+) -> Run {
+    made((attitude, 50.0), rates, effects, flicker, seed)
+}
+
+fn made(
+    (attitude, duration): (EulerAngles, f64),
     rates: &[f64],
     effects: Model,
     flicker: f64,
@@ -53,7 +69,7 @@ pub(crate) fn run_at(
     let station = Station::with_normal_gravity(site);
     let nav_from_table = attitude.dcm();
     let turns: Vec<Segment> =
-        rates.iter().map(|rate| Segment { rate: rate * DEG_PER_SECOND, duration: 50.0 }).collect();
+        rates.iter().map(|rate| Segment { rate: rate * DEG_PER_SECOND, duration }).collect();
     let gyro = NoiseModel {
         flicker: (flicker > 0.0).then_some(flicker),
         ..NoiseModel::white(imu.gyro.noise_density)
