@@ -30,6 +30,9 @@ pub struct Answer {
     /// By how much the log score rises with the effect that is there \[nats\], if it was asked.
     #[serde(default)]
     pub true_gain: Option<f64>,
+    /// The logarithm of the family-wise p-value of the effect that is there, if it was asked.
+    #[serde(default)]
+    pub true_ln_p: Option<f64>,
     /// How long it took \[s\].
     pub seconds: f64,
     /// What it said when it failed.
@@ -45,6 +48,9 @@ pub struct Named {
     pub cannot_tell_from: Vec<String>,
     /// The logarithm of its family-wise probability.
     pub ln_p: f64,
+    /// Its posterior probability among these, if it was stated.
+    #[serde(default)]
+    pub probability: Option<f64>,
     /// Its amplitudes: the parameter's name, its value and 1σ in SI units.
     pub parameters: Vec<(String, f64, f64)>,
     /// Its settings.
@@ -71,12 +77,21 @@ pub struct Analyser {
     pub program: PathBuf,
     /// How many threads it may use.
     pub threads: usize,
+    /// Further arguments of `diagnose`.
+    pub arguments: Vec<String>,
 }
 
 impl Analyser {
     /// The program at this path, on so many threads.
     pub fn new(program: impl Into<PathBuf>, threads: usize) -> Self {
-        Self { program: program.into(), threads }
+        Self { program: program.into(), threads, arguments: Vec::new() }
+    }
+
+    /// The same with these arguments of `diagnose`.
+    #[must_use]
+    pub fn with(mut self, arguments: &[&str]) -> Self {
+        self.arguments.extend(arguments.iter().map(|one| (*one).to_owned()));
+        self
     }
 
     /// What it says of the run in `folder`.
@@ -87,16 +102,14 @@ impl Analyser {
         self.asked(folder, &[])
     }
 
-    /// By how much the log score of what is held out rises with these effects in the model \[nats\]; none if it says
-    /// nothing of that.
+    /// What it says of the run in `folder` when it is given these effects.
     ///
     /// # Errors
     /// As [`ask`](Self::ask).
-    pub fn gain_with(&self, folder: &Path, effects: &Model) -> Result<Option<f64>, Trouble> {
-        const FILE: &str = "supposed.toml";
+    pub fn ask_given(&self, folder: &Path, effects: &Model) -> Result<Answer, Trouble> {
+        const FILE: &str = "hypothesis.toml";
         ModelFile::of(effects.clone()).write(&folder.join(FILE), Overwrite::Refuse)?;
-        let answer = self.asked(folder, &["--suppose", FILE])?;
-        Ok(answer.gain["log_score_rise"].as_f64())
+        self.asked(folder, &["--hypothesis", FILE])
     }
 
     fn asked(&self, folder: &Path, more: &[&str]) -> Result<Answer, Trouble> {
@@ -104,6 +117,7 @@ impl Analyser {
         let started = Instant::now();
         let mut child = Command::new(&self.program)
             .args(["diagnose", "rig.toml", "--json"])
+            .args(&self.arguments)
             .args(more)
             .current_dir(folder)
             .env("RAYON_NUM_THREADS", self.threads.to_string())
@@ -161,6 +175,7 @@ fn read(result: &Value) -> Answer {
         Named {
             cannot_tell_from: list(cause, "cannot_tell_from").iter().map(text).collect(),
             ln_p: cause["ln_p"].as_f64().unwrap_or_else(|| number(&cause["p_value"]).ln()),
+            probability: cause["probability"].as_f64(),
             parameters,
             settings: cause["settings"].clone(),
             effect,
@@ -174,6 +189,7 @@ fn read(result: &Value) -> Answer {
         unexplained: list(result, "unexplained").iter().map(unexplained).collect(),
         gain: result["gain"].clone(),
         true_gain: None,
+        true_ln_p: None,
         seconds: 0.0,
         failure: None,
     }

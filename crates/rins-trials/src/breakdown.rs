@@ -234,3 +234,30 @@ pub(crate) fn outside(page: &mut String, records: &[&Record]) {
         );
     }
 }
+
+/// How often the first name is right, by the probability that is stated of it.
+pub(crate) fn reliability(page: &mut String, records: &[&Record]) {
+    const BINS: [f64; 6] = [0.0, 0.3, 0.5, 0.7, 0.9, 0.98];
+    page.push_str(
+        "The most probable effect of a run with one hidden effect is correct as often as the stated posterior probability says.\n\n",
+    );
+    page.push_str("| stated probability | mean | correct |\n| --- | ---: | --- |\n");
+    let stated: Vec<(f64, bool)> = ones(records)
+        .into_iter()
+        .filter_map(|(record, hidden)| {
+            let first = record.first()?;
+            Some((first.probability?, first.effect == hidden.id))
+        })
+        .collect();
+    for (place, low) in BINS.into_iter().enumerate() {
+        let high = BINS.get(place + 1).copied().unwrap_or(1.0 + f64::EPSILON);
+        let own: Vec<(f64, bool)> =
+            stated.iter().copied().filter(|(stated, _)| (low..high).contains(stated)).collect();
+        if own.is_empty() {
+            continue;
+        }
+        let mean = own.iter().map(|(stated, _)| stated).sum::<f64>() / own.len() as f64;
+        let right = Share::count(own.iter().map(|(_, right)| *right)).text();
+        let _ = writeln!(page, "| {low:.2} – {:.2} | {mean:.2} | {right} |", high.min(1.0));
+    }
+}

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::breakdown::{by_effect, by_level, by_schedule, confusion, detection, faint, outside};
+use crate::breakdown::{
+    by_effect, by_level, by_schedule, confusion, detection, faint, outside, reliability,
+};
 use crate::draw::Kind;
 use crate::hide::Hidden;
 use crate::journal::Record;
@@ -33,6 +35,8 @@ pub fn card(records: &[Record]) -> String {
     detection(&mut page, &answered);
     page.push('\n');
     faint(&mut page, &answered);
+    page.push_str("\n## Stated probabilities\n\n");
+    reliability(&mut page, &answered);
     page.push_str("\n## By effect\n\n");
     by_effect(&mut page, &answered);
     page.push_str("\n## Confusion matrix\n\n");

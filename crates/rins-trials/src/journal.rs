@@ -91,7 +91,9 @@ pub fn try_out(trial: &Trial, analyser: &Analyser) -> Result<Answer, Trouble> {
         && hidden.strength >= GAINFUL
         && let Some(truth) = hidden.as_term()
     {
-        answer.true_gain = analyser.gain_with(folder.path(), &Model { terms: vec![truth] })?;
+        let given = analyser.ask_given(folder.path(), &Model { terms: vec![truth] })?;
+        answer.true_gain = given.gain["log_score_rise"].as_f64();
+        answer.true_ln_p = given.causes.first().map(|cause| cause.ln_p);
     }
     Ok(answer)
 }

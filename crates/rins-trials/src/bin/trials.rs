@@ -8,8 +8,8 @@ use rins_trials::{
     Analyser, FROZEN, Length, Plan, Record, Trial, Trouble, card, records, run, time,
 };
 
-const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS | trials time RINS JOURNAL SEED | \
-                     trials frozen RINS | trials folder SEED INDEX FOLDER | trials card JOURNAL PAGE";
+const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED | \
+                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER | trials card JOURNAL PAGE";
 
 /// How many of the longest runs are timed.
 const TIMED: u64 = 5;
@@ -41,20 +41,21 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let told = |record: &Record| println!("{}", line(record));
     Some(match *words {
-        ["run", program, journal, seed, trials, threads] => {
+        ["run", program, journal, seed, trials, threads, ref more @ ..] => {
             let plan = Plan {
                 seed: seed.parse().ok()?,
                 trials: trials.parse().ok()?,
                 threads: threads.parse().ok()?,
             };
             let analyser = Analyser::new(program, (cores / plan.threads.max(1)).max(1));
+            let analyser = analyser.with(more);
             run(&plan, &analyser, Path::new(journal), told)
         }
         ["time", program, journal, seed] => {
             let analyser = Analyser::new(program, cores);
             time(seed.parse().ok()?, TIMED, &analyser, Path::new(journal), told)
         }
-        ["frozen", program] => frozen(&Analyser::new(program, cores)),
+        ["frozen", program, ref more @ ..] => frozen(&Analyser::new(program, cores).with(more)),
         ["folder", seed, index, folder] => {
             made(seed.parse().ok()?, index.parse().ok()?, Path::new(folder))
         }
