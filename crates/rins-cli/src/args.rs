@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
-use rins::{ModelChoice, NoiseChoice};
+use rins::ModelChoice;
 use rins_io::{LogFile, Overwrite, shown};
+
+use crate::choices::{Noise, Searched};
 
 mod observe;
 
@@ -224,7 +226,7 @@ pub(crate) struct Diagnose {
     /// Folder for result.json, report.html, model.toml (the extended model) and calibration.toml
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Measure the predictive gain on this held-out run; by default on the last 30 % of every segment of constant rate
+    /// Measure the predictive gain on this held-out run; by default on the last 30 % of every segment
     #[arg(long, value_name = "RIG")]
     pub(crate) held_out: Option<PathBuf>,
     /// Measure the predictive gain also at the fastest rate of the table, with estimates from the slower rates
@@ -239,6 +241,9 @@ pub(crate) struct Diagnose {
     /// Source of the noise parameters
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
+    /// How effects are searched for
+    #[arg(long, value_enum, default_value_t = Searched::Stepwise)]
+    pub(crate) search: Searched,
     /// Estimate the false alarm rate of the first search: simulate the score statistics (gradients of the log-likelihood)
     /// of all effects DRAWS times for a run that follows the extended model, and report the fraction with a false
     /// detection; the readings themselves are not simulated
@@ -311,24 +316,6 @@ fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, Stri
         seen.push(rig);
     }
     None
-}
-
-/// Source of the noise parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Noise {
-    /// Estimated by maximum likelihood; the data sheet gives the initial values and priors
-    Likely,
-    /// Data-sheet values
-    Given,
-}
-
-impl From<Noise> for NoiseChoice {
-    fn from(noise: Noise) -> Self {
-        match noise {
-            Noise::Likely => Self::Likely,
-            Noise::Given => Self::Given,
-        }
-    }
 }
 
 #[derive(Debug, Args)]

@@ -8,6 +8,7 @@ use rins_io::one_line;
 use crate::args::Arguments;
 
 mod args;
+mod choices;
 mod deliver;
 mod interrupt;
 mod progress;

@@ -2,7 +2,7 @@
 
 use rins_terms::SettingKind;
 
-use crate::diagnosis::Cause;
+use crate::cause::Cause;
 use crate::structure::{Stratum, Structure};
 use crate::unexplained::Unexplained;
 

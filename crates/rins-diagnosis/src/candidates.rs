@@ -1,7 +1,9 @@
 //! The effects that are tried on runs: every term of the catalogue, in every shape that could differ.
 
 use rins_estimation::{Reference, Run};
-use rins_terms::{GridPoint, Model, Need, Setting, SettingKind, Term, TermInstance, catalogue};
+use rins_terms::{
+    GridPoint, Model, Need, Role, Setting, SettingKind, Term, TermInstance, catalogue,
+};
 
 use crate::dead_zone;
 use crate::timing::has_frequency;
@@ -31,6 +33,8 @@ pub struct Candidate {
     pub looks: f64,
     /// How far the neighbouring shapes are, if shapes are taken from a continuum: the place of a setting, and its step.
     pub step: Option<(usize, f64)>,
+    /// The term of the model of which it is a departure beyond the stated prior, if it is one.
+    pub(crate) departs: Option<usize>,
 }
 
 /// What is tried on `runs` beyond `model`.
@@ -124,11 +128,11 @@ fn shapes(duration: f64, term: &'static Term) -> Vec<Candidate> {
             chosen.settings[place] = point.value;
             let step = point.spacing.map(|spacing| (place, spacing));
             // A shape is looked for the more, the more is expected of it.
-            Candidate { chosen, looks: all / point.weight, step }
+            Candidate { chosen, looks: all / point.weight, step, departs: None }
         };
         grid.iter().map(candidate).collect()
     } else {
-        vec![Candidate { chosen, looks: 1.0, step: None }]
+        vec![Candidate { chosen, looks: 1.0, step: None, departs: None }]
     }
 }
 
@@ -144,11 +148,21 @@ impl Candidate {
         self
     }
 
+    /// The departures of a model's parameters beyond their stated priors.
+    pub(crate) fn departures(model: &Model) -> impl Iterator<Item = Self> {
+        let terms = model.terms.iter().enumerate();
+        let free = terms.filter(|(_, one)| one.roles.iter().any(|role| *role != Role::Held));
+        free.map(|(place, one)| {
+            let chosen = one.clone().with_values(&vec![0.0; one.values.len()]);
+            Self { chosen, looks: 1.0, step: None, departs: Some(place) }
+        })
+    }
+
     /// An effect that was found, of no size yet, with one of its settings moved by so much.
     pub(crate) fn beside(found: &TermInstance, setting: usize, by: f64) -> Self {
         let mut chosen = found.clone().with_values(&vec![0.0; found.values.len()]);
         chosen.settings[setting] += by;
-        Self { chosen, looks: 1.0, step: None }
+        Self { chosen, looks: 1.0, step: None, departs: None }
     }
 
     /// Shapes around this one, `part` of its step apart, four on each side, and itself.

@@ -85,7 +85,9 @@ impl Case<'_> {
 
     /// The noise that was found, and weaker flicker, which a further effect might have passed for.
     pub(crate) fn noises(&self, present: &Fit) -> Vec<RunNoise> {
-        let NoiseKnowledge::Likely(_) = self.knowledge else { return vec![present.noise.clone()] };
+        if !self.knowledge.is_estimated() {
+            return vec![present.noise.clone()];
+        }
         let ends = self.runs.iter().map(|run| &run.recording.times);
         let duration: f64 = ends.map(|times| times[times.len() - 1] - times[0]).sum();
         // Whether flicker is seen over white noise at the lowest frequency that the runs show.
@@ -116,9 +118,7 @@ impl Case<'_> {
     /// The noise found with all causes and with none, and that between them: what explains less leaves more to noise.
     pub(crate) fn between(&self, before: &Fit, after: &Fit) -> Vec<RunNoise> {
         let mut noises = vec![after.noise.clone()];
-        if let NoiseKnowledge::Likely(_) = self.knowledge
-            && before.noise != after.noise
-        {
+        if self.knowledge.is_estimated() && before.noise != after.noise {
             for part in [0.25, 0.5, 1.0] {
                 let each = before.noise.iter().zip(&after.noise);
                 noises.push(each.map(|(before, after)| mixed(after, before, part)).collect());
@@ -148,7 +148,7 @@ impl Case<'_> {
         tried: &[Trial],
         threshold: f64,
     ) -> Result<Option<(Candidate, Trial)>, Indefinite> {
-        let likely = matches!(self.knowledge, NoiseKnowledge::Likely(_));
+        let likely = self.knowledge.is_estimated();
         let threshold = if likely { threshold + SWALLOWED } else { threshold };
         let is_significant = |trial: &Trial| trial.ln_p < threshold && trial.is_likely();
         let mut best = tried

@@ -116,7 +116,7 @@ fn tried(shape: TermInstance) -> Candidate {
     let own = |&place: &usize| widths[place] > 0.0 && !widths[..place].contains(&widths[place]);
     let widths: f64 = (0..widths.len()).filter(own).map(|_| WIDTHS.len() as f64).product();
     let often = if axes[0] == 0.0 { OWN } else { 1.0 - OWN };
-    Candidate { chosen: shape.estimated(), looks: widths / often, step: None }
+    Candidate { chosen: shape.estimated(), looks: widths / often, step: None, departs: None }
 }
 
 /// Whether this is a dead zone of given widths.

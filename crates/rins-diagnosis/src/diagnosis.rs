@@ -1,12 +1,13 @@
 //! From what a model leaves unexplained to the effects that explain it.
 
-use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
+use rins_estimation::{Fit, FitError, Indefinite, NoiseKnowledge, Run};
 use rins_imu::ImuSpec;
 use rins_terms::{Model, SettingKind, Term, TermInstance};
 
 use crate::bursts::gathered;
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
+use crate::cause::Cause;
 use crate::disturbance;
 use crate::lines::FastLine;
 use crate::probability::ln_tail;
@@ -39,38 +40,6 @@ const MOST_SIMPLE: usize = 3;
 
 /// How many effects are accepted before the noise is found anew and the model made linear about them.
 const AT_ONCE: usize = 3;
-
-/// An effect that might be what is wrong.
-#[derive(Clone, Debug)]
-pub struct Rival {
-    /// The effect.
-    pub term: &'static Term,
-    /// Its settings, in SI units.
-    pub settings: Vec<f64>,
-    /// The logarithm of its odds against the most likely one.
-    pub odds: f64,
-}
-
-/// What was found.
-#[derive(Clone, Debug)]
-pub struct Cause {
-    /// The effect that explains it best.
-    pub term: &'static Term,
-    /// Its settings, in SI units.
-    pub settings: Vec<f64>,
-    /// Which of its settings was sought from a continuum, and its 1σ.
-    pub sought: Option<(usize, f64)>,
-    /// Its parameters as the final model has them.
-    pub parameters: Vec<Estimate>,
-    /// The logarithm of the probability that anything in the catalogue explains as much by chance.
-    pub ln_p: f64,
-    /// How many of its parameters' directions the runs show.
-    pub dof: usize,
-    /// By how much the logarithm of the likelihood rises.
-    pub gain: f64,
-    /// The other effects that these runs cannot tell from it, best first.
-    pub rivals: Vec<Rival>,
-}
 
 /// A finished diagnosis.
 #[derive(Clone, Debug)]
@@ -132,15 +101,26 @@ pub fn diagnose(
     }
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
-    let found = case.searched(&mut progress)?;
-    let (case, found) = case.read_unevenly(found, |uneven| uneven.searched(&mut progress))?;
-    case.wandering(found, |walking| walking.searched(&mut progress))
+    let found = case.searched(Search::Stepwise, &mut progress)?;
+    let (case, found) =
+        case.read_unevenly(found, |uneven| uneven.searched(Search::Stepwise, &mut progress))?;
+    case.wandering(found, |walking| walking.searched(Search::Stepwise, &mut progress))
+}
+
+/// How effects are searched for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Search {
+    /// One after the other, the most significant first.
+    Stepwise,
+    /// By the score of the whole hypothesis.
+    Evidence,
 }
 
 impl Case<'_> {
     /// What there is beyond the model.
-    fn searched(
+    pub(crate) fn searched(
         &self,
+        search: Search,
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
         let before = self.fit()?;
@@ -148,7 +128,10 @@ impl Case<'_> {
         // after what may be wrong about it, for they would stand for that.
         let [mut of_motion, mut fast] = self.by_motion(&before, self.fast_lines(&before));
         loop {
-            let diagnosis = self.likelier(&before, &fast, progress)?;
+            let diagnosis = match search {
+                Search::Stepwise => self.likelier(&before, &fast, progress)?,
+                Search::Evidence => self.by_score(&before, &fast, progress)?,
+            };
             let left = self.still_there(&diagnosis.after, &of_motion);
             of_motion.clear();
             if !left.is_empty() {
@@ -277,6 +260,18 @@ impl Case<'_> {
             }
         }
         let (after, causes) = case.settled(before, present, found, Found::Searched)?;
+        let found = self.finished(&case, (before, after), fast, causes)?;
+        Ok(Diagnosis { not_testable: not_testable.unwrap_or_default(), ..found })
+    }
+
+    /// The diagnosis of a case that knows these fast lines: what is left unexplained beside the causes, and the noise.
+    pub(crate) fn finished(
+        &self,
+        case: &Case<'_>,
+        (before, after): (&Fit, Fit),
+        fast: &[FastLine],
+        causes: Vec<Cause>,
+    ) -> Result<Diagnosis, DiagnosisError> {
         let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
             causes.into_iter().partition(|cause| disturbance::is_one(cause.term));
         let mut unexplained: Vec<Unexplained> =
@@ -293,11 +288,12 @@ impl Case<'_> {
         };
         let bursts: Vec<Unexplained> = bursts.into_iter().filter(|burst| !known(burst)).collect();
         unexplained.extend(bursts);
-        causes.extend(case.noise_causes(&after, unexplained.is_empty())?);
+        let noise = case.noise_causes(&after, unexplained.is_empty())?;
+        let known: Vec<&Term> = causes.iter().map(|cause| cause.term).collect();
+        causes.extend(noise.into_iter().filter(|one| !known.iter().any(|term| term.is(one.term))));
         causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
-        let not_testable = not_testable.unwrap_or_default();
         let before = before.clone();
-        Ok(Diagnosis { causes, unexplained, before, after, not_testable })
+        Ok(Diagnosis { causes, unexplained, before, after, not_testable: Vec::new() })
     }
 }
 
@@ -383,7 +379,7 @@ fn settles_twice(found: &[TermInstance]) -> bool {
 }
 
 /// Terms of which no shape shows.
-fn unseen(list: &[Candidate], tried: &[Trial]) -> Vec<&'static str> {
+pub(crate) fn unseen(list: &[Candidate], tried: &[Trial]) -> Vec<&'static str> {
     let mut ids = Vec::new();
     for candidate in list {
         let id = candidate.chosen.term.id;

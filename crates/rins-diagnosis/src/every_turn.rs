@@ -5,7 +5,7 @@ use rins_estimation::{Estimate, Fit};
 use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::Cause;
+use crate::cause::Cause;
 use crate::disturbance::{CHANNELS, IN_ANGLE};
 use crate::periodic::turn_frequency;
 use crate::probability::ln_tail;

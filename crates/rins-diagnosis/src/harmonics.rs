@@ -84,6 +84,7 @@ impl Candidate {
             chosen: chosen.with_setting(SettingKind::Order, order),
             looks: all * order,
             step: None,
+            departs: None,
         }
     }
 }

@@ -10,13 +10,18 @@
 //! Numbers are in SI units and radians.
 mod candidates;
 mod dead_zone;
+mod evidence;
+mod hypothesis;
 mod probability;
 mod score;
+mod search;
 mod suggested;
 mod survey;
 mod trial;
 
+mod by_evidence;
 mod case;
+mod cause;
 mod diagnosis;
 mod every_turn;
 mod settling;
@@ -53,8 +58,10 @@ mod gain_drift;
 mod gain_overlay;
 mod gain_spans;
 
+pub use by_evidence::{diagnose_by_evidence, evaluate_by_evidence};
 pub use candidates::{Candidate, candidates};
-pub use diagnosis::{Cause, Diagnosis, DiagnosisError, FALSE_ALARMS, Rival, diagnose, suppose};
+pub use cause::{Cause, Rival};
+pub use diagnosis::{Diagnosis, DiagnosisError, FALSE_ALARMS, diagnose, suppose};
 pub use gain::{Gain, GainError, GainVerdict, PredictiveScore};
 pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;

@@ -4,7 +4,8 @@ use rins_estimation::{Fit, Run};
 use rins_terms::{SettingKind, TermInstance, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::{Cause, FALSE_ALARMS, Rival};
+use crate::cause::{Cause, Rival};
+use crate::diagnosis::FALSE_ALARMS;
 use crate::noise::estimate;
 use crate::probability::ln_tail;
 use crate::residuals::{ABOUT_AXIS, beyond, in_axis_frame};

@@ -3,7 +3,7 @@
 use rins_frames::SignedAxes;
 use rins_terms::{TermInstance, own_channel};
 
-use crate::diagnosis::Cause;
+use crate::cause::Cause;
 use crate::disturbance::CHANNELS;
 use crate::limits::Limit;
 use crate::unexplained::Unexplained;

@@ -7,7 +7,8 @@ use rins_inspection::Repeats;
 use rins_terms::{FreeParameter, Term, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS};
+use crate::cause::Cause;
+use crate::diagnosis::{DiagnosisError, FALSE_ALARMS};
 use crate::probability::ln_tail;
 use crate::survey::RunNoise;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rins_estimation::{Estimate, Fit};
 use rins_terms::{Track, Unit, catalogue};
 
-use crate::diagnosis::Cause;
+use crate::cause::Cause;
 use crate::disturbance::CHANNELS;
 use crate::median::median;
 use crate::structure::Structure;

@@ -5,7 +5,7 @@ use rins_inspection::{QuantizationGrid, QuantizationGrids};
 use rins_terms::{Term, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::Cause;
+use crate::cause::Cause;
 use crate::noise::{estimate, triad};
 use crate::residuals::{ABOUT_AXIS, residuals};
 use crate::structure::Structure;

@@ -5,8 +5,9 @@ use rins_terms::{Role, SettingKind, TermInstance, catalogue};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
+use crate::cause::{Cause, Rival};
 use crate::dead_zone;
-use crate::diagnosis::{Cause, DiagnosisError, FALSE_ALARMS, Rival};
+use crate::diagnosis::{DiagnosisError, FALSE_ALARMS};
 use crate::disturbance;
 use crate::sought::settling_later;
 use crate::suggested::at_frequency;
@@ -197,7 +198,7 @@ impl Case<'_> {
             }
             if disturbance::is_one(cause.term) {
                 let chosen = cause.clone().with_values(&vec![0.0; cause.values.len()]).estimated();
-                list.push(Candidate { chosen, looks: 1.0, step: None });
+                list.push(Candidate { chosen, looks: 1.0, step: None, departs: None });
             }
             let is_listed = |other: &Candidate| {
                 other.chosen.term.is(cause.term) && other.chosen.settings == cause.settings
@@ -208,7 +209,12 @@ impl Case<'_> {
             if has_frequency(cause.term) {
                 // That there is a line is known by now: what it is, is asked.
                 let at = at_frequency(cause.settings[0]).into_iter();
-                list.extend(at.map(|chosen| Candidate { chosen, looks: 1.0, step: None }));
+                list.extend(at.map(|chosen| Candidate {
+                    chosen,
+                    looks: 1.0,
+                    step: None,
+                    departs: None,
+                }));
             }
         }
         list

@@ -7,7 +7,8 @@ use rins_terms::{SettingKind, TermInstance};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
-use crate::diagnosis::{Cause, DiagnosisError};
+use crate::cause::Cause;
+use crate::diagnosis::DiagnosisError;
 
 /// A setting is moved that is off by more than this part of its sigma.
 const OFF: f64 = 0.2;
@@ -108,7 +109,7 @@ impl Case<'_> {
             for by in [-apart, apart] {
                 let mut chosen = chosen.clone().estimated();
                 chosen.settings[place] += by;
-                list.push(Candidate { chosen, looks: 1.0, step: None });
+                list.push(Candidate { chosen, looks: 1.0, step: None, departs: None });
             }
         }
         if asked.is_empty() {

@@ -51,7 +51,7 @@ impl Case<'_> {
             list.extend(left.strongest_order(&in_body).map(|(order, step, looks)| {
                 let mut chosen = TermInstance::new(&IN_ANGLE).estimated();
                 chosen.settings[0] = order;
-                Candidate { chosen, looks, step: Some((0, step)) }
+                Candidate { chosen, looks, step: Some((0, step)), departs: None }
             }));
             list.extend(self.high_harmonics(present, run));
             let events = Self::events([&innovations, &in_body], present, run, jolts).into_iter();
@@ -66,7 +66,7 @@ impl Case<'_> {
                 for chosen in at.filter(|line| frequency > slowest && self.shows(run, line)) {
                     // Half an independent frequency is the distance of those that were looked at, in two frames.
                     let step = Some((0, 0.5 / length));
-                    list.push(Candidate { chosen, looks: LOOKS * count, step });
+                    list.push(Candidate { chosen, looks: LOOKS * count, step, departs: None });
                 }
             }
         }
@@ -106,7 +106,12 @@ impl Case<'_> {
                     jolts.pin(&mut chosen);
                 }
                 let step = 2.0 * outlier.len() as f64 * epoch;
-                list.push(Candidate { chosen, looks: count, step: Some((place, step)) });
+                list.push(Candidate {
+                    chosen,
+                    looks: count,
+                    step: Some((place, step)),
+                    departs: None,
+                });
             }
             if chosen.term.needs.contains(&Need::TableAngle) {
                 // An encoder tells the moment within an epoch.
@@ -122,7 +127,12 @@ impl Case<'_> {
                 list.extend(jolts.jumps(run).iter().map(|&time| {
                     let mut chosen = chosen.clone();
                     chosen.settings[place] = time;
-                    Candidate { chosen, looks: linear.track().len() as f64, step: None }
+                    Candidate {
+                        chosen,
+                        looks: linear.track().len() as f64,
+                        step: None,
+                        departs: None,
+                    }
                 }));
             }
         }

@@ -139,6 +139,18 @@ impl Survey {
         Self { known, terms: 0, places, said, sigmas, off, least_tilt: 0.0 }
     }
 
+    /// The survey of the first so many noises, which this one then lacks.
+    pub(crate) fn split_off(&mut self, noises: usize) -> Self {
+        let rest = self.said.split_off(noises.min(self.said.len()));
+        Self {
+            said: std::mem::replace(&mut self.said, rest),
+            places: self.places.clone(),
+            sigmas: self.sigmas.clone(),
+            off: self.off.clone(),
+            ..*self
+        }
+    }
+
     /// How many strengths of the noise there are.
     pub(crate) const fn noises(&self) -> usize {
         self.said.len()
@@ -290,8 +302,11 @@ impl Left<'_> {
 
     /// The candidates' places go on without gaps to the last; before them are those that were dropped.
     fn position(&self, place: usize) -> Option<usize> {
-        let from_end = self.places.last()?.checked_sub(place)?;
-        let by_end = self.places.len().checked_sub(1 + from_end);
+        let by_end = self
+            .places
+            .last()
+            .and_then(|last| last.checked_sub(place))
+            .and_then(|from_end| self.places.len().checked_sub(1 + from_end));
         by_end
             .filter(|&at| self.places[at] == place)
             .or_else(|| self.places.iter().position(|p| *p == place))

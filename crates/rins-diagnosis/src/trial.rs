@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 use rayon::prelude::*;
-use rins_terms::{Term, catalogue};
+use rins_terms::{Term, TermInstance, catalogue};
 
 use crate::candidates::Candidate;
 use crate::dead_zone;
@@ -104,7 +104,7 @@ impl<'a> Context<'a> {
             let Some((score, statistic)) = self.scored(&places) else { continue };
             let sigmas = self.survey.sigmas(&places);
             let amplitudes = score.estimate.component_mul(&sigmas);
-            let possible = self.survey.allows(shape, &parameters, &amplitudes);
+            let possible = self.survey.allows(&shape.chosen, &parameters, &amplitudes);
             let evidence = if possible {
                 score.evidence - looks - unlikely - pliable - of_choice
             } else {
@@ -207,15 +207,20 @@ pub(crate) fn best_pair<'a>(
 
 impl Survey {
     /// Whether a shape can have these amplitudes, in SI units.
-    fn allows(&self, shape: &Candidate, parameters: &[usize], amplitudes: &DVector<f64>) -> bool {
-        let tilts = shape.chosen.term.is(&catalogue::BASE_TILT_STEP);
+    pub(crate) fn allows(
+        &self,
+        shape: &TermInstance,
+        parameters: &[usize],
+        amplitudes: &DVector<f64>,
+    ) -> bool {
+        let tilts = shape.term.is(&catalogue::BASE_TILT_STEP);
         let is_rounding = tilts && amplitudes.amax() < self.least_tilt;
         // What turns the base about the table's axis tilts it too.
         let across = parameters.iter().zip(amplitudes).filter(|(of, _)| **of != ABOUT_AXIS);
         let tilt = across.fold(0.0_f64, |most, (_, amplitude)| most.max(amplitude.abs()));
         let is_slip = tilts && tilt < LEAST_ACROSS * amplitudes.amax();
-        let is_as_deep = !dead_zone::is_of_widths(&shape.chosen)
-            || dead_zone::is_as_deep(&shape.chosen, parameters, amplitudes.as_slice());
+        let is_as_deep = !dead_zone::is_of_widths(shape)
+            || dead_zone::is_as_deep(shape, parameters, amplitudes.as_slice());
         is_as_deep && !is_rounding && !is_slip
     }
 }

@@ -5,7 +5,8 @@ use rins_terms::{Term, TermInstance, Unit, catalogue};
 
 use crate::candidates::Candidate;
 use crate::case::Case;
-use crate::diagnosis::{Cause, FALSE_ALARMS};
+use crate::cause::Cause;
+use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
 use crate::periodic::modulated;
 use crate::probability::ln_tail;
@@ -153,7 +154,7 @@ impl Case<'_> {
         };
         let mut chosen = TermInstance::new(term).estimated();
         chosen.settings[0] = setting;
-        let list = [Candidate { chosen, looks: 1.0, step: None }];
+        let list = [Candidate { chosen, looks: 1.0, step: None, departs: None }];
         let noises = std::slice::from_ref(&after.noise);
         let survey = self.survey(after, &list, noises)?;
         let Some(left) = survey.left(0, &[], &[]) else { return Ok(()) };

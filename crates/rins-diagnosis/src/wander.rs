@@ -4,7 +4,8 @@ use rins_estimation::{NoiseKnowledge, NoiseParameters, TriadStrengths};
 use rins_terms::{Term, TermInstance, catalogue};
 
 use crate::case::Case;
-use crate::diagnosis::{Cause, Diagnosis, DiagnosisError, Rival};
+use crate::cause::{Cause, Rival};
+use crate::diagnosis::{Diagnosis, DiagnosisError};
 use crate::noise::triad;
 use crate::periodic::{is_line, strongest};
 use crate::settling::RIVALS;

@@ -5,7 +5,8 @@ use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 
 use crate::candidates::Candidate;
 use crate::case::{Case, gained};
-use crate::diagnosis::{Cause, FALSE_ALARMS};
+use crate::cause::Cause;
+use crate::diagnosis::FALSE_ALARMS;
 use crate::disturbance::CHANNELS;
 use crate::noise::triad;
 use crate::periodic::{is_line, strongest, waveforms};
@@ -121,7 +122,7 @@ impl Case<'_> {
                 let mut chosen = TermInstance::new(line.term).estimating(&OF_TRIAD[triad]);
                 chosen.settings.clone_from(&line.settings);
                 chosen.settings[0] = multiple;
-                Candidate { chosen, looks: 1.0, step: None }
+                Candidate { chosen, looks: 1.0, step: None, departs: None }
             })
             .collect();
         if list.is_empty() {

@@ -3,6 +3,7 @@
 
 mod dead_zone;
 mod events;
+mod evidence;
 mod gain;
 mod hidden;
 mod lines;

@@ -6,8 +6,8 @@ use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
 use rins_design::{Confused, NextTest, next_test};
 use rins_diagnosis::{
-    Cause, FALSE_ALARMS, Limit, Overlay, Rival, Unexplained, chance, diagnose, limits, stuck,
-    suppose,
+    Cause, FALSE_ALARMS, Limit, Overlay, Rival, Unexplained, chance, diagnose,
+    diagnose_by_evidence, evaluate_by_evidence, limits, stuck, suppose,
 };
 use rins_estimation::{Estimate, Fit, Indefinite, Noise, Run};
 use rins_imu::{ImuSpec, Seed};
@@ -17,6 +17,7 @@ use rins_terms::{Model, TermInstance, Unit};
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
 use crate::calibrate::Certificate;
+use crate::options::Search;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
@@ -78,6 +79,8 @@ pub(crate) struct Request {
     pub(crate) transfer: bool,
     /// How many runs are drawn to see what chance would name.
     pub(crate) bootstrap: Option<u32>,
+    /// How effects are searched for.
+    pub(crate) search: Search,
 }
 
 /// How often chance alone names something.
@@ -140,11 +143,24 @@ impl DiagnosisOutcome {
         let mut named: Vec<&str> = Vec::new();
         let (imu, knowledge) = (case.imu(), case.knowledge());
         let diagnosed = match &asked.supposed {
-            Some(effects) => suppose(&runs, &case.model, effects, imu, knowledge),
-            None => diagnose(&runs, &case.model, imu, knowledge, |id| {
-                named.push(id);
-                stage.at(&format!("found: {}", named.join(", ")));
-            }),
+            Some(effects) => match asked.search {
+                Search::Stepwise => suppose(&runs, &case.model, effects, imu, knowledge),
+                Search::Evidence => {
+                    evaluate_by_evidence(&runs, &case.model, effects, imu, knowledge)
+                }
+            },
+            None => {
+                let told = |id| {
+                    named.push(id);
+                    stage.at(&format!("found: {}", named.join(", ")));
+                };
+                match asked.search {
+                    Search::Stepwise => diagnose(&runs, &case.model, imu, knowledge, told),
+                    Search::Evidence => {
+                        diagnose_by_evidence(&runs, &case.model, imu, knowledge, told)
+                    }
+                }
+            }
         };
         let mut diagnosis = diagnosed.with_context(|| case.names())?;
         for (run, prepared) in case.runs.iter().enumerate() {

@@ -89,14 +89,35 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
         };
         format!("{further} {}", drifting(drift))
     });
+    let check = consistency(gain);
     match gain.verdict {
         GainVerdict::Improved => {
-            format!("{over}, the extended model predicts better: {scored}{drift}.")
+            format!("{over}, the extended model predicts better: {scored}{drift}.{check}")
         }
         GainVerdict::NoImprovement => {
-            format!("{over}, the extended model does not predict better: {scored}{drift}.")
+            format!("{over}, the extended model does not predict better: {scored}{drift}.{check}")
         }
     }
+}
+
+/// The absolute check of the prediction, if it fails.
+fn consistency(gain: &Gain) -> String {
+    let after = &gain.after;
+    if after.is_consistent() {
+        return String::new();
+    }
+    let both = if gain.before.is_consistent() {
+        "The extended model does not"
+    } else {
+        "Neither model can"
+    };
+    format!(
+        " {both} predict these data within the stated uncertainty: mean NIS {} with the extended model, {} with the given one, \
+         {} expected.",
+        figure(after.nis_mean, 3),
+        figure(gain.before.nis_mean, 3),
+        after.nis_dof
+    )
 }
 
 /// Whether free navigation ends further off, in velocity or attitude, with what the extended model finds undone.
@@ -107,10 +128,10 @@ fn drifts_further(gain: &Gain) -> bool {
 
 /// What was held out.
 fn held_out(measured: &Measured, gain: &Gain) -> String {
-    let size = format!("{} blocks, each one revolution or part of a static interval", gain.blocks);
+    let size = format!("{} blocks, each one revolution or 10 s", gain.blocks);
     match &measured.on {
         On::Ends => {
-            format!("held-out data (the last 30 % of each segment of constant rate; {size})")
+            format!("held-out data (the last 30 % of each segment; {size})")
         }
         On::Fastest => {
             format!("held-out data (the segments at the fastest rate of the table; {size})")

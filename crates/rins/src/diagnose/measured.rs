@@ -75,8 +75,10 @@ pub struct GainResult {
     pub log_score_rise_95: Option<[Option<f64>; 2]>,
     /// The mean normalized innovation squared.
     pub nis_mean: Option<PairResult>,
-    /// How much that would be if the model were right.
+    /// Its expected value for a correct model.
     pub nis_dof: Option<usize>,
+    /// Whether the innovations of each model are as large as predicted.
+    pub consistent: Option<ConsistentResult>,
     /// The velocity error of the longest free navigation \[m/s\].
     pub velocity_drift_m_s: Option<PairResult>,
     /// Its attitude error \[deg\].
@@ -85,6 +87,15 @@ pub struct GainResult {
     pub drift_after_s: Option<f64>,
     /// Free navigation over windows of several lengths.
     pub drifts: Vec<DriftPairResult>,
+}
+
+/// Whether held-out data are predicted within the stated uncertainty, without and with the causes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct ConsistentResult {
+    /// Without.
+    pub before: bool,
+    /// With.
+    pub after: bool,
 }
 
 /// A figure without and with the causes.
@@ -128,6 +139,7 @@ impl From<&Measured> for GainResult {
             log_score_rise_95: None,
             nis_mean: None,
             nis_dof: None,
+            consistent: None,
             velocity_drift_m_s: None,
             attitude_drift_deg: None,
             drift_after_s: None,
@@ -157,6 +169,10 @@ impl From<&Measured> for GainResult {
             log_score_rise_95: Some([finite(gain.interval.0), finite(gain.interval.1)]),
             nis_mean: pair(gain.before.nis_mean, gain.after.nis_mean),
             nis_dof: Some(gain.before.nis_dof),
+            consistent: Some(ConsistentResult {
+                before: gain.before.is_consistent(),
+                after: gain.after.is_consistent(),
+            }),
             velocity_drift_m_s: longest.map(|drift| drift.velocity_m_s),
             attitude_drift_deg: longest.map(|drift| drift.attitude_deg),
             drift_after_s: longest.map(|drift| drift.after_s),

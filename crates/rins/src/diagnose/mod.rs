@@ -18,14 +18,14 @@ use rins_io::{ModelFile, shown};
 use rins_terms::TermInstance;
 
 use self::found::{DiagnosisOutcome, Request};
-pub use self::measured::{DriftPairResult, GainResult, PairResult};
+pub use self::measured::{ConsistentResult, DriftPairResult, GainResult, PairResult};
 pub use self::result::{
     AlternativeResult, CauseParameterResult, CauseResult, DiagnoseResult, FalseAlarmsResult,
     NextTestResult, SettingResult, ShiftResult, UnexplainedResult, UntestableResult, WorstResult,
 };
 use crate::error::Result;
 use crate::log::Log;
-use crate::options::{ModelChoice, NamedModel, NoiseChoice};
+use crate::options::{ModelChoice, NamedModel, NoiseChoice, Search};
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
@@ -34,7 +34,7 @@ use crate::progress::Progress;
 pub struct DiagnoseOptions {
     /// The model that the logs are taken to follow: by default all of eq. (1), and the attitude of the axis.
     pub model: ModelChoice,
-    /// The log on which the gain is measured; by default the last 30 % of every segment of constant rate.
+    /// The log on which the gain is measured; by default the last 30 % of every segment.
     pub held_out: Option<Log>,
     /// Whether the gain is measured at the table's fastest rate too, with what was found at slower ones.
     pub transfer: bool,
@@ -44,6 +44,8 @@ pub struct DiagnoseOptions {
     pub noise: NoiseChoice,
     /// How many draws of the score under the extended model say how often the first search names an effect by chance.
     pub bootstrap: Option<u32>,
+    /// How effects are searched for.
+    pub search: Search,
     /// Who hears how far it is.
     pub progress: Progress,
 }
@@ -57,6 +59,7 @@ impl Default for DiagnoseOptions {
             hypothesis: None,
             noise: NoiseChoice::default(),
             bootstrap: None,
+            search: Search::default(),
             progress: Progress::default(),
         }
     }
@@ -100,8 +103,13 @@ fn found(logs: Vec<Log>, options: DiagnoseOptions) -> anyhow::Result<DiagnosisOu
         case.ensure_same_imu(held_out)?;
     }
     let supposed = options.hypothesis.as_deref().map(|file| hypothesis(file, &case)).transpose()?;
-    let asked =
-        Request { supposed, held_out, transfer: options.transfer, bootstrap: options.bootstrap };
+    let asked = Request {
+        supposed,
+        held_out,
+        transfer: options.transfer,
+        bootstrap: options.bootstrap,
+        search: options.search,
+    };
     DiagnosisOutcome::of(case, &asked, &options.progress)
 }
 

@@ -87,6 +87,8 @@ pub struct CauseResult {
     pub plausible: bool,
     /// Its parameters.
     pub parameters: Vec<CauseParameterResult>,
+    /// The posterior probability that it is this effect and none of its alternatives.
+    pub probability: f64,
     /// The ids of the effects from which these runs do not distinguish it.
     pub cannot_tell_from: Vec<String>,
     /// These with their odds.
@@ -138,6 +140,8 @@ pub struct AlternativeResult {
     pub name: String,
     /// The logarithm of its posterior odds against the cause.
     pub ln_posterior_odds: f64,
+    /// Its posterior probability.
+    pub probability: f64,
 }
 
 /// The run that would distinguish a cause from an alternative.
@@ -304,6 +308,7 @@ impl CauseResult {
             effect: rival.term.id.into(),
             name: rival.term.name.into(),
             ln_posterior_odds: rival.odds,
+            probability: cause.probability() * rival.odds.exp(),
         });
         Self {
             effect: cause.term.id.into(),
@@ -318,6 +323,7 @@ impl CauseResult {
             dof: cause.dof,
             sigmas: named.sigmas,
             plausible: named.plausible,
+            probability: cause.probability(),
             parameters: parameters.collect(),
             cannot_tell_from: cause.rivals.iter().map(|rival| rival.term.id.into()).collect(),
             alternatives: rivals.collect(),

@@ -1,0 +1,145 @@
+//! A hypothesis: which effects act beyond the given model, with their settings.
+
+mod magnitude;
+mod process;
+
+#[cfg(test)]
+pub(crate) use magnitude::Component;
+pub(crate) use magnitude::Magnitudes;
+pub(crate) use process::Process;
+
+use rins_imu::ImuSpec;
+use rins_terms::{Model, Role, Term, TermInstance};
+
+use crate::candidates::Candidate;
+use crate::disturbance;
+use crate::score::{Choice, choices};
+
+/// The logarithm of the prior odds of any effect against none.
+pub(crate) const SOMETHING: f64 = -1.0;
+
+/// What a structure without a physical cause pays beyond an effect, in e-folds.
+const GENERIC: f64 = 7.0;
+
+/// What a departure from a stated prior pays beyond an effect, in e-folds: what is stated holds as a rule.
+pub(crate) const DEPARTURE: f64 = 2.0;
+
+/// An effect of a hypothesis.
+#[derive(Clone, Debug)]
+pub(crate) struct Effect {
+    /// The term, its settings, and which of its parameters are estimated.
+    pub(crate) instance: TermInstance,
+    /// The logarithm of the prior probability of its settings, to within what the runs resolve.
+    pub(crate) ln_settings: f64,
+}
+
+impl Effect {
+    /// Whether two effects are one: the same term with the same settings.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        self.instance.term.is(other.instance.term)
+            && self.instance.settings == other.instance.settings
+    }
+}
+
+/// Which effects and which noise processes act beyond the given model.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Hypothesis {
+    /// The effects.
+    pub(crate) effects: Vec<Effect>,
+    /// The noise processes.
+    pub(crate) open: Vec<Process>,
+    /// The stated priors that are too narrow.
+    pub(crate) departures: Vec<Departure>,
+}
+
+/// A stated prior that is too narrow.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Departure {
+    /// Which term of the given model.
+    pub(crate) term: usize,
+    /// Which of its parameters.
+    pub(crate) parameters: Vec<usize>,
+    /// How many times the stated 1σ the parameters spread.
+    pub(crate) scale: f64,
+    /// The logarithm of the prior probability of that.
+    pub(crate) ln_prior: f64,
+}
+
+impl Hypothesis {
+    /// Whether two hypotheses are one.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        self.lacks(other).next().is_none()
+            && other.lacks(self).next().is_none()
+            && self.open.len() == other.open.len()
+            && self.open.iter().all(|one| other.open.contains(one))
+            && self.departures.len() == other.departures.len()
+            && self.departures.iter().all(|one| other.departs(one))
+    }
+
+    /// Whether it has this departure, of whatever size.
+    pub(crate) fn departs(&self, departure: &Departure) -> bool {
+        let is_same =
+            |own: &Departure| own.term == departure.term && own.parameters == departure.parameters;
+        self.departures.iter().any(is_same)
+    }
+
+    /// The given model with the priors that it has instead.
+    pub(crate) fn given(&self, given: &Model, imu: &ImuSpec) -> Model {
+        let mut model = given.clone();
+        for Departure { term, parameters, scale, .. } in &self.departures {
+            let chosen = &mut model.terms[*term];
+            for &parameter in parameters {
+                let stated = match chosen.roles[parameter] {
+                    Role::Within(sigma) => sigma,
+                    _ => chosen.term.parameters[parameter].sigma(imu),
+                };
+                chosen.roles[parameter] = Role::Within(stated * scale);
+            }
+        }
+        model
+    }
+
+    /// The effects of another hypothesis that this one does not have.
+    pub(crate) fn lacks<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = &'a Effect> {
+        other.effects.iter().filter(|one| !self.effects.iter().any(|own| own.is(one)))
+    }
+
+    /// The logarithm of its prior probability relative to that of no effect and no process, among so many terms.
+    pub(crate) fn ln_prior(&self, terms: usize) -> f64 {
+        let of_effect =
+            |one: &Effect| SOMETHING + ln_prior(one.instance.term, terms) + one.ln_settings;
+        let of_process = |one: &Process| SOMETHING + ln_prior(one.term(), terms);
+        let effects: f64 = self.effects.iter().map(of_effect).sum();
+        let departures: f64 = self.departures.iter().map(|one| SOMETHING + one.ln_prior).sum();
+        effects + self.open.iter().map(of_process).sum::<f64>() + departures
+    }
+}
+
+/// The logarithm of the prior probability of a term among so many, if something is there.
+pub(crate) fn ln_prior(term: &Term, terms: usize) -> f64 {
+    let generic = if disturbance::is_one(term) { GENERIC } else { 0.0 };
+    -(terms as f64).ln() - generic
+}
+
+/// A part of an effect's parameters, the others being zero.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Support {
+    /// The places of the parameters.
+    pub(crate) parameters: Vec<usize>,
+    /// The logarithm of its prior probability.
+    pub(crate) ln_prior: f64,
+}
+
+/// The supports of a term.
+pub(crate) fn supports(term: &Term) -> Vec<Support> {
+    let all = choices(term);
+    let total: f64 = all.iter().map(|choice| (-choice.unlikely).exp()).sum();
+    let of =
+        |Choice { parameters, unlikely }| Support { parameters, ln_prior: -unlikely - total.ln() };
+    all.into_iter().map(of).collect()
+}
+
+/// The logarithm of the prior probability of a candidate's settings.
+pub(crate) fn ln_settings(candidate: &Candidate) -> f64 {
+    -candidate.looks.ln()
+}

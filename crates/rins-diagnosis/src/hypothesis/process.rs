@@ -1,0 +1,100 @@
+//! Noise processes that no data sheet states: random walks of the biases, and a jitter of the encoder's time stamps.
+
+use rins_estimation::{Noise, NoiseParameters, Reference, Run};
+use rins_imu::ImuSpec;
+use rins_terms::{Term, catalogue};
+
+/// A noise process.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Process {
+    /// Rate random walk of the gyros.
+    GyroWalk,
+    /// Random walk of the accelerometers' biases.
+    AccelWalk,
+    /// Jitter of the times at which the encoder is read.
+    Jitter,
+}
+
+impl Process {
+    const ALL: [Self; 3] = [Self::GyroWalk, Self::AccelWalk, Self::Jitter];
+
+    /// Its entry in the catalogue.
+    pub(crate) const fn term(self) -> &'static Term {
+        match self {
+            Self::GyroWalk => &catalogue::GYRO_RATE_RANDOM_WALK,
+            Self::AccelWalk => &catalogue::ACCEL_RATE_RANDOM_WALK,
+            Self::Jitter => &catalogue::TIMESTAMP_JITTER,
+        }
+    }
+
+    /// Its parameter among the noise parameters.
+    pub(crate) fn slot(self, noise: &mut NoiseParameters) -> &mut f64 {
+        match self {
+            Self::GyroWalk => &mut noise.gyro.walk,
+            Self::AccelWalk => &mut noise.accel.walk,
+            Self::Jitter => &mut noise.jitter,
+        }
+    }
+
+    /// Its typical value for an IMU with this data sheet, in SI units: the geometric mean of the ends of its range.
+    pub(crate) fn typical(self, imu: &ImuSpec) -> f64 {
+        let (low, high) = self.term().parameters[0].range(imu);
+        (low * high).sqrt()
+    }
+
+    /// The processes that may act in some runs beyond what is stated.
+    pub(crate) fn available(runs: &[Run], stated: &NoiseParameters) -> Vec<Self> {
+        let read = |run: &Run| matches!(run.rig.reference, Reference::Encoder { .. });
+        let may_act = |one: &Self| {
+            *one.slot(&mut { *stated }) == 0.0 && (*one != Self::Jitter || runs.iter().any(read))
+        };
+        Self::ALL.into_iter().filter(may_act).collect()
+    }
+
+    /// Noises in which it acts, about those of a fit in which it does not: visible over so long \[s\], at so fast a rate
+    /// \[rad/s\].
+    pub(crate) fn opened(self, noise: &[Noise], duration: f64, fastest: f64) -> Vec<Vec<Noise>> {
+        let with = |change: &dyn Fn(&mut Noise)| {
+            let mut other = noise.to_vec();
+            other.iter_mut().for_each(change);
+            other
+        };
+        let mut all = Vec::new();
+        for strength in [3.0, 0.75, 0.2] {
+            for rest in [1.0, 0.1] {
+                all.push(match self {
+                    Self::GyroWalk => with(&|one| {
+                        one.imu.gyro.walk = strength * one.imu.gyro.white / duration;
+                        one.imu.gyro.flicker *= rest;
+                    }),
+                    Self::AccelWalk => with(&|one| {
+                        one.imu.accel.walk = strength * one.imu.accel.white / duration;
+                        one.imu.accel.flicker *= rest;
+                    }),
+                    Self::Jitter => with(&|one| {
+                        one.imu.jitter = strength * one.encoder / fastest;
+                        one.encoder *= rest;
+                    }),
+                });
+            }
+        }
+        all
+    }
+
+    /// Noises in which it does not act, about those of a fit in which it does.
+    pub(crate) fn closed(self, noise: &[Noise]) -> Vec<Vec<Noise>> {
+        let with = |more: f64| {
+            let mut other = noise.to_vec();
+            for one in &mut other {
+                *self.slot(&mut one.imu) = 0.0;
+                match self {
+                    Self::GyroWalk => one.imu.gyro.flicker *= more,
+                    Self::AccelWalk => one.imu.accel.flicker *= more,
+                    Self::Jitter => one.encoder *= more,
+                }
+            }
+            other
+        };
+        [1.0, 2.0, 5.0].map(with).to_vec()
+    }
+}

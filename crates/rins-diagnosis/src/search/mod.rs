@@ -1,0 +1,232 @@
+//! The search: moves on the current hypothesis, scored in the linear pass, the best of them fitted.
+
+mod alternatives;
+mod given;
+mod moves;
+mod refine;
+mod state;
+
+use rins_estimation::{Fit, Indefinite, NoiseKnowledge, NoiseParameters};
+
+use crate::candidates::{Candidate, candidates};
+use crate::case::Case;
+use crate::diagnosis::{DiagnosisError, unseen};
+use crate::hypothesis::{Hypothesis, Process};
+use crate::suggested::at_frequency;
+use crate::survey::{RunNoise, Survey};
+use crate::timing::has_frequency;
+use crate::trial::{Context, trials};
+
+pub(crate) use self::state::{State, Tried};
+
+/// The most effects of a hypothesis.
+const MOST_EFFECTS: usize = 12;
+
+/// The most moves that are fitted in one round.
+const FITTED: usize = 3;
+
+/// A move whose linear score is worse than the current one by this many e-folds is not fitted: so much may be missing because
+/// the noise is estimated again only in the fit.
+const MARGIN: f64 = 4.0;
+
+/// Nor is one that is worse than the best one by this and ...
+const NEAR: f64 = 4.0;
+
+/// ... this part of its gain.
+const NEAR_PART: f64 = 0.15;
+
+/// A hypothesis is better if its score is larger by this.
+const BETTER: f64 = 0.3;
+
+/// The part of the prior of a bias instability for which each of the noises stands that are tried beside the estimated one.
+const OTHER_WIDTH: f64 = 0.3;
+
+/// The most rounds.
+const ROUNDS: usize = 20;
+
+/// What one round of the search looks at.
+pub(crate) struct Round {
+    pub(crate) list: Vec<Candidate>,
+    pub(crate) survey: Survey,
+    /// The noises of the survey.
+    pub(crate) noises: Vec<RunNoise>,
+    /// The logarithms of the priors of the survey's noises.
+    pub(crate) ln_priors: Vec<f64>,
+    /// How many terms there are to choose from.
+    pub(crate) terms: usize,
+}
+
+impl Round {
+    /// The terms of which the runs show nothing.
+    pub(crate) fn not_testable(&self) -> Vec<&'static str> {
+        let context = Context::of(&self.survey, &[], &[]);
+        let tried = context.map(|context| trials(&self.survey, &context, &self.list));
+        tried.map_or_else(Vec::new, |tried| unseen(&self.list, &tried))
+    }
+}
+
+impl Case<'_> {
+    /// The hypothesis of the largest score, the last round, and all hypotheses that were fitted.
+    pub(crate) fn search(
+        &self,
+        before: &Fit,
+        progress: &mut impl FnMut(&'static str),
+    ) -> Result<(State, Round, Vec<Tried>), DiagnosisError> {
+        let terms = self.families();
+        let mut current = self.state(before.clone(), Hypothesis::default(), terms);
+        let mut tried = vec![Tried::of(&current)];
+        let mut rounds = 0;
+        loop {
+            let round = self.round(before, &current, terms)?;
+            rounds += 1;
+            let better = if rounds > ROUNDS {
+                None
+            } else {
+                let better = self.best_move(before, (&current, &round), &mut tried)?;
+                better.or_else(|| self.without_one(before, &current, terms, &mut tried))
+            };
+            let Some(better) = better else { return Ok((current, round, tried)) };
+            for effect in current.hypothesis.lacks(&better.hypothesis) {
+                progress(effect.instance.term.id);
+            }
+            current = better;
+        }
+    }
+
+    /// The best of the moves on a hypothesis, fitted, if it is better.
+    fn best_move(
+        &self,
+        before: &Fit,
+        (current, round): (&State, &Round),
+        tried: &mut Vec<Tried>,
+    ) -> Result<Option<State>, DiagnosisError> {
+        let moves = self.moves(before, current, round)?;
+        let most = moves.first().map_or(0.0, |one| one.gain);
+        let least = (most - NEAR - NEAR_PART * most.max(0.0)).max(-MARGIN);
+        let mut best: Option<State> = None;
+        let mut fitted = 0;
+        for one in moves {
+            if fitted >= FITTED || one.gain < least {
+                break;
+            }
+            let hypothesis = one.applied(&current.hypothesis);
+            let is_known = tried.iter().any(|other| other.hypothesis.is(&hypothesis));
+            if hypothesis.effects.len() > MOST_EFFECTS || is_known {
+                continue;
+            }
+            fitted += 1;
+            let least = best.as_ref().map_or(f64::NEG_INFINITY, |best| best.score - NEAR);
+            let near = (before, current);
+            let Some(state) = self.fitted(near, hypothesis, round.terms, least) else { continue };
+            tried.push(Tried::of(&state));
+            if best.as_ref().is_none_or(|other| state.score > other.score) {
+                best = Some(state);
+            }
+        }
+        Ok(best.filter(|state| state.score > current.score + BETTER))
+    }
+
+    /// The best hypothesis with one effect less, fitted, if it is better: far from zero amplitudes the linear pass may be wrong
+    /// about what the data lose without an effect.
+    fn without_one(
+        &self,
+        before: &Fit,
+        current: &State,
+        terms: usize,
+        tried: &mut Vec<Tried>,
+    ) -> Option<State> {
+        let mut best: Option<State> = None;
+        for index in 0..current.hypothesis.effects.len() {
+            let mut hypothesis = current.hypothesis.clone();
+            hypothesis.effects.remove(index);
+            if tried.iter().any(|other| other.hypothesis.is(&hypothesis)) {
+                continue;
+            }
+            let near = (before, current);
+            let least = current.score - NEAR;
+            let Some(state) = self.fitted(near, hypothesis, terms, least) else { continue };
+            tried.push(Tried::of(&state));
+            if best.as_ref().is_none_or(|other| state.score > other.score) {
+                best = Some(state);
+            }
+        }
+        best.filter(|state| state.score > current.score + BETTER)
+    }
+
+    /// The number of terms to choose from.
+    fn families(&self) -> usize {
+        let mut ids: Vec<&str> =
+            candidates(self.runs, self.given).iter().map(|one| one.chosen.term.id).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        // Lines have no grid.
+        ids.len() + 2
+    }
+
+    /// The same case with these noise processes.
+    pub(crate) fn with_processes(&self, processes: &[Process]) -> Self {
+        let mut open = NoiseParameters::default();
+        for process in processes {
+            *process.slot(&mut open) = process.typical(self.imu);
+        }
+        let knowledge = match self.knowledge {
+            NoiseKnowledge::Given(stated) => NoiseKnowledge::Given(stated),
+            other if processes.is_empty() => NoiseKnowledge::Likely(other.sheet()),
+            other => NoiseKnowledge::Open { stated: other.sheet(), open },
+        };
+        Self { knowledge, ..*self }
+    }
+
+    /// The linear pass about a hypothesis.
+    fn round(&self, before: &Fit, current: &State, terms: usize) -> Result<Round, Indefinite> {
+        let present = &current.fit;
+        let mut list = candidates(self.runs, self.given);
+        list.extend(Candidate::departures(self.given));
+        let jolts = self.jolts(present);
+        list.extend(self.suggested(present, &jolts));
+        for effect in &current.hypothesis.effects {
+            let found = &effect.instance;
+            let at: Vec<Candidate> =
+                list.iter().filter_map(|candidate| candidate.at_the_time_of(found)).collect();
+            for candidate in at {
+                if !list.iter().any(|other| other.chosen == candidate.chosen) {
+                    list.push(Candidate { looks: (-effect.ln_settings).exp(), ..candidate });
+                }
+            }
+            if has_frequency(found.term) {
+                let at = at_frequency(found.settings[0]).into_iter();
+                let looks = (-effect.ln_settings).exp();
+                list.extend(at.map(|chosen| Candidate {
+                    chosen,
+                    looks,
+                    step: None,
+                    departs: None,
+                }));
+            }
+        }
+        let noises = self.noises_about(before, current);
+        let survey = self.survey(present, &list, &noises)?;
+        let ln_priors = self.ln_priors(current, &noises);
+        Ok(Round { list, survey, noises, ln_priors, terms })
+    }
+
+    /// The noise of a hypothesis, weaker flicker, and what the noise would be if effects were dropped.
+    fn noises_about(&self, before: &Fit, current: &State) -> Vec<RunNoise> {
+        let mut noises: Vec<RunNoise> = self.noises(&current.fit);
+        if !current.hypothesis.effects.is_empty() {
+            noises.extend(self.between(before, &current.fit).into_iter().skip(2));
+        }
+        noises
+    }
+
+    /// The logarithms of the prior probabilities of the noises about a hypothesis: its own with the width of its posterior, each
+    /// of the others for a part of the range of its bias instability.
+    fn ln_priors(&self, current: &State, noises: &[RunNoise]) -> Vec<f64> {
+        let knowledge = self.with_processes(&current.hypothesis.open).knowledge;
+        let of = |(place, noise): (usize, &RunNoise)| {
+            let width = if place == 0 { current.fit.ln_width } else { OTHER_WIDTH.ln() };
+            current.fit.log_prior_of_noise(self.runs, knowledge, noise) + width
+        };
+        noises.iter().enumerate().map(of).collect()
+    }
+}
