@@ -379,7 +379,7 @@ fn settles_twice(found: &[TermInstance]) -> bool {
 }
 
 /// Terms of which no shape shows.
-pub(crate) fn unseen(list: &[Candidate], tried: &[Trial]) -> Vec<&'static str> {
+fn unseen(list: &[Candidate], tried: &[Trial]) -> Vec<&'static str> {
     let mut ids = Vec::new();
     for candidate in list {
         let id = candidate.chosen.term.id;

@@ -10,12 +10,12 @@ use rins_estimation::{Fit, Indefinite, NoiseKnowledge, NoiseParameters};
 
 use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
-use crate::diagnosis::{DiagnosisError, unseen};
+use crate::diagnosis::DiagnosisError;
 use crate::hypothesis::{Hypothesis, Process};
+use crate::score::USUAL;
 use crate::suggested::at_frequency;
 use crate::survey::{RunNoise, Survey};
 use crate::timing::has_frequency;
-use crate::trial::{Context, trials};
 
 pub(crate) use self::state::{State, Tried};
 
@@ -29,10 +29,10 @@ const FITTED: usize = 3;
 /// the noise is estimated again only in the fit.
 const MARGIN: f64 = 4.0;
 
-/// Nor is one that is worse than the best one by this and ...
+/// Nor is one whose linear score is worse than what was found by a fit by this and ...
 const NEAR: f64 = 4.0;
 
-/// ... this part of its gain.
+/// ... this part of that gain.
 const NEAR_PART: f64 = 0.15;
 
 /// A hypothesis is better if its score is larger by this.
@@ -57,11 +57,25 @@ pub(crate) struct Round {
 }
 
 impl Round {
-    /// The terms of which the runs show nothing.
+    /// The terms of which the runs show nothing: no direction of their parameters is known better from the runs than from its
+    /// typical range.
     pub(crate) fn not_testable(&self) -> Vec<&'static str> {
-        let context = Context::of(&self.survey, &[], &[]);
-        let tried = context.map(|context| trials(&self.survey, &context, &self.list));
-        tried.map_or_else(Vec::new, |tried| unseen(&self.list, &tried))
+        let Some(left) = self.survey.left(0, &[], &[]) else { return Vec::new() };
+        let (mut seen, mut unseen): (Vec<&str>, Vec<&str>) = (Vec::new(), Vec::new());
+        for (index, candidate) in self.list.iter().enumerate() {
+            let id = candidate.chosen.term.id;
+            if candidate.departs.is_some() || seen.contains(&id) {
+                continue;
+            }
+            let (information, _) = left.block(&self.survey.of_candidate(index).concat());
+            let is_seen = information.symmetric_eigenvalues().max() * USUAL * USUAL > 1.0;
+            let ids = if is_seen { &mut seen } else { &mut unseen };
+            if !ids.contains(&id) {
+                ids.push(id);
+            }
+        }
+        unseen.retain(|id| !seen.contains(id));
+        unseen
     }
 }
 
@@ -101,11 +115,16 @@ impl Case<'_> {
         tried: &mut Vec<Tried>,
     ) -> Result<Option<State>, DiagnosisError> {
         let moves = self.moves(before, current, round)?;
-        let most = moves.first().map_or(0.0, |one| one.gain);
-        let least = (most - NEAR - NEAR_PART * most.max(0.0)).max(-MARGIN);
+        // A single change first: two effects that nearly cancel promise in the linear pass what no fit keeps.
+        let single = moves.iter().position(|one| one.added.len() < 2);
+        let order =
+            single.into_iter().chain((0..moves.len()).filter(|place| Some(*place) != single));
         let mut best: Option<State> = None;
         let mut fitted = 0;
-        for one in moves {
+        for one in order.map(|place| &moves[place]) {
+            // What was promised does not count, but what was found.
+            let found = best.as_ref().map_or(0.0, |best| (best.score - current.score).max(0.0));
+            let least = (found - NEAR - NEAR_PART * found).max(-MARGIN);
             if fitted >= FITTED || one.gain < least {
                 break;
             }

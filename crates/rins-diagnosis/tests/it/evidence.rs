@@ -94,6 +94,18 @@ fn bias_beyond_its_data_sheet_is_a_hypothesis() {
     }
 }
 
+/// A ramp of four thousand sigmas moves everything that is estimated with it: pairs of effects that nearly cancel promise as much in
+/// the linear pass.
+#[test]
+fn strong_ramp_is_named_alone() {
+    let values = [200.0 * DEG_PER_HOUR / 3600.0, 0.0, 0.0];
+    let hidden = hiding(&[(&catalogue::GYRO_BIAS_RAMP, &values)]);
+    let diagnosis = found(&run(&[0.0, 10.0, -10.0], hidden, 0.0, SEED));
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert!(cause.term.is(&catalogue::GYRO_BIAS_RAMP), "{cause:?}");
+    assert_amplitudes(cause, &values);
+}
+
 /// A given hypothesis has the score that the search gives it.
 #[test]
 fn given_hypothesis_has_the_significance_of_the_search() {
