@@ -6,7 +6,7 @@ use rins_terms::{Model, TermInstance};
 
 use crate::case::Case;
 use crate::cause::Cause;
-use crate::diagnosis::{Diagnosis, DiagnosisError, Search};
+use crate::diagnosis::{Diagnosis, DiagnosisError, Search, ensure_one_axis, with_lines};
 use crate::lines::FastLine;
 use crate::rounding::Rounding;
 use crate::search::{Round, State, Tried};
@@ -27,9 +27,7 @@ pub fn diagnose_by_evidence(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
-    if runs.iter().any(|run| run.axes != runs[0].axes) {
-        return Err(DiagnosisError::SeveralAxes);
-    }
+    ensure_one_axis(runs)?;
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     case.searched(Search::Evidence, &mut progress)
@@ -48,23 +46,14 @@ pub fn evaluate_by_evidence(
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Diagnosis, DiagnosisError> {
-    if runs.iter().any(|run| run.axes != runs[0].axes) {
-        return Err(DiagnosisError::SeveralAxes);
-    }
+    ensure_one_axis(runs)?;
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
-    let before = case.fit()?;
-    let (lines, found) = case.supposed_lines(&before, effects);
-    let mut given = model.clone();
-    given.terms.extend(lines.iter().map(|(line, _)| line.clone()));
-    let case = Case { given: &given, ..case };
-    let present = if lines.is_empty() { before.clone() } else { case.fit_near(&before, &[])? };
-    let (state, round, tried) = case.evaluated(&present, &found)?;
-    let (after, mut causes) = case.concluded(state, &round, &tried)?;
-    causes.extend(lines.into_iter().map(|(_, cause)| cause));
-    causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
-    let unexplained = case.unexplained((&before, &after), &causes)?;
-    Ok(Diagnosis { causes, unexplained, before, after, not_testable: Vec::new() })
+    case.supposing(effects, |case, before, found| {
+        let near = case.with_given(before)?;
+        let (state, round, tried) = case.evaluated(&near, &found)?;
+        case.concluded(state, &round, &tried)
+    })
 }
 
 impl Case<'_> {
@@ -75,10 +64,9 @@ impl Case<'_> {
         fast: &[FastLine],
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
-        let mut given = self.given.clone();
-        given.terms.extend(fast.iter().map(|(line, _)| line.clone()));
+        let given = with_lines(self.given, fast);
         let case = Case { given: &given, ..*self };
-        let present = if fast.is_empty() { before.clone() } else { case.fit_near(before, &[])? };
+        let present = case.with_given(before)?;
         let (state, round, tried) = case.search(&present, progress)?;
         let not_testable = round.not_testable();
         let given = state.hypothesis.given(case.given, case.imu);
@@ -86,6 +74,12 @@ impl Case<'_> {
         let case = Case { given: &given, ..case };
         let found = self.finished(&case, (before, after), fast, causes)?;
         Ok(Diagnosis { not_testable, ..found })
+    }
+
+    /// The fit of the given model near that of one that may lack its fast lines.
+    fn with_given(&self, near: &Fit) -> Result<Fit, DiagnosisError> {
+        let is_same = near.model().terms.len() == self.given.terms.len();
+        Ok(if is_same { near.clone() } else { self.fit_near(near, &[])? })
     }
 
     /// The final fit of a hypothesis, with the uncertainty of its settings, and its causes.

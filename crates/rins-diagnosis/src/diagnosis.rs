@@ -96,9 +96,7 @@ pub fn diagnose(
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&'static str),
 ) -> Result<Diagnosis, DiagnosisError> {
-    if runs.iter().any(|run| run.axes != runs[0].axes) {
-        return Err(DiagnosisError::SeveralAxes);
-    }
+    ensure_one_axis(runs)?;
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     let found = case.searched(Search::Stepwise, &mut progress)?;
@@ -193,8 +191,7 @@ impl Case<'_> {
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
         let mut present = before.clone();
-        let mut given = self.given.clone();
-        given.terms.extend(fast.iter().map(|(line, _)| line.clone()));
+        let given = with_lines(self.given, fast);
         let case = Case { given: &given, ..*self };
         let Case { runs, imu, .. } = case;
         if !fast.is_empty() {
@@ -297,35 +294,17 @@ impl Case<'_> {
     }
 }
 
-/// What `supposed` effects explain in `runs` of one IMU beyond `model`, without a search for others.
-///
-/// Every one of them stays, whether it is significant or not.
-///
-/// # Errors
-/// [`DiagnosisError`] if the model, with them or without, cannot be fitted.
-pub fn suppose(
-    runs: &[Run],
-    model: &Model,
-    supposed: &[TermInstance],
-    imu: &ImuSpec,
-    knowledge: NoiseKnowledge,
-) -> Result<Diagnosis, DiagnosisError> {
-    if runs.iter().any(|run| run.axes != runs[0].axes) {
-        return Err(DiagnosisError::SeveralAxes);
-    }
-    let rounding = Rounding::of(runs, knowledge.sheet());
-    let case = Case::new(runs, model, imu, knowledge, &rounding);
-    let before = case.fit()?;
-    let (lines, found) = case.supposed_lines(&before, supposed);
-    let mut given = model.clone();
-    given.terms.extend(lines.iter().map(|(line, _)| line.clone()));
-    let case = Case { given: &given, ..case };
-    let present = case.fit_near(&before, &found)?;
-    let (after, mut causes) = case.settled(&before, present, found, Found::Supposed)?;
-    causes.extend(lines.into_iter().map(|(_, cause)| cause));
-    causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
-    let unexplained = case.unexplained((&before, &after), &causes)?;
-    Ok(Diagnosis { causes, unexplained, before, after, not_testable: Vec::new() })
+/// Refuses runs about different axes of the IMU.
+pub(crate) fn ensure_one_axis(runs: &[Run]) -> Result<(), DiagnosisError> {
+    let is_one = runs.iter().all(|run| run.axes == runs[0].axes);
+    if is_one { Ok(()) } else { Err(DiagnosisError::SeveralAxes) }
+}
+
+/// A model with fast lines.
+pub(crate) fn with_lines(model: &Model, lines: &[FastLine]) -> Model {
+    let mut model = model.clone();
+    model.terms.extend(lines.iter().map(|(line, _)| line.clone()));
+    model
 }
 
 /// Two effects that mask each other: neither shows alone, both do together.

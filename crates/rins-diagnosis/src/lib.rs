@@ -26,6 +26,7 @@ mod diagnosis;
 mod every_turn;
 mod settling;
 mod sought;
+mod supposed;
 
 mod bursts;
 mod disturbance;
@@ -61,13 +62,14 @@ mod gain_spans;
 pub use by_evidence::{diagnose_by_evidence, evaluate_by_evidence};
 pub use candidates::{Candidate, candidates};
 pub use cause::{Cause, Rival};
-pub use diagnosis::{Diagnosis, DiagnosisError, FALSE_ALARMS, diagnose, suppose};
+pub use diagnosis::{Diagnosis, DiagnosisError, FALSE_ALARMS, diagnose};
 pub use gain::{Gain, GainError, GainVerdict, PredictiveScore};
 pub use gain_drift::Drift;
 pub use gain_overlay::Overlay;
 pub use limits::{Limit, chance, limits};
 pub use noise::stuck;
 pub use structure::{Stratum, Structure};
+pub use supposed::suppose;
 pub use unexplained::Unexplained;
 
 #[cfg(doctest)]

@@ -75,23 +75,30 @@ impl Fit {
         self.parameters.iter().find(|estimate| estimate.parameter.id == id)
     }
 
+    /// The evidence on the parameters at these places about the estimate, with the others integrated out with their priors.
+    ///
+    /// `None` if the information is not finite.
+    pub fn marginal_evidence(&self, kept: &[usize]) -> Option<Evidence> {
+        let others = (0..self.parameters.len()).filter(|place| !kept.contains(place));
+        let prior = |place: usize| {
+            let Estimate { parameter, expected, value, .. } = &self.parameters[place];
+            (place, parameter.sigma, expected - value)
+        };
+        self.evidence.marginal(kept, &others.map(prior).collect::<Vec<_>>())
+    }
+
     /// The same fit with the other parameters marginalized: integrated out with their priors.
     ///
     /// The models and the linearized runs keep them.
     #[must_use]
     pub fn marginal(mut self, keep: impl Fn(&Estimate) -> bool) -> Self {
-        let (kept, others): (Vec<usize>, Vec<usize>) =
-            (0..self.parameters.len()).partition(|&place| keep(&self.parameters[place]));
-        if others.is_empty() {
+        let kept: Vec<usize> =
+            (0..self.parameters.len()).filter(|&place| keep(&self.parameters[place])).collect();
+        if kept.len() == self.parameters.len() {
             return self;
         }
-        let prior = |place: usize| {
-            let Estimate { parameter, expected, value, .. } = &self.parameters[place];
-            (place, parameter.sigma, expected - value)
-        };
-        let others: Vec<(usize, f64, f64)> = others.into_iter().map(prior).collect();
         // The estimate was calculated with the same information.
-        let Some(evidence) = self.evidence.marginal(&kept, &others) else { return self };
+        let Some(evidence) = self.marginal_evidence(&kept) else { return self };
         self.evidence = evidence;
         self.covariance = DMatrix::from_fn(kept.len(), kept.len(), |row, column| {
             self.covariance[(kept[row], kept[column])]

@@ -32,10 +32,10 @@ const DIFFERENCE: f64 = 0.004;
 pub(crate) struct Likely {
     /// The maximum of the likelihood.
     pub(crate) noise: Vec<Noise>,
-    /// Pairs of a larger and a smaller bias instability at ±√3 σ: the outer nodes of a Gauss-Hermite quadrature, each with a
+    /// Pairs of a larger and a smaller parameter of each colored process at ±√3 σ: the outer nodes of a Gauss-Hermite quadrature, each with a
     /// weight of one sixth.
     pub(crate) around: Vec<[Vec<Noise>; 2]>,
-    /// The logarithm of the posterior widths of the bias instabilities relative to those of their priors: the Occam factor of
+    /// The logarithm of the posterior widths of these parameters relative to those of their priors: the Occam factor of
     /// Laplace's approximation.
     pub(crate) ln_width: f64,
     /// The approximate inverse Hessian at the estimate, from which another search can start.
@@ -94,19 +94,9 @@ pub(crate) fn likely_noise(
         found = minimum(start, None, cost);
     }
     let (best, least, inverse_curvature) = found;
-    let is_colored = |which: &Which| {
-        matches!(
-            which,
-            Which::GyroFlicker
-                | Which::AccelFlicker
-                | Which::GyroWalk
-                | Which::AccelWalk
-                | Which::Jitter
-        )
-    };
-    let flickers: Vec<usize> =
-        (0..unknown.len()).filter(|&axis| is_colored(&unknown[axis].which)).collect();
-    let around = flickers.into_par_iter().map(|axis| {
+    let colored: Vec<usize> =
+        (0..unknown.len()).filter(|&axis| unknown[axis].which.is_colored()).collect();
+    let around = colored.into_par_iter().map(|axis| {
         let away = |by: f64| {
             let mut x = best.clone();
             x[axis] += by;

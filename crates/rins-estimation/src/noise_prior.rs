@@ -72,6 +72,18 @@ pub(crate) enum Which {
 }
 
 impl Which {
+    /// Whether few data determine it: the parameter of a slow process, or of one that shows at some rates only.
+    pub(crate) const fn is_colored(&self) -> bool {
+        matches!(
+            self,
+            Self::GyroFlicker
+                | Self::AccelFlicker
+                | Self::GyroWalk
+                | Self::AccelWalk
+                | Self::Jitter
+        )
+    }
+
     pub(crate) fn of<'a>(&self, noise: &'a mut [Noise]) -> Vec<&'a mut f64> {
         match self {
             Self::GyroWhite => noise.iter_mut().map(|n| &mut n.imu.gyro.white).collect(),

@@ -64,7 +64,7 @@ impl Evidence {
     /// `sigma`, and the mean of its prior relative to the point of linearization.
     ///
     /// `None` if the information is not finite.
-    pub fn marginal(&self, kept: &[usize], others: &[(usize, f64, f64)]) -> Option<Self> {
+    pub(crate) fn marginal(&self, kept: &[usize], others: &[(usize, f64, f64)]) -> Option<Self> {
         let places: Vec<usize> = others.iter().map(|&(place, ..)| place).collect();
         let block = |rows: &[usize], columns: &[usize]| {
             DMatrix::from_fn(rows.len(), columns.len(), |row, column| {

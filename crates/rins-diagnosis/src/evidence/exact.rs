@@ -3,10 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use rins_estimation::Fit;
 use rins_imu::ImuSpec;
-use rins_terms::Role;
 
 use crate::evidence::block::log_sum;
-use crate::hypothesis::{Effect, Magnitudes, supports};
+use crate::hypothesis::{Effect, Magnitudes};
 
 /// Scales beyond these multiples of the estimated amplitude have no weight.
 const AROUND: (f64, f64) = (0.05, 50.0);
@@ -34,14 +33,10 @@ struct Amplitudes {
 
 impl Amplitudes {
     fn of(fit: &Fit, given: usize, effects: &[Effect], imu: &ImuSpec) -> Option<Self> {
-        let (kept, others): (Vec<usize>, Vec<usize>) = (0..fit.parameters.len())
-            .partition(|&place| fit.parameters[place].parameter.term >= given);
-        let prior = |place: usize| {
-            let one = &fit.parameters[place];
-            (place, one.parameter.sigma, one.expected - one.value)
-        };
-        let others: Vec<(usize, f64, f64)> = others.into_iter().map(prior).collect();
-        let evidence = fit.evidence.marginal(&kept, &others)?;
+        let kept: Vec<usize> = (0..fit.parameters.len())
+            .filter(|&place| fit.parameters[place].parameter.term >= given)
+            .collect();
+        let evidence = fit.marginal_evidence(&kept)?;
         let usual = |&place: &usize| {
             let one = &fit.parameters[place].parameter;
             effects[one.term - given].instance.term.parameters[one.parameter].sigma(imu)
@@ -89,13 +84,8 @@ impl Amplitudes {
         let places: Vec<usize> = (0..self.each.len()).filter(own).collect();
         let amplitude = places.iter().fold(1e-9, |most: f64, &at| most.max(self.each[at].2.abs()));
         let within = AROUND.0 * amplitude..=AROUND.1 * amplitude;
-        let free: Vec<usize> = (0..kind.parameters.len())
-            .filter(|&parameter| effect.instance.roles[parameter] != Role::Held)
-            .collect();
-        let whole = free.len() == kind.parameters.len();
-        let supports = supports(kind).into_iter();
         let mut all = Vec::new();
-        for support in supports.filter(|one| whole || one.parameters == free) {
+        for support in effect.supports() {
             let inside = |place: &usize| support.parameters.contains(&self.each[*place].1);
             let places: Vec<usize> = places.iter().copied().filter(inside).collect();
             let magnitudes = Magnitudes::of(kind, support.parameters[0], imu);

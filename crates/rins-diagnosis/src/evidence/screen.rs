@@ -3,11 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use rins_imu::ImuSpec;
-use rins_terms::{Role, Term, TermInstance};
+use rins_terms::{Term, TermInstance};
 
 use crate::candidates::Candidate;
 use crate::evidence::block::{Block, log_sum};
-use crate::hypothesis::{DEPARTURE, Magnitudes, Support, ln_prior, ln_settings, supports};
+use crate::hypothesis::{
+    DEPARTURE, Magnitudes, Support, by_parameter, free, ln_prior, ln_settings, supports,
+};
 use crate::survey::{Left, Survey};
 
 /// A candidate whose score is below this one even with its amplitudes at their most likely values is not looked at closely: it
@@ -183,14 +185,8 @@ impl<'a> Screen<'a> {
 
     /// The score of a candidate.
     pub(crate) fn candidate(&self, index: usize, candidate: &Candidate) -> Option<Scored> {
-        let lists = self.survey.of_candidate(index);
-        let roles = candidate.chosen.roles.iter().enumerate();
-        let free: Vec<usize> =
-            roles.filter(|(_, role)| **role != Role::Held).map(|(place, _)| place).collect();
-        let mut own = vec![Vec::new(); candidate.chosen.values.len()];
-        for (&parameter, places) in free.iter().zip(lists) {
-            own[parameter].clone_from(places);
-        }
+        let own = by_parameter(&candidate.chosen, self.survey.of_candidate(index));
+        let free = free(&candidate.chosen);
         let mut supports = supports(candidate.chosen.term);
         supports.retain(|one| one.parameters.iter().all(|parameter| free.contains(parameter)));
         let departs = candidate.departs.is_some();

@@ -39,6 +39,29 @@ impl Effect {
         self.instance.term.is(other.instance.term)
             && self.instance.settings == other.instance.settings
     }
+
+    /// Its supports: where some of its parameters were left out already, all others together.
+    pub(crate) fn supports(&self) -> Vec<Support> {
+        let free = free(&self.instance);
+        let mut all = supports(self.instance.term);
+        all.retain(|one| free.len() == self.instance.values.len() || one.parameters == free);
+        all
+    }
+}
+
+/// The parameters of a term that are estimated.
+pub(crate) fn free(instance: &TermInstance) -> Vec<usize> {
+    let roles = instance.roles.iter().enumerate();
+    roles.filter(|(_, role)| **role != Role::Held).map(|(parameter, _)| parameter).collect()
+}
+
+/// The places of each parameter of a term, given those of the ones that are estimated.
+pub(crate) fn by_parameter(instance: &TermInstance, places: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut all = vec![Vec::new(); instance.values.len()];
+    for (parameter, places) in free(instance).into_iter().zip(places) {
+        all[parameter].clone_from(places);
+    }
+    all
 }
 
 /// Which effects and which noise processes act beyond the given model.

@@ -4,6 +4,8 @@ use rins_estimation::{Noise, NoiseParameters, Reference, Run};
 use rins_imu::ImuSpec;
 use rins_terms::{Term, catalogue};
 
+use crate::noise::triad;
+
 /// A noise process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Process {
@@ -30,9 +32,27 @@ impl Process {
     /// Its parameter among the noise parameters.
     pub(crate) fn slot(self, noise: &mut NoiseParameters) -> &mut f64 {
         match self {
-            Self::GyroWalk => &mut noise.gyro.walk,
-            Self::AccelWalk => &mut noise.accel.walk,
+            Self::GyroWalk => &mut triad(noise, 0).walk,
+            Self::AccelWalk => &mut triad(noise, 1).walk,
             Self::Jitter => &mut noise.jitter,
+        }
+    }
+
+    /// What passes for it where it is absent: bias instability for a random walk, noise of the encoder for jitter.
+    fn substitute(self, noise: &mut Noise) -> &mut f64 {
+        match self {
+            Self::GyroWalk => &mut triad(&mut noise.imu, 0).flicker,
+            Self::AccelWalk => &mut triad(&mut noise.imu, 1).flicker,
+            Self::Jitter => &mut noise.encoder,
+        }
+    }
+
+    /// Its value where it is as visible as the other noise, over so long \[s\], at so fast a rate \[rad/s\].
+    fn visible(self, noise: &Noise, duration: f64, fastest: f64) -> f64 {
+        match self {
+            Self::GyroWalk => noise.imu.gyro.white / duration,
+            Self::AccelWalk => noise.imu.accel.white / duration,
+            Self::Jitter => noise.encoder / fastest,
         }
     }
 
@@ -54,31 +74,16 @@ impl Process {
     /// Noises in which it acts, about those of a fit in which it does not: visible over so long \[s\], at so fast a rate
     /// \[rad/s\].
     pub(crate) fn opened(self, noise: &[Noise], duration: f64, fastest: f64) -> Vec<Vec<Noise>> {
-        let with = |change: &dyn Fn(&mut Noise)| {
+        let with = |strength: f64, rest: f64| {
             let mut other = noise.to_vec();
-            other.iter_mut().for_each(change);
+            for one in &mut other {
+                *self.slot(&mut one.imu) = strength * self.visible(one, duration, fastest);
+                *self.substitute(one) *= rest;
+            }
             other
         };
-        let mut all = Vec::new();
-        for strength in [3.0, 0.75, 0.2] {
-            for rest in [1.0, 0.1] {
-                all.push(match self {
-                    Self::GyroWalk => with(&|one| {
-                        one.imu.gyro.walk = strength * one.imu.gyro.white / duration;
-                        one.imu.gyro.flicker *= rest;
-                    }),
-                    Self::AccelWalk => with(&|one| {
-                        one.imu.accel.walk = strength * one.imu.accel.white / duration;
-                        one.imu.accel.flicker *= rest;
-                    }),
-                    Self::Jitter => with(&|one| {
-                        one.imu.jitter = strength * one.encoder / fastest;
-                        one.encoder *= rest;
-                    }),
-                });
-            }
-        }
-        all
+        let strengths = [3.0, 0.75, 0.2].into_iter();
+        strengths.flat_map(|strength| [1.0, 0.1].map(|rest| with(strength, rest))).collect()
     }
 
     /// Noises in which it does not act, about those of a fit in which it does.
@@ -87,11 +92,7 @@ impl Process {
             let mut other = noise.to_vec();
             for one in &mut other {
                 *self.slot(&mut one.imu) = 0.0;
-                match self {
-                    Self::GyroWalk => one.imu.gyro.flicker *= more,
-                    Self::AccelWalk => one.imu.accel.flicker *= more,
-                    Self::Jitter => one.encoder *= more,
-                }
+                *self.substitute(one) *= more;
             }
             other
         };

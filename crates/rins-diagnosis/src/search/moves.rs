@@ -6,11 +6,10 @@ use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
 use crate::evidence::{Block, Family, Scored, Screen};
 use crate::hypothesis::{
-    DEPARTURE, Departure, Effect, Hypothesis, Process, SOMETHING, ln_prior, supports,
+    DEPARTURE, Departure, Effect, Hypothesis, Process, SOMETHING, by_parameter, ln_prior,
 };
 use crate::search::{MARGIN, Round, State};
 use crate::survey::RunNoise;
-use rins_terms::Role;
 
 /// How many terms are tried as the first of two.
 const FIRSTS: usize = 6;
@@ -299,19 +298,11 @@ impl Case<'_> {
         index: usize,
         screen: &Screen<'_>,
     ) -> Option<(f64, Block)> {
-        let Effect { instance, ln_settings } = &state.hypothesis.effects[index];
-        let lists = round.survey.of_term(self.given.terms.len() + index);
-        let n = instance.values.len();
-        let free: Vec<usize> = (0..n).filter(|&p| instance.roles[p] != Role::Held).collect();
-        let mut own = vec![Vec::new(); n];
-        for (&parameter, places) in free.iter().zip(lists) {
-            own[parameter].clone_from(places);
-        }
-        let supports: Vec<_> = supports(instance.term)
-            .into_iter()
-            .filter(|one| free.len() == n || one.parameters == free)
-            .collect();
-        let scored = screen.scored((instance, false), &own, *ln_settings, &supports);
+        let effect = &state.hypothesis.effects[index];
+        let places = round.survey.of_term(self.given.terms.len() + index);
+        let own = by_parameter(&effect.instance, places);
+        let shape = (&effect.instance, false);
+        let scored = screen.scored(shape, &own, effect.ln_settings, &effect.supports());
         scored.map(|(score, _, block)| (score, block))
     }
 }
