@@ -89,7 +89,7 @@ impl Case<'_> {
         round: &Round,
         tried: &[Tried],
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
-        let mut causes = self.causes_of(&state, round, tried);
+        let mut causes = self.causes_of(&state, round, tried)?;
         let given = state.hypothesis.given(self.given, self.imu);
         let case = Case { given: &given, ..self.with_processes(&state.hypothesis.open) };
         let effects = state.hypothesis.effects.into_iter();

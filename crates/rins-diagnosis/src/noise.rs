@@ -9,6 +9,7 @@ use rins_terms::{FreeParameter, Term, catalogue};
 use crate::case::Case;
 use crate::cause::Cause;
 use crate::diagnosis::{DiagnosisError, FALSE_ALARMS};
+use crate::hypothesis::Process;
 use crate::probability::ln_tail;
 use crate::survey::RunNoise;
 
@@ -70,6 +71,12 @@ impl Kind {
         *self.slot(&mut { *strengths })
     }
 
+    /// All runs' noise with the strength that was found, with a larger and with a smaller one.
+    fn around(self, noise: &[Noise]) -> [RunNoise; 3] {
+        let found = self.value(&noise[0].imu);
+        [1.0, STEP.exp(), (-STEP).exp()].map(|factor| self.with(noise, factor * found))
+    }
+
     /// All runs' noise with another strength.
     fn with(self, noise: &[Noise], value: f64) -> RunNoise {
         let mut other = noise.to_vec();
@@ -117,8 +124,7 @@ impl Case<'_> {
             if !strange || !ratio.is_finite() || !(is_all_explained || asked) {
                 continue;
             }
-            let around = [found, found * STEP.exp(), found * (-STEP).exp()];
-            let around = around.map(|value| strength.kind.with(&after.noise, value));
+            let around = strength.kind.around(&after.noise);
             let [here, above, below] = self.likelihoods(after, &around)?;
             let anew = asked.then(|| self.gain_over(after, strength)).flatten();
             let gain = match anew {
@@ -130,8 +136,7 @@ impl Case<'_> {
             if ln_p > FALSE_ALARMS.ln() {
                 continue;
             }
-            let curvature = (2.0 * here - above - below) / (STEP * STEP);
-            let sigma = found * curvature.max(1e-6).sqrt().recip();
+            let sigma = found * relative_sigma([here, above, below]);
             // White noise is told as an excess over the sheet's, flicker as what comes to the sheet's.
             let (value, sigma) = if is_white {
                 (found / said - 1.0, sigma / said)
@@ -150,6 +155,18 @@ impl Case<'_> {
             });
         }
         Ok(causes)
+    }
+
+    /// The strength of a noise process that a fit has, and its 1σ.
+    pub(crate) fn strength(&self, fit: &Fit, process: Process) -> Result<Estimate, Indefinite> {
+        let kind = match process {
+            Process::GyroWalk => Kind::Walk(0),
+            Process::AccelWalk => Kind::Walk(1),
+            Process::Jitter => Kind::Jitter,
+        };
+        let sigma = relative_sigma(self.likelihoods(fit, &kind.around(&fit.noise))?);
+        let value = kind.value(&fit.noise[0].imu);
+        Ok(estimate(process.term(), 0, None, value, value * sigma))
     }
 
     /// The logarithm of the data's probability with a strength as the sheet says. Of white noise the likeliest of some: a base may
@@ -197,6 +214,12 @@ impl Case<'_> {
             |noise| survey.left(noise, &[], &[]).map_or(f64::NEG_INFINITY, |l| l.log_likelihood);
         Ok(std::array::from_fn(of))
     }
+}
+
+/// The relative 1σ of a strength from the logarithms of the data's probability at it, above and below.
+fn relative_sigma([here, above, below]: [f64; 3]) -> f64 {
+    let curvature = (2.0 * here - above - below) / (STEP * STEP);
+    curvature.max(1e-6).sqrt().recip()
 }
 
 /// Has a base that nothing reads stray by so much more, or less: about its axes that looks like the gyros' own noise.

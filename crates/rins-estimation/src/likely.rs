@@ -63,7 +63,8 @@ pub(crate) fn likely_noise(
 ) -> Likely {
     let unknown = unknowns(linear, prior, first);
     let noise_at = |x: &DVector<f64>| {
-        let mut noise = first.to_vec();
+        // A process that an earlier search had, and this one has not, is absent.
+        let mut noise = prior.0.to_vec();
         for (unknown, x) in unknown.iter().zip(x.iter()) {
             for slot in unknown.which.of(&mut noise) {
                 *slot = unknown.start * x.exp();
@@ -82,7 +83,7 @@ pub(crate) fn likely_noise(
         value.map_or(f64::INFINITY, |value| prior - value)
     };
     let inverse = inverse_curvature.filter(|inverse| inverse.nrows() == unknown.len());
-    let start = match inverse {
+    let start = match inverse_curvature {
         Some(_) => near(&unknown, first),
         None => start(&unknown, cost),
     };

@@ -26,6 +26,11 @@ pub struct NoiseParameters {
 }
 
 impl TriadStrengths {
+    /// The random walk that is as visible as white noise and bias instability together over so long \[s\].
+    pub fn walk_as_visible(&self, duration: f64) -> f64 {
+        (self.white / duration).hypot(self.flicker / duration.sqrt())
+    }
+
     /// Those of a data sheet; a value that it does not state is zero.
     pub fn of(spec: &TriadSpec) -> Self {
         Self {

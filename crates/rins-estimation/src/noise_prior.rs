@@ -162,17 +162,17 @@ pub(crate) fn unknowns(
     add(Which::AccelWhite, imu.accel.white, sheet.accel.white, STATED);
     let (start, expect, sigma) = flicker(sheet.accel.flicker, sheet.accel.white);
     add(Which::AccelFlicker, start, expect, sigma);
-    // The search for an unstated random walk starts where it is as visible over the run as the white noise.
+    // The search for an unstated random walk starts where it is as visible over the run as the other noise.
     let duration = linear.iter().map(Linear::duration).fold(0.0, f64::max);
     let walks = [
-        (Which::GyroWalk, sheet.gyro, open.gyro.walk),
-        (Which::AccelWalk, sheet.accel, open.accel.walk),
+        (Which::GyroWalk, (sheet.gyro.walk, imu.gyro), open.gyro.walk),
+        (Which::AccelWalk, (sheet.accel.walk, imu.accel), open.accel.walk),
     ];
-    for (which, stated, open) in walks {
-        if stated.walk > 0.0 {
-            add(which, stated.walk, stated.walk, STATED);
+    for (which, (stated, beside), open) in walks {
+        if stated > 0.0 {
+            add(which, stated, stated, STATED);
         } else if open > 0.0 {
-            add(which, stated.white / duration, open, UNKNOWN);
+            add(which, beside.walk_as_visible(duration), open, UNKNOWN);
         }
     }
     let jitter = if sheet.jitter > 0.0 { sheet.jitter } else { open.jitter };

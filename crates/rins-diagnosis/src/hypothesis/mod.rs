@@ -122,6 +122,26 @@ impl Hypothesis {
         model
     }
 
+    /// The hypotheses that lack one of its effects, processes or departures.
+    pub(crate) fn without_one(&self) -> impl Iterator<Item = Self> {
+        let effects = (0..self.effects.len()).map(|place| {
+            let mut other = self.clone();
+            other.effects.remove(place);
+            other
+        });
+        let processes = (0..self.open.len()).map(|place| {
+            let mut other = self.clone();
+            other.open.remove(place);
+            other
+        });
+        let departures = (0..self.departures.len()).map(|place| {
+            let mut other = self.clone();
+            other.departures.remove(place);
+            other
+        });
+        effects.chain(processes).chain(departures)
+    }
+
     /// The effects of another hypothesis that this one does not have.
     pub(crate) fn lacks<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = &'a Effect> {
         other.effects.iter().filter(|one| !self.effects.iter().any(|own| own.is(one)))

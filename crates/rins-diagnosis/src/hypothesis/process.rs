@@ -50,8 +50,8 @@ impl Process {
     /// Its value where it is as visible as the other noise, over so long \[s\], at so fast a rate \[rad/s\].
     fn visible(self, noise: &Noise, duration: f64, fastest: f64) -> f64 {
         match self {
-            Self::GyroWalk => noise.imu.gyro.white / duration,
-            Self::AccelWalk => noise.imu.accel.white / duration,
+            Self::GyroWalk => noise.imu.gyro.walk_as_visible(duration),
+            Self::AccelWalk => noise.imu.accel.walk_as_visible(duration),
             Self::Jitter => noise.encoder / fastest,
         }
     }
@@ -86,16 +86,27 @@ impl Process {
         strengths.flat_map(|strength| [1.0, 0.1].map(|rest| with(strength, rest))).collect()
     }
 
-    /// Noises in which it does not act, about those of a fit in which it does.
-    pub(crate) fn closed(self, noise: &[Noise]) -> Vec<Vec<Noise>> {
-        let with = |more: f64| {
+    /// Noises in which it does not act, about those of a fit in which it does: what it explains over so long \[s\], at so fast a
+    /// rate \[rad/s\], passes for the other noise.
+    pub(crate) fn closed(self, noise: &[Noise], duration: f64, fastest: f64) -> Vec<Vec<Noise>> {
+        let with = |part: f64| {
             let mut other = noise.to_vec();
             for one in &mut other {
-                *self.slot(&mut one.imu) = 0.0;
-                *self.substitute(one) *= more;
+                let was = std::mem::take(self.slot(&mut one.imu));
+                let alike = part * was * self.substituted(duration, fastest);
+                let beside = self.substitute(one);
+                *beside = beside.hypot(alike);
             }
             other
         };
-        [1.0, 2.0, 5.0].map(with).to_vec()
+        [0.0, 0.2, 0.6, 2.0].map(with).to_vec()
+    }
+
+    /// How much of the noise that passes for it is as visible as one unit of it, over so long \[s\], at so fast a rate \[rad/s\].
+    fn substituted(self, duration: f64, fastest: f64) -> f64 {
+        match self {
+            Self::GyroWalk | Self::AccelWalk => duration.sqrt(),
+            Self::Jitter => fastest,
+        }
     }
 }

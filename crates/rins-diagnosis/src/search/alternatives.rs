@@ -1,6 +1,6 @@
 //! The causes of the best hypothesis, each with its alternatives.
 
-use rins_estimation::Estimate;
+use rins_estimation::{Estimate, Indefinite};
 use rins_terms::{Model, Term};
 
 use crate::case::Case;
@@ -8,7 +8,6 @@ use crate::cause::{Cause, Rival};
 use crate::disturbance;
 use crate::evidence::{Block, Screen, log_sum};
 use crate::hypothesis::{Departure, Effect, Hypothesis, Process, SOMETHING};
-use crate::noise::estimate;
 use crate::search::{Round, State, Tried};
 
 /// The probability of a credible set.
@@ -70,7 +69,12 @@ impl Hypothesis {
 
 impl Case<'_> {
     /// The causes of a hypothesis: its effects in their order, then its processes.
-    pub(crate) fn causes_of(&self, state: &State, round: &Round, tried: &[Tried]) -> Vec<Cause> {
+    pub(crate) fn causes_of(
+        &self,
+        state: &State,
+        round: &Round,
+        tried: &[Tried],
+    ) -> Result<Vec<Cause>, Indefinite> {
         let given = self.given.terms.len();
         let hypothesis = &state.hypothesis;
         let of_state = (self.given, state, tried);
@@ -88,10 +92,7 @@ impl Case<'_> {
         }
         for &process in &hypothesis.open {
             let mut cause = cause(Part::Process(process), of_state, 0.0, Vec::new());
-            let mut noise = state.fit.noise[0].imu;
-            let value = *process.slot(&mut noise);
-            let sigma = value * state.fit.ln_width.exp();
-            cause.parameters = vec![estimate(process.term(), 0, None, value, sigma)];
+            cause.parameters = vec![self.strength(&state.fit, process)?];
             causes.push(cause);
         }
         for one in &hypothesis.departures {
@@ -106,7 +107,7 @@ impl Case<'_> {
             cause.dof = one.parameters.len();
             causes.push(cause);
         }
-        causes
+        Ok(causes)
     }
 
     /// The score of an effect of a hypothesis in the linear pass, its block, and the scores of all other terms in its place.

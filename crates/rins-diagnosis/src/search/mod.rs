@@ -145,8 +145,8 @@ impl Case<'_> {
         Ok(best.filter(|state| state.score > current.score + BETTER))
     }
 
-    /// The best hypothesis with one effect less, fitted, if it is better: far from zero amplitudes the linear pass may be wrong
-    /// about what the data lose without an effect.
+    /// The best hypothesis with one effect, process or departure less, fitted, if it is better: far from zero amplitudes the linear
+    /// pass may be wrong about what the data lose without an effect.
     fn without_one(
         &self,
         before: &Fit,
@@ -155,9 +155,7 @@ impl Case<'_> {
         tried: &mut Vec<Tried>,
     ) -> Option<State> {
         let mut best: Option<State> = None;
-        for index in 0..current.hypothesis.effects.len() {
-            let mut hypothesis = current.hypothesis.clone();
-            hypothesis.effects.remove(index);
+        for hypothesis in current.hypothesis.without_one() {
             if tried.iter().any(|other| other.hypothesis.is(&hypothesis)) {
                 continue;
             }

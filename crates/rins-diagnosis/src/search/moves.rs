@@ -215,7 +215,7 @@ impl Case<'_> {
             .iter()
             .map(|process| {
                 if own.open.contains(process) {
-                    let mut all = process.closed(&state.fit.noise);
+                    let mut all = process.closed(&state.fit.noise, self.duration(), fastest);
                     all.push(before.noise.clone());
                     all
                 } else {

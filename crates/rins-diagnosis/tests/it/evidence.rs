@@ -106,6 +106,21 @@ fn strong_ramp_is_named_alone() {
     assert_amplitudes(cause, &values);
 }
 
+/// A walk of which the fit without it makes a bias instability: the white noise of the gyros is nothing beside either. No series
+/// of steps, ramps and transients stands in its place.
+#[test]
+fn strong_walk_is_named_alone() {
+    let density = 3.0 * DEG_PER_HOUR / 60.0;
+    let hidden = hiding(&[(&catalogue::GYRO_RATE_RANDOM_WALK, &[density])]);
+    let diagnosis = found(&run(&RATES, hidden, 0.0, SEED));
+    let [cause] = &diagnosis.causes[..] else { panic!("{:?}", diagnosis.causes) };
+    assert!(cause.term.is(&catalogue::GYRO_RATE_RANDOM_WALK), "{cause:?}");
+    assert!(cause.ln_p < 1e-6_f64.ln(), "{cause:?}");
+    assert_amplitudes(cause, &[density]);
+    let relative = cause.parameters[0].sigma / cause.parameters[0].value;
+    assert!((0.01..0.5).contains(&relative), "{cause:?}");
+}
+
 /// A given hypothesis has the score that the search gives it.
 #[test]
 fn given_hypothesis_has_the_significance_of_the_search() {
