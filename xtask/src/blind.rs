@@ -54,10 +54,13 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
         let program = program(root, "release");
         let (seed, threads) = (options.seed.to_string(), options.threads.to_string());
         trials(root, &["run", &program, &path, &seed, &options.trials.to_string(), &threads])?;
-        trials(root, &["time", &program, &path, &seed])?;
+        trials(root, &["time", &program, &path, &seed, TIMED])?;
     }
     trials(root, &["card", &path, &root.join("docs/src/blind.md").display().to_string()])
 }
+
+/// How many of the longest runs are timed.
+const TIMED: &str = "20";
 
 /// The few frozen trials take less time than an optimized build.
 const TRIALS: &[&str] = &["run", "--package", "rins-trials", "--bin", "trials"];

@@ -8,11 +8,8 @@ use rins_trials::{
     Analyser, FROZEN, Length, Plan, Record, Trial, Trouble, card, records, run, time,
 };
 
-const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED | \
-                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER | trials card JOURNAL PAGE";
-
-/// How many of the longest runs are timed.
-const TIMED: u64 = 5;
+const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
+                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest] | trials card JOURNAL PAGE";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -51,13 +48,19 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             let analyser = analyser.with(more);
             run(&plan, &analyser, Path::new(journal), told)
         }
-        ["time", program, journal, seed] => {
-            let analyser = Analyser::new(program, cores);
-            time(seed.parse().ok()?, TIMED, &analyser, Path::new(journal), told)
+        ["time", program, journal, seed, trials, ref more @ ..] => {
+            let analyser = Analyser::new(program, cores).with(more);
+            let (seed, trials) = (seed.parse().ok()?, trials.parse().ok()?);
+            time(seed, trials, &analyser, Path::new(journal), told)
         }
         ["frozen", program, ref more @ ..] => frozen(&Analyser::new(program, cores).with(more)),
-        ["folder", seed, index, folder] => {
-            made(seed.parse().ok()?, index.parse().ok()?, Path::new(folder))
+        ["folder", seed, index, folder, ref length @ ..] => {
+            let length = match *length {
+                [] => Length::Drawn,
+                ["longest"] => Length::Longest,
+                _ => return None,
+            };
+            made((seed.parse().ok()?, index.parse().ok()?, length), Path::new(folder))
         }
         ["card", journal, page] => page_of(Path::new(journal), Path::new(page)),
         _ => return None,
@@ -80,8 +83,8 @@ fn frozen(analyser: &Analyser) -> Result<(), Trouble> {
 }
 
 /// Makes the folder of one trial, and says what is hidden in it.
-fn made(seed: u64, index: u64, folder: &Path) -> Result<(), Trouble> {
-    let trial = Trial::draw(seed, index, Length::Drawn)?;
+fn made((seed, index, length): (u64, u64, Length), folder: &Path) -> Result<(), Trouble> {
+    let trial = Trial::draw(seed, index, length)?;
     std::fs::create_dir_all(folder)?;
     let log = rins_blind::record(&trial.experiment);
     rins_blind::write(folder, &log, &trial.known, trial.experiment.interval)?;
