@@ -9,6 +9,13 @@ use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
 
 use crate::error::DesignError;
 
+/// The longest sampling interval of a plan \[s\]: information on the parameters is contained in densities, which longer intervals
+/// do not change.
+const COARSEST: f64 = 0.05;
+
+/// The largest rotation of the table in such an interval \[rad\].
+const COARSEST_TURN: f64 = 0.02;
+
 /// A planned run: a scenario of which neither errors nor noise are used.
 #[derive(Clone, Debug)]
 pub struct Planned {
@@ -41,6 +48,8 @@ impl Planned {
 
     /// A plan with the site, attitude, duration and rate of a measured run.
     ///
+    /// Where that was sampled more finely than the plan needs, several samples are one, with the noise of their mean.
+    ///
     /// # Errors
     /// [`DesignError::Profile`] if the duration of the run is zero.
     pub fn like(run: &Run, noise: &Noise, imu: ImuSpec) -> Result<Self, DesignError> {
@@ -49,6 +58,8 @@ impl Planned {
         let interval = duration / (times.len() - 1) as f64;
         let rates = run.recording.increments.iter().map(|sample| sample.rates().angular_rate);
         let rate = rates.map(|rate| rate.components().z.abs()).fold(0.0, f64::max);
+        let within = COARSEST.min(COARSEST_TURN / rate);
+        let samples = (within / interval).floor().max(1.0);
         let segment = Segment { rate, duration };
         Ok(Self {
             name: "the next run".into(),
@@ -58,10 +69,10 @@ impl Planned {
                 run.rig.station,
                 run.rig.nav_from_table,
                 Profile::new(&[segment], None)?,
-                interval,
+                samples * interval,
             ),
-            noise: noise.encoder,
-            wobble: noise.wobble,
+            noise: noise.encoder / samples.sqrt(),
+            wobble: noise.wobble / samples.sqrt(),
         })
     }
 

@@ -7,6 +7,7 @@ use rins_terms::{Model, TermInstance};
 use crate::case::Case;
 use crate::cause::Cause;
 use crate::diagnosis::{Diagnosis, DiagnosisError, Search, ensure_one_axis, with_lines};
+use crate::hypothesis::Hypothesis;
 use crate::lines::FastLine;
 use crate::rounding::Rounding;
 use crate::search::{Round, State, Tried};
@@ -51,8 +52,8 @@ pub fn evaluate_by_evidence(
     let case = Case::new(runs, model, imu, knowledge, &rounding);
     case.supposing(effects, |case, before, found| {
         let near = case.with_given(before)?;
-        let (state, round, tried) = case.evaluated(&near, &found)?;
-        case.concluded(state, &round, &tried)
+        let (state, round, tried) = case.approximate().evaluated(&near, &found)?;
+        case.concluded(&near, (state, &round, &tried))
     })
 }
 
@@ -67,10 +68,10 @@ impl Case<'_> {
         let given = with_lines(self.given, fast);
         let case = Case { given: &given, ..*self };
         let present = case.with_given(before)?;
-        let (state, round, tried) = case.search(&present, progress)?;
+        let (state, round, tried) = case.approximate().search(&present, progress)?;
         let not_testable = round.not_testable();
         let given = state.hypothesis.given(case.given, case.imu);
-        let (after, causes) = case.concluded(state, &round, &tried)?;
+        let (after, causes) = case.concluded(&present, (state, &round, &tried))?;
         let case = Case { given: &given, ..case };
         let found = self.finished(&case, (before, after), fast, causes)?;
         Ok(Diagnosis { not_testable, ..found })
@@ -85,16 +86,19 @@ impl Case<'_> {
     /// The final fit of a hypothesis, with the uncertainty of its settings, and its causes.
     fn concluded(
         &self,
-        state: State,
-        round: &Round,
-        tried: &[Tried],
+        before: &Fit,
+        (state, round, tried): (State, &Round, &[Tried]),
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
         let mut causes = self.causes_of(&state, round, tried)?;
+        if state.hypothesis.is(&Hypothesis::default()) {
+            return Ok((before.clone(), causes));
+        }
         let given = state.hypothesis.given(self.given, self.imu);
         let case = Case { given: &given, ..self.with_processes(&state.hypothesis.open) };
         let effects = state.hypothesis.effects.into_iter();
         let mut found: Vec<TermInstance> = effects.map(|one| one.instance).collect();
-        let (after, sought) = case.sharpened(state.fit, &mut found)?;
+        let (near, _) = case.approximate().at_their_best(state.fit, &mut found)?;
+        let (after, sought) = case.sharpened(case.fit_near(&near, &found)?, &mut found)?;
         let offset = self.given.terms.len();
         for (index, (cause, found)) in causes.iter_mut().zip(&found).enumerate() {
             let of = |p: &&Estimate| p.parameter.term == offset + index;

@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 use rins_estimation::{
-    Fit, FitError, Indefinite, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_near,
+    Fit, FitError, Indefinite, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_approximately,
+    fit_near,
 };
 use rins_imu::ImuSpec;
 use rins_terms::{Model, Role, TermInstance};
@@ -45,6 +46,16 @@ pub(crate) struct Case<'a> {
     pub(crate) sheet: NoiseParameters,
     /// In how coarse steps the sensors read.
     pub(crate) rounding: &'a Rounding,
+    pub(crate) fits: Fits,
+}
+
+/// How exact fits are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fits {
+    /// As a result is.
+    Exact,
+    /// As the comparison of hypotheses needs.
+    Approximate,
 }
 
 impl<'a> Case<'a> {
@@ -55,7 +66,8 @@ impl<'a> Case<'a> {
         knowledge: NoiseKnowledge,
         rounding: &'a Rounding,
     ) -> Self {
-        Self { runs, given, imu, knowledge, sheet: knowledge.sheet(), rounding }
+        let sheet = knowledge.sheet();
+        Self { runs, given, imu, knowledge, sheet, rounding, fits: Fits::Exact }
     }
 }
 
@@ -70,7 +82,16 @@ impl Case<'_> {
     pub(crate) fn fit_near(&self, near: &Fit, causes: &[TermInstance]) -> Result<Fit, FitError> {
         let mut model = self.given.clone();
         model.terms.extend(causes.iter().cloned());
-        fit_near(near, self.runs, &model, self.imu, self.knowledge)
+        let fit = match self.fits {
+            Fits::Exact => fit_near,
+            Fits::Approximate => fit_approximately,
+        };
+        fit(near, self.runs, &model, self.imu, self.knowledge)
+    }
+
+    /// The same case with approximate fits.
+    pub(crate) fn approximate(&self) -> Self {
+        Self { fits: Fits::Approximate, ..*self }
     }
 
     /// The terms of a fit beyond the given ones.

@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rins_estimation::{
     EpochPrediction, Fit, FitError, Indefinite, Layout, Linear, NoiseKnowledge, ParameterPosterior,
-    Run, fit, fit_near,
+    Run, fit, fit_approximately,
 };
 use rins_imu::ImuSpec;
 use rins_terms::{Model, NotUndone, Owner, Role};
@@ -196,7 +196,7 @@ impl Gain {
             runs.iter().zip(&spans).map(|(r, s)| r.clone().leaving_out(s.clone())).collect();
         let fitted = |near: Option<&Fit>, model: &Model| {
             let mut fit = match near {
-                Some(near) => fit_near(near, &rest, model, imu, knowledge),
+                Some(near) => fit_approximately(near, &rest, model, imu, knowledge),
                 None => fit(&rest, model, imu, knowledge, |_| ()),
             }?;
             fit.linear = fit.linear.into_iter().map(Linear::with_all).collect();

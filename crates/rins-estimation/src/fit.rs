@@ -29,6 +29,9 @@ const MOST_ITERATIONS: usize = 20;
 /// A step below this many sigmas is close enough to estimate the noise, and to calculate derivatives for every sample.
 const NEAR: f64 = 1.0;
 
+/// After a step of less than this many sigmas an approximate estimate has been reached: what is left is of its square.
+const CLOSE: f64 = 0.1;
+
 /// After a step of this many sigmas or more, the noise is estimated again: coarse derivatives led away from the estimate.
 const FAR: f64 = 10.0;
 
@@ -50,7 +53,7 @@ pub fn fit(
     knowledge: NoiseKnowledge,
     progress: impl FnMut(&Iteration),
 ) -> Result<Fit, FitError> {
-    fitted((runs, None), model, imu, knowledge, progress)
+    fitted((runs, None), (model, Until::Converged), imu, knowledge, progress)
 }
 
 /// The same fit, started from the estimate `near` of a similar model from all or most of these runs, which saves iterations.
@@ -64,12 +67,27 @@ pub fn fit_near(
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
 ) -> Result<Fit, FitError> {
-    fitted((runs, Some(near)), model, imu, knowledge, |_| ())
+    fitted((runs, Some(near)), (model, Until::Converged), imu, knowledge, |_| ())
+}
+
+/// The same fit to within a few percent of each sigma, for the comparison of models: with the coarse derivatives of
+/// [`linearise_coarsely`](crate::linearise_coarsely), and a covariance to first order at the estimated noise.
+///
+/// # Errors
+/// [`FitError`] if there is nothing to estimate, or the iteration does not converge.
+pub fn fit_approximately(
+    near: &Fit,
+    runs: &[Run],
+    model: &Model,
+    imu: &ImuSpec,
+    knowledge: NoiseKnowledge,
+) -> Result<Fit, FitError> {
+    fitted((runs, Some(near)), (model, Until::Approximate), imu, knowledge, |_| ())
 }
 
 fn fitted(
     (runs, near): (&[Run], Option<&Fit>),
-    model: &Model,
+    (model, until): (&Model, Until),
     imu: &ImuSpec,
     knowledge: NoiseKnowledge,
     mut progress: impl FnMut(&Iteration),
@@ -110,7 +128,7 @@ fn fitted(
             judged += 1;
         }
         let earlier = iterations.len();
-        problem.settle(Until::Converged, &mut noise, &mut iterations, &mut progress)?;
+        problem.settle(until, &mut noise, &mut iterations, &mut progress)?;
         let said = problem.posterior(&problem.linear, &noise, iterations.len())?;
         // Noise estimated far from the final estimate may include what the parameters explain there.
         let was_near = iterations[earlier..].iter().all(|iteration| iteration.step < FAR);
@@ -118,7 +136,11 @@ fn fitted(
             break said;
         }
     };
-    let fit = problem.finish(said, noise, &around, iterations)?;
+    let added = match until {
+        Until::Converged => problem.beyond_first_order(&said.1, &noise, &around)?,
+        _ => DMatrix::zeros(problem.values.len(), problem.values.len()),
+    };
+    let fit = problem.finish(said, added, noise, iterations)?;
     Ok(Fit { inverse_curvature, ln_width, ..fit })
 }
 
@@ -236,7 +258,7 @@ impl<'a> Problem<'a> {
     ) -> Result<(), FitError> {
         let most = match until {
             Until::NearEnough => MOST_ITERATIONS,
-            Until::Converged => iterations.len() + MOST_ITERATIONS,
+            Until::Approximate | Until::Converged => iterations.len() + MOST_ITERATIONS,
         };
         self.about.fill(0.0);
         let mut visited = Vec::new();
@@ -258,6 +280,7 @@ impl<'a> Problem<'a> {
             iterations.push(iteration);
             let arrived = match until {
                 Until::NearEnough => stride.is_over() || step < NEAR && iterations.len() > 1,
+                Until::Approximate => stride.is_over() || step < CLOSE,
                 Until::Converged => stride.is_over() && from == Pieces::Samples,
             };
             if arrived {
@@ -265,16 +288,16 @@ impl<'a> Problem<'a> {
             }
             let is_last = iterations.len() >= most;
             if is_last
-                && until == Until::Converged
+                && until != Until::NearEnough
                 && let Some(Bottom { best, about }) = Bottom::of(&visited)
             {
                 (self.values, self.about) = (best, about);
-                self.take_values(Pieces::Samples);
+                self.take_values(until.pieces());
                 return Ok(());
             }
             if is_last
-                && until == Until::Converged
-                && from == Pieces::Samples
+                && until != Until::NearEnough
+                && from == until.pieces()
                 && let [.., before, last] = &iterations[..]
                 && leaves_little([before.step, last.step], MOST_ITERATIONS)
             {
@@ -325,26 +348,35 @@ impl<'a> Problem<'a> {
         stride
     }
 
-    fn finish(
-        mut self,
-        (evidence, posterior): (Evidence, Posterior),
-        noise: Vec<Noise>,
+    /// What the second order, and the uncertainty of the colored noise (`around`), add to the covariance.
+    fn beyond_first_order(
+        &mut self,
+        posterior: &Posterior,
+        noise: &[Noise],
         around: &[[Vec<Noise>; 2]],
-        iterations: Vec<Iteration>,
-    ) -> Result<Fit, FitError> {
+    ) -> Result<DMatrix<f64>, FitError> {
+        let mut added = self.of_second_order(posterior, noise);
         // The bias instability is determined by few data: the covariance is the mean over its uncertainty and the resulting
         // changes of the estimate.
-        let curved = self.of_second_order(&posterior, &noise);
-        let mut covariance = &posterior.covariance + &self.about + curved;
         let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
-        let others = sides.into_par_iter().map(|side| {
-            self.posterior(&self.linear, side, iterations.len()).map(|(_, other)| other)
-        });
+        let others = sides
+            .into_par_iter()
+            .map(|side| self.posterior(&self.linear, side, 0).map(|(_, other)| other));
         for other in others.collect::<Result<Vec<_>, _>>()? {
             let moved = &other.step - &posterior.step;
-            covariance +=
-                (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
+            added += (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
         }
+        Ok(added)
+    }
+
+    fn finish(
+        self,
+        (evidence, posterior): (Evidence, Posterior),
+        added: DMatrix<f64>,
+        noise: Vec<Noise>,
+        iterations: Vec<Iteration>,
+    ) -> Result<Fit, FitError> {
+        let covariance = &posterior.covariance + &self.about + added;
         let moved = self.moved(&noise)?;
         let estimate = |(place, (free, run)): (usize, &(FreeParameter, Option<usize>))| Estimate {
             parameter: free.clone(),

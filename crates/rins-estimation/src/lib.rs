@@ -60,7 +60,7 @@ mod identifiability;
 pub use estimate::{Estimate, Fit, Iteration};
 pub use evidence::{Indefinite, Turned, attitudes, innovations};
 pub use filter::Filter;
-pub use fit::{fit, fit_near};
+pub use fit::{fit, fit_approximately, fit_near};
 pub use fit_error::FitError;
 pub use gravity::{AXIS_BY_GRAVITY, AxisSeen, axis_from_gravity, turning_span};
 pub use identifiability::{

@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::linear::Pieces;
+
 /// Convergence: the largest step in units of the posterior sigma.
 const CONVERGED: f64 = 1e-3;
 
@@ -31,8 +33,20 @@ const ROUGH: f64 = 2.0;
 pub(crate) enum Until {
     /// The parameters change so little that the noise can be estimated.
     NearEnough,
+    /// The parameters are as near the estimate as the comparison of models needs.
+    Approximate,
     /// The parameters have converged.
     Converged,
+}
+
+impl Until {
+    /// The resolution of the derivatives at the end.
+    pub(crate) const fn pieces(self) -> Pieces {
+        match self {
+            Self::NearEnough | Self::Approximate => Pieces::Coarse,
+            Self::Converged => Pieces::Samples,
+        }
+    }
 }
 
 /// Damping of the steps. Oscillating steps are halved, since a weakly observable azimuth would otherwise oscillate; small

@@ -270,7 +270,7 @@ impl Case<'_> {
     }
 
     /// What some effects of a hypothesis are worth, one beside the others: the logarithm of their odds against nothing.
-    fn worth(&self, state: &State, round: &Round, dropped: &[usize]) -> f64 {
+    pub(crate) fn worth(&self, state: &State, round: &Round, dropped: &[usize]) -> f64 {
         let of = (&round.survey, self.imu, round.terms);
         let mut worth = 0.0;
         for (place, &index) in dropped.iter().enumerate() {

@@ -45,13 +45,16 @@ impl Problem<'_> {
             self.posterior(&self.linear, noise, 0).ok().map(|(_, posterior)| posterior.step)
         };
         let none = step_from(0.0, &directions[0]).unwrap_or_else(|| DVector::zeros(count));
-        let mut bend = |direction: &DVector<f64>| {
+        // Of each direction the even and the odd part of the steps: the bend, and the way back.
+        let mut parts = |direction: &DVector<f64>| {
             let steps = [1.0, -1.0].map(|sign| step_from(sign, direction));
-            let [Some(there), Some(back)] = steps else { return DVector::zeros(count) };
-            0.5 * (there + back)
+            let [Some(there), Some(back)] = steps else {
+                return (DVector::zeros(count), -direction);
+            };
+            (0.5 * (&there + &back) - &none, 0.5 * (there - back))
         };
-        let bends: Vec<DVector<f64>> =
-            directions.iter().map(|direction| bend(direction) - &none).collect();
+        let (bends, ways): (Vec<DVector<f64>>, Vec<DVector<f64>>) =
+            directions.iter().map(&mut parts).unzip();
         // The moments of products of independent normal variables.
         let sum: DVector<f64> = bends.iter().sum();
         added += &sum * sum.transpose();
@@ -61,8 +64,10 @@ impl Problem<'_> {
         if directions.len() <= MOST_PAIRS {
             for (place, one) in directions.iter().enumerate() {
                 for (other, another) in directions.iter().enumerate().skip(place + 1) {
-                    let both = bend(&(one + another)) - &none;
-                    let product = both - &bends[place] - &bends[other];
+                    // The odd parts of two directions add up, but for terms of third order.
+                    let Some(both) = step_from(1.0, &(one + another)) else { continue };
+                    let bend = both - &none - &ways[place] - &ways[other];
+                    let product = bend - &bends[place] - &bends[other];
                     added += &product * product.transpose();
                 }
             }

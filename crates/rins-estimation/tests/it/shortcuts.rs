@@ -1,8 +1,8 @@
 //! Faster methods have the result of the exact ones.
 
 use rins_estimation::{
-    Evidence, Linear, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_near, linearise,
-    linearise_coarsely,
+    Evidence, Linear, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_approximately,
+    fit_near, linearise, linearise_coarsely,
 };
 use rins_frames::units::PPM;
 use rins_imu::{Axis, ImuError, TriadError};
@@ -97,4 +97,25 @@ fn threads_change_no_bit() {
         pool.install(|| Evidence::of(&linearise_coarsely(&run, &model, &columns), &noise)).unwrap()
     };
     assert_eq!(said(1), said(3));
+}
+
+#[test]
+fn an_approximate_fit_is_within_a_part_of_each_sigma() {
+    let (run, imu) = (turned(), fibre());
+    let runs = std::slice::from_ref(&run);
+    let knowledge = NoiseKnowledge::Likely(NoiseParameters::of(&imu));
+    let first = fit(runs, &Model::full(), &imu, knowledge, |_| ()).unwrap();
+    let model = many();
+    let exact = fit_near(&first, runs, &model, &imu, knowledge).unwrap();
+    let near = fit_approximately(&first, runs, &model, &imu, knowledge).unwrap();
+    assert!(near.parameters != exact.parameters, "nothing is approximated");
+    for (one, other) in exact.parameters.iter().zip(&near.parameters) {
+        // An approximate tilt lasts a sample longer or less.
+        let bound = if one.parameter.id.starts_with("base_tilt_step") { 0.3 } else { 0.1 };
+        let off = (other.value - one.value) / one.sigma;
+        assert!(off.abs() < bound, "{}: {off}", one.parameter.id);
+        assert!(other.sigma < 1.1 * one.sigma, "{}", one.parameter.id);
+    }
+    let off = near.log_likelihood - exact.log_likelihood;
+    assert!(off.abs() < 0.3, "{off}");
 }
