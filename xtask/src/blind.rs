@@ -50,13 +50,18 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
             return Err(format!("{path} exists: go on with it by --resume, or remove it").into());
         }
         fs::create_dir_all(&folder)?;
-        cargo(root, &["build", "--release", "--package", "rins-cli"], &[])?;
-        let program = program(root, "release");
+        let program = optimized(root)?;
         let (seed, threads) = (options.seed.to_string(), options.threads.to_string());
         trials(root, &["run", &program, &path, &seed, &options.trials.to_string(), &threads])?;
         trials(root, &["time", &program, &path, &seed, TIMED])?;
     }
     trials(root, &["card", &path, &root.join("docs/src/blind.md").display().to_string()])
+}
+
+/// The `rins` command, built for speed.
+pub(crate) fn optimized(root: &Path) -> Result<String> {
+    cargo(root, &["build", "--release", "--package", "rins-cli"], &[])?;
+    Ok(program(root, "release"))
 }
 
 /// How many of the longest runs are timed.
@@ -65,7 +70,8 @@ const TIMED: &str = "20";
 /// The few frozen trials take less time than an optimized build.
 const TRIALS: &[&str] = &["run", "--package", "rins-trials", "--bin", "trials"];
 
-fn trials(root: &Path, arguments: &[&str]) -> Result<()> {
+/// Runs the trials program, built for speed.
+pub(crate) fn trials(root: &Path, arguments: &[&str]) -> Result<()> {
     cargo(root, &[TRIALS, &["--release"]].concat(), arguments)
 }
 

@@ -12,6 +12,7 @@ mod blind;
 mod ci;
 mod coverage;
 mod doc;
+mod false_alarms;
 mod fuzz;
 mod manifest;
 mod reproduce;
@@ -40,6 +41,8 @@ enum Command {
     Coverage(coverage::Options),
     /// Build the book into target/book and check its equations and links
     Doc,
+    /// Diagnose simulated runs without an unmodeled error, and count the false alarms
+    FalseAlarms(false_alarms::Options),
     /// Fuzz all readers of files, each target for some seconds
     Fuzz(fuzz::Options),
     /// Run the paper's experiments and write the book's page about them
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         Command::Ci(options) => ci::run(&root, &options),
         Command::Coverage(options) => coverage::run(&root, &options),
         Command::Doc => doc::run(&root),
+        Command::FalseAlarms(options) => false_alarms::run(&root, &options),
         Command::Fuzz(options) => fuzz::run(&root, &options),
         Command::Reproduce(options) => reproduce::run(&root, &options),
         Command::Tidy => tidy::run(&root),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalogue::hidden;
 use crate::hide::{Ground, Hidden, hideable};
-use crate::laboratory::{Laboratory, Length, Level, Schedule};
+use crate::laboratory::{Grade, Laboratory, Length, Level, Schedule, log_uniform};
 use crate::outside::Outside;
 use crate::stand::StandError;
 
@@ -23,6 +23,9 @@ const REMAINDERS: [f64; 6] = [8.0, 12.0, 16.0, 20.0, 30.0, 50.0];
 
 /// How often an effect is drawn before a schedule is said to show none.
 const DRAWS: usize = 200;
+
+/// The range of the bias instability of a run without an unmodeled error, relative to the usual one.
+const FLICKER: (f64, f64) = (0.2, 5.0);
 
 /// What is hidden in a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,6 +50,8 @@ pub struct Trial {
     pub schedule: Schedule,
     /// How real it is.
     pub level: Level,
+    /// The grade of the IMU.
+    pub grade: Grade,
     /// The run.
     pub experiment: Experiment,
     /// What the laboratory knows of it.
@@ -75,7 +80,8 @@ impl Trial {
             _ => Level::Coarse,
         };
         let own = random.random();
-        let laboratory = Laboratory::draw((schedule, length), level, own, &mut random);
+        let laboratory =
+            Laboratory::draw((schedule, length), (level, Grade::Navigation), own, &mut random);
         let mut trial = Self::clean(kind, schedule, level, &laboratory);
         match kind {
             Kind::Nothing => {}
@@ -94,6 +100,23 @@ impl Trial {
         Ok(trial)
     }
 
+    /// Run number `index` of those under `seed` without an unmodeled error, with an IMU of any grade, white noise or bias instability
+    /// of any strength.
+    pub fn null(seed: u64, index: u64) -> Self {
+        let mut random = random(seed, index);
+        let schedule = Schedule::ALL[random.random_range(0..Schedule::ALL.len())];
+        let grade = Grade::ALL[random.random_range(0..Grade::ALL.len())];
+        let level = if random.random_bool(0.5) { Level::White } else { Level::Flicker };
+        let own = random.random();
+        let mut laboratory =
+            Laboratory::draw((schedule, Length::Drawn), (level, grade), own, &mut random);
+        let Experiment { gyro, accel, .. } = &mut laboratory.experiment;
+        for sensors in [gyro, accel] {
+            sensors.noise.flicker *= log_uniform(&mut random, FLICKER.0, FLICKER.1);
+        }
+        Self { grade, ..Self::clean(Kind::Nothing, schedule, level, &laboratory) }
+    }
+
     /// A short run in which these effects are hidden, each so many times its bound strong.
     ///
     /// Effects that the schedule does not show so strong are left out.
@@ -108,7 +131,12 @@ impl Trial {
     ) -> Result<Self, StandError> {
         let mut random = random(seed, 0);
         let own = random.random();
-        let laboratory = Laboratory::draw((schedule, Length::Short), level, own, &mut random);
+        let laboratory = Laboratory::draw(
+            (schedule, Length::Short),
+            (level, Grade::Navigation),
+            own,
+            &mut random,
+        );
         let kind = match effects.len() {
             0 => Kind::Nothing,
             1 => Kind::One,
@@ -141,7 +169,12 @@ impl Trial {
     ) -> Result<Self, StandError> {
         let mut random = random(seed, 0);
         let own = random.random();
-        let laboratory = Laboratory::draw((schedule, Length::Short), level, own, &mut random);
+        let laboratory = Laboratory::draw(
+            (schedule, Length::Short),
+            (level, Grade::Navigation),
+            own,
+            &mut random,
+        );
         let mut trial = Self::clean(Kind::Outside, schedule, level, &laboratory);
         let (unknown, outside) = Ground::of(laboratory)?.outside(remainder, &mut random)?;
         trial.experiment.unknowns.push(unknown);
@@ -156,6 +189,7 @@ impl Trial {
             kind,
             schedule,
             level,
+            grade: Grade::Navigation,
             present: worn.chain(scatter).collect(),
             experiment: laboratory.experiment.clone(),
             known: laboratory.known.clone(),

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::answer::{Analyser, Answer};
 use crate::draw::{Kind, Trial};
 use crate::hide::Hidden;
-use crate::laboratory::{Length, Level, Schedule};
+use crate::laboratory::{Grade, Length, Level, Schedule};
 use crate::outside::Outside;
 use crate::trouble::Trouble;
 
@@ -37,6 +37,9 @@ pub struct Record {
     pub schedule: Schedule,
     /// How real it was.
     pub level: Level,
+    /// The grade of the IMU.
+    #[serde(default)]
+    pub grade: Grade,
     /// The length of a sample \[s\].
     pub interval: f64,
     /// How long the run was \[s\].
@@ -51,9 +54,20 @@ pub struct Record {
     pub answer: Answer,
 }
 
+/// A population of trials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Population {
+    /// Blind trials: [`Trial::draw`].
+    Blind,
+    /// Runs without an unmodeled error: [`Trial::null`].
+    Null,
+}
+
 /// Which trials are to be run.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
+    /// From which population.
+    pub population: Population,
     /// The seed of all of them.
     pub seed: u64,
     /// How many there are.
@@ -134,7 +148,11 @@ pub fn run(
     let work = || -> Result<(), Trouble> {
         while !stopped.load(Ordering::Relaxed) {
             let Some(&index) = left.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-            let record = one(plan.seed, index, Length::Drawn, analyser)?;
+            let trial = match plan.population {
+                Population::Blind => Trial::draw(plan.seed, index, Length::Drawn)?,
+                Population::Null => Trial::null(plan.seed, index),
+            };
+            let record = Record::of(trial, (plan.seed, index, false), analyser)?;
             let line = serde_json::to_string(&record)? + "\n";
             let mut file = file.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             file.write_all(line.as_bytes())?;
@@ -167,7 +185,8 @@ pub fn time(
     mend(journal, &records(journal)?)?;
     let mut file = OpenOptions::new().create(true).append(true).open(journal)?;
     for index in 0..trials {
-        let record = one(seed, index, Length::Longest, analyser)?;
+        let trial = Trial::draw(seed, index, Length::Longest)?;
+        let record = Record::of(trial, (seed, index, true), analyser)?;
         file.write_all((serde_json::to_string(&record)? + "\n").as_bytes())?;
         told(&record);
     }
@@ -191,25 +210,31 @@ fn mend(journal: &Path, whole: &[Record]) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// One trial and its answer.
-///
-/// # Errors
-/// [`Trouble`] if it cannot be made or the program not be asked.
-pub fn one(seed: u64, index: u64, length: Length, analyser: &Analyser) -> Result<Record, Trouble> {
-    let trial = Trial::draw(seed, index, length)?;
-    let answer = try_out(&trial, analyser)?;
-    Ok(Record {
-        seed,
-        index,
-        timed: length == Length::Longest,
-        kind: trial.kind,
-        schedule: trial.schedule,
-        level: trial.level,
-        interval: trial.experiment.interval,
-        duration: trial.experiment.drive.duration(),
-        hidden: trial.hidden,
-        outside: trial.outside,
-        present: trial.present,
-        answer,
-    })
+impl Record {
+    /// The answer to a trial: the `index`-th under `seed`, and whether it is timed.
+    ///
+    /// # Errors
+    /// [`Trouble`] if its run cannot be made or the program not be asked.
+    pub fn of(
+        trial: Trial,
+        (seed, index, timed): (u64, u64, bool),
+        analyser: &Analyser,
+    ) -> Result<Self, Trouble> {
+        let answer = try_out(&trial, analyser)?;
+        Ok(Self {
+            seed,
+            index,
+            timed,
+            kind: trial.kind,
+            schedule: trial.schedule,
+            level: trial.level,
+            grade: trial.grade,
+            interval: trial.experiment.interval,
+            duration: trial.experiment.drive.duration(),
+            hidden: trial.hidden,
+            outside: trial.outside,
+            present: trial.present,
+            answer,
+        })
+    }
 }

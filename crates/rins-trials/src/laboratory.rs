@@ -44,6 +44,42 @@ pub enum Level {
     Coarse,
 }
 
+/// The grade of an IMU: its noise and its constant errors are so many times those of a navigation-grade one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Grade {
+    /// Gyro noise of 0.005 to 0.05 deg/h/√Hz.
+    #[default]
+    Navigation,
+    /// 30 times the gyro noise, 3 times that of the accelerometers.
+    Tactical,
+    /// 1000 times the gyro noise, 10 times that of the accelerometers.
+    Industrial,
+}
+
+impl Grade {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Navigation, Self::Tactical, Self::Industrial];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Navigation => "navigation",
+            Self::Tactical => "tactical",
+            Self::Industrial => "industrial",
+        }
+    }
+
+    /// The factors of the errors of gyros and accelerometers.
+    const fn factors(self) -> (f64, f64) {
+        match self {
+            Self::Navigation => (1.0, 1.0),
+            Self::Tactical => (30.0, 3.0),
+            Self::Industrial => (1000.0, 10.0),
+        }
+    }
+}
+
 impl Schedule {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Constant, Self::Reversal, Self::ThreeRates];
@@ -132,7 +168,7 @@ impl Laboratory {
     /// One that is drawn at random.
     pub fn draw(
         (schedule, length): (Schedule, Length),
-        level: Level,
+        (level, grade): (Level, Grade),
         seed: u64,
         random: &mut Random,
     ) -> Self {
@@ -140,15 +176,16 @@ impl Laboratory {
         let tilt = uniform(random, 15.0, 35.0) * DEGREE;
         let toward = uniform(random, -PI, PI);
         let attitude = [tilt * toward.cos(), tilt * toward.sin(), uniform(random, -PI, PI)];
+        let (of_gyro, of_accel) = grade.factors();
         let gyro = SensorsKnown {
-            noise: log_uniform(random, 0.005, 0.05) * DEGREE_PER_HOUR,
-            bias: log_uniform(random, 0.02, 1.0) * DEGREE_PER_HOUR,
+            noise: log_uniform(random, 0.005, 0.05) * of_gyro * DEGREE_PER_HOUR,
+            bias: log_uniform(random, 0.02, 1.0) * of_gyro * DEGREE_PER_HOUR,
             scale: log_uniform(random, 10e-6, 1000e-6),
             misalignment: log_uniform(random, 10.0, 400.0) * ARCSECOND,
         };
         let accel = SensorsKnown {
-            noise: log_uniform(random, 10.0, 60.0) * MICRO_G,
-            bias: log_uniform(random, 20.0, 1000.0) * MICRO_G,
+            noise: log_uniform(random, 10.0, 60.0) * of_accel * MICRO_G,
+            bias: log_uniform(random, 20.0, 1000.0) * of_accel * MICRO_G,
             scale: log_uniform(random, 30e-6, 1000e-6),
             misalignment: log_uniform(random, 10.0, 400.0) * ARCSECOND,
         };
@@ -171,8 +208,8 @@ impl Laboratory {
             attitude,
             drive: drive(schedule, length, random),
             mounting: [0.3 * smallest * normal(random), 0.3 * smallest * normal(random)],
-            gyro: sensors(&gyro, level, 0.005 * DEGREE_PER_HOUR, random),
-            accel: sensors(&accel, level, 2.0 * MICRO_G, random),
+            gyro: sensors(&gyro, level, 0.005 * of_gyro * DEGREE_PER_HOUR, random),
+            accel: sensors(&accel, level, 2.0 * of_accel * MICRO_G, random),
             encoder: Encoder { noise: encoder, resolution: 0.0 },
             temperature: temperature(random),
             interval: if length == Length::Longest || seldom { 0.01 } else { 0.02 },

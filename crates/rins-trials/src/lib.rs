@@ -27,6 +27,7 @@ mod frozen;
 
 mod breakdown;
 mod card;
+mod null;
 mod score;
 mod statistics;
 
@@ -36,8 +37,9 @@ pub use catalogue::{hidden, is_hideable};
 pub use draw::{Kind, Trial};
 pub use frozen::{FROZEN, Frozen};
 pub use hide::Hidden;
-pub use journal::{Plan, Record, one, records, run, time, try_out};
-pub use laboratory::{Laboratory, Length, Level, Schedule};
+pub use journal::{Plan, Population, Record, records, run, time, try_out};
+pub use laboratory::{Grade, Laboratory, Length, Level, Schedule};
+pub use null::null_page;
 pub use outside::Outside;
 pub use stand::{ExtraInformation, Stand, StandError, recording};
 pub use trouble::Trouble;

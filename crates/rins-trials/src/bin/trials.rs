@@ -5,11 +5,13 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use rins_trials::{
-    Analyser, FROZEN, Length, Plan, Record, Trial, Trouble, card, records, run, time,
+    Analyser, FROZEN, Length, Plan, Population, Record, Trial, Trouble, card, null_page, records,
+    run, time,
 };
 
-const USAGE: &str = "usage: trials run RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
-                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest] | trials card JOURNAL PAGE";
+const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
+                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest] | trials card JOURNAL PAGE | \
+                     trials null-page JOURNAL PAGE REVISION";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -38,8 +40,10 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let told = |record: &Record| println!("{}", line(record));
     Some(match *words {
-        ["run", program, journal, seed, trials, threads, ref more @ ..] => {
+        [which @ ("run" | "null"), program, journal, seed, trials, threads, ref more @ ..] => {
+            let population = if which == "run" { Population::Blind } else { Population::Null };
             let plan = Plan {
+                population,
                 seed: seed.parse().ok()?,
                 trials: trials.parse().ok()?,
                 threads: threads.parse().ok()?,
@@ -62,7 +66,11 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             };
             made((seed.parse().ok()?, index.parse().ok()?, length), Path::new(folder))
         }
-        ["card", journal, page] => page_of(Path::new(journal), Path::new(page)),
+        ["card", journal, page] => {
+            records(Path::new(journal)).and_then(|all| Ok(std::fs::write(page, card(&all))?))
+        }
+        ["null-page", journal, page, revision] => records(Path::new(journal))
+            .and_then(|all| Ok(std::fs::write(page, null_page(&all, revision))?)),
         _ => return None,
     })
 }
@@ -91,10 +99,6 @@ fn made((seed, index, length): (u64, u64, Length), folder: &Path) -> Result<(), 
     println!("{}", serde_json::to_string_pretty(&trial.hidden)?);
     println!("{}", serde_json::to_string_pretty(&trial.outside)?);
     Ok(())
-}
-
-fn page_of(journal: &Path, page: &Path) -> Result<(), Trouble> {
-    Ok(std::fs::write(page, card(&records(journal)?))?)
 }
 
 /// A trial in one line.

@@ -5,7 +5,7 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
 
-use rins_trials::{Analyser, Kind, Plan, card, records, run};
+use rins_trials::{Analyser, Grade, Kind, Plan, Population, card, null_page, records, run};
 
 /// A program that says this of every run, whatever it is.
 fn saying(answer: &str, folder: &Path) -> PathBuf {
@@ -23,7 +23,7 @@ fn journal_is_gone_on_with_where_it_broke_off() {
     let named = r#"{"verdict": "ambiguous", "causes": [{"effect": "gyro_lag", "cannot_tell_from": ["encoder_latency"],
         "ln_p": -9, "parameters": [{"id": "gyro_lag.delay", "value": 2, "sigma": 0.5, "unit": "ms"}]}]}"#;
     let analyser = Analyser::new(saying(&named.replace('\n', " "), folder.path()), 1);
-    let plan = |trials| Plan { seed: 5, trials, threads: 2 };
+    let plan = |trials| Plan { population: Population::Blind, seed: 5, trials, threads: 2 };
     run(&plan(3), &analyser, &journal, |_| ()).unwrap();
     // Broken off in the middle of a line.
     let whole = fs::read_to_string(&journal).unwrap();
@@ -51,8 +51,32 @@ fn program_that_fails_is_a_failure_and_no_answer() {
     let journal = folder.path().join("journal.jsonl");
     let analyser = Analyser::new(saying("", folder.path()).with_file_name("program"), 1);
     fs::write(&analyser.program, "#!/bin/sh\necho 'no such thing' >&2\nexit 1\n").unwrap();
-    run(&Plan { seed: 5, trials: 1, threads: 1 }, &analyser, &journal, |_| ()).unwrap();
+    run(
+        &Plan { population: Population::Blind, seed: 5, trials: 1, threads: 1 },
+        &analyser,
+        &journal,
+        |_| (),
+    )
+    .unwrap();
     let all = records(&journal).unwrap();
     assert!(all[0].answer.failure.as_ref().is_some_and(|why| why.contains("no such thing")));
     assert!(card(&all).contains("1 trials were run; 1 ended without an answer"));
+}
+
+#[test]
+fn every_name_in_a_run_without_effects_is_a_false_alarm() {
+    let folder = tempfile::tempdir().unwrap();
+    let journal = folder.path().join("journal.jsonl");
+    let named = r#"{"verdict": "named", "causes": [{"effect": "gyro_lag", "cannot_tell_from": [], "ln_p": -9, "parameters": []}]}"#;
+    let analyser = Analyser::new(saying(named, folder.path()), 1);
+    let plan = Plan { population: Population::Null, seed: 5, trials: 6, threads: 2 };
+    run(&plan, &analyser, &journal, |_| ()).unwrap();
+    let all = records(&journal).unwrap();
+    assert!(all.iter().all(|record| record.kind == Kind::Nothing && record.hidden.is_empty()));
+    assert!(all.iter().any(|record| record.grade != Grade::Navigation));
+    let page = null_page(&all, "abc");
+    // ln p of -9 is a p-value of 1.2e-4.
+    assert!(page.contains("p < 0.001 | 100.0 % (6 of 6;"), "{page}");
+    assert!(page.contains("p < 0.0001 | 0.0 % (0 of 6;"), "{page}");
+    assert!(page.contains("6 runs at revision abc; 0 ended without an answer"), "{page}");
 }
