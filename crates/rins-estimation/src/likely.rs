@@ -94,6 +94,11 @@ pub(crate) fn likely_noise(
     if let Some(start) = without_loss(&unknown, &found.0).filter(better) {
         found = minimum(start, None, cost);
     }
+    // One that vanished on the way of a first step has no gradient but that of its prior, over which short steps stop.
+    let (start, least) = with_prior_means(&unknown, (&found.0, found.1), cost);
+    if least < found.1 - LEAST_GAIN {
+        found = minimum(start, None, cost);
+    }
     let (best, least, inverse_curvature) = found;
     let colored: Vec<usize> =
         (0..unknown.len()).filter(|&axis| unknown[axis].which.is_colored()).collect();
@@ -166,6 +171,26 @@ fn without_loss(unknown: &[Unknown], found: &DVector<f64>) -> Option<DVector<f64
         };
         DVector::from_iterator(unknown.len(), unknown.iter().zip(found.iter()).map(of))
     })
+}
+
+/// The estimate and its cost, with each noise parameter that is far below its prior mean at this mean if that is better.
+fn with_prior_means(
+    unknown: &[Unknown],
+    (found, least): (&DVector<f64>, f64),
+    cost: impl Fn(&DVector<f64>) -> f64,
+) -> (DVector<f64>, f64) {
+    let (mut best, mut least) = (found.clone(), least);
+    for (axis, unknown) in unknown.iter().enumerate() {
+        if found[axis] < unknown.centre - unknown.sigma {
+            let mut other = best.clone();
+            other[axis] = unknown.centre;
+            let there = cost(&other);
+            if there < least {
+                (best, least) = (other, there);
+            }
+        }
+    }
+    (best, least)
 }
 
 /// The minimum of `cost`: its place, its value and the approximate inverse Hessian there, by quasi-Newton steps (BFGS) with
