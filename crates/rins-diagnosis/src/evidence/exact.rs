@@ -77,12 +77,6 @@ impl Amplitudes {
         0.5 * right.dot(&factor.solve(&right)) - log_determinant
     }
 
-    fn are_possible(&self, effects: &[Effect], imu: &ImuSpec) -> bool {
-        self.each.iter().all(|&(effect, parameter, amplitude)| {
-            Magnitudes::of(effects[effect].instance.term, parameter, imu).admit(amplitude)
-        })
-    }
-
     /// The supports and scales of an effect.
     fn alternatives(&self, index: usize, effect: &Effect, imu: &ImuSpec) -> Vec<Alternative> {
         let kind = effect.instance.term;
@@ -112,9 +106,6 @@ pub(crate) fn log_evidence(fit: &Fit, given: usize, effects: &[Effect], imu: &Im
     let Some(amplitudes) = Amplitudes::of(fit, given, effects, imu) else {
         return f64::NEG_INFINITY;
     };
-    if !amplitudes.are_possible(effects, imu) {
-        return f64::NEG_INFINITY;
-    }
     let all: Vec<Vec<Alternative>> = effects
         .iter()
         .enumerate()

@@ -168,9 +168,6 @@ impl<'a> Screen<'a> {
                 .flat_map(|&p| firsts[p]..firsts[p] + own[p].len())
                 .collect();
             let Some(block) = together(&said, &rows, &magnitudes) else { continue };
-            if !block.estimate.iter().all(|amplitude| magnitudes.admit(*amplitude)) {
-                continue;
-            }
             let sigmas = self.survey.sigmas(&places);
             let amplitudes = block.estimate.component_mul(&sigmas);
             if !self.survey.allows(shape, &support.parameters, &amplitudes) {

@@ -19,10 +19,6 @@ const SPACING: f64 = 0.6;
 /// The range of scales beyond the typical range, as logarithms: what is smaller or larger is not distinguished from the ends.
 const REACH: (f64, f64) = (12.0, 8.0);
 
-/// An amplitude of more than so many times the largest typical one explains nothing: with it two parameters that nearly cancel, or an
-/// effect that multiplies the noise of the table angle, follow what has other causes.
-const ABSURD: f64 = 1000.0;
-
 /// The prior of the scale of some amplitudes, in units of their largest typical magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Magnitudes {
@@ -64,11 +60,6 @@ impl Magnitudes {
             below: BELOW,
             ln_total: (high - low + 1.0 / ABOVE + 1.0 / BELOW).ln(),
         }
-    }
-
-    /// Whether an amplitude is possible at all.
-    pub(crate) fn admit(&self, amplitude: f64) -> bool {
-        amplitude.abs() <= ABSURD * self.typical.1.exp()
     }
 
     /// The logarithm of the density of the logarithm of the scale.

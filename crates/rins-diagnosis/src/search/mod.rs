@@ -115,7 +115,7 @@ impl Case<'_> {
             };
             let Some(better) = better else { return Ok((current, round, tried)) };
             if better.score < current.score + WEAK
-                && let Some(again) = self.again(before, &current, &better)
+                && let Some(again) = self.again((before, &better), &current, terms)
             {
                 tried.push(Tried::of(&again));
                 current = again;
@@ -132,10 +132,9 @@ impl Case<'_> {
 
     /// A hypothesis, fitted anew near a slightly better one, if that has a larger score: its noise may have been estimated from a
     /// worse start, so that any effect would gain.
-    fn again(&self, before: &Fit, current: &State, better: &State) -> Option<State> {
-        let near = (before, better);
-        let again =
-            self.fitted(near, current.hypothesis.clone(), self.families(), f64::INFINITY)?;
+    fn again(&self, near: (&Fit, &State), current: &State, terms: usize) -> Option<State> {
+        let hypothesis = current.hypothesis.clone();
+        let again = self.fitted(near, hypothesis, terms, f64::INFINITY)?;
         (again.score > current.score + BETTER).then_some(again)
     }
 

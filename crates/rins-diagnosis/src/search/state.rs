@@ -43,7 +43,8 @@ impl Case<'_> {
         State { fit, hypothesis, score }
     }
 
-    /// A hypothesis, fitted near another one; its settings where they fit best if its score reaches `least` without that.
+    /// A hypothesis, fitted near another one; its settings where they fit best if its score reaches `least` without that. `None` if it
+    /// has no fit or no score.
     pub(crate) fn fitted(
         &self,
         (before, near): (&Fit, &State),
@@ -58,6 +59,9 @@ impl Case<'_> {
         let fitted = case.fit_near(&near.fit, &found);
         let fitted = fitted.or_else(|_| case.fit_near(before, &found)).ok()?;
         let rough = self.state(fitted, hypothesis.clone(), terms);
+        if !rough.score.is_finite() {
+            return None;
+        }
         if rough.score < least {
             return Some(rough);
         }
@@ -75,7 +79,7 @@ impl Case<'_> {
             let width = one.sigma * std::f64::consts::TAU.sqrt() / prior.range;
             effect.ln_settings = width.ln().min(0.0);
         }
-        Some(self.state(fit, hypothesis, terms))
+        Some(self.state(fit, hypothesis, terms)).filter(|state| state.score.is_finite())
     }
 }
 
