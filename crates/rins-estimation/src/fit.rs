@@ -348,27 +348,6 @@ impl<'a> Problem<'a> {
         stride
     }
 
-    /// What the second order, and the uncertainty of the colored noise (`around`), add to the covariance.
-    fn beyond_first_order(
-        &mut self,
-        posterior: &Posterior,
-        noise: &[Noise],
-        around: &[[Vec<Noise>; 2]],
-    ) -> Result<DMatrix<f64>, FitError> {
-        let mut added = self.of_second_order(posterior, noise);
-        // The bias instability is determined by few data: the covariance is the mean over its uncertainty and the resulting
-        // changes of the estimate.
-        let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
-        let others = sides
-            .into_par_iter()
-            .map(|side| self.posterior(&self.linear, side, 0).map(|(_, other)| other));
-        for other in others.collect::<Result<Vec<_>, _>>()? {
-            let moved = &other.step - &posterior.step;
-            added += (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
-        }
-        Ok(added)
-    }
-
     fn finish(
         self,
         (evidence, posterior): (Evidence, Posterior),

@@ -5,9 +5,11 @@
 //! far better than that.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rayon::prelude::*;
 use rins_terms::Unit;
 
 use super::Problem;
+use crate::fit_error::FitError;
 use crate::linear::Pieces;
 use crate::noise_parameters::Noise;
 use crate::posterior::Posterior;
@@ -23,15 +25,32 @@ const MATTERS: f64 = 0.1;
 const MOST_PAIRS: usize = 6;
 
 impl Problem<'_> {
+    /// What the second order, and the uncertainty of the colored noise (`around`), add to the covariance.
+    pub(super) fn beyond_first_order(
+        &mut self,
+        posterior: &Posterior,
+        noise: &[Noise],
+        around: &[[Vec<Noise>; 2]],
+    ) -> Result<DMatrix<f64>, FitError> {
+        let mut added = self.of_second_order(posterior, noise);
+        // The bias instability is determined by few data: the covariance is the mean over its uncertainty and the resulting
+        // changes of the estimate.
+        let sides: Vec<&Vec<Noise>> = around.iter().flatten().collect();
+        let others = sides
+            .into_par_iter()
+            .map(|side| self.posterior(&self.linear, side, 0).map(|(_, other)| other));
+        for other in others.collect::<Result<Vec<_>, _>>()? {
+            let moved = &other.step - &posterior.step;
+            added += (&other.covariance - &posterior.covariance + &moved * moved.transpose()) / 6.0;
+        }
+        Ok(added)
+    }
+
     /// The addition to the covariance by the second-order effect of directions that the data hardly show.
     ///
     /// Along a direction `v` of one posterior sigma, the estimate of all parameters is `z v + z² c` with `z` normal; `c` is half
     /// the sum of the steps back from `v` and from `-v`.
-    pub(super) fn of_second_order(
-        &mut self,
-        posterior: &Posterior,
-        noise: &[Noise],
-    ) -> DMatrix<f64> {
+    fn of_second_order(&mut self, posterior: &Posterior, noise: &[Noise]) -> DMatrix<f64> {
         let count = self.values.len();
         let mut added = DMatrix::zeros(count, count);
         let directions = self.hardly_shown(posterior);
