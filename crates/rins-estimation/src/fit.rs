@@ -6,7 +6,6 @@ mod information;
 mod priors;
 
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use rins_frames::{Dcm, Table};
 use rins_imu::ImuSpec;
 use rins_terms::{FreeParameter, Model};
