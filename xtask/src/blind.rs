@@ -43,19 +43,30 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
         return cargo(root, TRIALS, &["frozen", &program]);
     }
     let folder = root.join(&options.output);
-    let journal = folder.join("journal.jsonl");
-    let path = journal.display().to_string();
+    let path = journal_in(&folder).display().to_string();
     if !options.card {
-        if journal.exists() && !options.resume {
-            return Err(format!("{path} exists: go on with it by --resume, or remove it").into());
-        }
-        fs::create_dir_all(&folder)?;
+        begin_journal(&folder, options.resume)?;
         let program = optimized(root)?;
         let (seed, threads) = (options.seed.to_string(), options.threads.to_string());
         trials(root, &["run", &program, &path, &seed, &options.trials.to_string(), &threads])?;
         trials(root, &["time", &program, &path, &seed, TIMED])?;
     }
     trials(root, &["card", &path, &root.join("docs/src/blind.md").display().to_string()])
+}
+
+/// The journal of a folder.
+pub(crate) fn journal_in(folder: &Path) -> PathBuf {
+    folder.join("journal.jsonl")
+}
+
+/// Creates the folder of a journal, and refuses one that exists unless it is resumed.
+pub(crate) fn begin_journal(folder: &Path, resume: bool) -> Result<()> {
+    let journal = journal_in(folder);
+    if journal.exists() && !resume {
+        let path = journal.display();
+        return Err(format!("{path} exists: go on with it by --resume, or remove it").into());
+    }
+    Ok(fs::create_dir_all(folder)?)
 }
 
 /// The `rins` command, built for speed.

@@ -1,13 +1,12 @@
 //! The false alarm rate of the whole diagnosis, simulated: builds the programs, runs them, and writes the page of the book.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
 
 use crate::Result;
-use crate::blind::{optimized, trials};
+use crate::blind::{begin_journal, journal_in, optimized, trials};
 
 /// The options of the simulation.
 #[derive(Args)]
@@ -32,12 +31,8 @@ pub(crate) struct Options {
 /// Diagnoses runs without an unmodeled error and writes `docs/src/false-alarms.md`.
 pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
     let folder = root.join(&options.output);
-    let journal = folder.join("journal.jsonl");
-    let path = journal.display().to_string();
-    if journal.exists() && !options.resume {
-        return Err(format!("{path} exists: go on with it by --resume, or remove it").into());
-    }
-    fs::create_dir_all(&folder)?;
+    let path = journal_in(&folder).display().to_string();
+    begin_journal(&folder, options.resume)?;
     let program = optimized(root)?;
     let [seed, runs, threads] =
         [options.seed.to_string(), options.runs.to_string(), options.threads.to_string()];

@@ -30,6 +30,12 @@ const FITTED: usize = 3;
 /// the noise is estimated again only in the fit. Over 60 blind trials a fit exceeded a linear score below zero by 1.2 at most.
 const MARGIN: f64 = 2.0;
 
+/// Nor is one whose linear score is worse than what was found by a fit by this and ...
+const NEAR: f64 = 4.0;
+
+/// ... this part of that gain.
+const NEAR_PART: f64 = 0.15;
+
 /// An effect without which the linear score falls by more is not dropped by a fit, ...
 const NEEDED: f64 = 50.0;
 
@@ -39,12 +45,6 @@ const ALIKE: f64 = 0.5;
 
 /// The most other effects that are fitted in its place.
 const REPLACED: usize = 2;
-
-/// Nor is one whose linear score is worse than what was found by a fit by this and ...
-const NEAR: f64 = 4.0;
-
-/// ... this part of that gain.
-const NEAR_PART: f64 = 0.15;
 
 /// A hypothesis is better if its score is larger by this.
 const BETTER: f64 = 0.3;
