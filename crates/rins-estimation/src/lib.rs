@@ -25,6 +25,7 @@ mod sequence;
 mod gravity;
 mod held;
 mod path;
+mod smoothing;
 mod sway;
 
 mod linear;

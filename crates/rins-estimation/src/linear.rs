@@ -183,11 +183,7 @@ fn in_epochs(
 /// The samples of all epochs: `block` samples each, with a new epoch after every gap.
 fn spans(run: &Run, block: usize) -> Vec<Span> {
     let recording = &run.recording;
-    // More than half a sample is missing: the motion of the table in between is unknown.
-    let gap = |&sample: &usize| {
-        let elapsed = recording.times[sample] - recording.times[sample - 1];
-        elapsed > 1.5 * recording.increments[sample].interval
-    };
+    let gap = |sample: &usize| recording.gap_before(*sample);
     let starts = std::iter::once(0).chain((1..recording.len()).filter(gap));
     let starts: Vec<usize> = starts.chain([recording.len()]).collect();
     let epochs = |whole: &[usize]| {

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use rins_terms::{Acting, KinematicStates, Model, Surroundings, Track};
 
 use crate::run::{Reference, Run};
+use crate::smoothing::smoothed;
 
 /// The largest error of the angle whose square is negligible \[rad\].
 const SMALL_ERROR: f64 = 1e-4;
@@ -21,8 +22,8 @@ const SAMPLES_AT_A_TIME: usize = 4096;
 
 /// The trajectory of the table at which a run is linearized.
 ///
-/// The z gyro determines its high frequencies, the reference its low frequencies. It contains neither the drift of the gyro
-/// nor the noise of the encoder.
+/// The reference determines its low frequencies, the z gyro its high frequencies above the one at which they are equally noisy
+/// ([`smoothed`]), but not over more than `block` samples.
 pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block: usize) -> Track {
     let mut track = through(run, surroundings, &[], block);
     let Reference::Encoder { .. } = run.rig.reference else { return track };
@@ -64,7 +65,7 @@ fn through(run: &Run, surroundings: Surroundings, errors: &[f64], block: usize) 
             let errors = errors.iter().copied().chain(std::iter::repeat(0.0));
             let differences: Vec<f64> =
                 read.iter().zip(&gyro[1..]).zip(errors).map(|((r, g), e)| r - g - e).collect();
-            smoothed(&differences, block)
+            smoothed(&differences, |sample| !recording.gap_before(sample), block)
         }
     };
     let angles = gyro.iter().zip(&correction).map(|(gyro, correction)| gyro + correction).collect();
@@ -106,21 +107,6 @@ fn integrated_gyro(run: &Run, surroundings: &Surroundings) -> Vec<f64> {
         angle
     });
     std::iter::once(0.0).chain(steps).collect()
-}
-
-/// The means of blocks of `differences`, interpolated linearly; there is one more value, for the start.
-fn smoothed(differences: &[f64], block: usize) -> Vec<f64> {
-    let n_blocks = (differences.len() / block).max(1);
-    let bound = |index: usize| index * differences.len() / n_blocks;
-    let knots: Vec<(f64, f64)> = (0..n_blocks)
-        .map(|index| {
-            let (first, end) = (bound(index), bound(index + 1));
-            let values = &differences[first..end];
-            let middle = 0.5 * (first + 1 + end) as f64;
-            (middle, values.iter().sum::<f64>() / values.len() as f64)
-        })
-        .collect();
-    interpolated(&knots, differences.len() + 1)
 }
 
 /// Linear interpolation of `knots` at 0, 1, ..., with extrapolation beyond the outer knots.

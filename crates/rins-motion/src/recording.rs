@@ -33,6 +33,15 @@ impl Recording {
         self.times.is_empty()
     }
 
+    /// Whether more than half a sample is missing before a sample, so that the motion in between is unknown.
+    ///
+    /// # Panics
+    /// If there is no such sample.
+    pub fn gap_before(&self, sample: usize) -> bool {
+        sample > 0
+            && self.times[sample] - self.times[sample - 1] > 1.5 * self.increments[sample].interval
+    }
+
     /// The mean interval of a sample \[s\].
     pub fn mean_interval(&self) -> f64 {
         let total: f64 = self.increments.iter().map(|sample| sample.interval).sum();

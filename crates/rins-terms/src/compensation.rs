@@ -106,7 +106,9 @@ pub fn compensated(
                 true_angle[sample] = next;
             }
         }
-        if change <= SETTLED {
+        // Delays compare angles of the whole track, which are rounded.
+        let farthest = track.angles().iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+        if change <= SETTLED + 4.0 * f64::EPSILON * farthest / largest_angle {
             return Ok(found);
         }
     }
@@ -151,12 +153,12 @@ fn turning(recording: &Recording, surroundings: Surroundings, start: f64) -> Tra
 
 /// The moment of a table that turns as `track` does and stands where the encoder, if there is one, says; what is felt is
 /// what was found.
-fn standing(
-    moment: &KinematicState,
+fn standing<'a>(
+    moment: &KinematicState<'a>,
     track: &Track,
     recording: &Recording,
     sample: usize,
-) -> KinematicState {
+) -> KinematicState<'a> {
     let mut moment = moment.feeling(&recording.increments[sample]);
     if let Some(angle) = &recording.table_angle {
         let off = angle[sample] - track.angles()[sample + 1];

@@ -3,8 +3,9 @@
 use nalgebra::{Complex, Vector3};
 use num_dual::Dual64;
 use rins_frames::{Dcm, InFrame, Increments, Nav, Table};
-use rins_motion::{Station, cubic};
+use rins_motion::Station;
 
+use crate::track::Track;
 use crate::waves::sin_cos;
 
 /// What surrounds a table: the directions in which the Earth turns, pulls and is magnetic.
@@ -80,41 +81,12 @@ impl Instant {
     }
 }
 
-/// How the table turned over a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stretch {
-    /// How long it lasted \[s\].
-    pub duration: f64,
-    /// The mean rate \[rad/s\].
-    pub rate: f64,
-    /// The mean acceleration \[rad/s²\].
-    pub acceleration: f64,
-}
-
-impl Stretch {
-    /// How far the table turned over a time of it \[rad\], counted from one of its ends, at which it had this rate: towards the
-    /// other end, to which it turned as far as it did in all, and on from there if the time is longer.
-    ///
-    /// The acceleration is that away from the end.
-    pub(crate) fn turned(&self, time: Dual64, from: f64, acceleration: f64) -> Dual64 {
-        let Self { duration, rate, .. } = *self;
-        let to = from + acceleration * duration;
-        if time.re > duration {
-            let on = time - duration;
-            return on * to + on * on * (0.5 * acceleration) + rate * duration;
-        }
-        let part = time / duration;
-        let [first, second, third] = cubic(rate * duration, from * duration, to * duration);
-        part * (part * (part * third + second) + first)
-    }
-}
-
 /// What is going on over one sample.
 ///
 /// Gyros and accelerometers are described by means over the sample, `mean`; what is read at an instant, an
 /// encoder and the direction of the axis, is read at its `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KinematicState {
+pub struct KinematicState<'a> {
     /// Which of its track's samples this is.
     pub sample: usize,
     /// The length of the sample's interval \[s\].
@@ -125,17 +97,17 @@ pub struct KinematicState {
     pub mean: Instant,
     /// The table at the end of the interval.
     pub end: Instant,
-    /// The sample before and the next.
-    pub beside: [Stretch; 2],
     /// The mean of the true angular rate `ω_ib^b` \[rad/s\].
     pub rate: Vector3<f64>,
     /// The mean of the true specific force `f^b` \[m/s²\].
     pub force: Vector3<f64>,
     /// What surrounds the table.
     pub surroundings: Surroundings,
+    /// The whole motion, if it is known: [`sample`](Self::sample) is one of its samples.
+    pub track: Option<&'a Track>,
 }
 
-impl KinematicState {
+impl KinematicState<'_> {
     /// The same with the rate and force that a perfect IMU measures as `felt`.
     #[must_use]
     pub fn feeling(&self, felt: &Increments) -> Self {
@@ -145,6 +117,18 @@ impl KinematicState {
             force: *rates.specific_force.components(),
             ..*self
         }
+    }
+
+    /// Rotation of the table during `time` before an instant of the sample \[rad\], or after it if the time is negative.
+    ///
+    /// If the track is not known, with the acceleration of the sample.
+    pub(crate) fn turned_before(&self, instant: &Instant, time: Dual64) -> Dual64 {
+        let Some(track) = self.track else {
+            return time * instant.rate - time * time * (0.5 * instant.acceleration);
+        };
+        let (angle, _) = track.at(instant.time, self.sample);
+        let (earlier, rate) = track.at(instant.time - time.re, self.sample);
+        Dual64::new(angle - earlier, rate * time.eps)
     }
 
     /// The table angle in the middle of the way \[rad\]: about it the table turns as much before as after.
@@ -189,23 +173,4 @@ impl KinematicState {
 /// A vector of the axis frame in axes that are turned about z, by the angle whose sine and cosine are given.
 pub(crate) fn turned_back(vector: &Vector3<f64>, (sin, cos): (f64, f64)) -> Vector3<f64> {
     Vector3::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin, vector.z)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rins_testing::assert_close;
-
-    /// A table that accelerates evenly turns by `w t + a t²/2`, within the sample and, as far as anybody knows, beyond it.
-    #[test]
-    fn an_even_acceleration_goes_on_beyond_the_sample() {
-        let (from, acceleration, duration) = (0.3, -0.7, 0.02);
-        let stretch =
-            Stretch { duration, rate: from + 0.5 * acceleration * duration, acceleration };
-        for time in [0.0, 0.004, 0.017, 0.02, 0.021, 0.05, 0.4] {
-            let turned = stretch.turned(Dual64::new(time, 1.0), from, acceleration);
-            assert_close!(turned.re, from * time + 0.5 * acceleration * time * time, 1e-15);
-            assert_close!(turned.eps, from + acceleration * time, 1e-12);
-        }
-    }
 }

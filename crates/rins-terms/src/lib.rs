@@ -42,7 +42,7 @@ mod waves;
 pub use acting::Acting;
 pub use compensation::{NotUndone, compensated};
 pub use grade::Grade;
-pub use kinematic_state::{Instant, KinematicState, Stretch, Surroundings};
+pub use kinematic_state::{Instant, KinematicState, Surroundings};
 pub use measurement_model::{MeasurementModel, Reading};
 pub use model::{FreeParameter, Model, Role, TermInstance};
 /// A number with its derivative, of which [`Signals`] are made.

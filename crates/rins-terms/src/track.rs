@@ -1,9 +1,10 @@
 //! The way a table went, sample by sample.
 
 use nalgebra::Vector3;
+use rins_motion::cubic;
 
 use crate::edges::edges;
-use crate::kinematic_state::{Instant, KinematicState, Stretch, Surroundings, turned_back};
+use crate::kinematic_state::{Instant, KinematicState, Surroundings, turned_back};
 use crate::senses::senses;
 use crate::slope::slopes;
 use crate::turns::turns;
@@ -143,11 +144,6 @@ impl Track {
 
     /// What is going on over each sample, in order.
     pub fn moments(&self) -> KinematicStates<'_> {
-        let around = if self.is_empty() {
-            Default::default()
-        } else {
-            [0, 0, 1].map(|sample| self.stretch(sample))
-        };
         KinematicStates {
             track: self,
             sample: 0,
@@ -158,12 +154,11 @@ impl Track {
                 duration: self.duration(),
                 mean: Instant::default(),
                 end: Instant::default(),
-                beside: Default::default(),
                 rate: Vector3::zeros(),
                 force: Vector3::zeros(),
                 surroundings: self.surroundings,
+                track: Some(self),
             },
-            around,
         }
     }
 
@@ -186,7 +181,7 @@ impl Track {
     }
 
     /// The moment that ends where the first sample begins: what the run starts from.
-    pub fn opening(&self) -> Option<KinematicState> {
+    pub fn opening(&self) -> Option<KinematicState<'_>> {
         let first = self.moments().next()?;
         let start =
             Instant { time: 0.0, angle: self.angles[0], rate: first.mean.rate, ..first.end };
@@ -198,18 +193,37 @@ impl Track {
         if sample == 0 { self.start() } else { self.times[sample - 1] }
     }
 
-    /// The mean rate over the time up to the end of a sample \[rad/s\], or that of the nearest one, and that time \[s\].
+    /// The mean rate over the time up to the end of a sample \[rad/s\], or that of the last one, and that time \[s\].
     fn over(&self, sample: usize) -> (f64, f64) {
         let sample = sample.min(self.len() - 1);
         self.rate_over(sample, sample + 1)
     }
 
-    /// How the table turned over a sample, or over the nearest one.
-    fn stretch(&self, sample: usize) -> Stretch {
-        let sample = sample.min(self.len() - 1);
+    /// The table angle at a time since the start of the first sample \[rad\] and its rate \[rad/s\], searched from a sample
+    /// near it; before the start and after the end of the track the rate is constant.
+    pub(crate) fn at(&self, time: f64, near: usize) -> (f64, f64) {
+        let time = self.start() + time;
+        let mut sample = near.min(self.len() - 1);
+        while sample > 0 && self.times[sample - 1] >= time {
+            sample -= 1;
+        }
+        while sample + 1 < self.len() && self.times[sample] < time {
+            sample += 1;
+        }
+        let [from, to] = [sample, sample + 1].map(|edge| (self.angles[edge], self.edges[edge]));
         let (rate, duration) = self.over(sample);
-        let acceleration = (self.edges[sample + 1] - self.edges[sample]) / duration;
-        Stretch { duration, rate, acceleration }
+        let start = self.time_before(sample);
+        let part = (time - start) / duration;
+        if part < 0.0 {
+            return (from.0 + (time - start) * from.1, from.1);
+        }
+        if part > 1.0 {
+            return (to.0 + (time - self.times[sample]) * to.1, to.1);
+        }
+        let [first, second, third] = cubic(rate * duration, from.1 * duration, to.1 * duration);
+        let turned = part * (part * (part * third + second) + first);
+        let slope = part * (part * 3.0 * third + 2.0 * second) + first;
+        (from.0 + turned, slope / duration)
     }
 
     /// The mean rate from one edge to another \[rad/s\], and the time between them \[s\].
@@ -257,17 +271,16 @@ pub struct KinematicStates<'a> {
     /// When the first sample began \[s\].
     start: f64,
     /// The moment of the sample before.
-    moment: KinematicState,
-    /// The sample before, this one and the next.
-    around: [Stretch; 3],
+    moment: KinematicState<'a>,
 }
 
-impl KinematicStates<'_> {
+impl<'a> KinematicStates<'a> {
     /// The next moment, to be looked at where it is made: to copy it takes as long as to make it.
-    pub fn advance(&mut self) -> Option<&KinematicState> {
+    pub fn advance(&mut self) -> Option<&KinematicState<'a>> {
         let (track, sample) = (self.track, self.sample);
         let time = *track.times.get(sample)?;
-        let [before, Stretch { rate, acceleration, .. }, after] = self.around;
+        let (rate, elapsed) = track.over(sample);
+        let acceleration = (track.edges[sample + 1] - track.edges[sample]) / elapsed;
         self.pass();
         let interval = track.intervals[sample];
         let temperature_before = track.temperature(sample.saturating_sub(1));
@@ -301,7 +314,6 @@ impl KinematicStates<'_> {
         moment.force = mean_in_body(&track.surroundings.specific_force);
         moment.sample = sample;
         moment.interval = interval;
-        moment.beside = [before, after];
         moment.end = Instant {
             time: time - self.start,
             angle: track.angles[sample + 1],
@@ -317,15 +329,13 @@ impl KinematicStates<'_> {
     /// Goes on to the next sample.
     fn pass(&mut self) {
         self.sample += 1;
-        let [_, own, next] = self.around;
-        self.around = [own, next, self.track.stretch(self.sample + 1)];
     }
 }
 
-impl Iterator for KinematicStates<'_> {
-    type Item = KinematicState;
+impl<'a> Iterator for KinematicStates<'a> {
+    type Item = KinematicState<'a>;
 
-    fn next(&mut self) -> Option<KinematicState> {
+    fn next(&mut self) -> Option<Self::Item> {
         self.advance().copied()
     }
 

@@ -1,13 +1,12 @@
 //! Latency of gyros, accelerometers and the encoder.
 //!
-//! A delayed reading is that of an earlier time, with the angular acceleration of the sample: exact at a
-//! constant rate and along a ramp.
+//! A delayed reading is that of an earlier time.
 
 use nalgebra::Vector3;
 use num_dual::{Dual64, DualNum};
 
 use crate::catalogue::parameters::{TIME, parameter, usual};
-use crate::kinematic_state::{Instant, KinematicState, Stretch};
+use crate::kinematic_state::KinematicState;
 use crate::signals::DualVector;
 use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
 use crate::unit::Unit;
@@ -16,30 +15,14 @@ const fn delay(prior: Prior) -> Parameter {
     parameter("delay", Unit::MILLISECOND, prior)
 }
 
-/// Rotation of the table during `delay` before an instant at this rate \[rad\], or after it if the delay is
-/// negative; `before` and `after` are the motion before and after the instant.
-fn turned_within(delay: Dual64, rate: f64, [before, after]: [Stretch; 2]) -> Dual64 {
-    if delay.re < 0.0 {
-        -after.turned(-delay, rate, after.acceleration)
-    } else {
-        before.turned(delay, rate, -before.acceleration)
-    }
-}
-
-/// The sample that a moment is of.
-fn own(moment: &KinematicState) -> Stretch {
-    let Instant { rate, acceleration, .. } = moment.mean;
-    Stretch { duration: moment.interval, rate, acceleration }
-}
-
-/// The same from the end of a sample.
+/// Rotation of the table during `delay` before the end of the sample \[rad\].
 fn turned_to_end(delay: Dual64, moment: &KinematicState) -> Dual64 {
-    turned_within(delay, moment.end.rate, [own(moment), moment.beside[1]])
+    moment.turned_before(&moment.end, delay)
 }
 
-/// The same from its middle.
+/// The same before the time at which the table has the mean angle of the sample.
 fn turned_to_middle(delay: Dual64, moment: &KinematicState) -> Dual64 {
-    delay * moment.mean.rate - delay * delay * (0.5 * moment.mean.acceleration)
+    moment.turned_before(&moment.mean, delay)
 }
 
 /// Adds the change of `vector`, constant in the axis frame, if the table angle is smaller by `turn`.
@@ -69,9 +52,9 @@ pub static GYRO_LAG: Term = Term {
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
         // The rate over an interval of equal length before: both its ends are delayed.
-        let start = moment.end.rate - moment.mean.acceleration * moment.interval;
-        let to_start = turned_within(p[0], start, [moment.beside[0], own(moment)]);
-        let late = turned_to_end(p[0], moment) - to_start;
+        let turned = moment.mean.rate * moment.interval;
+        let late =
+            turned_to_end(p[0], moment) - turned_to_end(p[0] + moment.interval, moment) + turned;
         out.gyro[2] -= late / moment.interval;
     }),
 };

@@ -29,7 +29,7 @@ fn rotations() -> Vec<SignedAxes> {
 }
 
 /// A moment at which an IMU feels this.
-fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> KinematicState {
+fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> KinematicState<'static> {
     let site = Site { latitude: 0.6, longitude: 0.0, height: 0.0 };
     let attitude = EulerAngles { roll: 30.0 * DEG, pitch: 20.0 * DEG, yaw: 0.0 };
     let still =
@@ -40,10 +40,10 @@ fn moment(rate: Vector3<f64>, force: Vector3<f64>) -> KinematicState {
         duration: 10.0,
         mean: still,
         end: still,
-        beside: Default::default(),
         rate,
         force,
         surroundings: Surroundings::new(Station::with_normal_gravity(site), attitude.dcm()),
+        track: None,
     }
 }
 

@@ -7,7 +7,7 @@ use rins_frames::{Dcm, EulerAngles, Site, Table};
 use rins_motion::Station;
 use rins_terms::catalogue::CATALOGUE;
 use rins_terms::{
-    Acting, Dual64, Instant, KinematicState, Model, Signals, Stretch, Surroundings, TermInstance,
+    Acting, Dual64, Instant, KinematicState, Model, Signals, Surroundings, TermInstance,
 };
 use rins_testing::assert_close;
 use rins_testing::{any_euler_angles, any_latitude};
@@ -15,7 +15,7 @@ use rins_testing::{any_euler_angles, any_latitude};
 use crate::support::sheet;
 
 /// Any moment of a table anywhere, at any rate and acceleration that tables have.
-fn any_moment() -> impl Strategy<Value = KinematicState> {
+fn any_moment() -> impl Strategy<Value = KinematicState<'static>> {
     let table = (0.0..3600.0_f64, -20.0..20.0_f64, -1.0..1.0_f64, -0.5..0.5_f64);
     let heat = (-20.0..20.0_f64, -0.1..0.1_f64);
     (any_latitude(), any_euler_angles(), table, heat).prop_map(
@@ -43,13 +43,7 @@ fn any_moment() -> impl Strategy<Value = KinematicState> {
                 rate: rate + acceleration * interval / 2.0,
                 ..mean
             };
-            let beside = [-1.0, 1.0].map(|sense| Stretch {
-                duration: interval,
-                rate: rate + sense * acceleration * interval,
-                acceleration,
-            });
             let mut moment = KinematicState {
-                beside,
                 sample: 0,
                 interval,
                 duration: 4000.0,
@@ -58,6 +52,7 @@ fn any_moment() -> impl Strategy<Value = KinematicState> {
                 rate: Vector3::zeros(),
                 force: Vector3::zeros(),
                 surroundings,
+                track: None,
             };
             moment.rate = moment.in_body(&surroundings.earth_rate) + Vector3::z() * rate;
             moment.force = moment.in_body(&surroundings.specific_force);

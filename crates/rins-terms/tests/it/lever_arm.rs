@@ -26,8 +26,8 @@ fn differenced(surroundings: &Surroundings, r_b: &Vector3<f64>, angle: f64) -> V
     attitude(0.0).transpose() * acceleration
 }
 
-fn moment(angle: f64) -> KinematicState {
-    let track = run().track;
+fn moment(angle: f64) -> KinematicState<'static> {
+    let track = &run().track;
     let moment = track.moments().next().unwrap();
     let mean = Instant { angle, rate: RATE, acceleration: ACCELERATION, ..moment.mean };
     let mut moment = KinematicState { mean, ..moment };

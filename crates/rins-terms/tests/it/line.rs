@@ -10,7 +10,7 @@ use crate::support::{INTERVAL, run};
 #[test]
 fn line_is_integrated_over_its_sample() {
     const PARTS: u32 = 2000;
-    let track = run().track;
+    let track = &run().track;
     for frequency in [0.3, 7.0, 24.9, 60.0] {
         let line = TermInstance::new(&catalogue::INTERFERENCE_LINE)
             .with_setting(SettingKind::Frequency, frequency)
@@ -37,7 +37,7 @@ fn line_is_integrated_over_its_sample() {
 
 #[test]
 fn line_of_a_whole_turn_a_sample_is_not_seen() {
-    let track = run().track;
+    let track = &run().track;
     let line = TermInstance::new(&catalogue::INTERFERENCE_LINE)
         .with_setting(SettingKind::Frequency, 1.0 / INTERVAL)
         .with_values(&[1.0; 4]);

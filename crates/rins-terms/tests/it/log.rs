@@ -9,7 +9,7 @@ use rins_testing::assert_close;
 use crate::support::{INTERVAL, run};
 
 fn distorted(chosen: TermInstance) -> (Recording, Recording) {
-    let before = run().recording;
+    let before = run().recording.clone();
     let mut after = before.clone();
     Model::default().with(chosen).distort(Seed::new(7), &mut after);
     (before, after)

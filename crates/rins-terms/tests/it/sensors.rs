@@ -14,7 +14,7 @@ use rins_testing::assert_close;
 use crate::support::{INTERVAL, run};
 
 /// A moment of a run, at 10 deg/s, with a force of (0.5, -0.2, 0.8) g and a temperature of 23 °C.
-fn moment() -> KinematicState {
+fn moment() -> KinematicState<'static> {
     let mut moment = run().track.moments().nth(1200).unwrap();
     moment.mean.rate = 10.0 * DEG_PER_SECOND;
     moment.rate = Vector3::new(0.0, 0.0, 10.0 * DEG_PER_SECOND);

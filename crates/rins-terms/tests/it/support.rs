@@ -1,5 +1,7 @@
 //! A run that shows most effects: both ways at three rates, with rests, while it warms up and cools.
 
+use std::sync::LazyLock;
+
 use rins_frames::units::{DEG, DEG_PER_HOUR, DEG_PER_HOUR_PER_ROOT_HZ, DEG_PER_SECOND, MICRO_G};
 use rins_frames::{EulerAngles, Increments, Site};
 use rins_imu::{ImuSpec, TriadSpec};
@@ -16,9 +18,12 @@ pub(crate) struct Run {
     pub(crate) recording: Recording,
 }
 
-pub(crate) fn run() -> Run {
-    let rates = [0.0, 10.0, -10.0, 20.0, -5.0, 0.0];
-    turning(&rates.map(|rate| Segment { rate: rate * DEG_PER_SECOND, duration: 20.0 }))
+pub(crate) fn run() -> &'static Run {
+    static RUN: LazyLock<Run> = LazyLock::new(|| {
+        let rates = [0.0, 10.0, -10.0, 20.0, -5.0, 0.0];
+        turning(&rates.map(|rate| Segment { rate: rate * DEG_PER_SECOND, duration: 20.0 }))
+    });
+    &RUN
 }
 
 pub(crate) fn turning(segments: &[Segment]) -> Run {

@@ -6,7 +6,7 @@ use crate::support::run;
 
 #[test]
 fn stretch_begins_with_the_moment_that_the_whole_comes_to() {
-    let track = run().track;
+    let track = &run().track;
     let whole: Vec<KinematicState> = track.moments().collect();
     let starts = [0, 1, 517, 517, 3000, track.len() - 1, track.len()];
     for (start, moments) in starts.into_iter().zip(track.moments_from(starts)) {
