@@ -70,6 +70,17 @@ fn follows(windows: &[(f64, f64, f64)]) -> bool {
     table > 0.0 && gyro > FAST * FAST * time && left < UNLIKE * UNLIKE * gyro
 }
 
+/// The ratio of the rates of gyro and table from pairs of windows whose rates differ, of which the median counts (Theil), or
+/// `None` if there is none.
+fn slope(windows: &[(f64, f64, f64)], fastest: f64) -> Option<f64> {
+    let rates = |&(gyro, turn, time): &(f64, f64, f64)| (gyro / time, turn / time);
+    let mut rates: Vec<(f64, f64)> = windows.iter().map(rates).collect();
+    rates.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let pairs = rates.iter().zip(&rates[rates.len() / 2..]);
+    let differ = pairs.filter(|(slow, fast)| fast.1 - slow.1 > 0.5 * fastest);
+    median(differ.map(|(slow, fast)| (fast.0 - slow.0) / (fast.1 - slow.1)))
+}
+
 /// The possible units of the table's readings, with the effect of each on the ratio.
 fn table_mistakes(recording: &Recording, expected: &Expected, timing: &Timing) -> Vec<Mistake> {
     let (all, what): (&[ReadingUnit], _) = match (&recording.table_angle, expected.table_unit) {
@@ -143,13 +154,22 @@ impl Spin {
         }
         let fastest =
             windows.iter().fold(0.0, |most: f64, (_, turn, time)| most.max((turn / time).abs()));
-        let standing =
-            windows.iter().filter(|(_, turn, time)| (turn / time).abs() < 1e-3 * fastest);
-        let bias = median(standing.map(|(gyro, _, time)| gyro / time)).unwrap_or(0.0);
+        let gained =
+            |ratio: f64| move |(gyro, turn, time): &(f64, f64, f64)| (gyro - ratio * turn) / time;
         let turning = windows.iter().filter(|(_, turn, time)| (turn / time).abs() > 0.5 * fastest);
-        let ratio = median(turning.map(|(gyro, turn, time)| (gyro - bias * time) / turn));
+        let (ratio, bias) = match slope(&windows, fastest) {
+            Some(ratio) => (Some(ratio), median(windows.iter().map(gained(ratio)))),
+            // At one rate, a bias and an error of the scale factor are not distinguishable.
+            None => (median(turning.map(|(gyro, turn, _)| gyro / turn)), None),
+        };
         let all = product / square;
-        Some(Self { ratio: ratio.unwrap_or(all.z), all, table, bias, late })
+        Some(Self {
+            ratio: ratio.unwrap_or(all.z),
+            all,
+            table,
+            bias: bias.unwrap_or_default(),
+            late,
+        })
     }
 
     /// Whether gyros and table agree except for axes and signs.

@@ -69,6 +69,17 @@ fn encoder_that_loses_a_degree_is_suspected() {
     assert_close!(apart, DEG, 0.05 * DEG);
 }
 
+/// A bias that is large compared with the table rate is not a scale error, which would give the other direction another profile.
+#[test]
+fn bias_is_no_other_profile() {
+    let mut recording = record(profile(&[(7.0, 150.0), (-7.0, 120.0)]), CHIP, 5);
+    assert_unsuspected(&recording, &expected(CHIP));
+    for sample in &mut recording.increments {
+        sample.angle += InFrame::new(0.0, 0.0, 0.3 * DEG * sample.interval);
+    }
+    assert_unsuspected(&recording, &expected(CHIP));
+}
+
 #[test]
 fn gyros_ratio_to_the_table_is_told_and_its_causes_named() {
     let recording = record(usual(), CHIP, 3);

@@ -10,7 +10,7 @@ use rins_trials::{
 };
 
 const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
-                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest] | trials card JOURNAL PAGE | \
+                     trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest|null] | trials card JOURNAL PAGE | \
                      trials null-page JOURNAL PAGE REVISION";
 
 fn main() -> ExitCode {
@@ -58,13 +58,15 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             time(seed, trials, &analyser, Path::new(journal), told)
         }
         ["frozen", program, ref more @ ..] => frozen(&Analyser::new(program, cores).with(more)),
-        ["folder", seed, index, folder, ref length @ ..] => {
-            let length = match *length {
-                [] => Length::Drawn,
-                ["longest"] => Length::Longest,
+        ["folder", seed, index, folder, ref kind @ ..] => {
+            let (seed, index) = (seed.parse().ok()?, index.parse().ok()?);
+            let trial = match *kind {
+                [] => Trial::draw(seed, index, Length::Drawn),
+                ["longest"] => Trial::draw(seed, index, Length::Longest),
+                ["null"] => Ok(Trial::null(seed, index)),
                 _ => return None,
             };
-            made((seed.parse().ok()?, index.parse().ok()?, length), Path::new(folder))
+            trial.map_err(Trouble::from).and_then(|trial| made(&trial, Path::new(folder)))
         }
         ["card", journal, page] => {
             records(Path::new(journal)).and_then(|all| Ok(std::fs::write(page, card(&all))?))
@@ -91,8 +93,7 @@ fn frozen(analyser: &Analyser) -> Result<(), Trouble> {
 }
 
 /// Makes the folder of one trial, and says what is hidden in it.
-fn made((seed, index, length): (u64, u64, Length), folder: &Path) -> Result<(), Trouble> {
-    let trial = Trial::draw(seed, index, length)?;
+fn made(trial: &Trial, folder: &Path) -> Result<(), Trouble> {
     std::fs::create_dir_all(folder)?;
     let log = rins_blind::record(&trial.experiment);
     rins_blind::write(folder, &log, &trial.known, trial.experiment.interval)?;
