@@ -24,6 +24,7 @@ mod sequence;
 
 mod gravity;
 mod held;
+mod latency;
 mod path;
 mod smoothing;
 mod sway;

@@ -11,6 +11,7 @@ use rins_terms::{Model, SettingKind, Surroundings, Track, catalogue};
 use crate::build::{Build, Compared};
 use crate::epoch::{Epoch, SHORTEST_EPOCH, Span};
 use crate::held::hold;
+use crate::latency::without_latency;
 use crate::path;
 use crate::run::{Reference, Run};
 use crate::step::SHOWN;
@@ -123,7 +124,14 @@ fn in_epochs(
     free: &[(usize, usize)],
     (pieces, longest): (Pieces, f64),
 ) -> Linear {
-    let (surroundings, model) = with_attitude(run, model);
+    let (surroundings, mut model) = with_attitude(run, model);
+    let moved = without_latency(run, &model);
+    let run = if let Some((moved, rest)) = &moved {
+        model.clone_from(rest);
+        moved
+    } else {
+        run
+    };
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
     let length = (duration / 1000.0).clamp(EPOCH.0, longest).max(duration / MOST_EPOCHS);

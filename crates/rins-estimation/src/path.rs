@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use rins_terms::{Acting, KinematicStates, Model, Surroundings, Track};
 
 use crate::run::{Reference, Run};
-use crate::smoothing::smoothed;
+use crate::smoothing::Differences;
 
 /// The largest error of the angle whose square is negligible \[rad\].
 const SMALL_ERROR: f64 = 1e-4;
@@ -23,11 +23,11 @@ const SAMPLES_AT_A_TIME: usize = 4096;
 /// The trajectory of the table at which a run is linearized.
 ///
 /// The reference determines its low frequencies, the z gyro its high frequencies above the one at which they are equally noisy
-/// ([`smoothed`]), but not over more than `block` samples.
-pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block: usize) -> Track {
-    let mut track = through(run, surroundings, &[], block);
+/// ([`Differences::smoothed`]); those of a quantized reference begin below the rate of the epochs, which have `epoch` samples.
+pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, epoch: usize) -> Track {
+    let mut known = vec![0.0; run.recording.len()];
+    let mut track = through(run, surroundings, &known, epoch);
     let Reference::Encoder { .. } = run.rig.reference else { return track };
-    let mut known = vec![0.0; track.len()];
     for pass in 0..MOST_PASSES {
         let errors = errors(&track, model);
         let change = known.iter().zip(&errors).map(|(known, error)| (error - known).abs());
@@ -35,7 +35,7 @@ pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, block:
         if change.fold(0.0, f64::max) < small {
             break;
         }
-        track = through(run, surroundings, &errors, block);
+        track = through(run, surroundings, &errors, epoch);
         known = errors;
     }
     track
@@ -53,8 +53,8 @@ fn errors(track: &Track, model: &Model) -> Vec<f64> {
     errors.concat()
 }
 
-/// The trajectory if the table angle has these errors, or none.
-fn through(run: &Run, surroundings: Surroundings, errors: &[f64], block: usize) -> Track {
+/// The trajectory if the table angle has these errors.
+fn through(run: &Run, surroundings: Surroundings, errors: &[f64], epoch: usize) -> Track {
     let recording = &run.recording;
     let gyro = integrated_gyro(run, &surroundings);
     let correction = match run.rig.reference {
@@ -62,10 +62,18 @@ fn through(run: &Run, surroundings: Surroundings, errors: &[f64], block: usize) 
         Reference::Gravity => correction_by_gravity(run, &surroundings, &gyro),
         Reference::Encoder { .. } | Reference::Command { .. } => {
             let read = readings(run).unwrap_or_default();
-            let errors = errors.iter().copied().chain(std::iter::repeat(0.0));
-            let differences: Vec<f64> =
-                read.iter().zip(&gyro[1..]).zip(errors).map(|((r, g), e)| r - g - e).collect();
-            smoothed(&differences, |sample| !recording.gap_before(sample), block)
+            let read: Vec<f64> =
+                read.iter().zip(errors).map(|(read, error)| read - error).collect();
+            let differences = Differences {
+                times: &recording.times,
+                readings: &read,
+                values: read.iter().zip(&gyro[1..]).map(|(read, gyro)| read - gyro).collect(),
+                linked: (0..recording.len())
+                    .map(|sample| sample > 0 && !recording.gap_before(sample))
+                    .collect(),
+            };
+            // Rounding errors are not white: a smoothed angle must not follow the grid.
+            differences.smoothed(run.angle_steps.map(|_| epoch as f64))
         }
     };
     let angles = gyro.iter().zip(&correction).map(|(gyro, correction)| gyro + correction).collect();

@@ -5,9 +5,10 @@ use rins_imu::ImuCompensationError;
 use rins_motion::Recording;
 
 use crate::acting::Acting;
-use crate::kinematic_state::{KinematicState, Surroundings};
+use crate::kinematic_state::KinematicState;
 use crate::model::Model;
 use crate::signals::{Signals, values};
+use crate::surroundings::Surroundings;
 use crate::track::Track;
 
 /// The most often that readings are compensated; each time leaves of an error what the terms make of it.

@@ -151,10 +151,12 @@ impl Case<'_> {
         let order =
             single.into_iter().chain((0..moves.len()).filter(|place| Some(*place) != single));
         let mut best: Option<State> = None;
+        let mut promised = 0.0;
         let mut fitted = 0;
         for one in order.map(|place| &moves[place]) {
-            // What was promised does not count, but what was found.
-            let found = best.as_ref().map_or(0.0, |best| (best.score - current.score).max(0.0));
+            // What was found counts; if it is more than the linear pass promised, others may be as well.
+            let found = best.as_ref().map_or(0.0, |best| best.score - current.score);
+            let found = found.min(promised).max(0.0);
             let least = (found - NEAR - NEAR_PART * found).max(-MARGIN);
             if fitted >= FITTED || one.gain < least {
                 break;
@@ -171,6 +173,7 @@ impl Case<'_> {
             tried.push(Tried::of(&state));
             if best.as_ref().is_none_or(|other| state.score > other.score) {
                 best = Some(state);
+                promised = one.gain;
             }
         }
         Ok(best.filter(|state| state.score > current.score + BETTER))

@@ -4,6 +4,7 @@
 mod batch_and_filter;
 mod colour;
 mod gravity;
+mod latency;
 mod left_out;
 mod mountings;
 mod prior_consistency;

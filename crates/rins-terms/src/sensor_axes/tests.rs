@@ -9,10 +9,11 @@ use rins_testing::assert_close;
 
 use super::{own_channel, sign_of};
 use crate::catalogue::{self, CATALOGUE};
-use crate::kinematic_state::{Instant, KinematicState, Surroundings};
+use crate::kinematic_state::{Instant, KinematicState};
 use crate::model::{Model, Role, TermInstance};
 use crate::setting::SettingKind;
 use crate::signals::values;
+use crate::surroundings::Surroundings;
 use crate::term::Parity;
 
 fn about(source: [usize; 3], sign: [f64; 3]) -> SignedAxes {

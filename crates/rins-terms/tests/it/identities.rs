@@ -60,7 +60,7 @@ fn steady_turn_confuses_what_reversals_tell_apart() {
         (("accel_lever_arm", 0), ("accel.bias", 0)),
     ];
     for (first, second) in pairs {
-        let (blind, seen) = (sine(&steady, first, second), sine(&varied, first, second));
+        let (blind, seen) = (sine(&steady, first, second), sine(varied, first, second));
         // Transverse Earth rate turns M_xz's neighbours a little; the Coriolis acceleration the lever arm.
         assert!(blind < 2e-3, "{first:?} and {second:?}: {blind}");
         assert!(seen > 0.1, "{first:?} and {second:?}: {seen}");
@@ -83,14 +83,14 @@ fn cable_and_base_tilt_alike_while_the_table_turns_one_way() {
         (1.0 - cosine * cosine).max(0.0).sqrt()
     };
     assert!(sine(&steady) < 1e-6, "{}", sine(&steady));
-    assert!(sine(&varied) > 0.1, "{}", sine(&varied));
+    assert!(sine(varied) > 0.1, "{}", sine(varied));
 }
 
 #[test]
 fn wrong_gravity_is_a_common_scale_error_under_any_schedule() {
     let run = run();
-    let gravity = &columns(&run, "wrong_gravity")[0];
-    let scales = columns(&run, "accel.scale");
+    let gravity = &columns(run, "wrong_gravity")[0];
+    let scales = columns(run, "accel.scale");
     for (k, gravity) in gravity.iter().enumerate() {
         assert_eq!(*gravity, scales[0][k] + scales[1][k] + scales[2][k]);
     }
@@ -99,7 +99,7 @@ fn wrong_gravity_is_a_common_scale_error_under_any_schedule() {
 #[test]
 fn lever_arm_is_a_size_effect_of_equal_places_in_the_plane() {
     let run = run();
-    let (arm, size) = (columns(&run, "accel_lever_arm"), columns(&run, "accel_size_effect"));
+    let (arm, size) = (columns(run, "accel_lever_arm"), columns(run, "accel_size_effect"));
     for component in 0..arm[0].len() {
         // All but accelerometer z.
         if component % 10 != 5 {
@@ -113,7 +113,7 @@ fn lever_arm_is_a_size_effect_of_equal_places_in_the_plane() {
 #[test]
 fn isotropic_g_sensitivity_is_a_vector_fixed_in_the_table() {
     let run = run();
-    let columns = columns(&run, "gyro_g_sensitivity");
+    let columns = columns(run, "gyro_g_sensitivity");
     let around = run.track.surroundings;
     for (k, moment) in run.track.moments().skip(150).enumerate() {
         let isotropic: Vec<f64> =

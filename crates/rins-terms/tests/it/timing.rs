@@ -29,7 +29,7 @@ fn check_angle(model: &Model, shifted: impl Fn(f64) -> f64, largest_delay: f64) 
         let time = moment.end.time;
         let got = making.read(&moment, truth).angle_error;
         let want = run.motion.profile.angle(shifted(time)) - run.motion.profile.angle(time);
-        let within = if at_a_corner(&run, time) { corner(largest_delay) } else { 1e-11 };
+        let within = if at_a_corner(run, time) { corner(largest_delay) } else { 1e-11 };
         assert_close!(got, want, within);
     }
 }
@@ -70,7 +70,7 @@ fn late_sensors_read_earlier_motion() {
             let (from, to) = (moment.end.time - INTERVAL - delay, moment.end.time - delay);
             let got = making.read(&moment, truth).increments;
             let want = run.motion.increments(from, to);
-            let abrupt = at_a_corner(&run, moment.mean.time);
+            let abrupt = at_a_corner(run, moment.mean.time);
             // A sample's mean of a vector that turns along a ramp, delayed, is another by 1e-7 of it.
             let angle = if abrupt { ACCELERATION * (delay + INTERVAL) * INTERVAL } else { 1e-11 };
             let velocity = if abrupt { 9.8 * corner(delay) * INTERVAL } else { 1e-8 };
