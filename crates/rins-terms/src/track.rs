@@ -11,7 +11,7 @@ use crate::turns::turns;
 /// Over so many samples on either side of an edge a table's rate goes on evenly, if no ramp begins or ends there.
 const BESIDE: usize = 4;
 
-/// The table's motion over a run, from which every sample's [`KinematicState`] follows.
+/// The table's motion over a run, from which every sample's [`KinematicState`](crate::KinematicState) follows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// What surrounds the table.
