@@ -8,7 +8,7 @@ use rins_terms::{Model, Term, catalogue};
 use crate::run::{Reference, Run};
 
 /// Readings are moved if the latency is at least this number of samples: within a sample the motion is known well.
-const FEWEST: f64 = 2.0;
+const FEWEST: usize = 2;
 
 /// A latency above a whole number of samples by up to this part less than the next one is moved by that next one: common
 /// latencies, of whole and of half samples, are then far from where the number changes.
@@ -29,65 +29,47 @@ pub(crate) fn without_latency(run: &Run, model: &Model) -> Option<(Run, Model)> 
     let interval = recording.mean_interval();
     let mut rest = model.clone();
     let mut samples = |term: &'static Term| {
-        let mut moved = 0.0;
+        let mut moved = 0;
         for chosen in rest.terms.iter_mut().filter(|chosen| chosen.term.is(term)) {
-            let size = (chosen.values[0].abs() / interval + NEXT).floor();
-            if size >= FEWEST {
-                let whole = size.copysign(chosen.values[0]);
-                chosen.values[0] -= whole * interval;
-                moved += whole;
+            let latency = chosen.values[0];
+            let size = whole((latency.abs() / interval + NEXT).floor());
+            if (FEWEST..recording.len()).contains(&size) {
+                chosen.values[0] -= (size as f64).copysign(latency) * interval;
+                moved += if latency < 0.0 { -size.cast_signed() } else { size.cast_signed() };
             }
         }
         moved
     };
-    let latencies = [&catalogue::GYRO_LAG, &catalogue::ACCEL_LATENCY, &catalogue::ENCODER_LATENCY]
-        .map(&mut samples);
-    let longest = recording.len() as f64;
-    if latencies.iter().all(|moved| *moved == 0.0)
-        || latencies.iter().any(|moved| moved.abs() >= longest)
+    let latencies = [&catalogue::GYRO_LAG, &catalogue::ACCEL_LATENCY, &catalogue::ENCODER_LATENCY];
+    let [gyro, accel, angle] = latencies.map(&mut samples);
+    let mut intervals = recording.increments.iter().map(|sample| sample.interval);
+    if [gyro, accel, angle] == [0; 3]
+        || intervals.any(|one| (one - interval).abs() > UNIFORM * interval)
     {
         return None;
     }
-    let mut intervals = recording.increments.iter().map(|sample| sample.interval);
-    if intervals.any(|one| (one - interval).abs() > UNIFORM * interval) {
-        return None;
-    }
     // Gyros stay: a shift of all readings together is one of the time.
-    let [gyro, accel, angle] = latencies.map(signed);
     let moved = Arc::new(moved(recording, accel - gyro, angle - gyro));
-    let moved = Run { recording: moved, ..run.clone() };
-    Some((moved, rest))
-}
-
-/// A whole number of samples, which may be negative.
-fn signed(samples: f64) -> isize {
-    if samples == 0.0 {
-        return 0;
-    }
-    let size = isize::try_from(whole(samples.abs())).unwrap_or(isize::MAX);
-    if samples < 0.0 { -size } else { size }
+    Some((Run { recording: moved, ..run.clone() }, rest))
 }
 
 /// The recording with the accelerometers and the angle of later samples, by these numbers. Beyond a gap the nearest sample counts, and for
 /// the angle the rotation of the gyro.
 fn moved(recording: &Recording, accel: isize, angle: isize) -> Recording {
     let mut moved = recording.clone();
-    let gap = |sample: &usize| recording.gap_before(*sample);
-    let starts = std::iter::once(0).chain((1..recording.len()).filter(gap));
-    let bounds: Vec<usize> = starts.chain([recording.len()]).collect();
-    for span in bounds.windows(2) {
-        let last = span[1] - 1;
+    for span in recording.between_gaps() {
+        let last = span.end - 1;
         let nearest = |sample: usize, by: isize| {
             // Saturates at zero.
-            sample.saturating_add_signed(by).clamp(span[0], last)
+            sample.saturating_add_signed(by).clamp(span.start, last)
         };
-        for sample in span[0]..=last {
+        for sample in span.clone() {
             let source = nearest(sample, accel);
             moved.increments[sample].velocity = recording.increments[source].velocity;
         }
         let Some(angles) = &mut moved.table_angle else { continue };
         let read = recording.table_angle.as_deref().unwrap_or_default();
-        for (sample, moved) in angles.iter_mut().enumerate().take(last + 1).skip(span[0]) {
+        for (sample, moved) in angles.iter_mut().enumerate().take(span.end).skip(span.start) {
             let source = nearest(sample, angle);
             let beyond = sample as f64 + angle as f64 - source as f64;
             let turn = recording.increments[source].angle.components().z;

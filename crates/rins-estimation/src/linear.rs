@@ -1,11 +1,11 @@
 //! Linearization of a run: the dependence of each epoch's measurements on attitude, velocity and the parameters.
 
-use rins_motion::whole;
 use std::ops::Range;
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use rins_frames::{Dcm, InFrame, Nav, Table};
+use rins_motion::whole;
 use rins_terms::{Model, SettingKind, Surroundings, Track, catalogue};
 
 use crate::build::{Build, Compared};
@@ -124,20 +124,15 @@ fn in_epochs(
     free: &[(usize, usize)],
     (pieces, longest): (Pieces, f64),
 ) -> Linear {
-    let (surroundings, mut model) = with_attitude(run, model);
+    let (surroundings, model) = with_attitude(run, model);
     let moved = without_latency(run, &model);
-    let run = if let Some((moved, rest)) = &moved {
-        model.clone_from(rest);
-        moved
-    } else {
-        run
-    };
+    let (run, model) = moved.as_ref().map_or((run, &model), |(run, model)| (run, model));
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
     let length = (duration / 1000.0).clamp(EPOCH.0, longest).max(duration / MOST_EPOCHS);
     let interval = duration / (recording.len() - 1) as f64;
     let block = whole(length / interval);
-    let track = path::track(run, surroundings, &model, block);
+    let track = path::track(run, surroundings, model, block);
     let readings = path::readings(run);
     let spans = spans(run, block);
     let piece = match pieces {
@@ -148,12 +143,12 @@ fn in_epochs(
             whole(TURN_OF_PIECE / most).min(block.div_ceil(FEWEST_PIECES))
         }
     };
-    let events = if piece > 1 { events(&model, &track) } else { Vec::new() };
+    let events = if piece > 1 { events(model, &track) } else { Vec::new() };
     let cut = |span: &Span| cut(&span.samples, piece, &events);
     let ends: Vec<usize> = spans.iter().flat_map(cut).collect();
     let coarse = (piece > 1).then(|| track.thinned(&ends));
     let pieces = coarse.as_ref().unwrap_or(&track);
-    let compared = Compared::new(run, &model, free, readings.as_deref(), (&track, pieces));
+    let compared = Compared::new(run, model, free, readings.as_deref(), (&track, pieces));
     let stretches: Vec<&[Span]> = spans.chunks(EPOCHS_AT_A_TIME).collect();
     let firsts: Vec<usize> = stretches.iter().map(|spans| spans[0].samples.start).collect();
     // A group of epochs begins with the piece before it, which determines the previous error of the readings.
@@ -190,18 +185,13 @@ fn in_epochs(
 
 /// The samples of all epochs: `block` samples each, with a new epoch after every gap.
 fn spans(run: &Run, block: usize) -> Vec<Span> {
-    let recording = &run.recording;
-    let gap = |sample: &usize| recording.gap_before(*sample);
-    let starts = std::iter::once(0).chain((1..recording.len()).filter(gap));
-    let starts: Vec<usize> = starts.chain([recording.len()]).collect();
-    let epochs = |whole: &[usize]| {
-        let (start, end) = (whole[0], whole[1]);
-        (start..end).step_by(block).map(move |first| Span {
-            samples: first..end.min(first + block),
-            fresh: first == start,
+    let epochs = |whole: Range<usize>| {
+        whole.clone().step_by(block).map(move |first| Span {
+            samples: first..whole.end.min(first + block),
+            fresh: first == whole.start,
         })
     };
-    starts.windows(2).flat_map(epochs).collect()
+    run.recording.between_gaps().flat_map(epochs).collect()
 }
 
 /// The ends of pieces of `piece` samples, with a piece of one sample at every event.

@@ -1,5 +1,7 @@
 //! A recording: the increments and the table readings of a run.
 
+use std::ops::Range;
+
 use rins_frames::Increments;
 
 /// The interval relative to the mean one above which samples are missing.
@@ -40,6 +42,13 @@ impl Recording {
     pub fn gap_before(&self, sample: usize) -> bool {
         sample > 0
             && self.times[sample] - self.times[sample - 1] > 1.5 * self.increments[sample].interval
+    }
+
+    /// The samples between gaps, in order.
+    pub fn between_gaps(&self) -> impl Iterator<Item = Range<usize>> {
+        let mut start = 0;
+        let ends = (1..=self.len()).filter(|&end| end == self.len() || self.gap_before(end));
+        ends.map(move |end| std::mem::replace(&mut start, end)..end)
     }
 
     /// The mean interval of a sample \[s\].

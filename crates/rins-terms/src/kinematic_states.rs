@@ -36,9 +36,7 @@ impl Track {
     ) -> Vec<KinematicStates<'_>> {
         let mut at = self.moments();
         let from = |sample: usize| {
-            while at.sample < sample.min(self.len()) {
-                at.pass();
-            }
+            at.sample = at.sample.max(sample.min(self.len()));
             at.clone()
         };
         samples.into_iter().map(from).collect()
@@ -71,7 +69,7 @@ impl<'a> KinematicStates<'a> {
         let time = *track.times.get(sample)?;
         let (rate, elapsed) = track.over(sample);
         let acceleration = (track.edges[sample + 1] - track.edges[sample]) / elapsed;
-        self.pass();
+        self.sample += 1;
         let interval = track.intervals[sample];
         let temperature_before = track.temperature(sample.saturating_sub(1));
         let temperature = track.temperature(sample);
@@ -114,11 +112,6 @@ impl<'a> KinematicStates<'a> {
         };
         moment.mean = mean;
         Some(moment)
-    }
-
-    /// Goes on to the next sample.
-    fn pass(&mut self) {
-        self.sample += 1;
     }
 }
 
