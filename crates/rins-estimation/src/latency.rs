@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use rins_motion::{Recording, whole};
-use rins_terms::{Model, Term, catalogue};
+use rins_terms::{Model, Term, TermInstance, catalogue};
 
 use crate::run::{Reference, Run};
 
@@ -17,12 +17,13 @@ const NEXT: f64 = 0.25;
 /// Sampling is uniform if no interval differs by more than this part from the mean.
 const UNIFORM: f64 = 1e-3;
 
-/// The run with its readings moved by the whole samples of their latencies according to the model, and the model with the rest of the
-/// latencies; `None` if they are less than two samples or sampling is not uniform.
+/// The run with its table angle moved by the whole samples of its latency relative to the gyros according to the model, and the model
+/// with the rest of the latencies; `None` if they are less than two samples or sampling is not uniform.
 ///
-/// The motion that a late reading shows is then that of its epoch, and so are its errors: they are processed with those of the
-/// other sensors that belong to it. Latencies that are equivalent, such as that of the angle and those of all sensors with the
-/// other sign, have the same likelihood. The time is that of the readings of the gyros.
+/// The motion that a late reading shows is then that of its epoch, and so are its errors: angle and gyros are compared where they
+/// belong to each other. The time is that of the readings of the gyros. Those of the accelerometers stay with them, whatever
+/// their latency, so that every hypothesis has the same noise in the same epochs: the track tells the motion that they show. Latencies
+/// that are equivalent, such as that of the angle and those of all sensors with the other sign, have the same likelihood.
 pub(crate) fn without_latency(run: &Run, model: &Model) -> Option<(Run, Model)> {
     let Reference::Encoder { .. } = run.rig.reference else { return None };
     let recording = &run.recording;
@@ -40,40 +41,40 @@ pub(crate) fn without_latency(run: &Run, model: &Model) -> Option<(Run, Model)> 
         }
         moved
     };
-    let latencies = [&catalogue::GYRO_LAG, &catalogue::ACCEL_LATENCY, &catalogue::ENCODER_LATENCY];
-    let [gyro, accel, angle] = latencies.map(&mut samples);
+    let [gyro, angle] = [&catalogue::GYRO_LAG, &catalogue::ENCODER_LATENCY].map(&mut samples);
     let mut intervals = recording.increments.iter().map(|sample| sample.interval);
-    if [gyro, accel, angle] == [0; 3]
-        || intervals.any(|one| (one - interval).abs() > UNIFORM * interval)
-    {
+    if [gyro, angle] == [0; 2] || intervals.any(|one| (one - interval).abs() > UNIFORM * interval) {
         return None;
     }
-    // Gyros stay: a shift of all readings together is one of the time.
-    let moved = Arc::new(moved(recording, accel - gyro, angle - gyro));
+    // With the time of the gyros that of the accelerometers is moved.
+    if gyro != 0 {
+        let moved = gyro as f64 * interval;
+        match rest.terms.iter_mut().find(|chosen| chosen.term.is(&catalogue::ACCEL_LATENCY)) {
+            Some(own) => own.values[0] -= moved,
+            None => {
+                rest.terms
+                    .push(TermInstance::new(&catalogue::ACCEL_LATENCY).with_values(&[-moved]));
+            }
+        }
+    }
+    let moved = Arc::new(moved(recording, angle - gyro));
     Some((Run { recording: moved, ..run.clone() }, rest))
 }
 
-/// The recording with the accelerometers and the angle of later samples, by these numbers. Beyond a gap the nearest sample counts, and for
-/// the angle the rotation of the gyro.
-fn moved(recording: &Recording, accel: isize, angle: isize) -> Recording {
+/// The recording with the table angle of later samples, by this number. Beyond a gap it is the nearest and the rotation of the gyro.
+fn moved(recording: &Recording, by: isize) -> Recording {
     let mut moved = recording.clone();
+    let (Some(angles), Some(read)) = (&mut moved.table_angle, &recording.table_angle) else {
+        return moved;
+    };
     for span in recording.between_gaps() {
         let last = span.end - 1;
-        let nearest = |sample: usize, by: isize| {
-            // Saturates at zero.
-            sample.saturating_add_signed(by).clamp(span.start, last)
-        };
         for sample in span.clone() {
-            let source = nearest(sample, accel);
-            moved.increments[sample].velocity = recording.increments[source].velocity;
-        }
-        let Some(angles) = &mut moved.table_angle else { continue };
-        let read = recording.table_angle.as_deref().unwrap_or_default();
-        for (sample, moved) in angles.iter_mut().enumerate().take(span.end).skip(span.start) {
-            let source = nearest(sample, angle);
-            let beyond = sample as f64 + angle as f64 - source as f64;
+            // Saturates at zero.
+            let source = sample.saturating_add_signed(by).clamp(span.start, last);
+            let beyond = sample as f64 + by as f64 - source as f64;
             let turn = recording.increments[source].angle.components().z;
-            *moved = read[source] + beyond * turn;
+            angles[sample] = read[source] + beyond * turn;
         }
     }
     moved
