@@ -7,7 +7,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use rins::ModelChoice;
 use rins_io::{LogFile, Overwrite, shown};
 
-use crate::choices::{Noise, Searched};
+use crate::choices::Noise;
 
 mod observe;
 
@@ -79,7 +79,7 @@ pub(crate) enum Command {
     ///
     /// The model is estimated. Every effect of the catalogue is then tested on the residuals, at all event times and
     /// harmonic orders. The most probable significant effect is added to the model; the result states its p-value and the
-    /// alternatives that this run does not distinguish from it. The search ends when no further effect is significant.
+    /// alternatives that this run does not distinguish from it. The search ends when no change of the model is more probable.
     /// Residual structure that no effect explains is reported as such. An error of units, signs or axes ends the command;
     /// the message states the correction.
     Diagnose(Diagnose),
@@ -241,13 +241,9 @@ pub(crate) struct Diagnose {
     /// Source of the noise parameters
     #[arg(long, value_enum, default_value_t = Noise::Likely)]
     pub(crate) noise: Noise,
-    /// How effects are searched for
-    #[arg(long, value_enum, default_value_t = Searched::Stepwise)]
-    pub(crate) search: Searched,
-    /// Estimate the false alarm rate of the first search: simulate the score statistics (gradients of the log-likelihood)
-    /// of all effects DRAWS times for a run that follows the extended model, and report the fraction with a false
-    /// detection; the readings themselves are not simulated
-    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    /// Estimate the false alarm rate: simulate DRAWS runs with the extended model and the estimated noise, diagnose each of them,
+    /// and report the fraction in which anything is found. This takes DRAWS times as long as the diagnosis, on all cores
+    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) bootstrap: Option<u32>,
 }
 

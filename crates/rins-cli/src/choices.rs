@@ -1,7 +1,7 @@
 //! Choices among named alternatives.
 
 use clap::ValueEnum;
-use rins::{NoiseChoice, Search};
+use rins::NoiseChoice;
 
 /// Source of the noise parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -10,24 +10,6 @@ pub(crate) enum Noise {
     Likely,
     /// Data-sheet values
     Given,
-}
-
-/// How effects are searched for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Searched {
-    /// One effect after the other, the most significant first
-    Stepwise,
-    /// By one score of a whole hypothesis, its marginal likelihood times its prior (experimental)
-    Evidence,
-}
-
-impl From<Searched> for Search {
-    fn from(searched: Searched) -> Self {
-        match searched {
-            Searched::Stepwise => Self::Stepwise,
-            Searched::Evidence => Self::Evidence,
-        }
-    }
 }
 
 impl From<Noise> for NoiseChoice {

@@ -129,7 +129,6 @@ fn run_diagnose(arguments: &Arguments, diagnose: &Diagnose) -> anyhow::Result<()
         hypothesis: diagnose.hypothesis.clone(),
         noise: diagnose.noise.into(),
         bootstrap: diagnose.bootstrap,
-        search: diagnose.search.into(),
         progress: drawn(),
     };
     deliver(arguments, &rins::diagnose(logs, options)?, "")

@@ -6,34 +6,14 @@ use rins_estimation::{
     fit_near,
 };
 use rins_imu::ImuSpec;
-use rins_terms::{Model, Role, TermInstance};
+use rins_terms::{Model, TermInstance};
 
-use crate::candidates::{Candidate, duration};
-use crate::dead_zone;
-use crate::probability::ln_tail;
-use crate::rounding::Rounding;
-use crate::score::USUAL;
-use crate::survey::{RunNoise, Survey};
-use crate::trial::{Context, Trial, trials};
-
-/// How many events, and such of at least this part of the best one's evidence, are searched for their time.
-const REFINED: (usize, f64) = (3, 0.4);
-
-/// What an event may lose whose time is one of a few, in e-folds of p and of its odds: between two such times a step in what
-/// wanders loses half of its statistic.
-const COARSE: f64 = 4.0;
-
-/// How finely the time of an event is searched, in parts of the step between candidates.
-const FINER: [f64; 3] = [0.125, 0.03, 0.0075];
-
-/// What the noise that was found with an effect still to be named may have swallowed of it, in e-folds of p.
-const SWALLOWED: f64 = 4.0;
+use crate::criticism::rounding::Rounding;
+use crate::evidence::survey::{RunNoise, Survey};
+use crate::proposal::candidates::{Candidate, duration};
 
 /// Weaker flicker that is tried, as parts of what was found.
 const WEAKER: [f64; 3] = [1.0, 0.25, 0.02];
-
-/// A term of at most so many parameters is estimated whole: what the others of them are is not known to be nothing.
-const WHOLE: usize = 6;
 
 /// What stays the same from one effect to the next.
 #[derive(Clone, Copy)]
@@ -158,130 +138,6 @@ impl Case<'_> {
         let mut survey = Survey::of(self.runs, fit, self.imu, list, noises)?;
         survey.least_tilt = self.rounding.angle();
         Ok(survey)
-    }
-
-    /// The most likely of the effects that are significant, or may be with their own noise; events where they
-    /// fit best.
-    pub(crate) fn best(
-        &self,
-        present: &Fit,
-        list: &[Candidate],
-        tried: &[Trial],
-        threshold: f64,
-    ) -> Result<Option<(Candidate, Trial)>, Indefinite> {
-        let likely = self.knowledge.is_estimated();
-        let threshold = if likely { threshold + SWALLOWED } else { threshold };
-        let is_significant = |trial: &Trial| trial.ln_p < threshold && trial.is_likely();
-        let mut best = tried
-            .iter()
-            .find(|trial| is_significant(trial))
-            .map(|first| (list[first.candidate].clone(), first.clone()));
-        let worth = best.as_ref().map_or(f64::NEG_INFINITY, |(_, first)| {
-            (REFINED.1 * first.evidence).min(first.evidence)
-        });
-        let events = tried.iter().filter(|trial| {
-            let is_event = list[trial.candidate].step.is_some();
-            let in_reach = trial.ln_p < threshold + COARSE && trial.odds() > -COARSE;
-            is_event && in_reach && trial.evidence >= worth
-        });
-        for event in events.take(REFINED.0) {
-            let refined = self.refined(present, &list[event.candidate], event)?;
-            let is_better = |(_, best): &(_, Trial)| refined.1.evidence > best.evidence;
-            if is_significant(&refined.1) && best.as_ref().is_none_or(is_better) {
-                best = Some(refined);
-            }
-        }
-        let Some(mut best) = best else { return Ok(None) };
-        if dead_zone::is_of_widths(&best.0.chosen) {
-            best = self.with_further_gyros(present, best)?;
-        }
-        Ok(Some(best))
-    }
-
-    /// An event when it fits best, and what settles as slowly as fits best.
-    fn refined(
-        &self,
-        present: &Fit,
-        candidate: &Candidate,
-        trial: &Trial,
-    ) -> Result<(Candidate, Trial), Indefinite> {
-        let mut best = (candidate.clone(), trial.clone());
-        let noises = self.noises(present);
-        for part in FINER {
-            let list = best.0.neighbours(part);
-            let survey = self.survey(present, &list, &noises)?;
-            let Some(context) = Context::of(&survey, &[], &[]) else { break };
-            for found in trials(&survey, &context, &list) {
-                if found.evidence > best.1.evidence {
-                    best = (list[found.candidate].clone(), found);
-                }
-            }
-        }
-        Ok(best)
-    }
-
-    /// A dead zone with those of further gyros, each as wide as fits best.
-    fn with_further_gyros(
-        &self,
-        present: &Fit,
-        mut best: (Candidate, Trial),
-    ) -> Result<(Candidate, Trial), Indefinite> {
-        let noises = self.noises(present);
-        loop {
-            let zone = dead_zone::of_shape(&best.0.chosen, &best.1.parameters);
-            let list = dead_zone::with_another(&zone);
-            let survey = self.survey(present, &list, &noises)?;
-            let Some(context) = Context::of(&survey, &[], &[]) else { return Ok(best) };
-            match trials(&survey, &context, &list).into_iter().next() {
-                Some(found) if found.parameters.len() > best.1.parameters.len() => {
-                    best = (list[found.candidate].clone(), found);
-                }
-                _ => return Ok(best),
-            }
-        }
-    }
-
-    /// The logarithm of the chance of a trial, once its effect has been fitted with its own noise: the last term
-    /// of `after`.
-    pub(crate) fn ln_p(&self, before: &Fit, after: &Fit, trial: &Trial) -> f64 {
-        if let NoiseKnowledge::Given(_) = self.knowledge {
-            return trial.ln_p;
-        }
-        let last = after.model().terms.len() - 1;
-        let (gained, own) = gained(before, after, last);
-        // Where all of an effect was estimated, nothing of it was chosen.
-        let is_whole = after.model().terms[last].values.len() <= WHOLE;
-        let (dof, looks) = if is_whole && own > trial.dof {
-            (own, trial.looks - trial.choices)
-        } else {
-            (trial.dof, trial.looks)
-        };
-        (ln_tail(gained, dof) + looks).min(trial.ln_p)
-    }
-}
-
-impl Candidate {
-    /// The term to be estimated, its amplitudes expected within what the trial found them to need.
-    pub(crate) fn expecting(&self, trial: &Trial, imu: &ImuSpec) -> TermInstance {
-        if dead_zone::is_of_widths(&self.chosen) {
-            let mut zone = dead_zone::of_shape(&self.chosen, &trial.parameters);
-            for &gyro in &trial.parameters {
-                let usual = zone.term.parameters[gyro].sigma(imu);
-                zone.roles[gyro] = Role::Within(USUAL * usual * trial.amplitude.max(1.0));
-            }
-            return zone;
-        }
-        let mut chosen = self.chosen.clone();
-        let n = chosen.values.len();
-        for parameter in 0..n {
-            let usual = chosen.term.parameters[parameter].sigma(imu);
-            if n <= WHOLE || trial.parameters.contains(&parameter) {
-                chosen.roles[parameter] = Role::Within(USUAL * usual * trial.amplitude.max(1.0));
-            } else {
-                chosen.roles[parameter] = Role::Held;
-            }
-        }
-        chosen
     }
 }
 

@@ -1,45 +1,21 @@
 //! From what a model leaves unexplained to the effects that explain it.
 
-use rins_estimation::{Fit, FitError, Indefinite, NoiseKnowledge, Run};
-use rins_imu::ImuSpec;
-use rins_terms::{Model, SettingKind, Term, TermInstance};
+use rins_estimation::{Estimate, Fit, FitError, Indefinite, NoiseKnowledge, Run};
+use rins_imu::{ImuNoiseError, ImuSpec};
+use rins_terms::{Model, Term, TermInstance};
 
-use crate::bursts::gathered;
-use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
-use crate::cause::Cause;
-use crate::disturbance;
-use crate::lines::FastLine;
-use crate::probability::ln_tail;
-use crate::rounding::Rounding;
-use crate::settling::Found;
-use crate::structure::Structure;
-use crate::survey::Survey;
-use crate::timing::has_frequency;
-use crate::trial::{Context, Trial, best_pair, trials};
-use crate::unexplained::{Unexplained, described};
-use crate::wander::CHOSEN;
+use crate::criticism::bursts::gathered;
+use crate::criticism::rounding::Rounding;
+use crate::criticism::unexplained::{Unexplained, described};
+use crate::generic::is_generic;
+use crate::hypothesis::Hypothesis;
+use crate::proposal::lines::FastLine;
+use crate::search::{Round, State, Tried};
+use crate::verdict::cause::Cause;
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
 pub const FALSE_ALARMS: f64 = 0.01;
-
-/// The most effects that are looked for.
-const MOST_CAUSES: usize = 8;
-
-/// After so many effects that looked significant and were not, the search ends.
-const MOST_REFUSED: usize = 2;
-
-/// How many effects are tried as the first of two that mask each other.
-const FIRST_OF_MASKED: usize = 8;
-
-/// A time constant of more than this part of the longest run is that of something that never settles.
-const NEVER: f64 = 0.3;
-
-/// An effect of more parameters that never settles is doubted.
-const MOST_SIMPLE: usize = 3;
-
-/// How many effects are accepted before the noise is found anew and the model made linear about them.
-const AT_ONCE: usize = 3;
 
 /// A finished diagnosis.
 #[derive(Clone, Debug)]
@@ -60,7 +36,7 @@ impl Diagnosis {
     /// The model with the causes in it, without what has no name.
     pub fn extended(&self) -> Model {
         let mut model = self.after.model().clone();
-        model.terms.retain(|chosen| !disturbance::is_one(chosen.term));
+        model.terms.retain(|chosen| !is_generic(chosen.term));
         model
     }
 }
@@ -75,6 +51,9 @@ pub enum DiagnosisError {
     /// The candidates cannot be tried.
     #[error("the effects of the catalogue cannot be tested on the run")]
     Screening(#[from] Indefinite),
+    /// The noise of a fit cannot be simulated.
+    #[error("the estimated noise cannot be simulated")]
+    Simulation(#[from] ImuNoiseError),
     /// The runs are about different axes of the IMU.
     #[error(
         "the runs have different spin axes: only runs about one axis of the IMU can be diagnosed together"
@@ -82,10 +61,14 @@ pub enum DiagnosisError {
     SeveralAxes,
 }
 
-/// Finds what `model` leaves unexplained in `runs` of one IMU, one effect after the other.
+/// Finds what `model` lacks in `runs` of one IMU, with one score for every hypothesis: the logarithm of its marginal likelihood
+/// times its prior.
 ///
-/// Where the noise is to be found it is found anew beside every effect that is tried: fitted without
-/// the effect, it would have swallowed it. `progress` is told of every effect that is accepted.
+/// Amplitudes are integrated out with a prior over their typical range, settings over the range that the runs resolve; noise
+/// parameters are profiled with the priors of the data sheet. The search adds, drops and exchanges effects, noise processes and
+/// departures from stated priors as long as the score rises.
+///
+/// `progress` is told of every effect that joins the hypothesis.
 ///
 /// # Errors
 /// [`DiagnosisError`] if the model as given cannot be fitted, or the runs are about different axes.
@@ -99,26 +82,13 @@ pub fn diagnose(
     ensure_one_axis(runs)?;
     let rounding = Rounding::of(runs, knowledge.sheet());
     let case = Case::new(runs, model, imu, knowledge, &rounding);
-    let found = case.searched(Search::Stepwise, &mut progress)?;
-    let (case, found) =
-        case.read_unevenly(found, |uneven| uneven.searched(Search::Stepwise, &mut progress))?;
-    case.wandering(found, |walking| walking.searched(Search::Stepwise, &mut progress))
-}
-
-/// How effects are searched for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Search {
-    /// One after the other, the most significant first.
-    Stepwise,
-    /// By the score of the whole hypothesis.
-    Evidence,
+    case.searched(&mut progress)
 }
 
 impl Case<'_> {
     /// What there is beyond the model.
     pub(crate) fn searched(
         &self,
-        search: Search,
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
         let before = self.fit()?;
@@ -126,10 +96,7 @@ impl Case<'_> {
         // after what may be wrong about it, for they would stand for that.
         let [mut of_motion, mut fast] = self.by_motion(&before, self.fast_lines(&before));
         loop {
-            let diagnosis = match search {
-                Search::Stepwise => self.likelier(&before, &fast, progress)?,
-                Search::Evidence => self.by_score(&before, &fast, progress)?,
-            };
+            let diagnosis = self.by_score(&before, &fast, progress)?;
             let left = self.still_there(&diagnosis.after, &of_motion);
             of_motion.clear();
             if !left.is_empty() {
@@ -145,124 +112,60 @@ impl Case<'_> {
         }
     }
 
-    /// What there is beyond a model and these fast lines, by the likelier of two ways.
-    ///
-    /// An effect that can follow much may be found for several others at once, and with it in the model none of them is
-    /// missed. But it is not the same throughout the run then: what would have been found without it is tried too.
-    fn likelier(
+    /// What there is beyond a model and these fast lines: the hypothesis of the largest score.
+    fn by_score(
         &self,
         before: &Fit,
         fast: &[FastLine],
         progress: &mut impl FnMut(&'static str),
     ) -> Result<Diagnosis, DiagnosisError> {
-        let found = self.beyond(before, fast, &[], progress)?;
-        let inconstant = |one: &Unexplained| {
-            one.of.filter(|_| matches!(one.structure, Structure::Inconstant(_)))
-        };
-        let mut doubtful: Vec<&str> = found.unexplained.iter().filter_map(inconstant).collect();
-        // What has not settled when the run ends follows slow effects of any kind.
-        let never_settles = |cause: &&Cause| {
-            let place = cause.term.setting(SettingKind::TimeConstant);
-            let time_constant = place.map_or(0.0, |place| cause.settings[place]);
-            cause.term.parameters.len() > MOST_SIMPLE && time_constant > NEVER * self.duration()
-        };
-        doubtful.extend(found.causes.iter().filter(never_settles).map(|cause| cause.term.id));
-        let given = before.model().terms.len() + fast.len();
-        let causes = |one: &Diagnosis| one.after.model().terms.len() - given;
-        // One that stands alone has been held against every other by now.
-        if doubtful.is_empty() || causes(&found) == 1 {
-            return Ok(found);
-        }
-        let Ok(other) = self.beyond(before, fast, &doubtful, progress) else { return Ok(found) };
-        let gained = other.after.log_likelihood - found.after.log_likelihood;
-        let chosen = |one: &Diagnosis| CHOSEN * causes(one) as f64 + self.sought_from(&one.causes);
-        let odds = gained + chosen(&found) - chosen(&other);
-        // Noise may stand for them too, but it is no other effect.
-        let is_likelier = causes(&other) > 0 && odds > 0.0;
-        Ok(if is_likelier { other } else { found })
-    }
-
-    /// What there is beyond a model and these fast lines, without a search for what is `refused`.
-    fn beyond(
-        &self,
-        before: &Fit,
-        fast: &[FastLine],
-        refused: &[&str],
-        progress: &mut impl FnMut(&'static str),
-    ) -> Result<Diagnosis, DiagnosisError> {
-        let mut present = before.clone();
         let given = with_lines(self.given, fast);
         let case = Case { given: &given, ..*self };
-        let Case { runs, imu, .. } = case;
-        if !fast.is_empty() {
-            present = case.fit_near(before, &[])?;
-        }
-        let mut found: Vec<TermInstance> = Vec::new();
-        let mut not_testable = None;
-        let (mut refused, most_refused) = (refused.to_vec(), refused.len() + MOST_REFUSED);
-        while found.len() < MOST_CAUSES {
-            let mut list = candidates(runs, present.model());
-            let jolts = case.jolts(&present);
-            list.extend(case.suggested(&present, &jolts));
-            list.retain(|candidate| !refused.contains(&candidate.chosen.term.id));
-            let survey = case.survey(&present, &list, &case.noises(&present))?;
-            let Some(context) = Context::of(&survey, &[], &[]) else { break };
-            let tried = trials(&survey, &context, &list);
-            not_testable.get_or_insert_with(|| unseen(&list, &tried));
-            let threshold = FALSE_ALARMS.ln() - (tried.len() as f64).ln();
-            let accepted = match case.best(&present, &list, &tried, threshold)? {
-                Some((mut candidate, trial)) => {
-                    jolts.pin(&mut candidate.chosen);
-                    let as_listed = list[trial.candidate].chosen == candidate.chosen;
-                    let mut accepted = vec![(candidate, trial)];
-                    // An effect that had to be sought, or that the noise may have swallowed, is fitted by itself.
-                    if as_listed && accepted[0].1.ln_p < threshold {
-                        let most = AT_ONCE.min(MOST_CAUSES - found.len());
-                        beside(&survey, &list, &mut accepted, threshold, most);
-                    }
-                    accepted
-                }
-                None => match masked(&survey, &list, &tried, threshold) {
-                    Some(pair) if found.len() + 2 <= MOST_CAUSES => {
-                        pair.map(|trial| (list[trial.candidate].clone(), trial)).into()
-                    }
-                    _ => break,
-                },
-            };
-            let earlier = found.len();
-            found.extend(accepted.iter().map(|(candidate, trial)| candidate.expecting(trial, imu)));
-            let fitted = case.fit_near(&present, &found);
-            let significant = |fitted: &Fit| match &accepted[..] {
-                [(_, trial)] => case.ln_p(&present, fitted, trial) <= threshold,
-                _ => true,
-            };
-            let Some(fitted) = fitted.ok().filter(significant) else {
-                found.truncate(earlier);
-                // One that is not linear, or that noise explains as well, hides what else there is.
-                if refused.len() < most_refused {
-                    refused.extend(accepted.iter().map(|(one, _)| one.chosen.term.id));
-                    continue;
-                }
-                break;
-            };
-            for (candidate, _) in &accepted {
-                progress(candidate.chosen.term.id);
-            }
-            present = fitted;
-            // Each of two that settle has taken a part of the other, and what a line leaves whose frequency is a little off is
-            // another line beside it: either would pass for something else.
-            let is_line = |(one, _): &(Candidate, Trial)| has_frequency(one.chosen.term);
-            if settles_twice(&found) || accepted.iter().any(is_line) {
-                present = case.at_their_best(present, &mut found)?.0;
-            }
-        }
-        let (after, causes) = case.settled(before, present, found, Found::Searched)?;
+        let present = case.with_given(before)?;
+        let (state, round, tried) = case.approximate().search(&present, progress)?;
+        let not_testable = round.not_testable();
+        let given = state.hypothesis.given(case.given, case.imu);
+        let (after, causes) = case.concluded(&present, (state, &round, &tried))?;
+        let case = Case { given: &given, ..case };
         let found = self.finished(&case, (before, after), fast, causes)?;
-        Ok(Diagnosis { not_testable: not_testable.unwrap_or_default(), ..found })
+        Ok(Diagnosis { not_testable, ..found })
+    }
+
+    /// The fit of the given model near that of one that may lack its fast lines.
+    pub(crate) fn with_given(&self, near: &Fit) -> Result<Fit, DiagnosisError> {
+        let is_same = near.model().terms.len() == self.given.terms.len();
+        Ok(if is_same { near.clone() } else { self.fit_near(near, &[])? })
+    }
+
+    /// The final fit of a hypothesis, with the uncertainty of its settings, and its causes.
+    pub(crate) fn concluded(
+        &self,
+        before: &Fit,
+        (state, round, tried): (State, &Round, &[Tried]),
+    ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
+        let mut causes = self.causes_of(&state, round, tried)?;
+        if state.hypothesis.is(&Hypothesis::default()) {
+            return Ok((before.clone(), causes));
+        }
+        let given = state.hypothesis.given(self.given, self.imu);
+        let case = Case { given: &given, ..self.with_processes(&state.hypothesis.open) };
+        let effects = state.hypothesis.effects.into_iter();
+        let mut found: Vec<TermInstance> = effects.map(|one| one.instance).collect();
+        let (near, _) = case.approximate().at_their_best(state.fit, &mut found)?;
+        let (after, sought) = case.sharpened(case.fit_near(&near, &found)?, &mut found)?;
+        let offset = self.given.terms.len();
+        for (index, (cause, found)) in causes.iter_mut().zip(&found).enumerate() {
+            let of = |p: &&Estimate| p.parameter.term == offset + index;
+            cause.parameters = after.parameters.iter().filter(of).cloned().collect();
+            cause.settings.clone_from(&found.settings);
+            let own = sought.iter().find(|one| one.cause == index);
+            cause.sought = own.map(|one| (one.place, one.sigma));
+        }
+        Ok((after, causes))
     }
 
     /// The diagnosis of a case that knows these fast lines: what is left unexplained beside the causes, and the noise.
-    pub(crate) fn finished(
+    fn finished(
         &self,
         case: &Case<'_>,
         (before, after): (&Fit, Fit),
@@ -270,7 +173,7 @@ impl Case<'_> {
         causes: Vec<Cause>,
     ) -> Result<Diagnosis, DiagnosisError> {
         let (unknown, mut causes): (Vec<Cause>, Vec<Cause>) =
-            causes.into_iter().partition(|cause| disturbance::is_one(cause.term));
+            causes.into_iter().partition(|cause| is_generic(cause.term));
         let mut unexplained: Vec<Unexplained> =
             unknown.iter().map(|cause| described(cause, &after)).collect();
         unexplained.extend(case.unexplained((before, &after), &causes)?);
@@ -305,67 +208,4 @@ pub(crate) fn with_lines(model: &Model, lines: &[FastLine]) -> Model {
     let mut model = model.clone();
     model.terms.extend(lines.iter().map(|(line, _)| line.clone()));
     model
-}
-
-/// Two effects that mask each other: neither shows alone, both do together.
-fn masked(
-    survey: &Survey,
-    list: &[Candidate],
-    tried: &[Trial],
-    threshold: f64,
-) -> Option<[Trial; 2]> {
-    let as_listed = |trial: &Trial| list[trial.candidate].step.is_none();
-    let firsts = tried.iter().filter(|trial| as_listed(trial)).take(FIRST_OF_MASKED);
-    let is_second = |trial: &Trial| as_listed(trial) && trial.ln_p < threshold;
-    let pair = best_pair(survey, list, &[], firsts, is_second)?;
-    let [one, other] = &pair;
-    let looks = one.looks + other.looks + 2.0 * (tried.len() as f64).ln();
-    let ln_p = ln_tail(one.statistic + other.statistic, one.dof + other.dof) + looks;
-    (ln_p < FALSE_ALARMS.ln() && one.evidence + other.evidence > 0.0).then_some(pair)
-}
-
-/// Adds what is significant beside the effects that have been accepted, as long as nothing has to be sought.
-fn beside(
-    survey: &Survey,
-    list: &[Candidate],
-    accepted: &mut Vec<(Candidate, Trial)>,
-    threshold: f64,
-    most: usize,
-) {
-    while accepted.len() < most {
-        let of = |(_, trial): &(Candidate, Trial)| survey.of_candidate(trial.candidate).concat();
-        let taken: Vec<usize> = accepted.iter().flat_map(of).collect();
-        let Some(context) = Context::of(survey, &[], &taken) else { return };
-        let tried = trials(survey, &context, list);
-        let other = |trial: &&Trial| {
-            let id = list[trial.candidate].chosen.term.id;
-            accepted.iter().all(|(candidate, _)| candidate.chosen.term.id != id)
-        };
-        let Some(next) = tried.iter().find(other) else { return };
-        if next.ln_p > threshold || next.evidence < 0.0 || list[next.candidate].step.is_some() {
-            return;
-        }
-        accepted.push((list[next.candidate].clone(), next.clone()));
-    }
-}
-
-/// Whether the last effect of some settles in another time than one of its kind before.
-fn settles_twice(found: &[TermInstance]) -> bool {
-    found.split_last().is_some_and(|(last, before)| {
-        let settles = last.term.setting(SettingKind::TimeConstant).is_some();
-        settles && before.iter().any(|one| one.term.is(last.term))
-    })
-}
-
-/// Terms of which no shape shows.
-fn unseen(list: &[Candidate], tried: &[Trial]) -> Vec<&'static str> {
-    let mut ids = Vec::new();
-    for candidate in list {
-        let id = candidate.chosen.term.id;
-        let seen = tried.iter().any(|trial| list[trial.candidate].chosen.term.id == id);
-        if !ids.contains(&id) && !seen {
-            ids.push(id);
-        }
-    }
-    ids
 }

@@ -55,7 +55,7 @@ pub use sensor_axes::own_channel;
 pub use setting::{GridPoint, Setting, SettingKind, SettingPrior};
 pub use signals::{DualVector, Signals, derivatives, values};
 pub use surroundings::Surroundings;
-pub use term::{Action, Need, Noises, Owner, Parameter, Parity, Prior, Term};
+pub use term::{Action, Need, Noises, Owner, Parameter, Parity, Prevalence, Prior, Term};
 pub use track::Track;
 pub use unit::Unit;
 pub use waves::sin_cos;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::catalogue::CATALOGUE;
-use crate::term::{Action, Parameter, Prior, Term};
+use crate::term::{Action, Parameter, Prevalence, Prior, Term};
 
 /// Text before the tables.
 const HEAD: &str = "\
@@ -28,6 +28,7 @@ All errors are **reading minus true value**. The equation of an effect states wh
   pendulous / vibrating beam / MEMS. A single range applies to any table and site.
 - \"Data sheet\" is the 1σ of the data sheet of the IMU.
 - Effects marked † share an entry, because no schedule distinguishes them.
+- Effects marked ‡ need a particular principle of the sensor, a construction or an accident. Their prior odds are lower by a factor of e.
 ";
 
 type Belongs = fn(&Term) -> bool;
@@ -82,7 +83,8 @@ pub fn page() -> String {
 
 fn effect(term: &Term) -> String {
     let ids: Vec<String> = term.also.iter().map(|id| format!("†`{id}`")).collect();
-    let rows = [vec![format!("`{}`", term.id)], ids, vec![term.name.to_string()]];
+    let mark = if term.prevalence == Prevalence::Particular { "‡" } else { "" };
+    let rows = [vec![format!("`{}`", term.id)], ids, vec![format!("{}{mark}", term.name)]];
     rows.concat().join("<br>")
 }
 

@@ -42,6 +42,8 @@ pub struct Term {
     pub told_apart_by: &'static str,
     /// Whom its parameters belong to.
     pub owner: Owner,
+    /// How common it is.
+    pub prevalence: Prevalence,
     /// How its parameters change where the sensors' axes are named and directed otherwise.
     pub parity: Parity,
     /// What it does.
@@ -123,6 +125,29 @@ pub enum Need {
     SeveralTilts,
     /// A known magnetic field.
     MagneticField,
+}
+
+/// How common an effect is among sensors and rigs: its prior odds relative to those of other terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Prevalence {
+    /// It belongs to the error model of the instruments (IEEE 952, 1293, 1431), or to every rig, run or log.
+    Standard,
+    /// It needs a particular principle of the sensor, construction, or accident.
+    Particular,
+    /// A structure without a physical cause.
+    Unknown,
+}
+
+impl Prevalence {
+    /// The logarithm of the prior odds relative to a standard effect: a particular one is less probable by a factor of e, one without a
+    /// physical cause by a factor of 1,100, so that two or three physical effects are preferred to one that explains as much.
+    pub const fn ln_odds(self) -> f64 {
+        match self {
+            Self::Standard => 0.0,
+            Self::Particular => -1.0,
+            Self::Unknown => -7.0,
+        }
+    }
 }
 
 /// Whom a parameter belongs to.

@@ -7,7 +7,9 @@ use rins::frames::{EulerAngles, Site};
 use rins::imu::{ImuNoise, ImuSpec, NoiseModel, TriadSpec};
 use rins::motion::{Profile, Segment, Station};
 use rins::simulation::{Scenario, simulate};
-use rins::terms::{Action, Model, Owner, Parameter, Parity, Prior, Term, TermInstance, Unit};
+use rins::terms::{
+    Action, Model, Owner, Parameter, Parity, Prevalence, Prior, Term, TermInstance, Unit,
+};
 
 static BEND: Term = Term {
     id: "gyro_bend",
@@ -26,6 +28,7 @@ static BEND: Term = Term {
     partners: &[],
     told_apart_by: "turn at several rates, both ways",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.rate.z.powi(2)),
 };

@@ -89,7 +89,7 @@ pub use init::init;
 pub use log::{Log, OutsideRange, OutsideRate, OutsideTemperature, StaticIntervalResult};
 pub use navigate::{NavigateOptions, navigate};
 pub use observe::{ObserveOptions, observe};
-pub use options::{ModelChoice, NoiseChoice, Search};
+pub use options::{ModelChoice, NoiseChoice};
 pub use outcome::Outcome;
 pub use progress::{Progress, Step};
 pub use schema::schemas;

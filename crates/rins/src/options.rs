@@ -80,13 +80,3 @@ impl NamedModel {
         Ok(Self { name, model })
     }
 }
-
-/// How effects are searched for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Search {
-    /// One effect after the other, the most significant first.
-    #[default]
-    Stepwise,
-    /// By one score of a whole hypothesis: its marginal likelihood times its prior. Experimental.
-    Evidence,
-}

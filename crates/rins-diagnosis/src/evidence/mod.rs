@@ -2,7 +2,9 @@
 
 mod block;
 mod exact;
+pub(crate) mod left;
 mod screen;
+pub(crate) mod survey;
 
 pub(crate) use block::{Block, log_sum};
 pub(crate) use exact::log_evidence;

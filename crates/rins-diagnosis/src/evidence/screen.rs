@@ -5,12 +5,13 @@ use rayon::prelude::*;
 use rins_imu::ImuSpec;
 use rins_terms::{Term, TermInstance};
 
-use crate::candidates::Candidate;
 use crate::evidence::block::{Block, log_sum};
+use crate::evidence::left::Left;
+use crate::evidence::survey::Survey;
 use crate::hypothesis::{
     DEPARTURE, Magnitudes, Support, by_parameter, free, ln_prior, ln_settings, supports,
 };
-use crate::survey::{Left, Survey};
+use crate::proposal::candidates::Candidate;
 
 /// A candidate whose score is below this one even with its amplitudes at their most likely values is not looked at closely: it
 /// neither joins a model nor a credible set.

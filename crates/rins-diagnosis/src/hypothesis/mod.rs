@@ -2,24 +2,24 @@
 
 mod magnitude;
 mod process;
+mod support;
 
 #[cfg(test)]
 pub(crate) use magnitude::Component;
 pub(crate) use magnitude::Magnitudes;
 pub(crate) use process::Process;
+pub(crate) use support::{ABOUT_AXIS, Support, supports};
 
 use rins_imu::ImuSpec;
 use rins_terms::{Model, Role, Term, TermInstance};
 
-use crate::candidates::Candidate;
-use crate::disturbance;
-use crate::score::{Choice, choices};
+use crate::proposal::candidates::Candidate;
+
+/// Beside a prior that is not a mixture of scales, an amplitude may be so many times the largest typical magnitude (1σ).
+pub(crate) const USUAL: f64 = 3.0;
 
 /// The logarithm of the prior odds of any effect against none.
 pub(crate) const SOMETHING: f64 = -1.0;
-
-/// What a structure without a physical cause pays beyond an effect, in e-folds.
-const GENERIC: f64 = 7.0;
 
 /// What a departure from a stated prior pays beyond an effect, in e-folds: what is stated holds as a rule.
 pub(crate) const DEPARTURE: f64 = 2.0;
@@ -34,10 +34,11 @@ pub(crate) struct Effect {
 }
 
 impl Effect {
-    /// Whether two effects are one: the same term with the same settings.
+    /// Whether two effects are one: the same term with the same settings and the same parameters.
     pub(crate) fn is(&self, other: &Self) -> bool {
         self.instance.term.is(other.instance.term)
             && self.instance.settings == other.instance.settings
+            && free(&self.instance) == free(&other.instance)
     }
 
     /// Its supports: where some of its parameters were left out already, all others together.
@@ -160,26 +161,7 @@ impl Hypothesis {
 
 /// The logarithm of the prior probability of a term among so many, if something is there.
 pub(crate) fn ln_prior(term: &Term, terms: usize) -> f64 {
-    let generic = if disturbance::is_one(term) { GENERIC } else { 0.0 };
-    -(terms as f64).ln() - generic
-}
-
-/// A part of an effect's parameters, the others being zero.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Support {
-    /// The places of the parameters.
-    pub(crate) parameters: Vec<usize>,
-    /// The logarithm of its prior probability.
-    pub(crate) ln_prior: f64,
-}
-
-/// The supports of a term.
-pub(crate) fn supports(term: &Term) -> Vec<Support> {
-    let all = choices(term);
-    let total: f64 = all.iter().map(|choice| (-choice.unlikely).exp()).sum();
-    let of =
-        |Choice { parameters, unlikely }| Support { parameters, ln_prior: -unlikely - total.ln() };
-    all.into_iter().map(of).collect()
+    term.prevalence.ln_odds() - (terms as f64).ln()
 }
 
 /// The logarithm of the prior probability of a candidate's settings.

@@ -4,7 +4,7 @@ use rins_estimation::{Noise, NoiseParameters, Reference, Run};
 use rins_imu::ImuSpec;
 use rins_terms::{Term, catalogue};
 
-use crate::noise::triad;
+use crate::criticism::noise::triad;
 
 /// A noise process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

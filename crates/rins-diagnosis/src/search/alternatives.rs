@@ -4,11 +4,11 @@ use rins_estimation::{Estimate, Indefinite};
 use rins_terms::{Model, Term};
 
 use crate::case::Case;
-use crate::cause::{Cause, Rival};
-use crate::disturbance;
 use crate::evidence::{Block, Screen, log_sum};
+use crate::generic::is_generic;
 use crate::hypothesis::{Departure, Effect, Hypothesis, Process, SOMETHING};
 use crate::search::{Round, State, Tried};
+use crate::verdict::cause::{Cause, Rival};
 
 /// The probability of a credible set.
 const CREDIBLE: f64 = 0.98;
@@ -128,7 +128,7 @@ impl Case<'_> {
         let families = screen.families(&round.list, |one| {
             let others = &state.hypothesis.effects;
             others.iter().all(|effect| !effect.instance.term.is(one.chosen.term))
-                && !disturbance::is_one(one.chosen.term)
+                && !is_generic(one.chosen.term)
         });
         let others = families.into_iter().map(|family| {
             let settings = round.list[family.best.candidate].chosen.settings.clone();
@@ -186,6 +186,8 @@ fn cause(
     let own = without.map_or(own, |gain| -gain - SOMETHING);
     fitted.sort_by(|a, b| b.1.total_cmp(&a.1));
     let total = log_sum(fitted.iter().map(|(_, odds, _)| *odds).chain([0.0]));
+    // Those that are more probable than a supposed effect are no evidence for it.
+    let at_most = log_sum(fitted.iter().map(|(_, odds, _)| odds.min(0.0)).chain([0.0]));
     let mut mass = (-total).exp();
     let mut rivals = Vec::new();
     for (term, odds, settings) in fitted {
@@ -200,7 +202,7 @@ fn cause(
         settings: part.settings(),
         sought: None,
         parameters: Vec::new(),
-        ln_p: (CALIBRATED.ln() - own - total).min(0.0),
+        ln_p: (CALIBRATED.ln() - own - at_most).min(0.0),
         dof: 1,
         gain: own,
         rivals,

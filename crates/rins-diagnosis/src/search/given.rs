@@ -3,12 +3,11 @@
 use rins_estimation::Fit;
 use rins_terms::{GridPoint, Role, SettingKind, TermInstance};
 
-use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::diagnosis::DiagnosisError;
 use crate::evidence::Screen;
-use crate::hypothesis::{Effect, Hypothesis};
-use crate::score::USUAL;
+use crate::hypothesis::{Effect, Hypothesis, USUAL};
+use crate::proposal::candidates::Candidate;
 use crate::search::{Round, State, Tried};
 
 impl Case<'_> {

@@ -4,24 +4,25 @@ mod alternatives;
 mod given;
 mod moves;
 mod refine;
+pub(crate) mod sought;
 mod state;
 
 use rins_estimation::{Fit, Indefinite, NoiseKnowledge, NoiseParameters};
+use rins_terms::SettingKind;
 
-use crate::candidates::{Candidate, candidates};
 use crate::case::Case;
 use crate::diagnosis::DiagnosisError;
+use crate::evidence::survey::{RunNoise, Survey};
 use crate::evidence::{Family, Screen};
-use crate::hypothesis::{Hypothesis, Process, SOMETHING};
-use crate::score::USUAL;
-use crate::suggested::at_frequency;
-use crate::survey::{RunNoise, Survey};
-use crate::timing::has_frequency;
+use crate::hypothesis::{Hypothesis, Process, SOMETHING, USUAL};
+use crate::proposal::candidates::{Candidate, candidates, has_frequency, number_of_terms};
+use crate::proposal::dead_zone;
+use crate::proposal::suggested::at_frequency;
 
 pub(crate) use self::state::{State, Tried};
 
 /// The most effects of a hypothesis.
-const MOST_EFFECTS: usize = 12;
+const MOST_EFFECTS: usize = 8;
 
 /// The most moves that are fitted in one round.
 const FITTED: usize = 3;
@@ -54,6 +55,9 @@ const WEAK: f64 = 15.0;
 
 /// The part of the prior of a bias instability for which each of the noises stands that are tried beside the estimated one.
 const OTHER_WIDTH: f64 = 0.3;
+
+/// The time of an event that was found is refined within half so many epochs.
+const REACH: f64 = 4.0;
 
 /// The most rounds.
 const ROUNDS: usize = 20;
@@ -244,12 +248,7 @@ impl Case<'_> {
 
     /// The number of terms to choose from.
     fn families(&self) -> usize {
-        let mut ids: Vec<&str> =
-            candidates(self.runs, self.given).iter().map(|one| one.chosen.term.id).collect();
-        ids.sort_unstable();
-        ids.dedup();
-        // Lines have no grid.
-        ids.len() + 2
+        number_of_terms(&candidates(self.runs, self.given))
     }
 
     /// The same case with these noise processes.
@@ -271,16 +270,24 @@ impl Case<'_> {
         let present = &current.fit;
         let mut list = candidates(self.runs, self.given);
         list.extend(Candidate::departures(self.given));
+        let epoch = present.linear[0].mean_epoch();
         let jolts = self.jolts(present);
         list.extend(self.suggested(present, &jolts));
-        for effect in &current.hypothesis.effects {
+        for (effect, fitted) in current.hypothesis.effects.iter().zip(self.causes_in(present)) {
             let found = &effect.instance;
             let at: Vec<Candidate> =
                 list.iter().filter_map(|candidate| candidate.at_the_time_of(found)).collect();
-            for candidate in at {
+            for mut candidate in at {
                 if !list.iter().any(|other| other.chosen == candidate.chosen) {
-                    list.push(Candidate { looks: (-effect.ln_settings).exp(), ..candidate });
+                    candidate.looks = (-effect.ln_settings).exp();
+                    if let Some(place) = found.term.setting(SettingKind::Time) {
+                        candidate.step = Some((place, REACH * epoch));
+                    }
+                    list.push(candidate);
                 }
+            }
+            if dead_zone::is_true(fitted) {
+                list.extend(dead_zone::with_another(fitted));
             }
             if has_frequency(found.term) {
                 let at = at_frequency(found.settings[0]).into_iter();

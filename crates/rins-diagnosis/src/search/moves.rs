@@ -1,15 +1,17 @@
 //! The moves on a hypothesis, scored in the linear pass.
 
 use rins_estimation::{Fit, Indefinite, Linear};
+use rins_terms::Term;
 
-use crate::candidates::{Candidate, has_room};
 use crate::case::Case;
+use crate::evidence::survey::RunNoise;
 use crate::evidence::{Block, Family, Scored, Screen};
+use crate::generic::is_generic;
 use crate::hypothesis::{
     DEPARTURE, Departure, Effect, Hypothesis, Process, SOMETHING, by_parameter, ln_prior,
 };
+use crate::proposal::candidates::{Candidate, has_frequency, has_room};
 use crate::search::{MARGIN, Round, State};
-use crate::survey::RunNoise;
 
 /// How many terms are tried as the first of two.
 const FIRSTS: usize = 6;
@@ -22,6 +24,10 @@ const PROMISING: f64 = -8.0;
 
 /// How many terms with an event time are refined.
 const REFINED: usize = 3;
+
+/// The most lines and structures without a physical cause: what takes more of them is none of them, such as an effect that comes and
+/// goes, and is described by what remains.
+const MOST_PERIODIC: usize = 4;
 
 /// What the choice of the parameters that depart from their stated prior, and of by how much, costs, in e-folds: one of seven
 /// supports, and one of six scales.
@@ -114,9 +120,14 @@ impl Case<'_> {
         model.terms.extend(kept.map(|(_, effect)| effect.instance.clone()));
         let duration = self.duration();
         let departures = &state.hypothesis.departures;
+        let beyond = &model.terms[self.given.terms.len()..];
+        let periodic = beyond.iter().filter(|one| is_periodic(one.term)).count();
         let admits = |one: &Candidate| match one.departs {
             Some(term) => departures.iter().all(|own| own.term != term),
-            None => has_room(&model, &one.chosen, duration),
+            None => {
+                has_room(&model, &one.chosen, duration)
+                    && (periodic < MOST_PERIODIC || !is_periodic(one.chosen.term))
+            }
         };
         let families = screen.families(list, admits);
         let is_new = |family: &&Family| {
@@ -331,6 +342,11 @@ impl State {
         }
         moves
     }
+}
+
+/// Whether a term may stand for a part of a structure in time or in the table angle.
+fn is_periodic(term: &Term) -> bool {
+    has_frequency(term) || is_generic(term)
 }
 
 /// The score of the best shape of a term alone.

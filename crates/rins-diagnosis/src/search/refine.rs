@@ -3,9 +3,9 @@
 use rins_estimation::Indefinite;
 use rins_terms::SettingKind;
 
-use crate::candidates::Candidate;
 use crate::case::Case;
 use crate::evidence::{Family, Scored, Screen, log_sum};
+use crate::proposal::candidates::Candidate;
 use crate::search::{Round, State};
 
 /// How finely, in parts of the step between candidates.

@@ -3,12 +3,11 @@
 use rins_estimation::Fit;
 use rins_terms::{Role, TermInstance};
 
-use crate::candidates::Candidate;
 use crate::case::Case;
-use crate::dead_zone;
 use crate::evidence::{Scored, log_evidence};
-use crate::hypothesis::{Effect, Hypothesis, ln_settings};
-use crate::score::USUAL;
+use crate::hypothesis::{Effect, Hypothesis, USUAL, ln_settings};
+use crate::proposal::candidates::Candidate;
+use crate::proposal::dead_zone;
 
 /// A fitted hypothesis.
 #[derive(Clone, Debug)]

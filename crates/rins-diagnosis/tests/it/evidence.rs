@@ -1,6 +1,6 @@
 //! The search by the score of whole hypotheses.
 
-use rins_diagnosis::{Cause, Diagnosis, diagnose_by_evidence, evaluate_by_evidence};
+use rins_diagnosis::{Cause, Diagnosis, diagnose, suppose};
 use rins_estimation::{NoiseKnowledge, NoiseParameters, Run};
 use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::ImuSpec;
@@ -12,7 +12,7 @@ use crate::support::{SEED, fibre, run};
 fn found_with(run: &Run, imu: &ImuSpec) -> Diagnosis {
     let knowledge = NoiseKnowledge::Likely(NoiseParameters::of(imu));
     let runs = std::slice::from_ref(run);
-    diagnose_by_evidence(runs, &Model::full(), imu, knowledge, |_| ()).unwrap()
+    diagnose(runs, &Model::full(), imu, knowledge, |_| ()).unwrap()
 }
 
 fn found(run: &Run) -> Diagnosis {
@@ -44,8 +44,7 @@ fn hidden_effects_are_named_with_their_amplitudes() {
             panic!("{}: {:?}", term.id, diagnosis.causes);
         };
         assert!(may_be(cause, term), "{}: {cause:?}", term.id);
-        let stated: f64 =
-            cause.rivals.iter().map(|rival| cause.probability() * rival.odds.exp()).sum();
+        let stated: f64 = cause.rivals.iter().map(|rival| cause.probability_of(rival)).sum();
         assert!((cause.probability() + stated - 1.0).abs() < 1e-9);
         if cause.term.is(term) {
             assert_amplitudes(cause, values);
@@ -128,7 +127,7 @@ fn given_hypothesis_has_the_significance_of_the_search() {
     let run = run(&RATES, hiding(&[(&catalogue::ACCEL_LEVER_ARM, &values)]), 0.0, SEED);
     let searched = found(&run);
     let imu = fibre();
-    let given = evaluate_by_evidence(
+    let given = suppose(
         std::slice::from_ref(&run),
         &Model::full(),
         &[TermInstance::new(&catalogue::ACCEL_LEVER_ARM).estimated()],

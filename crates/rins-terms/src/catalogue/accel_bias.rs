@@ -5,7 +5,7 @@ use rins_frames::units::DEG_PER_SECOND;
 use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, TIME, TIME_CONSTANT, per_axis, usual};
 use crate::setting::{Setting, SettingKind};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parity, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Term};
 use crate::unit::Unit;
 
 /// Step of the accelerometer biases.
@@ -22,6 +22,7 @@ pub static ACCEL_BIAS_STEP: Term = Term {
     partners: &["base_tilt_step", "accel_warmup"],
     told_apart_by: "rotate the table: a bias is constant in the body frame, a tilt in the axis frame",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.accel, p, moment.share_after(settings[0]));
@@ -45,6 +46,7 @@ pub static ACCEL_BIAS_RAMP: Term = Term {
     partners: &["accel_thermal_bias", "accel_warmup", "base_tilt_ramp"],
     told_apart_by: "rotate the table; raise and lower the temperature",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.accel, p, moment.mean.time)),
 };
@@ -63,6 +65,7 @@ pub static ACCEL_WARMUP: Term = Term {
     partners: &["accel_thermal_bias", "accel_bias_ramp"],
     told_apart_by: "repeat the run with a warm IMU, then with a cold one",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.accel, p, (-moment.mean.time / settings[0]).exp());
@@ -86,6 +89,7 @@ pub static ACCEL_THERMAL_BIAS: Term = Term {
     partners: &["accel_bias_ramp", "accel_warmup"],
     told_apart_by: "raise and lower the temperature",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.accel, p, moment.mean.above(settings[0]));
@@ -116,6 +120,7 @@ pub static ACCEL_VIBRATION_RECTIFICATION: Term = Term {
     partners: &["accel_lever_arm", "accel.bias"],
     told_apart_by: "accelerometer z, on which a lever arm has no effect; static intervals and several rates; ramps of the rate",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         let level = (moment.mean.rate.abs() / REFERENCE_RATE).powf(settings[0]);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{named, per_axis, usual};
 use crate::signals::add_scaled;
-use crate::term::{Action, Need, Owner, Parity, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Term};
 use crate::unit::Unit;
 
 /// Error proportional to the square of the specific force.
@@ -21,6 +21,7 @@ pub static ACCEL_QUADRATIC: Term = Term {
     partners: &["accel_asymmetry", "accel_lever_arm", "accel_cross_coupling", "accel.bias"],
     told_apart_by: "tilt the spin axis by 45 deg and more",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_scaled(&mut out.accel, p, &moment.force.map(|f| f * f));
@@ -41,6 +42,7 @@ pub static ACCEL_CUBIC: Term = Term {
     partners: &["accel.scale"],
     told_apart_by: "tilt the spin axis by 45 to 90 deg",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         add_scaled(&mut out.accel, p, &moment.force.map(|f| f * f * f));
@@ -61,6 +63,7 @@ pub static ACCEL_ASYMMETRY: Term = Term {
     partners: &["accel_quadratic", "accel.bias"],
     told_apart_by: "static intervals every 45 deg of a tilted table; tilt the spin axis by 45 deg and more",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_scaled(&mut out.accel, p, &moment.force.abs());
@@ -85,6 +88,7 @@ pub static ACCEL_CROSS_COUPLING: Term = Term {
     partners: &["accel_quadratic", "accel.scale", "accel.misalignment"],
     told_apart_by: "tilt the spin axis to other angles",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::LastAxis,
     action: Action::Signal(|p, _, moment, out| {
         let f = moment.force;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{named, usual};
 use crate::kinematic_state::KinematicState;
-use crate::term::{Action, Owner, Parity, Prior, Term};
+use crate::term::{Action, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 /// Specific force one meter off the spin axis along `place`, minus that on the axis \[1/s²\].
@@ -39,6 +39,7 @@ pub static ACCEL_LEVER_ARM: Term = Term {
     partners: &["accel_size_effect", "accel.bias", "accel_vibration_rectification"],
     told_apart_by: "rotate at two rates; change the rate quickly; move the IMU on the table",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         out.add_accel(p[0], &felt_at(moment, &Vector3::x()));
@@ -66,6 +67,7 @@ pub static ACCEL_SIZE_EFFECT: Term = Term {
     partners: &["accel_lever_arm", "accel.bias"],
     told_apart_by: "ramps of the rate: both axes have the same lever arm if the position is the same; two rates",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::LastAxis,
     action: Action::Signal(|p, _, moment, out| {
         for (column, place) in [Vector3::x(), Vector3::y()].iter().enumerate() {

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -26,6 +26,7 @@ pub static AXIS_ATTITUDE: Term = Term {
     partners: &["encoder.zero", "accel.scale", "wrong_latitude"],
     told_apart_by: "z is not distinguishable from the zero of the encoder; x and y: tilt the spin axis to other angles",
     owner: Owner::Placement,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, _, out| add_constant(&mut out.tilt, p, 1.0)),
 };
@@ -44,6 +45,7 @@ pub static MOUNTING: Term = Term {
     partners: &["gyro.misalignment", "accel.misalignment"],
     told_apart_by: "no test: it is a choice of body axes; fix the misalignments xz and yz of one triad instead",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         let (sin, cos) = sin_cos(moment.end.angle);
@@ -66,6 +68,7 @@ pub static ENCODER_ZERO: Term = Term {
     partners: &["axis.attitude"],
     told_apart_by: "no test: fix one of the two",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, _, out| out.angle += p[0]),
 };

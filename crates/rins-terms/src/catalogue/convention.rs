@@ -5,7 +5,7 @@ use rins_frames::{Body, InFrame};
 
 use crate::catalogue::parameters::parameter;
 use crate::setting::{Setting, SettingKind};
-use crate::term::{Action, Owner, Parity, Prior, Term};
+use crate::term::{Action, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 /// Wrong units, such as degrees instead of radians.
@@ -26,6 +26,7 @@ pub static UNIT_ERROR: Term = Term {
     partners: &["gyro.scale", "accel.scale"],
     told_apart_by: "gravity in static intervals, and the gyros against the table: factors of 57, 3600 or 9.8",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         let [gyro, accel, angle] = [0, 1, 2].map(|k| if p[k] == 0.0 { 1.0 } else { p[k] });
@@ -64,6 +65,7 @@ pub static AXIS_CONVENTION: Term = Term {
     partners: &["table_sense", "mounting"],
     told_apart_by: "regression of both triads on gravity and the table rate",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, settings, _, recording| {
         let read = |vector: &InFrame<Body>| {
@@ -103,6 +105,7 @@ pub static TABLE_SENSE: Term = Term {
     partners: &["axis_convention"],
     told_apart_by: "gyro z and gravity against the table angle",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         if p[0] != 0.0 {

@@ -2,7 +2,7 @@
 
 use crate::catalogue::parameters::{TIME, cos_sin, parameter};
 use crate::setting::{Setting, SettingKind};
-use crate::term::{Action, Need, Owner, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -20,6 +20,7 @@ pub static ENCODER_ECCENTRICITY: Term = Term {
     partners: &["gyro_g_sensitivity", "gyro.misalignment", "gyro_magnetic"],
     told_apart_by: "rotate in both directions",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let (sin, cos) = sin_cos(moment.end.angle);
@@ -48,6 +49,7 @@ pub static ENCODER_HARMONIC: Term = Term {
     partners: &["gyro_g2_sensitivity", "interference_line"],
     told_apart_by: "rotate in both directions, and at two rates",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(settings[0] * moment.end.angle);
@@ -69,6 +71,7 @@ pub static ENCODER_BACKLASH: Term = Term {
     partners: &["encoder_latency", "encoder_slip"],
     told_apart_by: "rotate in both directions at two rates",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.angle += p[0] * moment.end.sense),
 };
@@ -87,6 +90,7 @@ pub static ENCODER_SLIP: Term = Term {
     partners: &["dropped_samples", "encoder_backlash"],
     told_apart_by: "rotate in the other direction, or at another rate, after the event",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         if moment.end.time >= settings[0] {

@@ -2,7 +2,7 @@
 
 use crate::catalogue::parameters::{DURATION, FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
-use crate::term::{Action, Owner, Parity, Prior, Term};
+use crate::term::{Action, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -20,6 +20,7 @@ pub static BASE_TILT_RAMP: Term = Term {
     partners: &["cable_torque_tilt", "clock_drift", "base_rotation", "accel_bias_ramp"],
     told_apart_by: "rotate in both directions",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.tilt, p, moment.end.time)),
 };
@@ -38,6 +39,7 @@ pub static BASE_TILT_STEP: Term = Term {
     partners: &["accel_bias_step", "gyro_bias_step"],
     told_apart_by: "it affects gyros and accelerometers at the same time",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (since, duration) = (moment.end.time - settings[0], settings[1]);
@@ -70,6 +72,7 @@ pub static BASE_SWAY: Term = Term {
     partners: &["interference_line", "table_wobble"],
     told_apart_by: "rotate at another rate: the frequency stays the same, in gyros and accelerometers at the same time",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(std::f64::consts::TAU * settings[0] * moment.end.time);
@@ -98,6 +101,7 @@ pub static BASE_ROTATION: Term = Term {
     partners: &["gyro.bias", "base_tilt_ramp", "wrong_latitude"],
     told_apart_by: "rotate a tilted table: the rate is constant relative to the base, a bias in the body frame",
     owner: Owner::Run,
+    prevalence: Prevalence::Particular,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let up = moment.surroundings.specific_force.normalize();

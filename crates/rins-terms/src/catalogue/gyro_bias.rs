@@ -5,7 +5,7 @@ use crate::catalogue::parameters::{
 };
 use crate::setting::Setting;
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parity, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Term};
 use crate::unit::Unit;
 
 /// Step of the gyro biases.
@@ -22,6 +22,7 @@ pub static GYRO_BIAS_STEP: Term = Term {
     partners: &["base_tilt_ramp", "gyro_bias_instability", "gyro_warmup"],
     told_apart_by: "repeat the run: a step of the sensor occurs at another time or not at all",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.gyro, p, moment.share_after(settings[0]));
@@ -45,6 +46,7 @@ pub static GYRO_BIAS_RAMP: Term = Term {
     partners: &["gyro_scale_ramp", "gyro_thermal_bias", "gyro_warmup", "gyro_rate_random_walk"],
     told_apart_by: "rotate in both directions; extend the run; raise and lower the temperature",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_constant(&mut out.gyro, p, moment.mean.time)),
 };
@@ -63,6 +65,7 @@ pub static GYRO_WARMUP: Term = Term {
     partners: &["gyro_thermal_bias", "gyro_shupe", "gyro_bias_ramp"],
     told_apart_by: "repeat the run with a warm IMU, then with a cold one",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.gyro, p, (-moment.mean.time / settings[0]).exp());
@@ -86,6 +89,7 @@ pub static GYRO_THERMAL_BIAS: Term = Term {
     partners: &["gyro_bias_ramp", "gyro_warmup", "gyro_thermal_scale"],
     told_apart_by: "raise and lower the temperature, and rotate in both directions",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, settings, moment, out| {
         add_constant(&mut out.gyro, p, moment.mean.above(settings[0]));
@@ -109,6 +113,7 @@ pub static GYRO_SHUPE: Term = Term {
     partners: &["gyro_warmup", "gyro_thermal_bias"],
     told_apart_by: "heat in steps: it vanishes at constant temperature",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Particular,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_constant(&mut out.gyro, p, moment.mean.warming_rate);
@@ -143,6 +148,7 @@ pub static GYRO_RATE_DEPENDENT_BIAS: Term = Term {
     partners: &["gyro_scale_asymmetry", "gyro.bias", "gyro.misalignment"],
     told_apart_by: "rotate in both directions at three rates, with static intervals",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Particular,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         let w = moment.mean.rate;
@@ -169,6 +175,7 @@ pub static THERMAL_ONE_PER_TURN: Term = Term {
     partners: &["gyro_g_sensitivity", "gyro_magnetic", "gyro_warmup"],
     told_apart_by: "rotate at two rates: the effects of gravity and the magnetic field do not decrease with the rate",
     owner: Owner::Run,
+    prevalence: Prevalence::Particular,
     parity: Parity::Tensor,
     action: Action::Following(|p, followed, out| {
         add_constant(&mut out.gyro, &[p[0], p[2], p[4]], followed.re);

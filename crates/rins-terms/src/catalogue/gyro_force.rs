@@ -4,7 +4,7 @@ use num_dual::Dual64;
 
 use crate::catalogue::parameters::{matrix, named, usual};
 use crate::signals::add_matrix;
-use crate::term::{Action, Need, Owner, Parity, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Term};
 use crate::unit::Unit;
 
 /// Sensitivity to the specific force.
@@ -27,6 +27,7 @@ pub static GYRO_G_SENSITIVITY: Term = Term {
     ],
     told_apart_by: "rotate in both directions; tilt the spin axis to other angles; for the field, a third one",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_matrix(&mut out.gyro, p, &moment.force)),
 };
@@ -52,6 +53,7 @@ pub static GYRO_G2_SENSITIVITY: Term = Term {
     partners: &["table_wobble", "encoder_harmonic", "gyro_g_sensitivity"],
     told_apart_by: "rotate in both directions; tilt the spin axis to other angles",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Particular,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         let f = moment.force;
@@ -80,6 +82,7 @@ pub static GYRO_MAGNETIC: Term = Term {
     partners: &["gyro_g_sensitivity", "wrong_latitude", "gyro.scale", "accel_latency"],
     told_apart_by: "three directions of the spin axis, or a magnet, or a magnetic shield",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Particular,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| {
         add_matrix(&mut out.gyro, p, &moment.magnetic_field());

@@ -6,7 +6,7 @@ use num_dual::Dual64;
 
 use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, parameter, per_axis, usual};
 use crate::setting::{Setting, SettingKind};
-use crate::term::{Action, Need, Owner, Parity, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Term};
 use crate::unit::Unit;
 
 /// Scale error that changes its sign with the rate.
@@ -23,6 +23,7 @@ pub static GYRO_SCALE_ASYMMETRY: Term = Term {
     partners: &["gyro.bias", "encoder_latency", "gyro_rate_dependent_bias", "gyro_hysteresis"],
     told_apart_by: "rotate in both directions at three rates, with static intervals",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.rate.z.abs()),
 };
@@ -52,6 +53,7 @@ pub static GYRO_SCALE_NONLINEARITY: Term = Term {
     partners: &["gyro.scale"],
     told_apart_by: "rotate at four rates, the highest ten times the lowest",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         let w = moment.rate.z;
@@ -77,6 +79,7 @@ pub static GYRO_THERMAL_SCALE: Term = Term {
     partners: &["gyro_thermal_bias", "gyro_scale_ramp"],
     told_apart_by: "rotate in both directions while the temperature changes",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Even,
     action: Action::Signal(|p, settings, moment, out| {
         out.gyro[2] += p[0] * (moment.mean.above(settings[0]) * moment.rate.z);
@@ -101,6 +104,7 @@ pub static GYRO_SCALE_RAMP: Term = Term {
     partners: &["gyro_bias_ramp", "gyro_thermal_scale", "clock_drift"],
     told_apart_by: "rotate in both directions",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| {
         out.gyro[2] += p[0] * (moment.mean.time * moment.rate.z);
@@ -125,6 +129,7 @@ pub static GYRO_HYSTERESIS: Term = Term {
     partners: &["gyro_scale_asymmetry", "gyro_bias_step"],
     told_apart_by: "increase the rate in steps, then decrease it in the same steps",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Particular,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| out.gyro[2] += p[0] * moment.mean.rate_change),
 };
@@ -156,6 +161,7 @@ pub static GYRO_DEAD_ZONE: Term = Term {
     partners: &["gyro_quantisation", "gyro_g2_sensitivity"],
     told_apart_by: "rotate slowly enough that the rate about the input axes of gyros x and y crosses zero",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Particular,
     parity: Parity::Even,
     action: Action::Sensed(|p, settings, moment, sensed, out| {
         let of_body = settings[0] != 0.0;

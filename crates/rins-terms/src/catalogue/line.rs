@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::catalogue::parameters::{AXIS, FREQUENCY, parameter, usual};
-use crate::term::{Action, Owner, Parity, Prior, Term};
+use crate::term::{Action, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -32,6 +32,7 @@ pub static INTERFERENCE_LINE: Term = Term {
     partners: &["encoder_harmonic", "base_sway", "table_wobble"],
     told_apart_by: "rotate at another rate: a spectral line keeps its frequency, a harmonic keeps its order",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::OfSetting,
     action: Action::Signal(|p, settings, moment, out| {
         let (frequency, axis) = (settings[0], settings[1]);

@@ -7,7 +7,7 @@ use rins_imu::{NormalStream, Seed, Sensor};
 
 use crate::catalogue::parameters::{parameter, usual};
 use crate::setting::{Setting, SettingKind};
-use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 /// Random numbers independent of the noise of the sensors.
@@ -46,6 +46,7 @@ pub static STUCK_SAMPLES: Term = Term {
     partners: &["accel_quantisation", "gyro_quantisation"],
     told_apart_by: "sequences of equal samples",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, settings, seed, recording| {
         let mut random = random(seed);
@@ -81,6 +82,7 @@ pub static OUTLIERS: Term = Term {
     partners: &["gyro_noise_level", "accel_noise_level"],
     told_apart_by: "the largest residual and the kurtosis",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, seed, recording| {
         let mut random = random(seed);
@@ -112,6 +114,7 @@ pub static TIMESTAMP_JITTER: Term = Term {
     partners: &["gyro_noise_level"],
     told_apart_by: "two rates: the scatter is proportional to the rate",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, seed, recording| {
         let times = &recording.times;
@@ -142,6 +145,7 @@ pub static GYRO_SATURATION: Term = Term {
     partners: &["gyro_scale_nonlinearity", "outliers"],
     told_apart_by: "a histogram of the readings: many readings at the limit",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         for increments in &mut recording.increments {
@@ -164,6 +168,7 @@ pub static ACCEL_SATURATION: Term = Term {
     partners: &["accel_cubic", "outliers"],
     told_apart_by: "a histogram of the readings: many readings at the limit",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Log(|p, _, _, recording| {
         for increments in &mut recording.increments {

@@ -3,7 +3,7 @@
 use rins_imu::{NoiseModel, Quantisation};
 
 use crate::catalogue::parameters::{parameter, usual};
-use crate::term::{Action, Owner, Parameter, Parity, Prior, Term};
+use crate::term::{Action, Owner, Parameter, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 const EXCESS: [Parameter; 1] = [parameter("excess", Unit::ONE, Prior::Anywhere(0.1, 2.0))];
@@ -23,6 +23,7 @@ pub static GYRO_NOISE_LEVEL: Term = Term {
     partners: &["gyro_quantisation", "timestamp_jitter"],
     told_apart_by: "Allan deviation of a long static interval",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| noises.imu.gyro.white_density *= 1.0 + p[0]),
 };
@@ -41,6 +42,7 @@ pub static ACCEL_NOISE_LEVEL: Term = Term {
     partners: &["accel_quantisation"],
     told_apart_by: "Allan deviation of a long static interval",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| noises.imu.accel.white_density *= 1.0 + p[0]),
 };
@@ -63,6 +65,7 @@ pub static GYRO_BIAS_INSTABILITY: Term = Term {
     partners: &["gyro_bias_step", "gyro_bias_ramp", "gyro_rate_random_walk"],
     told_apart_by: "static interval of more than one hour",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_flicker(&mut noises.imu.gyro, p[0])),
 };
@@ -85,6 +88,7 @@ pub static ACCEL_BIAS_INSTABILITY: Term = Term {
     partners: &["accel_bias_step", "accel_bias_ramp", "accel_rate_random_walk"],
     told_apart_by: "static interval of more than one hour",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_flicker(&mut noises.imu.accel, p[0])),
 };
@@ -107,6 +111,7 @@ pub static GYRO_RATE_RANDOM_WALK: Term = Term {
     partners: &["gyro_bias_ramp", "gyro_thermal_bias", "gyro_bias_instability"],
     told_apart_by: "static interval of more than one hour at constant temperature",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_walk(&mut noises.imu.gyro, p[0])),
 };
@@ -129,6 +134,7 @@ pub static ACCEL_RATE_RANDOM_WALK: Term = Term {
     partners: &["accel_bias_ramp", "accel_thermal_bias", "accel_bias_instability"],
     told_apart_by: "static interval of more than one hour at constant temperature",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| add_walk(&mut noises.imu.accel, p[0])),
 };
@@ -150,6 +156,7 @@ pub static GYRO_QUANTISATION: Term = Term {
     partners: &["gyro_noise_level", "gyro_dead_zone"],
     told_apart_by: "a histogram of the readings: they lie on a quantization grid",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| quantise(&mut noises.imu.gyro, p)),
 };
@@ -175,6 +182,7 @@ pub static ACCEL_QUANTISATION: Term = Term {
     partners: &["accel_noise_level", "stuck_samples"],
     told_apart_by: "a histogram of the readings: they lie on a quantization grid",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Noise(|p, _, noises| quantise(&mut noises.imu.accel, p)),
 };

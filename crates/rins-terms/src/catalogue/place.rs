@@ -7,7 +7,7 @@ use num_dual::DualNum;
 use rins_frames::{EARTH_RATE, InFrame};
 
 use crate::catalogue::parameters::parameter;
-use crate::term::{Action, Need, Owner, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 /// Error of the latitude.
@@ -26,6 +26,7 @@ pub static WRONG_LATITUDE: Term = Term {
     partners: &["axis.attitude", "gyro.scale", "gyro_magnetic", "base_rotation"],
     told_apart_by: "survey the latitude; or three directions of the spin axis",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let around = &moment.surroundings;
@@ -59,6 +60,7 @@ pub static AXIS_AZIMUTH: Term = Term {
     partners: &["axis.attitude", "gyro_g_sensitivity", "gyro.bias", "wrong_latitude"],
     told_apart_by: "survey the heading, and state it as yaw under [attitude]",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         let in_table = moment.surroundings.nav_from_table.inverse();
@@ -83,6 +85,7 @@ pub static WRONG_GRAVITY: Term = Term {
     partners: &["accel.scale"],
     told_apart_by: "no test with one IMU: it equals a common scale error; survey gravity",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.add_accel(p[0], &moment.force)),
 };

@@ -8,7 +8,7 @@ use num_dual::{Dual64, DualNum};
 use crate::catalogue::parameters::{TIME, parameter, usual};
 use crate::kinematic_state::KinematicState;
 use crate::signals::DualVector;
-use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 const fn delay(prior: Prior) -> Parameter {
@@ -48,6 +48,7 @@ pub static GYRO_LAG: Term = Term {
     told_apart_by: "ramps of the rate, gyros against the encoder; only two of the three latencies are \
                     observable, apart from the effect of the Earth's rate",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.gyro, &moment.rate, turned_to_middle(p[0], moment));
@@ -73,6 +74,7 @@ pub static ACCEL_LATENCY: Term = Term {
     partners: &["gyro_lag", "encoder.zero", "axis.attitude", "gyro_magnetic"],
     told_apart_by: "rotate in both directions",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_earlier(&mut out.accel, &moment.force, turned_to_middle(p[0], moment));
@@ -101,6 +103,7 @@ pub static ENCODER_LATENCY: Term = Term {
     ],
     told_apart_by: "rotate in both directions at two rates, with several reversals",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| out.angle -= turned_to_end(p[0], moment)),
 };
@@ -119,6 +122,7 @@ pub static CLOCK_DRIFT: Term = Term {
     partners: &["encoder_latency", "base_tilt_ramp", "gyro_scale_ramp", "gyro.scale"],
     told_apart_by: "several reversals, distributed over the run",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         out.angle -= turned_to_end(p[0] * moment.end.time, moment);
@@ -141,6 +145,7 @@ pub static DROPPED_SAMPLES: Term = Term {
     partners: &["encoder_slip", "encoder_latency"],
     told_apart_by: "rotate in the other direction, or at another rate, after the event",
     owner: Owner::Run,
+    prevalence: Prevalence::Particular,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         if moment.end.time >= settings[0] {

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use num_dual::Dual64;
 
 use crate::signals::{DualVector, add_constant, add_scaled};
-use crate::term::{Action, Need, Owner, Parameter, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parameter, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 
 /// Rows and columns of the misalignments, in the order of their names.
@@ -60,6 +60,7 @@ pub static GYRO_BIAS: Term = Term {
     partners: &["gyro.misalignment", "gyro.scale"],
     told_apart_by: "rotate in both directions, or at two rates",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, _, out| add_constant(&mut out.gyro, p, 1.0)),
 };
@@ -78,6 +79,7 @@ pub static GYRO_SCALE: Term = Term {
     partners: &["gyro.bias", "wrong_latitude", "clock_drift"],
     told_apart_by: "rotate in both directions, or at two rates; for x and y, two tilts of the spin axis",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| add_scaled(&mut out.gyro, p, &moment.rate)),
 };
@@ -96,6 +98,7 @@ pub static GYRO_MISALIGNMENT: Term = Term {
     partners: &["gyro.bias", "accel.misalignment", "gyro_g_sensitivity"],
     told_apart_by: "rotate in both directions, or at two rates; for zx and zy, two tilts of the spin axis",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_crossed(&mut out.gyro, p, &moment.rate)),
 };
@@ -114,6 +117,7 @@ pub static ACCEL_BIAS: Term = Term {
     partners: &["accel.scale", "accel_lever_arm"],
     told_apart_by: "tilt the spin axis to other angles; rotate at two rates",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, _, out| add_constant(&mut out.accel, p, 1.0)),
 };
@@ -132,6 +136,7 @@ pub static ACCEL_SCALE: Term = Term {
     partners: &["axis.attitude", "wrong_gravity", "accel.bias"],
     told_apart_by: "tilt the spin axis to other angles",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Even,
     action: Action::Signal(|p, _, moment, out| add_scaled(&mut out.accel, p, &moment.force)),
 };
@@ -150,6 +155,7 @@ pub static ACCEL_MISALIGNMENT: Term = Term {
     partners: &["axis.attitude", "gyro.misalignment", "mounting", "accel.bias"],
     told_apart_by: "tilt the spin axis to other angles",
     owner: Owner::Sensor,
+    prevalence: Prevalence::Standard,
     parity: Parity::Tensor,
     action: Action::Signal(|p, _, moment, out| add_crossed(&mut out.accel, p, &moment.force)),
 };

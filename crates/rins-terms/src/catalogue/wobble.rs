@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::catalogue::parameters::{cos_sin, named};
 use crate::setting::{Setting, SettingKind};
 use crate::signals::add_constant;
-use crate::term::{Action, Need, Owner, Parity, Prior, Term};
+use crate::term::{Action, Need, Owner, Parity, Prevalence, Prior, Term};
 use crate::unit::Unit;
 use crate::waves::sin_cos;
 
@@ -30,6 +30,7 @@ pub static TABLE_WOBBLE: Term = Term {
     partners: &["mounting", "gyro_g_sensitivity", "gyro_g2_sensitivity", "gyro_magnetic"],
     told_apart_by: "rotate in both directions; no test for order 1: it is the mounting",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let (sin, cos) = sin_cos(settings[0] * moment.end.angle);
@@ -62,6 +63,7 @@ pub static TABLE_RATE_RIPPLE: Term = Term {
     partners: &["gyro_lag", "encoder_latency", "accel_latency"],
     told_apart_by: "no residual if the encoder measures the angle; a residual if only the commanded rate is known",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, settings, moment, out| {
         let order = settings[0];
@@ -86,6 +88,7 @@ pub static CABLE_TORQUE_TILT: Term = Term {
     partners: &["base_tilt_ramp"],
     told_apart_by: "rotate in both directions",
     owner: Owner::Run,
+    prevalence: Prevalence::Standard,
     parity: Parity::Unchanged,
     action: Action::Signal(|p, _, moment, out| {
         add_constant(&mut out.tilt, p, moment.end.angle);

@@ -6,10 +6,10 @@ use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
 use rins_design::{Confused, NextTest, next_test};
 use rins_diagnosis::{
-    Cause, FALSE_ALARMS, Limit, Overlay, Rival, Unexplained, chance, diagnose,
-    diagnose_by_evidence, evaluate_by_evidence, limits, stuck, suppose,
+    Cause, DiagnosisError, FALSE_ALARMS, Limit, Overlay, Rival, Unexplained, diagnose,
+    false_alarms, limits, stuck, suppose,
 };
-use rins_estimation::{Estimate, Fit, Indefinite, Noise, Run};
+use rins_estimation::{Estimate, Fit, Noise, Run};
 use rins_imu::{ImuSpec, Seed};
 use rins_inspection::Repeats;
 use rins_terms::{Model, TermInstance, Unit};
@@ -17,7 +17,6 @@ use rins_terms::{Model, TermInstance, Unit};
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
 use crate::calibrate::Certificate;
-use crate::options::Search;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
@@ -77,10 +76,8 @@ pub(crate) struct Request {
     pub(crate) held_out: Option<Prepared>,
     /// Whether it is measured at the fastest rate too.
     pub(crate) transfer: bool,
-    /// How many runs are drawn to see what chance would name.
+    /// How many runs are simulated to estimate the false alarm rate.
     pub(crate) bootstrap: Option<u32>,
-    /// How effects are searched for.
-    pub(crate) search: Search,
 }
 
 /// How often chance alone names something.
@@ -143,24 +140,11 @@ impl DiagnosisOutcome {
         let mut named: Vec<&str> = Vec::new();
         let (imu, knowledge) = (case.imu(), case.knowledge());
         let diagnosed = match &asked.supposed {
-            Some(effects) => match asked.search {
-                Search::Stepwise => suppose(&runs, &case.model, effects, imu, knowledge),
-                Search::Evidence => {
-                    evaluate_by_evidence(&runs, &case.model, effects, imu, knowledge)
-                }
-            },
-            None => {
-                let told = |id| {
-                    named.push(id);
-                    stage.at(&format!("found: {}", named.join(", ")));
-                };
-                match asked.search {
-                    Search::Stepwise => diagnose(&runs, &case.model, imu, knowledge, told),
-                    Search::Evidence => {
-                        diagnose_by_evidence(&runs, &case.model, imu, knowledge, told)
-                    }
-                }
-            }
+            Some(effects) => suppose(&runs, &case.model, effects, imu, knowledge),
+            None => diagnose(&runs, &case.model, imu, knowledge, |id| {
+                named.push(id);
+                stage.at(&format!("found: {}", named.join(", ")));
+            }),
         };
         let mut diagnosis = diagnosed.with_context(|| case.names())?;
         for (run, prepared) in case.runs.iter().enumerate() {
@@ -201,8 +185,11 @@ impl DiagnosisOutcome {
         let untestable = untestable(&runs, &case.model, &diagnosis.not_testable);
         let limits = limits(&runs, &diagnosis.after, &imu).with_context(|| case.names())?;
         let by_chance = asked.bootstrap.map(|draws| {
-            let share = chance(&runs, &diagnosis.after, &imu, draws, Seed::new(1))?;
-            Ok::<_, Indefinite>(ByChance { draws, share })
+            let stage = progress.begin("simulated runs", usize::try_from(draws).ok());
+            let of = (&imu, case.knowledge());
+            let seeds = (draws, Seed::new(1));
+            let alarms = false_alarms(&runs, &diagnosis.after, of, seeds, |done| stage.done(done))?;
+            Ok::<_, DiagnosisError>(ByChance { draws, share: f64::from(alarms) / f64::from(draws) })
         });
         let by_chance = by_chance.transpose().with_context(|| case.names())?;
         let left = |place| {

@@ -25,7 +25,7 @@ pub use self::result::{
 };
 use crate::error::Result;
 use crate::log::Log;
-use crate::options::{ModelChoice, NamedModel, NoiseChoice, Search};
+use crate::options::{ModelChoice, NamedModel, NoiseChoice};
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
@@ -42,10 +42,8 @@ pub struct DiagnoseOptions {
     pub hypothesis: Option<PathBuf>,
     /// Whether the noise is estimated, as it is by default, or the data sheet trusted.
     pub noise: NoiseChoice,
-    /// How many draws of the score under the extended model say how often the first search names an effect by chance.
+    /// How many runs, simulated with the extended model and the estimated noise, are diagnosed to estimate the false alarm rate.
     pub bootstrap: Option<u32>,
-    /// How effects are searched for.
-    pub search: Search,
     /// Who hears how far it is.
     pub progress: Progress,
 }
@@ -59,7 +57,6 @@ impl Default for DiagnoseOptions {
             hypothesis: None,
             noise: NoiseChoice::default(),
             bootstrap: None,
-            search: Search::default(),
             progress: Progress::default(),
         }
     }
@@ -103,13 +100,8 @@ fn found(logs: Vec<Log>, options: DiagnoseOptions) -> anyhow::Result<DiagnosisOu
         case.ensure_same_imu(held_out)?;
     }
     let supposed = options.hypothesis.as_deref().map(|file| hypothesis(file, &case)).transpose()?;
-    let asked = Request {
-        supposed,
-        held_out,
-        transfer: options.transfer,
-        bootstrap: options.bootstrap,
-        search: options.search,
-    };
+    let asked =
+        Request { supposed, held_out, transfer: options.transfer, bootstrap: options.bootstrap };
     DiagnosisOutcome::of(case, &asked, &options.progress)
 }
 

@@ -308,7 +308,7 @@ impl CauseResult {
             effect: rival.term.id.into(),
             name: rival.term.name.into(),
             ln_posterior_odds: rival.odds,
-            probability: cause.probability() * rival.odds.exp(),
+            probability: cause.probability_of(rival),
         });
         Self {
             effect: cause.term.id.into(),

@@ -21,7 +21,7 @@ pub(super) fn structure_in_words(one: &Unexplained) -> String {
             format!("periodic with {} s, not sinusoidal", figure(1.0 / frequency, 3))
         }
         Structure::EveryTurn(highest) => {
-            format!("periodic with one revolution, not sinusoidal: harmonic orders 2 to {highest}")
+            format!("periodic with one revolution, not sinusoidal: harmonic orders up to {highest}")
         }
         Structure::Switching(times) => format!("switches between two levels, {times} times"),
         Structure::Spread(along) => format!("spread that depends on {}", along_in_words(along)),

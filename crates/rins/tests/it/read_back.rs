@@ -78,7 +78,7 @@ fn a_diagnosis() {
         "schema = 1\nbase = \"full\"\n\n[[term]]\nid = \"gyro_g_sensitivity\"\nestimate = true\n";
     fs::write(&model, text).unwrap();
     let options = DiagnoseOptions {
-        bootstrap: Some(10),
+        bootstrap: Some(2),
         transfer: true,
         hypothesis: Some(model),
         ..DiagnoseOptions::default()
