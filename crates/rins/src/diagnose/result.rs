@@ -40,7 +40,7 @@ pub struct DiagnoseResult {
     pub shifts: Vec<ShiftResult>,
     /// The effects that these runs cannot show.
     pub not_testable: Vec<UntestableResult>,
-    /// How often the first search names an effect by chance, if it was asked.
+    /// The false alarm rate in simulated runs, if it was asked.
     pub false_alarms: Option<FalseAlarmsResult>,
     /// The noise.
     pub noise: NoiseResult,
@@ -215,14 +215,14 @@ pub struct UntestableResult {
     pub why: String,
 }
 
-/// How often the first search names an effect by chance.
+/// The false alarm rate in simulated runs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FalseAlarmsResult {
-    /// How many draws were made.
+    /// The number of simulated runs.
     pub draws: u32,
-    /// In which share of them an effect would have been named.
+    /// The fraction of them in which an effect or residual structure was reported.
     pub rate: f64,
-    /// The share that is allowed.
+    /// The rate that is allowed.
     pub allowed: f64,
 }
 

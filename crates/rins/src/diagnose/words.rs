@@ -49,8 +49,7 @@ pub(super) fn summary(found: &DiagnosisOutcome) -> Vec<String> {
     }
     if let Some(ByChance { draws, share }) = found.by_chance {
         sentences.push(format!(
-            "In {draws} draws of the score of all effects of the catalogue under the extended model, the first search names an effect \
-             in {} %; 1 % is allowed.",
+            "Of {draws} runs that were simulated with the extended model and diagnosed, {} % have a false detection; 1 % is allowed.",
             figure(100.0 * share, 2)
         ));
     }
