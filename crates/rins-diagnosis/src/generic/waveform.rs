@@ -1,8 +1,8 @@
 //! A signal of a sensor of any shape that repeats every revolution.
 
 use rins_terms::{
-    Action, Dual64, KinematicState, Owner, Parameter, Parity, Prevalence, Prior, Setting,
-    SettingKind, Signals, Term, TermInstance, Unit, sin_cos,
+    Action, Dual64, KinematicState, Owner, Parameter, Parity, Prevalence, Prior, SettingKind,
+    Signals, Term, TermInstance, Unit, catalogue::AXIS, sin_cos,
 };
 
 use crate::generic::disturbance::{ACCEL, GYRO, of};
@@ -24,14 +24,7 @@ const fn waveform(
         equation: "sensor += Σ c_k cos kζ + s_k sin kζ",
         source: "none: a description, not a cause",
         parameters,
-        settings: &[Setting {
-            kind: SettingKind::Axis,
-            name: "axis",
-            meaning: "axis of the sensor: 1, 2, 3 for x, y, z",
-            unit: Unit::ONE,
-            default: 3.0,
-            within: (1.0, 3.0),
-        }],
+        settings: &[AXIS],
         needs: &[],
         partners: &[],
         told_apart_by: "",

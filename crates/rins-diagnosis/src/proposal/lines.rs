@@ -13,8 +13,8 @@ use crate::proposal::sinusoid::{Series, Sinusoid, sinusoid};
 use crate::proposal::spectrum::{Peak, Spectrum, highest};
 use crate::verdict::cause::{Cause, Rival};
 
-/// A line in the sensors and a sway of the base are told apart by odds of e to the power of this: less likely ones are outside a set of
-/// 98 %.
+/// A line of a sensor and a sway of the base are distinguished if their log-odds differ by more than this: the less probable one has less
+/// than 2 %.
 const RIVALS: f64 = 4.0;
 
 /// The part of the false alarms that fast lines may cause: they are one effect of many.

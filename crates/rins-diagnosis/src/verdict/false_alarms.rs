@@ -4,9 +4,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
-use rins_estimation::{Fit, NoiseKnowledge, Run, TriadStrengths};
+use rins_estimation::{Fit, Noise, NoiseKnowledge, Run, TriadStrengths};
 use rins_imu::{ImuNoise, ImuSpec, NoiseModel, Seed, Sensor, Span};
 use rins_motion::Recording;
+use rins_terms::{Model, Track};
 
 use crate::diagnosis::{DiagnosisError, diagnose};
 use crate::prediction::overlay::{along, readings};
@@ -30,10 +31,15 @@ pub fn false_alarms(
         let run = seed.run + u64::from(draw) * runs.len() as u64 + place as u64;
         Seed { run, ..seed }
     };
+    let motions: Vec<(Model, Track)> =
+        runs.iter().enumerate().map(|(place, run)| along(run, fit, place)).collect();
     let done = AtomicUsize::new(0);
     let of_draw = |draw: u32| {
         let simulated: Vec<Run> = (0..runs.len())
-            .map(|place| simulated(&runs[place], fit, place, of_run(draw, place)))
+            .map(|place| {
+                let noise = &fit.noise[place];
+                simulated(&runs[place], &motions[place], noise, of_run(draw, place))
+            })
             .collect::<Result<_, _>>()?;
         let diagnosis = diagnose(&simulated, fit.model(), imu, knowledge, |_| ())?;
         progress(1 + done.fetch_add(1, Ordering::Relaxed));
@@ -43,10 +49,13 @@ pub fn false_alarms(
     (0..draws).into_par_iter().map(of_draw).sum()
 }
 
-/// A run with the motion and the model of a fit and noise drawn anew.
-fn simulated(run: &Run, fit: &Fit, place: usize, seed: Seed) -> Result<Run, DiagnosisError> {
-    let (model, track) = along(run, fit, place);
-    let noise = &fit.noise[place];
+/// A run with the model and the motion of a fit and noise drawn anew.
+fn simulated(
+    run: &Run,
+    (model, track): &(Model, Track),
+    noise: &Noise,
+    seed: Seed,
+) -> Result<Run, DiagnosisError> {
     let recording = &run.recording;
     let (first, last) = (recording.times[0], recording.times[recording.len() - 1]);
     let span = Span { interval: recording.mean_interval(), duration: last - first };
@@ -60,7 +69,7 @@ fn simulated(run: &Run, fit: &Fit, place: usize, seed: Seed) -> Result<Run, Diag
     let mut of_encoder = seed.stream(Sensor::Encoder);
     let white = run.angle_steps.map_or(noise.encoder, |steps| steps.blur * steps.step);
     let ends = track.angles().iter().skip(1).zip(track.moments());
-    let read = readings(&model, &track).zip(ends).map(|((reading, error), (angle, moment))| {
+    let read = readings(model, track).zip(ends).map(|((reading, error), (angle, moment))| {
         let jitter = noise.imu.jitter * moment.end.rate;
         let angle = angle + error + white.hypot(jitter) * of_encoder.sample();
         let angle =

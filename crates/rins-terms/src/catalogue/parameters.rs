@@ -86,7 +86,7 @@ pub(super) const FREQUENCY: Setting = Setting {
 };
 
 /// Axis of the sensors.
-pub(super) const AXIS: Setting = Setting {
+pub const AXIS: Setting = Setting {
     kind: SettingKind::Axis,
     name: "axis",
     meaning: "axis of the sensor: 1, 2, 3 for x, y, z",
