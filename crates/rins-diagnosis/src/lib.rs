@@ -39,7 +39,6 @@ mod verdict;
 mod case;
 mod diagnosis;
 mod median;
-mod probability;
 mod supposed;
 
 pub use criticism::noise::stuck;

@@ -9,7 +9,7 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 
 /// The crates in layers, the lowest first: a crate uses only crates of lower layers.
 const LAYERS: &[&[&str]] = &[
-    &["rins-frames", "rins-ekf", "rins-lanes", "rins-report", "rins-blind"],
+    &["rins-frames", "rins-ekf", "rins-bayes", "rins-lanes", "rins-report", "rins-blind"],
     &["rins-imu", "rins-motion"],
     &["rins-terms", "rins-inspection"],
     &["rins-simulation", "rins-calibration"],

@@ -1,9 +1,9 @@
 //! What comes back every turn, and is no sine.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rins_bayes::ln_tail;
 
 use crate::criticism::structure::{self, Find, Remainder, Structure};
-use crate::probability::ln_tail;
 
 /// So many orders at least make a waveform.
 const SEVERAL: usize = 2;

@@ -1,5 +1,6 @@
 //! Random errors that are not as the data sheet says.
 
+use rins_bayes::ln_tail;
 use rins_estimation::{
     Estimate, Fit, Indefinite, Noise, NoiseKnowledge, NoiseParameters, TriadStrengths,
 };
@@ -10,7 +11,6 @@ use crate::case::Case;
 use crate::diagnosis::{DiagnosisError, FALSE_ALARMS};
 use crate::evidence::survey::RunNoise;
 use crate::hypothesis::Process;
-use crate::probability::ln_tail;
 use crate::verdict::cause::Cause;
 
 /// White noise that differs from the sheet's by less than this factor is as the sheet says.

@@ -1,10 +1,10 @@
 //! A sensor that is noisier than the other of its kind: a data sheet has one figure for all three.
 
 use nalgebra::SVector;
+use rins_bayes::ln_tail;
 
 use crate::criticism::structure::{CHANNELS, Find, Remainder, Structure, turned};
 use crate::median::median;
-use crate::probability::ln_tail;
 
 /// The gyros and the accelerometers across the axis, in body axes.
 const PAIRS: [[usize; 2]; 2] = [[0, 1], [3, 4]];

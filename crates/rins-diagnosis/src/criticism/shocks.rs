@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
+use rins_bayes::ln_tail;
 use rins_estimation::Fit;
 
 use crate::case::Case;
@@ -13,7 +14,6 @@ use crate::criticism::tails::jolted;
 use crate::criticism::unexplained::Unexplained;
 use crate::generic::disturbance::CHANNELS;
 use crate::median::median_about;
-use crate::probability::ln_tail;
 
 /// Over so many samples a shock is looked for.
 const WIDTHS: [usize; 3] = [16, 32, 64];

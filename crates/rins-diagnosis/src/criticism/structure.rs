@@ -2,11 +2,10 @@
 
 use nalgebra::SVector;
 use rayon::prelude::*;
+use rins_bayes::ln_tail;
 use rins_estimation::Linear;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
-
-use crate::probability::ln_tail;
 
 /// The shown quantities of an epoch: three of attitude, three of velocity, in the axis frame.
 pub(crate) const CHANNELS: usize = 6;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use rins_bayes::ln_tail;
 use rins_estimation::{Fit, Noise};
 use rins_terms::catalogue;
 
@@ -11,7 +12,6 @@ use crate::criticism::structure::Structure;
 use crate::criticism::unexplained::Unexplained;
 use crate::diagnosis::FALSE_ALARMS;
 use crate::generic::disturbance::CHANNELS;
-use crate::probability::ln_tail;
 use crate::proposal::jolt;
 
 /// Within so many samples the spread is taken to be one: noise that grows with the rate has no heavy tails.

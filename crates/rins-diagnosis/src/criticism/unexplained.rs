@@ -1,5 +1,6 @@
 //! What no effect of the catalogue explains: found, described, and given no name.
 
+use rins_bayes::ln_tail;
 use rins_estimation::{Estimate, Evidence, Fit, Indefinite};
 use rins_terms::{Term, TermInstance, Unit, catalogue};
 
@@ -10,7 +11,6 @@ use crate::diagnosis::FALSE_ALARMS;
 use crate::evidence::survey::Survey;
 use crate::generic::disturbance::{CHANNELS, IN_ANGLE, IN_TIME};
 use crate::generic::waveform::{WAVEFORM_ORDERS, channel_of};
-use crate::probability::ln_tail;
 use crate::proposal::candidates::Candidate;
 use crate::verdict::cause::Cause;
 

@@ -1,5 +1,6 @@
 //! Slow waves that are no sines: steps of one height that undo a drift, and multiples of a line that do not stand out one by one.
 
+use rins_bayes::ln_tail;
 use rins_estimation::{Estimate, Fit, Indefinite, NoiseKnowledge};
 use rins_terms::{SettingKind, Term, TermInstance, catalogue};
 
@@ -10,7 +11,6 @@ use crate::criticism::structure::Structure;
 use crate::criticism::unexplained::{Unexplained, worst};
 use crate::diagnosis::FALSE_ALARMS;
 use crate::generic::disturbance::CHANNELS;
-use crate::probability::ln_tail;
 use crate::proposal::candidates::Candidate;
 use crate::verdict::cause::Cause;
 

@@ -1,11 +1,11 @@
 //! The marginal likelihood of a hypothesis at its nonlinear fit.
 
 use nalgebra::{DMatrix, DVector};
+use rins_bayes::log_sum;
 use rins_estimation::Fit;
 use rins_imu::ImuSpec;
 
-use crate::evidence::block::log_sum;
-use crate::hypothesis::{Effect, Magnitudes};
+use crate::hypothesis::{Effect, magnitudes};
 
 /// Scales beyond these multiples of the estimated amplitude have no weight.
 const AROUND: (f64, f64) = (0.05, 50.0);
@@ -88,7 +88,7 @@ impl Amplitudes {
         for support in effect.supports() {
             let inside = |place: &usize| support.parameters.contains(&self.each[*place].1);
             let places: Vec<usize> = places.iter().copied().filter(inside).collect();
-            let magnitudes = Magnitudes::of(kind, support.parameters[0], imu);
+            let magnitudes = magnitudes(kind, support.parameters[0], imu);
             let components = magnitudes.components().filter(|one| within.contains(&one.scale));
             all.extend(components.map(|one| Alternative {
                 places: places.clone(),

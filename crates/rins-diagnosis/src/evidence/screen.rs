@@ -2,14 +2,15 @@
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use rins_bayes::{Block, ScaleMixture, log_sum};
 use rins_imu::ImuSpec;
 use rins_terms::{Term, TermInstance};
 
-use crate::evidence::block::{Block, log_sum};
 use crate::evidence::left::Left;
 use crate::evidence::survey::Survey;
 use crate::hypothesis::{
-    DEPARTURE, Magnitudes, Support, by_parameter, free, ln_prior, ln_settings, supports,
+    DEPARTURE, Support, by_parameter, free, ln_prior, ln_settings, magnitudes,
+    magnitudes_of_departure, supports,
 };
 use crate::proposal::candidates::Candidate;
 
@@ -40,7 +41,7 @@ struct Said {
 }
 
 /// The block of some of the amplitudes, summed over the noises; its estimate is that of the most likely one.
-fn together(said: &[Said], rows: &[usize], magnitudes: &Magnitudes) -> Option<Block> {
+fn together(said: &[Said], rows: &[usize], magnitudes: &ScaleMixture) -> Option<Block> {
     let n = rows.len();
     let of = |said: &Said| {
         let information =
@@ -159,9 +160,9 @@ impl<'a> Screen<'a> {
             let places: Vec<usize> =
                 support.parameters.iter().flat_map(|&p| own[p].iter().copied()).collect();
             let magnitudes = if departs {
-                Magnitudes::of_departure()
+                magnitudes_of_departure()
             } else {
-                Magnitudes::of(shape.term, support.parameters[0], self.imu)
+                magnitudes(shape.term, support.parameters[0], self.imu)
             };
             let rows: Vec<usize> = support
                 .parameters

@@ -4,9 +4,7 @@ mod magnitude;
 mod process;
 mod support;
 
-#[cfg(test)]
-pub(crate) use magnitude::Component;
-pub(crate) use magnitude::Magnitudes;
+pub(crate) use magnitude::{magnitudes, magnitudes_of_departure};
 pub(crate) use process::Process;
 pub(crate) use support::{ABOUT_AXIS, Support, supports};
 

@@ -1,5 +1,6 @@
 //! Lines that are faster than an epoch, sample by sample.
 
+use rins_bayes::ln_tail;
 use rins_estimation::{Fit, Run};
 use rins_terms::{SettingKind, TermInstance, catalogue};
 
@@ -8,7 +9,6 @@ use crate::criticism::noise::estimate;
 use crate::criticism::residuals::{ABOUT_AXIS, beyond, in_axis_frame};
 use crate::criticism::structure::CHANNELS;
 use crate::diagnosis::FALSE_ALARMS;
-use crate::probability::ln_tail;
 use crate::proposal::sinusoid::{Series, Sinusoid, sinusoid};
 use crate::proposal::spectrum::{Peak, Spectrum, highest};
 use crate::verdict::cause::{Cause, Rival};

@@ -1,10 +1,11 @@
 //! The causes of the best hypothesis, each with its alternatives.
 
+use rins_bayes::{Block, log_sum};
 use rins_estimation::{Estimate, Indefinite};
 use rins_terms::{Model, Term};
 
 use crate::case::Case;
-use crate::evidence::{Block, Screen, log_sum};
+use crate::evidence::Screen;
 use crate::generic::is_generic;
 use crate::hypothesis::{Departure, Effect, Hypothesis, Process, SOMETHING};
 use crate::search::{Round, State, Tried};

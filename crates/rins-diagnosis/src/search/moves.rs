@@ -1,11 +1,12 @@
 //! The moves on a hypothesis, scored in the linear pass.
 
+use rins_bayes::Block;
 use rins_estimation::{Fit, Indefinite, Linear};
 use rins_terms::Term;
 
 use crate::case::Case;
 use crate::evidence::survey::RunNoise;
-use crate::evidence::{Block, Family, Scored, Screen};
+use crate::evidence::{Family, Scored, Screen};
 use crate::generic::is_generic;
 use crate::hypothesis::{
     DEPARTURE, Departure, Effect, Hypothesis, Process, SOMETHING, by_parameter, ln_prior,

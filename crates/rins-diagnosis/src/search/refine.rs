@@ -1,10 +1,11 @@
 //! The settings of a candidate, searched for in ever finer steps.
 
+use rins_bayes::log_sum;
 use rins_estimation::Indefinite;
 use rins_terms::SettingKind;
 
 use crate::case::Case;
-use crate::evidence::{Family, Scored, Screen, log_sum};
+use crate::evidence::{Family, Scored, Screen};
 use crate::proposal::candidates::Candidate;
 use crate::search::{Round, State};
 

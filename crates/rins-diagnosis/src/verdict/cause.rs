@@ -1,9 +1,8 @@
 //! A cause that was found, and its alternatives.
 
+use rins_bayes::log_sum;
 use rins_estimation::Estimate;
 use rins_terms::Term;
-
-use crate::evidence::log_sum;
 
 /// An effect that might be what is wrong.
 #[derive(Clone, Debug)]

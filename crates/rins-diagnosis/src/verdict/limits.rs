@@ -1,14 +1,14 @@
 //! What runs would have shown of each effect.
 
 use nalgebra::{DMatrix, DVector};
+use rins_bayes::{Block, ScaleMixture};
 use rins_estimation::{Fit, Indefinite, Run};
 use rins_imu::ImuSpec;
 use rins_terms::Term;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use crate::evidence::Block;
 use crate::evidence::survey::Survey;
-use crate::hypothesis::{Magnitudes, SOMETHING, ln_prior, ln_settings, supports};
+use crate::hypothesis::{SOMETHING, ln_prior, ln_settings, magnitudes, supports};
 use crate::proposal::candidates::{candidates, number_of_terms};
 use crate::proposal::dead_zone;
 
@@ -70,7 +70,7 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
             let term = candidate.chosen.term;
             let own = supports.iter().filter(|one| one.parameters.contains(&parameter));
             let support = own.map(|one| one.ln_prior).fold(f64::NEG_INFINITY, f64::max);
-            let magnitudes = Magnitudes::of(term, parameter, imu);
+            let magnitudes = magnitudes(term, parameter, imu);
             let Some(significant) = significant(sigma / usual, &magnitudes, prior + support) else {
                 continue;
             };
@@ -98,7 +98,7 @@ pub fn limits(runs: &[Run], fit: &Fit, imu: &ImuSpec) -> Result<Vec<Limit>, Inde
 
 /// How many sigmas make an amplitude as probable as none, whose 1σ is this in units of its largest typical magnitude, and whose prior
 /// probability is this but for its size; `None` if no number does.
-fn significant(sigma: f64, magnitudes: &Magnitudes, ln_prior: f64) -> Option<f64> {
+fn significant(sigma: f64, magnitudes: &ScaleMixture, ln_prior: f64) -> Option<f64> {
     let information = DMatrix::from_element(1, 1, sigma.powi(-2));
     let odds = |sigmas: f64| {
         let score = DVector::from_element(1, sigmas / sigma);

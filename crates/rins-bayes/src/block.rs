@@ -2,21 +2,21 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use crate::hypothesis::Magnitudes;
+use crate::scale_mixture::ScaleMixture;
 
 /// What data say of a block of amplitudes.
 #[derive(Clone, Debug)]
-pub(crate) struct Block {
+pub struct Block {
     /// The logarithm of the Bayes factor of the block against zero amplitudes.
-    pub(crate) ln_factor: f64,
+    pub ln_factor: f64,
     /// The scale of the largest component of the mixture.
-    pub(crate) scale: f64,
+    pub scale: f64,
     /// The amplitudes with that scale.
-    pub(crate) estimate: DVector<f64>,
+    pub estimate: DVector<f64>,
     /// The sum of the squares of the amplitudes over their sigmas, without a prior.
-    pub(crate) statistic: f64,
+    pub statistic: f64,
     /// The number of directions that are observed better than they are known beforehand.
-    pub(crate) dof: usize,
+    pub dof: usize,
 }
 
 impl Block {
@@ -24,11 +24,7 @@ impl Block {
     ///
     /// For one Gaussian of scale `s` it is `Π (1 + s² λ)^-1/2 exp(½ a² s²/(1 + s² λ))` over the eigenvalues `λ` of the
     /// information, `a` being the score along each eigenvector.
-    pub(crate) fn of(
-        information: DMatrix<f64>,
-        score: &DVector<f64>,
-        magnitudes: &Magnitudes,
-    ) -> Self {
+    pub fn of(information: DMatrix<f64>, score: &DVector<f64>, magnitudes: &ScaleMixture) -> Self {
         let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(information);
         let along = eigenvectors.tr_mul(score);
         let values = eigenvalues.map(|value| value.max(0.0));
@@ -63,7 +59,7 @@ impl Block {
 }
 
 /// The logarithm of a sum of exponentials; that of nothing is negative infinity.
-pub(crate) fn log_sum(all: impl IntoIterator<Item = f64>) -> f64 {
+pub fn log_sum(all: impl IntoIterator<Item = f64>) -> f64 {
     let (mut most, mut sum) = (f64::NEG_INFINITY, 0.0);
     for one in all {
         if one > most {
@@ -84,15 +80,16 @@ mod tests {
     use rins_testing::assert_close;
 
     use super::*;
+    use crate::Component;
 
     /// The mixture's Bayes factor of one amplitude is the integral of the likelihood ratio over the prior.
     #[test]
     fn factor_of_one_amplitude_is_the_integral_over_its_prior() {
-        let magnitudes = Magnitudes::of_departure();
+        let magnitudes = ScaleMixture::above(3.0, 100.0);
         for (sigma, estimate) in [(0.1, 0.0), (0.5, 2.0), (2.0, 5.0), (3.0, 40.0)] {
             let information = f64::powi(sigma, -2);
             let density = |amplitude: f64| -> f64 {
-                let of = |one: crate::hypothesis::Component| {
+                let of = |one: Component| {
                     let square = (amplitude / one.scale).powi(2);
                     (one.ln_weight - 0.5 * square).exp()
                         / (one.scale * std::f64::consts::TAU.sqrt())
@@ -120,7 +117,7 @@ mod tests {
     /// of `x` is exceeded with a probability of `1/x` at most.
     #[test]
     fn factor_is_a_ratio_of_probabilities() {
-        let magnitudes = Magnitudes::of_departure();
+        let magnitudes = ScaleMixture::above(3.0, 100.0);
         let all: Vec<_> = magnitudes.components().collect();
         let total: f64 = all.iter().map(|one| one.ln_weight.exp()).sum();
         let information = DMatrix::from_row_slice(2, 2, &[0.8, 0.3, 0.3, 0.2]);

@@ -7,7 +7,7 @@ use statrs::function::gamma::ln_gamma;
 const FAR: f64 = 600.0;
 
 /// The logarithm of the probability that a chi-square of `dof` degrees exceeds `value`.
-pub(crate) fn ln_tail(value: f64, dof: usize) -> f64 {
+pub fn ln_tail(value: f64, dof: usize) -> f64 {
     let half = 0.5 * dof as f64;
     if value < FAR {
         return ChiSquared::new(dof as f64).map_or(0.0, |chi| chi.sf(value).ln());
