@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use crate::scale_mixture::ScaleMixture;
+use crate::scale_mixture::{Component, ScaleMixture};
 
 /// What data say of a block of amplitudes.
 #[derive(Clone, Debug)]
@@ -25,36 +25,66 @@ impl Block {
     /// For one Gaussian of scale `s` it is `Π (1 + s² λ)^-1/2 exp(½ a² s²/(1 + s² λ))` over the eigenvalues `λ` of the
     /// information, `a` being the score along each eigenvector.
     pub fn of(information: DMatrix<f64>, score: &DVector<f64>, magnitudes: &ScaleMixture) -> Self {
+        let spectrum = Spectrum::of(information, score);
+        let all = spectrum.posterior(magnitudes);
+        let first = Component { scale: 1.0, ln_weight: f64::NEG_INFINITY };
+        let more = |best: Component, one: &Component| {
+            if one.ln_weight > best.ln_weight { *one } else { best }
+        };
+        let Component { scale, .. } = all.iter().fold(first, more);
+        let square = scale * scale;
+        let Spectrum { values, along, vectors } = spectrum;
+        let shrunk = along.zip_map(&values, |along, value| along * square / (1.0 + square * value));
+        let seen = |value: f64| square * value > 1.0;
+        let squares = values.iter().zip(along.iter()).filter(|(value, _)| seen(**value));
+        Self {
+            ln_factor: log_sum(all.iter().map(|one| one.ln_weight)),
+            scale,
+            estimate: vectors * shrunk,
+            statistic: squares.map(|(value, along)| along * along / value).sum(),
+            dof: values.iter().filter(|value| seen(**value)).count(),
+        }
+    }
+
+    /// The components of the mixture, their weights multiplied by the Bayes factor of each: but for the sum, the posterior distribution
+    /// of the scale.
+    pub fn scales(
+        information: DMatrix<f64>,
+        score: &DVector<f64>,
+        magnitudes: &ScaleMixture,
+    ) -> Vec<Component> {
+        Spectrum::of(information, score).posterior(magnitudes)
+    }
+}
+
+/// The eigenvalues of an information matrix, and the score along its eigenvectors.
+struct Spectrum {
+    values: DVector<f64>,
+    along: DVector<f64>,
+    vectors: DMatrix<f64>,
+}
+
+impl Spectrum {
+    fn of(information: DMatrix<f64>, score: &DVector<f64>) -> Self {
         let SymmetricEigen { eigenvalues, eigenvectors } = SymmetricEigen::new(information);
         let along = eigenvectors.tr_mul(score);
-        let values = eigenvalues.map(|value| value.max(0.0));
+        Self { values: eigenvalues.map(|value| value.max(0.0)), along, vectors: eigenvectors }
+    }
+
+    fn posterior(&self, magnitudes: &ScaleMixture) -> Vec<Component> {
         let ln_factor = |scale: f64| -> f64 {
             let square = scale * scale;
-            let each = values.iter().zip(along.iter()).map(|(value, along)| {
+            let each = self.values.iter().zip(self.along.iter()).map(|(value, along)| {
                 let gain = 1.0 + square * value;
                 0.5 * (along * along * square / gain - gain.ln())
             });
             each.sum()
         };
-        let (mut best, mut scale, mut all) = (f64::NEG_INFINITY, 1.0, Vec::new());
-        for component in magnitudes.components() {
-            let term = component.ln_weight + ln_factor(component.scale);
-            all.push(term);
-            if term > best {
-                (best, scale) = (term, component.scale);
-            }
-        }
-        let square = scale * scale;
-        let shrunk = along.zip_map(&values, |along, value| along * square / (1.0 + square * value));
-        let seen = |value: f64| square * value > 1.0;
-        let squares = values.iter().zip(along.iter()).filter(|(value, _)| seen(**value));
-        Self {
-            ln_factor: log_sum(all),
+        let of = |Component { scale, ln_weight }| Component {
             scale,
-            estimate: eigenvectors * shrunk,
-            statistic: squares.map(|(value, along)| along * along / value).sum(),
-            dof: values.iter().filter(|value| seen(**value)).count(),
-        }
+            ln_weight: ln_weight + ln_factor(scale),
+        };
+        magnitudes.components().map(of).collect()
     }
 }
 
@@ -80,7 +110,6 @@ mod tests {
     use rins_testing::assert_close;
 
     use super::*;
-    use crate::Component;
 
     /// The mixture's Bayes factor of one amplitude is the integral of the likelihood ratio over the prior.
     #[test]

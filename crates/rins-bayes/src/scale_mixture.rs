@@ -61,16 +61,18 @@ impl ScaleMixture {
         -beyond - self.ln_total
     }
 
+    /// The logarithm of the prior probability of a component with this scale.
+    pub fn ln_weight(&self, scale: f64) -> f64 {
+        self.ln_density(scale.ln()) + SPACING.ln()
+    }
+
     /// The components of the mixture.
     pub fn components(self) -> impl Iterator<Item = Component> {
         let (low, high) = (self.typical.0 - REACH.0, self.typical.1 + REACH.1);
         let each = std::iter::successors(Some(low), move |at| {
             Some(at + SPACING).filter(|next| *next < high)
         });
-        each.map(move |at| Component {
-            scale: at.exp(),
-            ln_weight: self.ln_density(at) + SPACING.ln(),
-        })
+        each.map(move |at| Component { scale: at.exp(), ln_weight: self.ln_weight(at.exp()) })
     }
 }
 

@@ -10,6 +10,7 @@
 //! other crate of this workspace: an error common to analysis and simulation would not be repeated here.
 //!
 //! Effects have the ids of the catalogue, and their parameters the order of the catalogue; all is in SI units and radians.
+mod campaign;
 mod drive;
 mod effect;
 mod experiment;
@@ -24,6 +25,7 @@ mod run;
 mod temperature;
 mod unknown;
 
+pub use campaign::{Campaign, CampaignRun, Variety};
 pub use drive::{Drive, Ripple, Segment};
 pub use effect::{Effect, LAWS, Law, Read};
 pub use experiment::{Encoder, Experiment, Known, Rounding, Sensors, SensorsKnown};

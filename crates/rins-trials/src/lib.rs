@@ -25,6 +25,8 @@ mod journal;
 
 mod frozen;
 
+mod histories;
+
 mod breakdown;
 mod card;
 mod null;
@@ -37,6 +39,7 @@ pub use catalogue::{hidden, is_hideable};
 pub use draw::{Kind, Trial};
 pub use frozen::{FROZEN, Frozen};
 pub use hide::Hidden;
+pub use histories::{HistoryTrial, history_page, history_trial};
 pub use journal::{Plan, Population, Record, records, run, time, try_out};
 pub use laboratory::{Grade, Laboratory, Length, Level, Schedule};
 pub use null::null_page;

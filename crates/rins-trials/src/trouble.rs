@@ -18,6 +18,9 @@ pub enum Trouble {
     /// A trial that cannot be made.
     #[error("a trial cannot be made")]
     Trial(#[from] StandError),
+    /// A simulated history that cannot be analyzed.
+    #[error("a history cannot be analyzed")]
+    History(#[from] rins_history::HistoryError),
     /// Frozen trials that came out otherwise.
     #[error("{wrong} of {of} frozen trials did not come out as before")]
     Frozen {

@@ -10,7 +10,7 @@ use crate::manifest::{Dependency, Manifest, crate_folders, examples};
 /// The crates in layers, the lowest first: a crate uses only crates of lower layers.
 const LAYERS: &[&[&str]] = &[
     &["rins-frames", "rins-ekf", "rins-bayes", "rins-lanes", "rins-report", "rins-blind"],
-    &["rins-imu", "rins-motion"],
+    &["rins-imu", "rins-motion", "rins-history"],
     &["rins-terms", "rins-inspection"],
     &["rins-simulation", "rins-calibration"],
     &["rins-estimation", "rins-campaign"],

@@ -5,13 +5,13 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use rins_trials::{
-    Analyser, FROZEN, Length, Plan, Population, Record, Trial, Trouble, card, null_page, records,
-    run, time,
+    Analyser, FROZEN, Length, Plan, Population, Record, Trial, Trouble, card, history_page,
+    history_trial, null_page, records, run, time,
 };
 
 const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
                      trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest|null] | trials card JOURNAL PAGE | \
-                     trials null-page JOURNAL PAGE REVISION";
+                     trials null-page JOURNAL PAGE REVISION | trials histories SEED CAMPAIGNS PAGE REVISION";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -73,8 +73,23 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
         }
         ["null-page", journal, page, revision] => records(Path::new(journal))
             .and_then(|all| Ok(std::fs::write(page, null_page(&all, revision))?)),
+        ["histories", seed, campaigns, page, revision] => {
+            let (seed, campaigns) = (seed.parse().ok()?, campaigns.parse().ok()?);
+            histories(seed, campaigns, Path::new(page), revision)
+        }
         _ => return None,
     })
+}
+
+/// Runs so many campaigns and writes the page of what came of them.
+fn histories(seed: u64, campaigns: u64, page: &Path, revision: &str) -> Result<(), Trouble> {
+    let mut all = Vec::new();
+    for index in 0..campaigns {
+        let start = std::time::Instant::now();
+        all.push(history_trial(seed, index)?);
+        println!("{index:5} {} {:.2} s", all[all.len() - 1], start.elapsed().as_secs_f64());
+    }
+    Ok(std::fs::write(page, history_page(&all, seed, revision))?)
 }
 
 /// Runs the frozen trials, says what came of each, and fails if any is not as it was.
