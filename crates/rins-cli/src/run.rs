@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use rins::{
-    ApplyOptions, CalibrateOptions, ConvertOptions, DiagnoseOptions, Log, MonteCarloOptions,
-    NavigateOptions, ObserveOptions,
+    ApplyOptions, CalibrateOptions, ConvertOptions, DiagnoseOptions, HistoryOptions, Log,
+    MonteCarloOptions, NavigateOptions, ObserveOptions,
 };
 use rins_io::{IoError, ensure_replaceable_folder, shown, write_file};
 
@@ -50,6 +50,15 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Command::Apply(apply) => run_apply(arguments, apply),
         Command::Compare(compare) => {
             deliver(arguments, &rins::compare(&compare.before, &compare.after)?, "")
+        }
+        Command::History(history) => {
+            let options = HistoryOptions {
+                date: history.date,
+                temperature: history.temperature,
+                since_power_on: history.minutes_since_power_on.map(|minutes| 60.0 * minutes),
+                progress: drawn(),
+            };
+            deliver(arguments, &rins::history(&history.runs, &options)?, "")
         }
     }
 }

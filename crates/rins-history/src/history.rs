@@ -7,7 +7,7 @@ use crate::conditions::{Conditions, Conduct};
 use crate::error::HistoryError;
 use crate::explanation::Explanation;
 use crate::hypothesis::Catalogue;
-use crate::information::{Amplitudes, Information};
+use crate::information::{Amplitudes, Information, WIDE};
 use crate::run_estimate::{Quantity, RunEstimate};
 use crate::search::search;
 
@@ -27,10 +27,28 @@ pub struct Homogeneity {
     pub chi_square: f64,
     /// Its degrees of freedom.
     pub dof: usize,
-    /// The logarithm of the p-value, of this parameter alone.
+    /// The logarithm of the p-value, all other parameters being the same in all runs.
     pub ln_p: f64,
+    /// The logarithm of the p-value if the more significant parameters are not the same in all runs: correlated estimates may make
+    /// several parameters differ where one does.
+    pub ln_p_beside: f64,
     /// The value and the 1σ of the parameter from each run; `None` where the run does not observe it.
     pub values: Vec<Option<(f64, f64)>>,
+}
+
+/// A parameter that differs with a larger p-value differs by chance.
+const LARGE: f64 = 0.05;
+
+/// How much a parameter differs between runs.
+struct Difference {
+    chi_square: f64,
+    dof: usize,
+}
+
+impl Difference {
+    fn ln_p(&self) -> f64 {
+        if self.dof > 0 { ln_tail(self.chi_square, self.dof) } else { 0.0 }
+    }
 }
 
 /// A direction of which the information is less than this part of the largest is not observed.
@@ -73,34 +91,64 @@ impl History {
         &self.runs
     }
 
-    /// The test of each parameter whether it is the same in all runs, the others being so.
+    /// The test of each parameter whether it is the same in all runs.
     pub fn homogeneity(&self) -> Vec<Homogeneity> {
         let (information, _) = self.parts();
-        let means = information.gram(std::iter::empty());
-        let solved = means.solved(&[]);
-        let of = |(quantity, of): (usize, &Quantity)| {
-            let values = self.runs.iter().map(|run| run.value(quantity)).collect();
-            let statistic = solved.as_ref().map(|solved| {
-                // A value of its own in all runs but the first.
-                let runs = self.runs.len();
-                let own = |run: usize, column: usize| f64::from(u8::from(run == column + 1));
-                let columns = DMatrix::from_fn(runs, runs - 1, own);
-                let further = Amplitudes { quantity, columns };
-                let (own, score) = information.beside(&further, solved);
-                let eigen = own.symmetric_eigen();
-                let least = UNSEEN * eigen.eigenvalues.max();
-                let along = eigen.eigenvectors.tr_mul(&score);
-                let seen = eigen.eigenvalues.iter().zip(along.iter());
-                let seen = seen.filter(|(value, _)| **value > least && **value > 0.0);
-                seen.fold((0.0, 0), |(sum, dof), (value, along)| {
-                    (sum + along * along / value, dof + 1)
-                })
-            });
-            let (chi_square, dof) = statistic.unwrap_or((0.0, 0));
-            let ln_p = if dof > 0 { ln_tail(chi_square, dof) } else { 0.0 };
-            Homogeneity { id: of.id.clone(), chi_square, dof, ln_p, values }
+        let all: Vec<usize> = (0..self.quantities.len()).collect();
+        let alone = self.differences(&information, &[], &all);
+        let mut beside: Vec<f64> = vec![0.0; all.len()];
+        let mut free: Vec<usize> = Vec::new();
+        while free.len() < all.len() {
+            let rest: Vec<usize> = all.iter().copied().filter(|at| !free.contains(at)).collect();
+            let tests = self.differences(&information, &free, &rest);
+            let least = rest.iter().zip(&tests).min_by(|a, b| a.1.ln_p().total_cmp(&b.1.ln_p()));
+            let Some((&place, test)) = least else { break };
+            if test.ln_p() > LARGE.ln() {
+                rest.iter().zip(&tests).for_each(|(&at, test)| beside[at] = test.ln_p());
+                break;
+            }
+            beside[place] = test.ln_p();
+            free.push(place);
+        }
+        let of = |((place, quantity), test): ((usize, &Quantity), &Difference)| Homogeneity {
+            id: quantity.id.clone(),
+            chi_square: test.chi_square,
+            dof: test.dof,
+            ln_p: test.ln_p(),
+            ln_p_beside: beside[place],
+            values: self.runs.iter().map(|run| run.value(place)).collect(),
         };
-        self.quantities.iter().enumerate().map(of).collect()
+        self.quantities.iter().enumerate().zip(&alone).map(of).collect()
+    }
+
+    /// How much some parameters differ between runs, those that are `free` differing too, each of the others being the same.
+    fn differences(
+        &self,
+        information: &Information,
+        free: &[usize],
+        of: &[usize],
+    ) -> Vec<Difference> {
+        // A value of its own in all runs but the first.
+        let runs = self.runs.len();
+        let own = |run: usize, column: usize| f64::from(u8::from(run == column + 1));
+        let columns = DMatrix::from_fn(runs, runs - 1, own);
+        let of_parameter = |&quantity: &usize| Amplitudes { quantity, columns: columns.clone() };
+        let gram = information.gram(free.iter().map(of_parameter));
+        let solved = gram.solved(&vec![WIDE; free.len()]);
+        let difference = |quantity: &usize| {
+            let Some(solved) = &solved else { return Difference { chi_square: 0.0, dof: 0 } };
+            let (own, score) = information.beside(&of_parameter(quantity), solved);
+            let eigen = own.symmetric_eigen();
+            let least = UNSEEN * eigen.eigenvalues.max();
+            let along = eigen.eigenvectors.tr_mul(&score);
+            let seen = eigen.eigenvalues.iter().zip(along.iter());
+            let seen = seen.filter(|(value, _)| **value > least && **value > 0.0);
+            let (chi_square, dof) = seen.fold((0.0, 0), |(sum, dof), (value, along)| {
+                (sum + along * along / value, dof + 1)
+            });
+            Difference { chi_square, dof }
+        };
+        of.iter().map(difference).collect()
     }
 
     /// How the parameters vary: the most probable hypothesis, and what else would explain the runs.

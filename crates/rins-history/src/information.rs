@@ -5,7 +5,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use crate::run_estimate::RunEstimate;
 
 /// The 1σ of a parameter's mean over all runs, in units of its largest typical variation: so wide that it says nothing.
-const WIDE: f64 = 1e4;
+pub(crate) const WIDE: f64 = 1e4;
 
 /// A block of amplitudes of one parameter.
 #[derive(Clone, Debug)]

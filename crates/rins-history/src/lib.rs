@@ -36,6 +36,7 @@
 //! assert!((forecast.mean() - 160.0).abs() < 1.0);
 //! # Ok::<(), rins_history::HistoryError>(())
 //! ```
+mod baseline;
 mod conditions;
 mod error;
 mod explanation;
@@ -47,6 +48,7 @@ mod run_estimate;
 mod search;
 mod variation;
 
+pub use baseline::{Past, baselines};
 pub use conditions::Conditions;
 pub use error::HistoryError;
 pub use explanation::{Alternative, Cause, Explanation};

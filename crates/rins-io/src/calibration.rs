@@ -1,18 +1,20 @@
 //! Calibration files: the estimated errors of an IMU, for the compensation of other runs.
 
 mod covariance;
+mod measured;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 pub use covariance::Covariance;
+pub use measured::Measured;
 use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Model, Role, TermInstance};
 
-use crate::document::Document;
+use crate::document::{Document, quoted};
 use crate::error::{IoError, KeyError, KeyProblem};
 use crate::model::REFERENCE;
 use crate::output::{Overwrite, write_file};
@@ -27,7 +29,7 @@ use crate::term::{self, Use};
 const SCHEMAS: [u64; 2] = [1, 2];
 
 /// The keys that only version 2 has.
-const NEWER: [&str; 4] = ["term", "covariance", REFERENCE, "range"];
+const NEWER: [&str; 6] = ["term", "covariance", REFERENCE, "range", "measured", "prior"];
 
 /// The values of the key `spin`.
 const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
@@ -59,6 +61,12 @@ const RANGE: &str = "
 const SIGMAS: &str = "
 # 1 sigma of each estimated number. The other numbers are assumed values.
 [sigma]
+";
+
+/// The comment above the standard deviations before the calibration.
+const PRIORS: &str = "
+# 1 sigma of each estimated number before the calibration.
+[prior]
 ";
 
 /// The errors of an IMU and their standard deviations, the content of a calibration file.
@@ -105,6 +113,11 @@ pub struct Calibration {
     pub reference_temperature: f64,
     /// The range covered by the runs from which the calibration was made.
     pub range: CalibratedRange,
+    /// When and how these runs were made.
+    pub measured: Measured,
+    /// The standard deviations of the numbers before the calibration, by id and in the units of [`parameters`](crate::parameters):
+    /// what the runs said of them is what the covariance says beyond these.
+    pub priors: Vec<Parameter>,
 }
 
 /// The range covered by the runs from which a calibration was made, as minimum and maximum.
@@ -129,6 +142,8 @@ impl Calibration {
             covariance: None,
             reference_temperature: REFERENCE_TEMPERATURE.default,
             range: CalibratedRange::default(),
+            measured: Measured::default(),
+            priors: Vec::new(),
         }
     }
 
@@ -172,6 +187,11 @@ impl Calibration {
             Some(section) => parameter::read_sigmas(&section)?,
             None => Vec::new(),
         };
+        let priors = match root.section("prior", &["gyro", "accel"])? {
+            Some(section) => parameter::read_sigmas(&section)?,
+            None => Vec::new(),
+        };
+        let measured = measured::read(&root)?;
         let spin = match root.text("spin", SPINS)? {
             Some(name) => Axes::spin(name).ok_or_else(|| root.not_allowed("spin", SPINS))?,
             None => Axes::IDENTITY,
@@ -211,6 +231,8 @@ impl Calibration {
             covariance,
             reference_temperature: reference.unwrap_or(REFERENCE_TEMPERATURE.default),
             range,
+            measured,
+            priors,
         };
         calibration.compensation()?;
         Ok(calibration)
@@ -267,7 +289,9 @@ impl Calibration {
     /// The text of the calibration file.
     pub fn to_toml(&self) -> String {
         let ranged = self.range != CalibratedRange::default();
-        let newer = !self.terms.terms.is_empty() || self.covariance.is_some() || ranged;
+        let measured = measured::written(&self.measured);
+        let known = !measured.is_empty() || !self.priors.is_empty();
+        let newer = !self.terms.terms.is_empty() || self.covariance.is_some() || ranged || known;
         let mut text = format!("{MEANING}schema = {}\n", SCHEMAS[usize::from(newer)]);
         if self.spin != Axes::IDENTITY {
             // Writing to a string cannot fail, here and below.
@@ -293,6 +317,7 @@ impl Calibration {
         if let Some([low, high]) = rate.map(|range| range.map(|rate| rate / DEG)) {
             let _ = writeln!(text, "rate = [\"{low} deg/s\", \"{high} deg/s\"]");
         }
+        text.push_str(&measured);
         let mut push = |header: &str, triad: &TriadError, keys| {
             text.push_str("\n[");
             text.push_str(header);
@@ -305,6 +330,12 @@ impl Calibration {
             text.push_str(SIGMAS);
         }
         for Parameter { id, value, unit } in &self.sigmas {
+            let _ = writeln!(text, "{id} = \"{value} {unit}\"");
+        }
+        if !self.priors.is_empty() {
+            text.push_str(PRIORS);
+        }
+        for Parameter { id, value, unit } in &self.priors {
             let _ = writeln!(text, "{id} = \"{value} {unit}\"");
         }
         if let Some(covariance) = &self.covariance {
@@ -360,19 +391,4 @@ fn own_places(terms: &Model, axes: &SignedAxes) -> Vec<(String, (usize, usize))>
         order.map(move |place| (terms.own_id(term, place, axes), (term, place))).collect::<Vec<_>>()
     };
     terms.terms.iter().enumerate().flat_map(own).collect()
-}
-
-/// `text` as a basic string of TOML.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for letter in text.chars() {
-        match letter {
-            '"' | '\\' => quoted.extend(['\\', letter]),
-            letter if letter.is_control() => {
-                let _ = write!(quoted, "\\u{:04X}", u32::from(letter));
-            }
-            letter => quoted.push(letter),
-        }
-    }
-    quoted + "\""
 }

@@ -1,5 +1,6 @@
 //! TOML files as a tree in which every key and value has its line number.
 
+use std::fmt::Write as _;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -158,6 +159,21 @@ impl<'t> Lines<'t> {
 /// A number without the underscores by which TOML allows digits to be grouped.
 fn digits(number: &str) -> String {
     number.replace('_', "")
+}
+
+/// `text` as a basic string of TOML.
+pub(crate) fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => quoted.extend(['\\', letter]),
+            letter if letter.is_control() => {
+                let _ = write!(quoted, "\\u{:04X}", u32::from(letter));
+            }
+            letter => quoted.push(letter),
+        }
+    }
+    quoted + "\""
 }
 
 #[cfg(test)]

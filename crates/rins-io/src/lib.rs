@@ -17,6 +17,7 @@
 //! ```
 mod calibration;
 mod campaign;
+mod content;
 mod document;
 mod draft;
 mod error;
@@ -38,16 +39,18 @@ mod term;
 mod unfinished;
 mod write;
 
-pub use calibration::{CalibratedRange, Calibration, Covariance};
+pub use calibration::{CalibratedRange, Calibration, Covariance, Measured};
 pub use campaign::{
     GridCell, Heading, Identity, Journal, PartRuns, Record, Row, RunRows, ScenarioGrid, write_part,
 };
+pub use content::TomlContent;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WriteProblem};
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
-    Overflow, PsinsHeader, Redivided, Rounded, TableClock, peek, read, read_log,
+    Overflow, PsinsHeader, Redivided, Rounded, TableClock, date_seconds, date_text, peek, read,
+    read_log,
 };
 pub use model::ModelFile;
 pub use output::{
@@ -56,9 +59,10 @@ pub use output::{
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
-    AngleColumn, Axes, Coarse, ColumnSpec, Decimal, Gaps, InitialAttitude, LogFormat, LogSpec,
-    OwnClock, Reading, Rig, RowFilter, ScaledColumn, SplitTime, Stamp, StatedRotation, Table,
-    TableSpec, TemperatureColumn, TextForm, TimeColumn, TimeUnit, TriadColumns,
+    AngleColumn, Axes, Coarse, ColumnSpec, Decimal, Gaps, InitialAttitude, Laboratory, LogFormat,
+    LogSpec, OwnClock, Reading, Rig, RowFilter, RunIdentity, ScaledColumn, SplitTime, Stamp,
+    Started, StatedRotation, Table, TableSpec, TemperatureColumn, TextForm, TimeColumn, TimeUnit,
+    TriadColumns,
 };
 pub use run::truth_json;
 pub use scenario::ScenarioFile;

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use rins_blind::{Campaign, CampaignRun, Variety};
 use rins_history::{
-    Conditions, Explanation, Forecast, History, HistoryError, Kind, Quantity, RunEstimate,
+    Conditions, Explanation, Forecast, History, HistoryError, Kind, Past, Quantity, RunEstimate,
+    baselines,
 };
 
 use crate::statistics::Share;
@@ -169,7 +170,10 @@ fn predicted(campaign: &Campaign) -> Result<Vec<Predicted>, HistoryError> {
         let outcome = last.estimate[place];
         let (low, high) = forecast.interval(INTERVAL);
         let of = |forecast: &Forecast| forecast.crps(outcome) / sheet;
-        let simple = simple(&campaign.runs[..before], place, last);
+        let past = campaign.runs[..before]
+            .iter()
+            .map(|run| Past { date: run.date, value: run.estimate[place] });
+        let Some(simple) = baselines(&past.collect::<Vec<_>>(), last.date, own) else { continue };
         all.push(Predicted {
             varies: campaign.variety != Variety::Nothing && place == campaign.parameter,
             covered: low < outcome && outcome < high,
@@ -177,36 +181,6 @@ fn predicted(campaign: &Campaign) -> Result<Vec<Predicted>, HistoryError> {
         });
     }
     Ok(all)
-}
-
-/// The forecasts by the last value, the mean, and the line over the date, each with the standard deviation of its own errors so far.
-fn simple(runs: &[CampaignRun], place: usize, last: &CampaignRun) -> [Forecast; 3] {
-    let n = runs.len() as f64;
-    let values: Vec<f64> = runs.iter().map(|run| run.estimate[place]).collect();
-    let normal = |mean: f64, sigma: f64| Forecast { components: vec![(1.0, mean, sigma)] };
-    let own = last.covariance[(place, place)].sqrt();
-    let steps: f64 = values.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
-    let by_last = normal(values[runs.len() - 1], (steps / (n - 1.0)).sqrt().max(own));
-    let mean = values.iter().sum::<f64>() / n;
-    let square: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    let by_mean = normal(mean, (square / (n - 1.0) * (1.0 + n.recip())).sqrt().max(own));
-    let date = runs.iter().map(|run| run.date).sum::<f64>() / n;
-    let spread: f64 = runs.iter().map(|run| (run.date - date).powi(2)).sum();
-    let slope: f64 = runs
-        .iter()
-        .zip(&values)
-        .map(|(run, value)| (run.date - date) * (value - mean))
-        .sum::<f64>()
-        / spread;
-    let left: f64 = runs
-        .iter()
-        .zip(&values)
-        .map(|(run, value)| (value - mean - slope * (run.date - date)).powi(2))
-        .sum();
-    let beyond = last.date - date;
-    let variance = left / (n - 2.0) * (1.0 + n.recip() + beyond * beyond / spread);
-    let by_line = normal(mean + slope * beyond, variance.sqrt().max(own));
-    [by_last, by_mean, by_line]
 }
 
 /// The page of some trials, analyzed by the program of this revision.

@@ -11,6 +11,7 @@
 //! | which effects are unmodeled? | [`diagnose`](diagnose()) | [`DiagnoseResult`](diagnose::DiagnoseResult) |
 //! | what is observable under a schedule? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
 //! | what changed between calibrations? | [`compare`](compare()) | [`CompareResult`](compare::CompareResult) |
+//! | how do parameters vary between runs? | [`history`](history()) | [`HistoryResult`](history::HistoryResult) |
 //! | do errors agree with covariances? | [`monte_carlo`], [`merge`] | [`CampaignResult`](campaign::CampaignResult) |
 //! | a run, a log, a compensated log | [`simulate`](simulate()), [`convert`](convert()), [`apply`](apply()) | theirs |
 //!
@@ -39,6 +40,7 @@ pub mod compare;
 pub mod convert;
 pub mod demo;
 pub mod diagnose;
+pub mod history;
 pub mod init;
 pub mod navigate;
 pub mod observe;
@@ -82,6 +84,7 @@ pub use convert::{ConvertOptions, convert};
 pub use diagnose::{DiagnoseOptions, diagnose};
 pub use error::{Error, Result};
 pub use free_navigation::{BeforeAfterResult, NavigationResult};
+pub use history::{HistoryOptions, history};
 pub use identifiability::{
     GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
 };

@@ -4,8 +4,8 @@ use schemars::{JsonSchema, schema_for};
 use serde_json::Value;
 
 use crate::{
-    align, allan, apply, calibrate, campaign, check, compare, convert, demo, diagnose, init,
-    navigate, observe, simulate,
+    align, allan, apply, calibrate, campaign, check, compare, convert, demo, diagnose, history,
+    init, navigate, observe, simulate,
 };
 
 /// The JSON schema of every command's result, by the name of the command; the schema of `merge` is that of `monte-carlo`.
@@ -15,7 +15,7 @@ use crate::{
 /// let (_, calibrate) = schemas.iter().find(|(command, _)| *command == "calibrate").unwrap();
 /// assert!(calibrate["properties"]["parameters"]["description"].is_string());
 /// ```
-pub fn schemas() -> [(&'static str, Value); 14] {
+pub fn schemas() -> [(&'static str, Value); 15] {
     [
         ("align", schema::<align::AlignResult>()),
         ("allan", schema::<allan::AllanResult>()),
@@ -23,6 +23,7 @@ pub fn schemas() -> [(&'static str, Value); 14] {
         ("calibrate", schema::<calibrate::CalibrateResult>()),
         ("check", schema::<check::CheckResult>()),
         ("compare", schema::<compare::CompareResult>()),
+        ("history", schema::<history::HistoryResult>()),
         ("convert", schema::<convert::ConvertResult>()),
         ("demo", schema::<demo::DemoResult>()),
         ("diagnose", schema::<diagnose::DiagnoseResult>()),

@@ -42,9 +42,29 @@ pub(crate) fn time_of_day(text: &str) -> Option<i128> {
     Some((seconds + i128::from(time.second())) * 1_000_000_000 + nanoseconds)
 }
 
+/// A date with a time and an offset from UTC (RFC 3339) as seconds since 1970; `None` for any other text.
+pub fn date_seconds(text: &str) -> Option<f64> {
+    let has_offset = text.ends_with(['Z', 'z'])
+        || text.rsplit_once(['T', 't', ' ']).is_some_and(|(_, time)| time.contains(['+', '-']));
+    nanoseconds(text).filter(|_| has_offset).map(|instant| instant as f64 * 1e-9)
+}
+
+/// The date of an instant in seconds since 1970, in UTC; the seconds themselves if it is out of the range of dates.
+pub fn date_text(seconds: f64) -> String {
+    #[expect(clippy::cast_possible_truncation, reason = "a cast saturates, and dates have a range")]
+    let instant = Timestamp::from_second(seconds.round() as i64);
+    match instant {
+        Ok(instant) => {
+            let day = instant.to_zoned(TimeZone::UTC).date();
+            day.to_string()
+        }
+        Err(_) => format!("{seconds} s"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{day, nanoseconds, time_of_day};
+    use super::{date_seconds, date_text, day, nanoseconds, time_of_day};
 
     #[test]
     fn days_and_times_of_day_add_up_to_instants() {
@@ -100,5 +120,16 @@ mod tests {
         for text in not {
             assert_eq!(nanoseconds(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn dates_have_an_offset() {
+        let seconds = date_seconds("2026-11-26T10:00:00+01:00").unwrap();
+        assert_eq!(Some(seconds), date_seconds("2026-11-26T09:00:00Z"));
+        assert_eq!(date_text(seconds), "2026-11-26");
+        for text in ["2026-11-26T10:00:00", "2026-11-26", "today", ""] {
+            assert_eq!(date_seconds(text), None, "{text}");
+        }
+        assert_eq!(date_text(f64::INFINITY), "inf s");
     }
 }

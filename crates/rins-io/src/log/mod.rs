@@ -26,6 +26,7 @@ use std::path::Path;
 use rins_motion::{Recording, Station, with_ramps};
 
 pub(crate) use damage::Damage;
+pub use date_time::{date_seconds, date_text};
 pub(crate) use date_time::{day, nanoseconds, time_of_day};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;

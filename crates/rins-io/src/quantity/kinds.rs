@@ -173,6 +173,9 @@ pub(crate) const LATENCY: Kind = Kind::new(
 pub(crate) const CLOCK_OFFSET: Kind = Kind::new("a time", Dimension::TIME, "12 ms", Range::Any);
 /// A time in a log.
 pub(crate) const LOG_TIME: Kind = Kind::new("a time", Dimension::TIME, "10 s", Range::Any);
+/// A time since power-on.
+pub(crate) const TIME_SINCE: Kind =
+    Kind::new("a time", Dimension::TIME, "20 min", Range::NotNegative);
 /// A time span.
 pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::Positive);
 /// A table rate.

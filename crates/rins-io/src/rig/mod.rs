@@ -2,6 +2,7 @@
 
 mod axes;
 mod formats;
+mod identity;
 mod imu;
 mod log_keys;
 mod log_spec;
@@ -19,6 +20,8 @@ use rins_imu::{ImuSpec, Preset};
 use rins_motion::Station;
 
 pub use axes::Axes;
+pub use identity::{Laboratory, RunIdentity, Started};
+pub(crate) use identity::{named, started};
 pub(crate) use log_keys::KEYS as LOG_KEYS;
 pub use log_spec::{
     AngleColumn, Coarse, ColumnSpec, Decimal, Gaps, LogFormat, LogSpec, OwnClock, Reading,
@@ -83,13 +86,15 @@ pub struct Rig {
     /// From the axes that `[log]` calls the body's to those with z along the spin axis, which are
     /// the body axes everywhere else ([`Axes::spin`]).
     pub spin: Axes,
-    /// The name of the series of runs between which the IMU was not switched off: `[run] series`. They have
-    /// the same turn-on biases.
-    pub series: Option<String>,
+    /// Which IMU the run is of, and when it was made.
+    pub run: RunIdentity,
+    /// Who made it.
+    pub laboratory: Laboratory,
 }
 
 /// The sections of a rig file.
-pub(crate) const SECTIONS: [&str; 7] = ["site", "log", "attitude", "imu", "table", "axis", "run"];
+pub(crate) const SECTIONS: [&str; 8] =
+    ["site", "log", "attitude", "imu", "table", "axis", "run", "lab"];
 
 impl Rig {
     /// Reads the rig file at `path`.
@@ -132,7 +137,8 @@ impl Rig {
             preset,
             table: table::read(root)?,
             spin: spin(root)?,
-            series: series(root)?,
+            run: identity::run(root)?,
+            laboratory: identity::laboratory(root)?,
         })
     }
 
@@ -196,14 +202,4 @@ fn spin(root: &Section<'_>) -> Result<Axes, IoError> {
     let expected = r#"a body axis such as "z" or "-x""#;
     let Some(name) = axis.text("spin", expected)? else { return Ok(Axes::IDENTITY) };
     Axes::spin(name).ok_or_else(|| axis.not_allowed("spin", expected))
-}
-
-fn series(root: &Section<'_>) -> Result<Option<String>, IoError> {
-    let Some(run) = root.section("run", &["series"])? else { return Ok(None) };
-    let expected = r#"one name for all runs of a power-on, such as "2026-11-26 a""#;
-    match run.text("series", expected)? {
-        None => Err(run.missing("series", expected)),
-        Some("") => Err(run.not_allowed("series", expected)),
-        Some(name) => Ok(Some(name.into())),
-    }
 }

@@ -6,10 +6,10 @@ use rins_io::{Covariance, ModelFile, Parameter};
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Model, Role, catalogue};
 
-use super::certificate::Certificate;
+use super::certificate::{Certificate, CertifiedRun};
 use super::compensation::of_run_alone;
 use crate::identifiability::observability;
-use crate::log::covered;
+use crate::log::{covered, measured, measured_together};
 
 impl Certificate {
     /// The model with the estimates in it, and a calibration file for each run.
@@ -28,6 +28,13 @@ impl Certificate {
             delivered.push((name, file.to_toml().into_bytes()));
         }
         delivered
+    }
+}
+
+impl Certificate {
+    /// The calibration file of one run.
+    pub(crate) fn calibration_file(&self, run: usize) -> rins_io::Calibration {
+        calibration(self, run)
     }
 }
 
@@ -70,7 +77,6 @@ fn calibration(certificate: &Certificate, run: usize) -> rins_io::Calibration {
         }
     }
     rins_io::Calibration {
-        sigmas,
         notes: notes(certificate, run, &places),
         terms,
         spin: axes.into(),
@@ -81,8 +87,26 @@ fn calibration(certificate: &Certificate, run: usize) -> rins_io::Calibration {
             certificate.runs.iter().flat_map(|run| run.prepared.rests()).map(|run| &*run.recording),
         ),
         covariance: covariance(fit, &places),
+        priors: places.iter().filter_map(|&place| prior(fit, place, &sigmas)).collect(),
+        measured: measured_together(
+            &certificate
+                .runs
+                .iter()
+                .map(|CertifiedRun { prepared, .. }| {
+                    measured(&prepared.loaded.rig, prepared.rests().map(|run| &*run.recording))
+                })
+                .collect::<Vec<_>>(),
+        ),
+        sigmas,
         ..rins_io::Calibration::of(error.along(&axes.inverse().matrix()))
     }
+}
+
+/// What was known beforehand of a parameter that stands among the `sigmas`.
+fn prior(fit: &Fit, place: usize, sigmas: &[Parameter]) -> Option<Parameter> {
+    let of = &fit.parameters[place].parameter;
+    let known = sigmas.iter().find(|sigma| sigma.id == of.id)?;
+    Some(Parameter { value: of.sigma / of.unit.factor, ..known.clone() })
 }
 
 fn covariance(fit: &Fit, places: &[usize]) -> Option<Covariance> {

@@ -111,6 +111,22 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
     Ok(Calibration(Kind::Certificate(Box::new(certificate))))
 }
 
+/// The calibration file of one log, by the full model.
+pub(crate) fn single_calibration(
+    log: Log,
+    progress: &Progress,
+) -> anyhow::Result<rins_io::Calibration> {
+    let options = CalibrateOptions {
+        model: Some(ModelChoice::Full),
+        progress: progress.clone(),
+        ..CalibrateOptions::default()
+    };
+    match calibrated(vec![log], &options)?.0 {
+        Kind::Certificate(certificate) => Ok(certificate.calibration_file(0)),
+        Kind::Paper(_) => anyhow::bail!("the full model is not the paper's"),
+    }
+}
+
 fn paper(log: Log, options: &CalibrateOptions) -> anyhow::Result<Calibration> {
     let paper = PaperCalibration::of(log, &options.progress)?;
     Ok(Calibration(Kind::Paper(Box::new(paper))))

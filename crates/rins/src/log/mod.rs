@@ -1,6 +1,7 @@
 //! A log with its rig file.
 
 mod data_sheet;
+mod measured;
 mod range;
 mod repairs;
 mod setup;
@@ -11,6 +12,7 @@ use std::path::Path;
 use rins_io::{Loaded, LogPolicy, Rig, shown};
 
 pub(crate) use self::data_sheet::DataSheet;
+pub(crate) use self::measured::{measured, measured_together};
 pub(crate) use self::range::{Beyond, beyond, covered, ensure_temperature};
 pub use self::range::{OutsideRange, OutsideRate, OutsideTemperature};
 pub(crate) use self::repairs::{repairs, with_repairs};

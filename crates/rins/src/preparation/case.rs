@@ -49,7 +49,7 @@ impl EstimationProblem {
 
     /// The first log that was recorded in the power-on of a log.
     fn first_of(&self, log: usize) -> usize {
-        let series = |run: &Prepared| run.loaded.rig.series.clone();
+        let series = |run: &Prepared| run.loaded.rig.run.series.clone();
         let same =
             |other: &Prepared| series(other).is_some() && series(other) == series(&self.runs[log]);
         self.runs.iter().position(same).unwrap_or(log)
@@ -175,7 +175,7 @@ fn series_in_words(runs: &[Prepared]) -> Option<String> {
     }
     let mut series: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for run in runs {
-        if let Some(name) = &run.loaded.rig.series {
+        if let Some(name) = &run.loaded.rig.run.series {
             series.entry(name).or_default().push(&run.name);
         }
     }

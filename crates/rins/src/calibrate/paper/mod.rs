@@ -18,7 +18,7 @@ use rins_terms::{Model, Role, Surroundings, Track};
 
 use self::gates::refuse_standing;
 use self::observability::meaning;
-use crate::log::{Log, covered};
+use crate::log::{Log, covered, measured};
 use crate::preparation::{repeats_in_words, screened};
 use crate::progress::Progress;
 
@@ -85,6 +85,7 @@ impl PaperCalibration {
             notes: calibration.parameters.iter().filter_map(combination_note).collect(),
             covariance: Some(covariance(calibration)),
             spin: log.loaded.rig.spin,
+            measured: measured(&log.loaded.rig, [&log.loaded.recording]),
             range: covered([&log.loaded.recording.slice(span.start, span.end)]),
             ..rins_io::Calibration::of(calibration.imu_error)
         }

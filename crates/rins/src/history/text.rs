@@ -1,0 +1,258 @@
+//! A history in words.
+
+use std::fmt::Write as _;
+
+use rins_history::{Cause, Conditions, Variation};
+use rins_io::date_text;
+use rins_report::number::{estimate, figure};
+
+use super::{Predicted, RunHistory};
+use crate::consistency::probability;
+use crate::table::aligned;
+
+/// The summary for a terminal.
+pub(super) fn history_text(history: &RunHistory) -> String {
+    let mut text = format!("{}\n", title(history));
+    // Writing to a string cannot fail, here and below.
+    for sentence in summary(history) {
+        let _ = writeln!(text, "  {sentence}");
+    }
+    let _ = write!(text, "\n{}", aligned(&homogeneity(history)));
+    let _ = write!(text, "\n  {}\n{}", predicted_run(history), aligned(&forecasts(history)));
+    let scores = scores(history);
+    if scores.len() > 1 {
+        let _ = write!(text, "\n  Runs predicted from the runs before them\n{}", aligned(&scores));
+    }
+    for remark in &history.remarks {
+        let _ = write!(text, "\n  {remark}\n");
+    }
+    text
+}
+
+pub(super) fn title(history: &RunHistory) -> String {
+    format!("History of {} runs", history.names.len())
+}
+
+/// What varies, and how.
+pub(super) fn summary(history: &RunHistory) -> Vec<String> {
+    let total = history.homogeneity.len();
+    let differing: Vec<&str> = history.inhomogeneous().map(|one| one.id.as_str()).collect();
+    let mut sentences = vec![if differing.is_empty() {
+        format!(
+            "None of {total} parameters differs significantly between the runs (p > 0.01, family-wise)."
+        )
+    } else {
+        format!(
+            "{} of {total} parameters differ between the runs: {}.",
+            differing.len(),
+            differing.join(", ")
+        )
+    }];
+    for cause in history.causes() {
+        sentences.push(format!(
+            "{}: {}, {}; p {}.",
+            cause.id,
+            cause.variation.kind().name(),
+            amount(history, cause),
+            probability(cause.ln_p.exp())
+        ));
+        if let [_, _, ..] = cause.alternatives[..] {
+            let alternatives = cause.alternatives.iter().map(|one| {
+                let of = if one.id == cause.id { String::new() } else { format!("{}: ", one.id) };
+                format!("{of}{} ({:.0} %)", one.kind.name(), 100.0 * one.probability)
+            });
+            sentences
+                .push(format!("  Credible set: {}.", alternatives.collect::<Vec<_>>().join("; ")));
+        }
+    }
+    let is_named = |id: &str| {
+        history
+            .causes()
+            .iter()
+            .any(|cause| cause.id == id || cause.alternatives.iter().any(|one| one.id == id))
+    };
+    let unnamed: Vec<&str> = differing.into_iter().filter(|id| !is_named(id)).collect();
+    if !unnamed.is_empty() {
+        sentences.push(format!("No variation is significant for {}.", unnamed.join(", ")));
+    }
+    sentences
+}
+
+/// The size of a variation, with its unit.
+pub(super) fn amount(history: &RunHistory, cause: &Cause) -> String {
+    let unit = history.unit(&cause.id);
+    let runs = history.history.runs();
+    let range = |of: fn(&Conditions) -> Option<f64>| {
+        let all = runs.iter().filter_map(|run| of(&run.conditions));
+        let [low, high] = all
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+        (low, high)
+    };
+    let with = |(value, sigma): (f64, f64), unit: &str| {
+        let (value, sigma) = estimate(value, sigma);
+        format!("{value} ± {sigma} {unit}")
+    };
+    let first = cause.amplitudes.first().copied().unwrap_or_default();
+    let per = |size: f64| (first.0 / size, first.1 / size);
+    match cause.variation {
+        Variation::Drift => {
+            let (low, high) = range(|one| one.date);
+            let days = high - low;
+            format!(
+                "{}, {} over {} days",
+                with(per(days), &format!("{unit}/day")),
+                with(first, unit),
+                figure(days, 3)
+            )
+        }
+        Variation::DriftSincePowerOn => {
+            let (low, high) = range(|one| one.since_power_on);
+            let minutes = (high - low) / 60.0;
+            format!(
+                "{}, {} over {} min",
+                with(per(minutes), &format!("{unit}/min")),
+                with(first, unit),
+                figure(minutes, 3)
+            )
+        }
+        Variation::WarmUp { time_constant } => format!(
+            "{} at power-on, time constant about {} min",
+            with(first, unit),
+            figure(time_constant / 60.0, 2)
+        ),
+        Variation::Temperature { degree } => {
+            let (low, high) = range(|one| one.temperature);
+            let of = coefficients(&cause.amplitudes, high - low);
+            let each = of.iter().enumerate().map(|(place, one)| {
+                let power = match place {
+                    0 => "K".into(),
+                    power => format!("K^{}", power + 1),
+                };
+                with(*one, &format!("{unit}/{power}"))
+            });
+            let about = if degree > 1 {
+                format!(" about {} °C", figure(0.5 * (low + high), 3))
+            } else {
+                String::new()
+            };
+            format!("{}{about}", each.collect::<Vec<_>>().join(", "))
+        }
+        Variation::Hysteresis => {
+            format!("{} more while the temperature rises than while it falls", with(first, unit))
+        }
+        Variation::TurnOn | Variation::Scatter => {
+            format!("about {} {unit} (1σ)", figure(cause.scale, 2))
+        }
+        Variation::Walk => format!("about {} {unit} (1σ) over all runs", figure(cause.scale, 2)),
+        Variation::Change { instant, .. } => {
+            let when = if runs.iter().all(|run| run.conditions.date.is_some()) {
+                format!("about {}", date_text(instant * 86_400.0))
+            } else {
+                let before = runs.iter().enumerate().filter(|(place, _)| (*place as f64) < instant);
+                format!("after run {}", before.count())
+            };
+            format!("{} {when}", with(first, unit))
+        }
+        Variation::Unit { unit: which } => format!("unit {} by {}", which + 1, with(first, unit)),
+        Variation::Run { run } => format!("{} by {}", history.names[run], with(first, unit)),
+    }
+}
+
+/// The coefficients of a polynomial of the temperature about the middle of its range, by powers of a kelvin, from those of the Legendre
+/// polynomials.
+fn coefficients(legendre: &[(f64, f64)], range: f64) -> Vec<(f64, f64)> {
+    // x runs from -1 to 1 over the range.
+    let per = 2.0 / range;
+    let at = |place: usize| legendre.get(place).copied().unwrap_or_default();
+    let [first, second, third] = [at(0), at(1), at(2)];
+    let linear = (0.5 * first.0 - 0.75 * third.0, f64::hypot(0.5 * first.1, 0.75 * third.1));
+    let each =
+        [(linear, per), (second, per * per), ((1.25 * third.0, 1.25 * third.1), per.powi(3))];
+    let scaled = each.map(|((value, sigma), factor)| (factor * value, factor * sigma));
+    scaled[..legendre.len().min(3)].to_vec()
+}
+
+/// The test of homogeneity as a table.
+pub(super) fn homogeneity(history: &RunHistory) -> Vec<Vec<String>> {
+    let mut rows = vec![
+        ["parameter", "smallest", "largest", "mean 1σ", "p", "p beside others", "unit"]
+            .map(String::from)
+            .to_vec(),
+    ];
+    for (one, unit) in history.homogeneity.iter().zip(&history.units) {
+        let values: Vec<(f64, f64)> = one.values.iter().flatten().copied().collect();
+        let extreme = |pick: fn(f64, f64) -> f64| {
+            values.iter().map(|(value, _)| *value).reduce(pick).unwrap_or(f64::NAN)
+        };
+        let sigma = values.iter().map(|(_, sigma)| sigma).sum::<f64>() / values.len() as f64;
+        rows.push(vec![
+            one.id.clone(),
+            figure(extreme(f64::min), 5),
+            figure(extreme(f64::max), 5),
+            figure(sigma, 2),
+            probability(one.ln_p.exp()).trim_start_matches("= ").into(),
+            probability(one.ln_p_beside.exp()).trim_start_matches("= ").into(),
+            (*unit).into(),
+        ]);
+    }
+    rows
+}
+
+/// The conditions of the run that is predicted.
+pub(super) fn predicted_run(history: &RunHistory) -> String {
+    let Conditions { date, since_power_on, temperature, .. } = history.next;
+    let mut under: Vec<String> = Vec::new();
+    under.extend(date.map(|days| date_text(days * 86_400.0)));
+    under.extend(
+        since_power_on.map(|time| format!("{} min after power-on", figure(time / 60.0, 3))),
+    );
+    under.extend(temperature.map(|value| format!("{value:.1} °C")));
+    under.push("another power-on".into());
+    format!("Forecast of the next run: {}", under.join(", "))
+}
+
+/// The forecasts as a table.
+pub(super) fn forecasts(history: &RunHistory) -> Vec<Vec<String>> {
+    let mut rows =
+        vec![["parameter", "mean", "1σ", "95 % from", "to", "unit"].map(String::from).to_vec()];
+    let parameters = history.history.quantities().iter().zip(&history.units);
+    for ((one, unit), predicted) in parameters.zip(&history.forecasts) {
+        match predicted {
+            Predicted::Forecast(forecast) => {
+                let (low, high) = forecast.interval(super::INTERVAL);
+                rows.push(vec![
+                    one.id.clone(),
+                    figure(forecast.mean(), 5),
+                    figure(forecast.sigma(), 2),
+                    figure(low, 5),
+                    figure(high, 5),
+                    (*unit).into(),
+                ]);
+            }
+            Predicted::Lacks(why) => {
+                let dash = || "–".to_string();
+                rows.push(vec![one.id.clone(), dash(), dash(), dash(), dash(), why.clone()]);
+            }
+        }
+    }
+    rows
+}
+
+/// How well runs are predicted, as a table.
+pub(super) fn scores(history: &RunHistory) -> Vec<Vec<String>> {
+    let head = ["parameter", "inside 95 %", "CRPS", "last value", "mean", "line", "unit"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    let parameters = history.history.quantities().iter().zip(&history.units);
+    for ((one, unit), score) in parameters.zip(&history.scores) {
+        let Some(crps) = score.crps else { continue };
+        let inside = score.runs.iter().filter(|(_, forecast, value, _)| {
+            let (low, high) = forecast.interval(super::INTERVAL);
+            low <= *value && *value <= high
+        });
+        let mut row = vec![one.id.clone(), format!("{} of {}", inside.count(), score.runs.len())];
+        row.extend(crps.map(|crps| figure(crps, 3)));
+        row.push((*unit).into());
+        rows.push(row);
+    }
+    rows
+}
