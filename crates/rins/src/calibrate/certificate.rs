@@ -18,6 +18,7 @@ use rins_terms::{
 };
 
 use crate::check::steady_rates;
+use crate::history::RunComparison;
 use crate::log::repairs;
 use crate::options::NoiseChoice;
 use crate::preparation::{EstimationProblem, Prepared};
@@ -50,6 +51,8 @@ pub(crate) struct Certificate {
     pub(crate) noise: NoiseChoice,
     /// What else was found that the model is to hold, such as noise: what it adds to no signal.
     pub(crate) besides: Vec<TermInstance>,
+    /// The parameters of the sensors in each log by itself, if there are several.
+    pub(crate) comparison: Option<RunComparison>,
     /// What else a reader must know.
     pub(crate) remarks: Vec<String>,
 }
@@ -108,7 +111,8 @@ impl Certificate {
         };
         drop(stage);
         let fit = fit.with_context(|| case.names())?;
-        Self::with(case, fit)
+        let comparison = RunComparison::of_logs(&case, progress);
+        Ok(Self { comparison, ..Self::with(case, fit)? })
     }
 
     /// What follows from a case and what was estimated from it.
@@ -175,6 +179,7 @@ impl Certificate {
             consistency,
             noise,
             besides,
+            comparison: None,
             remarks,
         })
     }

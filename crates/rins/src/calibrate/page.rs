@@ -15,6 +15,7 @@ use super::departure::departure_in_words;
 use super::noise::{noise_section, noise_sentence};
 use crate::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::free_navigation::{gain_sentence, navigation_section};
+use crate::history::RunComparison;
 use crate::identifiability::{badge, gauge_sentences, observability, rank_sentence};
 use crate::table::aligned;
 
@@ -75,6 +76,9 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         .into_iter()
         .map(|of| departure_in_words(certificate, of) + ".")
         .collect();
+    if let Some(comparison) = &certificate.comparison {
+        sentences.extend(comparison.in_words());
+    }
     let gains = certificate.runs.iter().map(|run| {
         let gain = gain_sentence("the estimated errors", &run.before, &run.after);
         if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
@@ -90,6 +94,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
 /// The report page.
 pub(super) fn certificate_report(certificate: &Certificate) -> Report {
     let mut sections = vec![parameters_section(certificate), correlation_section(certificate)];
+    sections.extend(certificate.comparison.as_ref().map(RunComparison::section));
     let several = certificate.runs.len() > 1;
     let of = |heading: &str, run: &CertifiedRun| {
         if several { format!("{heading}: {}", run.prepared.name) } else { heading.to_owned() }

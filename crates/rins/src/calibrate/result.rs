@@ -11,6 +11,7 @@ use super::compensation::EQUATION;
 use super::departure::quantity;
 use crate::consistency::ConsistencyResult;
 use crate::free_navigation::BeforeAfterResult;
+use crate::history::{HomogeneityResult, RunComparison, VariationResult};
 use crate::identifiability::{IdentifiabilityResult, ObservabilityResult, coefficient, meaning};
 use crate::log::StaticIntervalResult;
 use crate::options::NoiseChoice;
@@ -42,6 +43,12 @@ pub struct CalibrateResult {
     pub consistency: ConsistencyResult,
     /// What lies more than four sigmas off what was stated beforehand, the furthest first.
     pub prior_consistency: Vec<DepartureResult>,
+    /// Of several runs, the test of each parameter of the sensors whether it is the same in all: each run was estimated by itself.
+    #[serde(default)]
+    pub homogeneity: Vec<HomogeneityResult>,
+    /// How parameters vary between the runs, the most significant first.
+    #[serde(default)]
+    pub variations: Vec<VariationResult>,
     /// The iterations of the estimate; none of the paper's filter.
     pub iterations: Vec<IterationResult>,
     /// The log-likelihood \[nats\]; null of the paper's filter.
@@ -215,6 +222,8 @@ impl CalibrateResult {
             navigation: BeforeAfterResult::of(&first.before, &first.after),
             consistency: (&certificate.consistency).into(),
             prior_consistency: departures(certificate),
+            homogeneity: of_comparison(certificate, HomogeneityResult::all),
+            variations: of_comparison(certificate, VariationResult::all),
             iterations: iterations.collect(),
             log_likelihood: Some(fit.log_likelihood),
             noise: Some(certificate.into()),
@@ -227,6 +236,11 @@ impl CalibrateResult {
             repairs: certificate.repairs(),
         }
     }
+}
+
+/// What the comparison of the runs says, if there are several.
+fn of_comparison<T>(certificate: &Certificate, of: fn(&RunComparison) -> Vec<T>) -> Vec<T> {
+    certificate.comparison.as_ref().map(of).unwrap_or_default()
 }
 
 /// The static intervals of all runs, each with the run that it is in.

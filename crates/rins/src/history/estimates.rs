@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
 use rins_history::{Conditions, History, Quantity, RunEstimate};
-use rins_io::{Calibration, Parameter, parameters};
+use rins_io::{Calibration, Measured, Parameter, parameters};
 
 use super::source::Source;
 
@@ -50,7 +50,9 @@ impl Observed {
 
     /// The history of these parameters.
     pub(super) fn history(&self, sources: &[Source]) -> anyhow::Result<History> {
-        let conditions = conditions(sources);
+        let measured: Vec<Measured> =
+            sources.iter().map(|source| source.calibration.measured.clone()).collect();
+        let conditions = conditions(&measured);
         let runs = sources.iter().zip(&conditions);
         let runs = runs.map(|(source, conditions)| {
             self.estimate(&source.calibration, *conditions).with_context(|| source.name.clone())
@@ -133,27 +135,26 @@ fn without(information: &DMatrix<f64>, known: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// The conditions of all runs: units by serial number, power-ons by series.
-fn conditions(sources: &[Source]) -> Vec<Conditions> {
-    let measured = || sources.iter().map(|source| &source.calibration.measured);
+pub(super) fn conditions(measured: &[Measured]) -> Vec<Conditions> {
     let mut units: BTreeMap<Option<&String>, usize> = BTreeMap::new();
-    for one in measured() {
+    for one in measured {
         let next = units.len();
         units.entry(one.serial.as_ref()).or_insert(next);
     }
     // The first start of each power-on that several runs share.
     let mut first: BTreeMap<(Option<&String>, &String), f64> = BTreeMap::new();
-    for one in measured() {
+    for one in measured {
         if let (Some(series), Some(started)) = (&one.series, &one.started) {
             let earliest = first.entry((one.serial.as_ref(), series)).or_insert(started.seconds);
             *earliest = earliest.min(started.seconds);
         }
     }
     let mut power_ons: Vec<(Option<&String>, &String)> = Vec::new();
-    let mut all = Vec::with_capacity(sources.len());
-    for (place, one) in measured().enumerate() {
+    let mut all = Vec::with_capacity(measured.len());
+    for (place, one) in measured.iter().enumerate() {
         let power_on = match &one.series {
             // A run without a series has a power-on of its own.
-            None => sources.len() + place,
+            None => measured.len() + place,
             Some(series) => {
                 let key = (one.serial.as_ref(), series);
                 power_ons.iter().position(|other| *other == key).unwrap_or_else(|| {

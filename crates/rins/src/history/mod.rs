@@ -1,5 +1,6 @@
 //! How the parameters of an IMU vary between runs: homogeneity, causes, and the next run.
 
+mod comparison;
 mod estimates;
 mod outcome;
 mod page;
@@ -9,21 +10,17 @@ mod text;
 
 use std::path::PathBuf;
 
-use rins_history::{
-    Cause, Conditions, Explanation, Forecast, History, Homogeneity, Past, baselines,
-};
+use rins_history::{Conditions, Explanation, Forecast, History, Past, baselines};
 
+pub(crate) use self::comparison::RunComparison;
 use self::estimates::Observed;
 pub use self::result::{
-    AlternativeResult, CauseResult, ForecastResult, HistoryResult, HomogeneityResult,
-    IntervalResult, PredictionResult, RunConditionsResult, RunValueResult, ScoreResult,
+    AlternativeResult, ForecastResult, HistoryResult, HomogeneityResult, IntervalResult,
+    PredictionResult, RunConditionsResult, RunValueResult, ScoreResult, VariationResult,
 };
 use self::source::sources;
 use crate::error::Result;
 use crate::progress::Progress;
-
-/// The family-wise significance level of the homogeneity test.
-pub(crate) const SIGNIFICANT: f64 = 0.01;
 
 /// The probability of the intervals of a forecast.
 pub(crate) const INTERVAL: f64 = 0.95;
@@ -47,11 +44,7 @@ pub struct HistoryOptions {
 /// The history of the parameters of an IMU, or of several.
 #[derive(Clone, Debug)]
 pub struct RunHistory {
-    names: Vec<String>,
-    units: Vec<&'static str>,
-    history: History,
-    homogeneity: Vec<Homogeneity>,
-    explanation: Explanation,
+    comparison: RunComparison,
     /// The conditions of the run that is predicted.
     next: Conditions,
     /// Of every parameter, its forecast in that run, or why there is none.
@@ -125,23 +118,15 @@ fn of_paths(paths: &[PathBuf], options: &HistoryOptions) -> anyhow::Result<RunHi
                 .into(),
         );
     }
-    let explanation = history.explain();
-    let next = next(&history, options);
-    let forecasts = (0..observed.ids.len()).map(|place| predicted(&explanation, place, next));
+    let names = sources.into_iter().map(|source| source.name).collect();
+    let parameters = observed.ids.len();
+    let comparison = RunComparison::of(names, observed.units, history);
+    let next = next(&comparison.history, options);
+    let forecasts = (0..parameters).map(|place| predicted(&comparison.explanation, place, next));
     let forecasts = forecasts.collect();
-    let scores = scores(&history)?;
+    let scores = scores(&comparison.history)?;
     drop(stage);
-    Ok(RunHistory {
-        names: sources.into_iter().map(|source| source.name).collect(),
-        units: observed.units,
-        homogeneity: history.homogeneity(),
-        explanation,
-        next,
-        forecasts,
-        scores,
-        remarks,
-        history,
-    })
+    Ok(RunHistory { comparison, next, forecasts, scores, remarks })
 }
 
 fn predicted(explanation: &Explanation, place: usize, conditions: Conditions) -> Predicted {
@@ -215,23 +200,4 @@ fn scores(history: &History) -> anyhow::Result<Vec<Score>> {
         score.crps = (count > 0.0).then(|| sum.map(|sum| sum / count));
     }
     Ok(scores)
-}
-
-impl RunHistory {
-    /// The parameters that are not the same in all runs, and would not be if those that differ more were free.
-    fn inhomogeneous(&self) -> impl Iterator<Item = &Homogeneity> {
-        let level = (SIGNIFICANT / self.homogeneity.len() as f64).ln();
-        self.homogeneity.iter().filter(move |one| one.ln_p.max(one.ln_p_beside) < level)
-    }
-
-    /// The causes.
-    fn causes(&self) -> &[Cause] {
-        self.explanation.causes()
-    }
-
-    /// The unit of a parameter.
-    fn unit(&self, id: &str) -> &'static str {
-        let place = self.history.quantities().iter().position(|one| one.id == id);
-        place.map_or("", |place| self.units[place])
-    }
 }

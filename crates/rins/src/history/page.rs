@@ -3,6 +3,7 @@
 use rins_report::{Band, Item, Plot, Report, Section, Series, Style};
 
 use super::RunHistory;
+use super::comparison::HOMOGENEITY;
 use super::text::{forecasts, homogeneity, predicted_run, scores, summary, title};
 use crate::table::report_table;
 
@@ -13,11 +14,9 @@ pub(super) fn history_report(history: &RunHistory) -> Report {
         table.caption = caption.into();
         Item::Table(table)
     };
-    let mut over_runs: Vec<Item> = vec![table(
-        &homogeneity(history),
-        "Test of homogeneity. p: all other parameters are the same in all runs; beside others: those with smaller p-values are not",
-    )];
-    over_runs.extend((0..history.units.len()).map(|place| Item::Plot(plot(history, place))));
+    let mut over_runs: Vec<Item> = vec![table(&homogeneity(&history.comparison), HOMOGENEITY)];
+    over_runs
+        .extend((0..history.comparison.units.len()).map(|place| Item::Plot(plot(history, place))));
     let mut sections = vec![
         Section {
             heading: "Between runs".into(),
@@ -50,7 +49,7 @@ pub(super) fn history_report(history: &RunHistory) -> Report {
     Report {
         title: title(history),
         subtitle: "rins history".into(),
-        summary: summary(history),
+        summary: summary(&history.comparison),
         sections,
     }
 }
@@ -60,7 +59,7 @@ const WITHIN: f64 = 1.96;
 
 /// A parameter over the runs.
 fn plot(history: &RunHistory, place: usize) -> Plot {
-    let runs = history.history.runs();
+    let runs = history.comparison.history.runs();
     let dated = runs.iter().all(|run| run.conditions.date.is_some());
     let first = runs.first().and_then(|run| run.conditions.date).unwrap_or(0.0);
     let x = |run: usize| match runs[run].conditions.date.filter(|_| dated) {
@@ -71,7 +70,7 @@ fn plot(history: &RunHistory, place: usize) -> Plot {
         .filter_map(|run| runs[run].value(place).map(|(value, sigma)| (x(run), value, sigma)))
         .collect();
     let column = |of: fn(&(f64, f64, f64)) -> f64| -> Vec<f64> { seen.iter().map(of).collect() };
-    let id = &history.history.quantities()[place].id;
+    let id = &history.comparison.history.quantities()[place].id;
     let predicted = &history.scores[place].runs;
     let ends: Vec<(f64, f64, f64)> = predicted
         .iter()
@@ -97,7 +96,7 @@ fn plot(history: &RunHistory, place: usize) -> Plot {
     Plot {
         title: id.clone(),
         x_label: if dated { "Days since the first run".into() } else { "Run".into() },
-        y_label: format!("{id} [{}]", history.units[place]),
+        y_label: format!("{id} [{}]", history.comparison.units[place]),
         bands,
         series: vec![Series {
             name: "estimate".into(),

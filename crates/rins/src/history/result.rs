@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::text::amount;
-use super::{INTERVAL, Predicted, RunHistory, Score};
+use super::{INTERVAL, Predicted, RunComparison, RunHistory, Score};
 use crate::values::EstimateResult;
 
 /// The result of `rins history`.
@@ -20,7 +20,7 @@ pub struct HistoryResult {
     /// The test of each parameter whether it is the same in all runs.
     pub homogeneity: Vec<HomogeneityResult>,
     /// How parameters vary between runs, the most significant first.
-    pub causes: Vec<CauseResult>,
+    pub causes: Vec<VariationResult>,
     /// Each parameter in the run that is predicted.
     pub forecast: Vec<ForecastResult>,
     /// The conditions of that run.
@@ -69,7 +69,7 @@ pub struct HomogeneityResult {
 
 /// A parameter that varies between runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CauseResult {
+pub struct VariationResult {
     /// The parameter.
     pub id: String,
     /// The variation: `drift`, `drift_since_power_on`, `warm_up`, `temperature_linear`, `temperature_quadratic`, `temperature_cubic`,
@@ -183,7 +183,13 @@ fn interval(forecast: &Forecast) -> IntervalResult {
 }
 
 impl HomogeneityResult {
-    pub(crate) fn of(one: &Homogeneity, unit: &str) -> Self {
+    /// Of all parameters.
+    pub(crate) fn all(comparison: &RunComparison) -> Vec<Self> {
+        let each = comparison.homogeneity.iter().zip(&comparison.units);
+        each.map(|(one, unit)| Self::of(one, unit)).collect()
+    }
+
+    fn of(one: &Homogeneity, unit: &str) -> Self {
         let values = one.values.iter();
         Self {
             id: one.id.clone(),
@@ -199,8 +205,13 @@ impl HomogeneityResult {
     }
 }
 
-impl CauseResult {
-    fn of(history: &RunHistory, cause: &Cause) -> Self {
+impl VariationResult {
+    /// Of all causes.
+    pub(crate) fn all(comparison: &RunComparison) -> Vec<Self> {
+        comparison.causes().iter().map(|cause| Self::of(comparison, cause)).collect()
+    }
+
+    fn of(comparison: &RunComparison, cause: &Cause) -> Self {
         let alternative = |one: &rins_history::Alternative| AlternativeResult {
             id: one.id.clone(),
             variation: one.kind.id().into(),
@@ -211,8 +222,8 @@ impl CauseResult {
             variation: cause.variation.kind().id().into(),
             across: "runs".into(),
             p_value: cause.ln_p.exp(),
-            meaning: format!("{}: {}", cause.variation.kind().name(), amount(history, cause)),
-            unit: history.unit(&cause.id).into(),
+            meaning: format!("{}: {}", cause.variation.kind().name(), amount(comparison, cause)),
+            unit: comparison.unit(&cause.id).into(),
             amplitudes: cause
                 .amplitudes
                 .iter()
@@ -250,8 +261,9 @@ impl PredictionResult {
 
 impl From<&RunHistory> for HistoryResult {
     fn from(of: &RunHistory) -> Self {
-        let runs = of.names.iter().zip(of.history.runs());
-        let parameters = || of.history.quantities().iter().zip(&of.units);
+        let comparison = &of.comparison;
+        let runs = comparison.names.iter().zip(comparison.history.runs());
+        let parameters = || comparison.history.quantities().iter().zip(&comparison.units);
         let forecast = |((one, unit), forecast): ((&rins_history::Quantity, &&str), &Predicted)| {
             let (found, why) = match forecast {
                 Predicted::Forecast(forecast) => (Some(forecast), None),
@@ -271,13 +283,8 @@ impl From<&RunHistory> for HistoryResult {
             runs: runs
                 .map(|(name, run)| RunConditionsResult::of(Some(name.clone()), &run.conditions))
                 .collect(),
-            homogeneity: of
-                .homogeneity
-                .iter()
-                .zip(&of.units)
-                .map(|(one, unit)| HomogeneityResult::of(one, unit))
-                .collect(),
-            causes: of.causes().iter().map(|cause| CauseResult::of(of, cause)).collect(),
+            homogeneity: HomogeneityResult::all(comparison),
+            causes: VariationResult::all(comparison),
             forecast: parameters().zip(&of.forecasts).map(forecast).collect(),
             forecast_conditions: RunConditionsResult::of(None, &of.next),
             prediction: parameters()

@@ -6,7 +6,7 @@ use rins_history::{Cause, Conditions, Variation};
 use rins_io::date_text;
 use rins_report::number::{estimate, figure};
 
-use super::{Predicted, RunHistory};
+use super::{Predicted, RunComparison, RunHistory};
 use crate::consistency::probability;
 use crate::table::aligned;
 
@@ -14,10 +14,10 @@ use crate::table::aligned;
 pub(super) fn history_text(history: &RunHistory) -> String {
     let mut text = format!("{}\n", title(history));
     // Writing to a string cannot fail, here and below.
-    for sentence in summary(history) {
+    for sentence in summary(&history.comparison) {
         let _ = writeln!(text, "  {sentence}");
     }
-    let _ = write!(text, "\n{}", aligned(&homogeneity(history)));
+    let _ = write!(text, "\n{}", aligned(&homogeneity(&history.comparison)));
     let _ = write!(text, "\n  {}\n{}", predicted_run(history), aligned(&forecasts(history)));
     let scores = scores(history);
     if scores.len() > 1 {
@@ -30,13 +30,13 @@ pub(super) fn history_text(history: &RunHistory) -> String {
 }
 
 pub(super) fn title(history: &RunHistory) -> String {
-    format!("History of {} runs", history.names.len())
+    format!("History of {} runs", history.comparison.names.len())
 }
 
 /// What varies, and how.
-pub(super) fn summary(history: &RunHistory) -> Vec<String> {
-    let total = history.homogeneity.len();
-    let differing: Vec<&str> = history.inhomogeneous().map(|one| one.id.as_str()).collect();
+pub(crate) fn summary(comparison: &RunComparison) -> Vec<String> {
+    let total = comparison.homogeneity.len();
+    let differing: Vec<&str> = comparison.inhomogeneous().map(|one| one.id.as_str()).collect();
     let mut sentences = vec![if differing.is_empty() {
         format!(
             "None of {total} parameters differs significantly between the runs (p > 0.01, family-wise)."
@@ -48,12 +48,12 @@ pub(super) fn summary(history: &RunHistory) -> Vec<String> {
             differing.join(", ")
         )
     }];
-    for cause in history.causes() {
+    for cause in comparison.causes() {
         sentences.push(format!(
             "{}: {}, {}; p {}.",
             cause.id,
             cause.variation.kind().name(),
-            amount(history, cause),
+            amount(comparison, cause),
             probability(cause.ln_p.exp())
         ));
         if let [_, _, ..] = cause.alternatives[..] {
@@ -66,7 +66,7 @@ pub(super) fn summary(history: &RunHistory) -> Vec<String> {
         }
     }
     let is_named = |id: &str| {
-        history
+        comparison
             .causes()
             .iter()
             .any(|cause| cause.id == id || cause.alternatives.iter().any(|one| one.id == id))
@@ -79,9 +79,9 @@ pub(super) fn summary(history: &RunHistory) -> Vec<String> {
 }
 
 /// The size of a variation, with its unit.
-pub(super) fn amount(history: &RunHistory, cause: &Cause) -> String {
-    let unit = history.unit(&cause.id);
-    let runs = history.history.runs();
+pub(super) fn amount(comparison: &RunComparison, cause: &Cause) -> String {
+    let unit = comparison.unit(&cause.id);
+    let runs = comparison.history.runs();
     let range = |of: fn(&Conditions) -> Option<f64>| {
         let all = runs.iter().filter_map(|run| of(&run.conditions));
         let [low, high] = all
@@ -154,7 +154,7 @@ pub(super) fn amount(history: &RunHistory, cause: &Cause) -> String {
             format!("{} {when}", with(first, unit))
         }
         Variation::Unit { unit: which } => format!("unit {} by {}", which + 1, with(first, unit)),
-        Variation::Run { run } => format!("{} by {}", history.names[run], with(first, unit)),
+        Variation::Run { run } => format!("{} by {}", comparison.names[run], with(first, unit)),
     }
 }
 
@@ -173,13 +173,13 @@ fn coefficients(legendre: &[(f64, f64)], range: f64) -> Vec<(f64, f64)> {
 }
 
 /// The test of homogeneity as a table.
-pub(super) fn homogeneity(history: &RunHistory) -> Vec<Vec<String>> {
+pub(crate) fn homogeneity(comparison: &RunComparison) -> Vec<Vec<String>> {
     let mut rows = vec![
         ["parameter", "smallest", "largest", "mean 1σ", "p", "p beside others", "unit"]
             .map(String::from)
             .to_vec(),
     ];
-    for (one, unit) in history.homogeneity.iter().zip(&history.units) {
+    for (one, unit) in comparison.homogeneity.iter().zip(&comparison.units) {
         let values: Vec<(f64, f64)> = one.values.iter().flatten().copied().collect();
         let extreme = |pick: fn(f64, f64) -> f64| {
             values.iter().map(|(value, _)| *value).reduce(pick).unwrap_or(f64::NAN)
@@ -215,7 +215,7 @@ pub(super) fn predicted_run(history: &RunHistory) -> String {
 pub(super) fn forecasts(history: &RunHistory) -> Vec<Vec<String>> {
     let mut rows =
         vec![["parameter", "mean", "1σ", "95 % from", "to", "unit"].map(String::from).to_vec()];
-    let parameters = history.history.quantities().iter().zip(&history.units);
+    let parameters = history.comparison.history.quantities().iter().zip(&history.comparison.units);
     for ((one, unit), predicted) in parameters.zip(&history.forecasts) {
         match predicted {
             Predicted::Forecast(forecast) => {
@@ -242,7 +242,7 @@ pub(super) fn forecasts(history: &RunHistory) -> Vec<Vec<String>> {
 pub(super) fn scores(history: &RunHistory) -> Vec<Vec<String>> {
     let head = ["parameter", "inside 95 %", "CRPS", "last value", "mean", "line", "unit"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    let parameters = history.history.quantities().iter().zip(&history.units);
+    let parameters = history.comparison.history.quantities().iter().zip(&history.comparison.units);
     for ((one, unit), score) in parameters.zip(&history.scores) {
         let Some(crps) = score.crps else { continue };
         let inside = score.runs.iter().filter(|(_, forecast, value, _)| {

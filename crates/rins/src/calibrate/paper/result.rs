@@ -35,6 +35,8 @@ pub(super) fn result(of: &PaperCalibration) -> CalibrateResult {
         navigation: BeforeAfterResult::of(&calibration.before, &calibration.after),
         consistency: (&calibration.consistency).into(),
         prior_consistency: Vec::new(),
+        homogeneity: Vec::new(),
+        variations: Vec::new(),
         iterations: Vec::new(),
         log_likelihood: None,
         noise: None,
