@@ -45,6 +45,7 @@ pub use criticism::noise::stuck;
 pub use criticism::structure::{Stratum, Structure};
 pub use criticism::unexplained::Unexplained;
 pub use diagnosis::{Diagnosis, DiagnosisError, FALSE_ALARMS, diagnose};
+pub use generic::between_runs::same_in_all_runs;
 pub use prediction::drift::Drift;
 pub use prediction::gain::{Gain, GainError, GainVerdict, PredictiveScore};
 pub use prediction::overlay::Overlay;

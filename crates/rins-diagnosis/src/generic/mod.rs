@@ -1,5 +1,6 @@
 //! Structures without a physical cause.
 
+pub(crate) mod between_runs;
 pub(crate) mod disturbance;
 pub(crate) mod waveform;
 

@@ -5,6 +5,7 @@ use rins_terms::{
     GridPoint, Model, Need, Role, Setting, SettingKind, Term, TermInstance, catalogue,
 };
 
+use crate::generic::between_runs;
 use crate::proposal::dead_zone;
 
 /// Choices of a frame, of which a baseline holds all that shows, and the heading, which a survey tells or a baseline estimates.
@@ -47,10 +48,18 @@ pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
         .filter(|term| term.is_signal() && !NEVER_TRIED.iter().any(|other| other.is(term)))
         .filter(|term| term.needs.iter().all(|need| offer(runs, *need)))
         .flat_map(|term| shapes(duration(runs), term))
+        .chain(between_runs(runs, model))
         .map(|candidate| candidate.about(runs))
         .filter(|candidate| has_room(model, &candidate.chosen, duration(runs)))
         .filter(|candidate| !is_latency(runs, &candidate.chosen))
         .collect()
+}
+
+/// What may differ between several runs.
+fn between_runs(runs: &[Run], model: &Model) -> impl Iterator<Item = Candidate> {
+    let all = (runs.len() > 1).then(|| between_runs::of_model(model));
+    let of = |chosen| Candidate { chosen, looks: 1.0, step: None, departs: None };
+    all.into_iter().flatten().map(of)
 }
 
 /// How many terms a search chooses from.

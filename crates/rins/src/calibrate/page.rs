@@ -77,7 +77,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         .map(|of| departure_in_words(certificate, of) + ".")
         .collect();
     if let Some(comparison) = &certificate.comparison {
-        sentences.extend(comparison.in_words());
+        sentences.extend(comparison.differences_of_joint_estimate());
     }
     let gains = certificate.runs.iter().map(|run| {
         let gain = gain_sentence("the estimated errors", &run.before, &run.after);

@@ -7,9 +7,9 @@ use nalgebra::{DMatrix, DVector};
 use rins_design::{Confused, NextTest, next_test};
 use rins_diagnosis::{
     Cause, DiagnosisError, FALSE_ALARMS, Limit, Overlay, Rival, Unexplained, diagnose,
-    false_alarms, limits, stuck, suppose,
+    false_alarms, limits, same_in_all_runs, stuck, suppose,
 };
-use rins_estimation::{Estimate, Fit, Noise, Run};
+use rins_estimation::{Alias, Estimate, Fit, Noise, Run};
 use rins_imu::{ImuSpec, Seed};
 use rins_inspection::Repeats;
 use rins_terms::{Model, TermInstance, Unit};
@@ -17,11 +17,15 @@ use rins_terms::{Model, TermInstance, Unit};
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
 use crate::calibrate::Certificate;
+use crate::history::RunComparison;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// An amplitude beyond the largest usual one by more than this many of its sigmas is not plausible.
 const BEYOND: f64 = 2.0;
+
+/// A parameter is observed if its 1σ is less than this part of the 1σ before.
+const OBSERVED: f64 = 0.5;
 
 /// An estimate was wrong that moves by so many sigmas of such moves by chance, and by its own sigma at least.
 const MOVED: f64 = 3.0;
@@ -61,6 +65,8 @@ pub(crate) struct DiagnosisOutcome {
     pub(crate) by_chance: Option<ByChance>,
     /// What is left of each run, before and after.
     pub(crate) overlays: Vec<[Overlay; 2]>,
+    /// The parameters of the sensors in each log by itself, if there are several.
+    pub(crate) comparison: Option<RunComparison>,
     /// The calibration with the extended model.
     pub(crate) certificate: Certificate,
     /// How long it took \[s\].
@@ -167,6 +173,7 @@ impl DiagnosisOutcome {
                     separating_test(run, &imu, &case.model, (&cause, rival))
                 });
                 let mut named = Named::of(cause, &diagnosis.after, &imu, next);
+                named.show_sums(&diagnosis.after);
                 named.cause = named.cause.along_own(&axes);
                 named
             })
@@ -196,6 +203,7 @@ impl DiagnosisOutcome {
             [&diagnosis.before, &diagnosis.after].map(|fit| Overlay::of(&runs[place], fit, place))
         };
         let overlays = (0..runs.len()).map(left).collect();
+        let comparison = RunComparison::of_logs(&case, progress);
         let mut certificate = Certificate::with(case, diagnosis.after)?;
         certificate.besides = causes.iter().filter_map(|named| no_signal(&named.cause)).collect();
         let seconds = started.elapsed().as_secs_f64();
@@ -211,6 +219,7 @@ impl DiagnosisOutcome {
             limits,
             by_chance,
             overlays,
+            comparison,
             certificate,
             seconds,
         })
@@ -231,6 +240,28 @@ impl DiagnosisOutcome {
 }
 
 impl Named {
+    /// Of an error that differs between runs, shows what it is in each run: its deviation is known but for what is the same in all runs,
+    /// the whole is known.
+    fn show_sums(&mut self, after: &Fit) {
+        let Some(same) = same_in_all_runs(self.cause.term) else { return };
+        let whole = |estimate: &Estimate| {
+            let name = self.cause.term.parameters[estimate.parameter.parameter].name;
+            let common = format!("{}.{name}", same.id);
+            let common = after.parameters.iter().position(|one| one.parameter.id == common)?;
+            let own = after.parameters.iter().position(|one| {
+                one.parameter.id == estimate.parameter.id && one.run == estimate.run
+            })?;
+            let alias = Alias { unknown: common, coefficient: 1.0, exactly: false };
+            let (value, sigma) = after.sum(own, &[alias]);
+            let is_observed = sigma < OBSERVED * estimate.parameter.sigma;
+            is_observed.then(|| Estimate { value, sigma, ..estimate.clone() })
+        };
+        let wholes: Vec<Estimate> = self.cause.parameters.iter().filter_map(whole).collect();
+        if !wholes.is_empty() {
+            self.cause.parameters = wholes;
+        }
+    }
+
     /// A test that cannot be proposed takes nothing from what was found.
     fn of(
         cause: Cause,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rins_diagnosis::{FALSE_ALARMS, Unexplained};
+use rins_diagnosis::{FALSE_ALARMS, Unexplained, same_in_all_runs};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +11,7 @@ use super::measured::GainResult;
 use super::structure::{size_in_words, structure_in_words};
 use crate::calibrate::{DepartureResult, NoiseResult, departures};
 use crate::consistency::ConsistencyResult;
+use crate::history::{HomogeneityResult, RunComparison, VariationResult};
 use crate::settings::settings_in_words;
 
 /// The result of `rins diagnose`.
@@ -48,6 +49,13 @@ pub struct DiagnoseResult {
     pub consistency: ConsistencyResult,
     /// What lies more than four sigmas off what was stated beforehand, with the extended model, the furthest first.
     pub prior_consistency: Vec<DepartureResult>,
+    /// Of several runs, the test of each parameter of the sensors whether it is the same in all: each run was estimated by itself with the
+    /// given model.
+    #[serde(default)]
+    pub homogeneity: Vec<HomogeneityResult>,
+    /// How parameters vary between the runs, the most significant first.
+    #[serde(default)]
+    pub variations: Vec<VariationResult>,
     /// The file of the extended model among the files.
     pub model: String,
     /// How long it took \[s\].
@@ -77,6 +85,9 @@ pub struct CauseResult {
     pub p_value: f64,
     /// Its natural logarithm.
     pub ln_p: f64,
+    /// `runs` if the effect is an error of the sensors that differs between runs; null otherwise.
+    #[serde(default)]
+    pub across: Option<String>,
     /// By how much the log-likelihood rises \[nats\].
     pub delta_log_likelihood: f64,
     /// How many directions of its parameters the runs show.
@@ -226,6 +237,11 @@ pub struct FalseAlarmsResult {
     pub allowed: f64,
 }
 
+/// What the comparison of the runs says, if there are several.
+fn of_comparison<T>(found: &DiagnosisOutcome, of: fn(&RunComparison) -> Vec<T>) -> Vec<T> {
+    found.comparison.as_ref().map(of).unwrap_or_default()
+}
+
 impl DiagnoseResult {
     /// The whole of a diagnosis.
     pub(super) fn of(found: &DiagnosisOutcome) -> Self {
@@ -265,6 +281,8 @@ impl DiagnoseResult {
                 rate: chance.share,
                 allowed: FALSE_ALARMS,
             }),
+            homogeneity: of_comparison(found, HomogeneityResult::all),
+            variations: of_comparison(found, VariationResult::all),
             noise: certificate.into(),
             consistency: (&certificate.consistency).into(),
             prior_consistency: departures(certificate),
@@ -315,6 +333,7 @@ impl CauseResult {
             name: cause.term.name.into(),
             meaning: cause.term.cause.into(),
             equation: cause.term.equation.into(),
+            across: same_in_all_runs(cause.term).map(|_| "runs".into()),
             settings: settings.collect(),
             settings_in_words: settings_in_words(cause.term, &cause.settings, cause.sought),
             p_value: cause.ln_p.exp(),

@@ -44,7 +44,15 @@ fn cause_rows(named: &Named) -> Vec<Vec<String>> {
     let of_parameter = |own: &Estimate| {
         let unit = own.parameter.unit;
         let (value, sigma) = estimate(own.value / unit.factor, own.sigma / unit.factor);
-        vec![own.parameter.id.clone(), value, sigma, unit.symbol.into(), blank(), blank()]
+        let run = own.run.map_or_else(String::new, |run| format!(" (run {})", run + 1));
+        vec![
+            format!("{}{run}", own.parameter.id),
+            value,
+            sigma,
+            unit.symbol.into(),
+            blank(),
+            blank(),
+        ]
     };
     let mut rows: Vec<Vec<String>> = cause.parameters.iter().map(of_parameter).collect();
     if rows.len() > 1 {

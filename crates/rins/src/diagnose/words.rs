@@ -6,6 +6,7 @@ use rins_terms::catalogue;
 use super::found::{ByChance, DiagnosisOutcome, Named, Verdict};
 use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
+use crate::history::RunComparison;
 use crate::settings::{settings_in_words, symbol};
 use rins_report::number::{estimate, figure};
 
@@ -22,6 +23,7 @@ const AHEAD: f64 = 3.0;
 pub(super) fn summary(found: &DiagnosisOutcome) -> Vec<String> {
     let mut sentences = vec![headline(found)];
     sentences.extend(found.causes.iter().filter_map(doubt));
+    sentences.extend(found.comparison.as_ref().into_iter().flat_map(RunComparison::differences));
     sentences.extend(found.unexplained.iter().map(|one| remainder(found, one)));
     if !found.causes.is_empty() {
         sentences.push(damage(found));

@@ -76,15 +76,21 @@ impl RunComparison {
     }
 
     /// What differs between the runs, in words; nothing if nothing does.
-    pub(crate) fn in_words(&self) -> Vec<String> {
-        if self.inhomogeneous().next().is_none() && self.causes().is_empty() {
-            return Vec::new();
+    pub(crate) fn differences(&self) -> Vec<String> {
+        let differ = self.inhomogeneous().next().is_some() || !self.causes().is_empty();
+        if differ { summary(self) } else { Vec::new() }
+    }
+
+    /// The same for an estimate from all runs together.
+    pub(crate) fn differences_of_joint_estimate(&self) -> Vec<String> {
+        let mut sentences = self.differences();
+        if !sentences.is_empty() {
+            sentences.push(
+                "The runs were estimated together as if these parameters were the same in all: their values are means, and their 1σ too \
+                 small."
+                    .into(),
+            );
         }
-        let mut sentences = summary(self);
-        sentences.push(
-            "The runs were estimated together as if these parameters were the same in all: their values are means, and their 1σ too small."
-                .into(),
-        );
         sentences
     }
 
