@@ -42,7 +42,7 @@ pub(crate) fn run(root: &Path, options: &Options) -> Result<()> {
 }
 
 /// The revision of the workspace, with its date.
-fn revision(root: &Path) -> Result<String> {
+pub(crate) fn revision(root: &Path) -> Result<String> {
     let asked = ["log", "-1", "--format=%h (%cs)"];
     let output = Command::new("git").args(asked).current_dir(root).output()?;
     if !output.status.success() {

@@ -14,6 +14,7 @@ mod coverage;
 mod doc;
 mod false_alarms;
 mod fuzz;
+mod histories;
 mod manifest;
 mod reproduce;
 mod tidy;
@@ -45,6 +46,8 @@ enum Command {
     FalseAlarms(false_alarms::Options),
     /// Fuzz all readers of files, each target for some seconds
     Fuzz(fuzz::Options),
+    /// Simulate campaigns of runs, and score what is named and predicted between the runs
+    Histories(histories::Options),
     /// Run the paper's experiments and write the book's page about them
     Reproduce(reproduce::Options),
     /// Check the rules of CONTRIBUTING.md that rustc and clippy cannot
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
         Command::Doc => doc::run(&root),
         Command::FalseAlarms(options) => false_alarms::run(&root, &options),
         Command::Fuzz(options) => fuzz::run(&root, &options),
+        Command::Histories(options) => histories::run(&root, &options),
         Command::Reproduce(options) => reproduce::run(&root, &options),
         Command::Tidy => tidy::run(&root),
         Command::Verify => verify::run(&root),

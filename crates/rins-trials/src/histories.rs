@@ -223,8 +223,12 @@ pub fn history_page(trials: &[HistoryTrial], seed: u64, revision: &str) -> Strin
         let _ = writeln!(page, "| {} | {} | {} |", variety.name(), at(8.0), at(20.0));
     }
     page.push_str(
-        "\nThe last run, predicted from the runs before. The continuous ranked probability score (CRPS) is in units of that of the best \
-         of three simple forecasts (last value, mean, line over the date), each with the spread of its own errors; below one is better.\n\n\
+        "\nThe strength of a unit unlike its fleet is relative to the true spread of the fleet, which has to be estimated from the other \
+         units: few units show little of it.\n",
+    );
+    page.push_str(
+        "\nThe last run, predicted from the runs before. The continuous ranked probability score (CRPS) is relative to those of \
+         three simple forecasts, each with the spread of its own errors: of sums, and in parentheses the geometric mean; below one is better.\n\n\
          | parameters | 95 % interval contains the estimate | CRPS, relative to the last value | the mean | the line |\n\
          | --- | --- | --- | --- | --- |\n",
     );

@@ -50,6 +50,7 @@ mod consistency;
 mod error;
 mod finite;
 mod free_navigation;
+mod homogeneity;
 mod identifiability;
 mod log;
 mod options;
@@ -85,6 +86,7 @@ pub use diagnose::{DiagnoseOptions, diagnose};
 pub use error::{Error, Result};
 pub use free_navigation::{BeforeAfterResult, NavigationResult};
 pub use history::{HistoryOptions, history};
+pub use homogeneity::{HomogeneityResult, VariantResult, VariationResult};
 pub use identifiability::{
     GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
 };

@@ -10,6 +10,7 @@ mod demo;
 mod diagnose;
 mod effects;
 mod help;
+mod history;
 mod hostile;
 mod identifiability;
 mod in_the_hand;

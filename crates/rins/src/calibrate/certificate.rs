@@ -18,7 +18,7 @@ use rins_terms::{
 };
 
 use crate::check::steady_rates;
-use crate::history::RunComparison;
+use crate::homogeneity::RunComparison;
 use crate::log::repairs;
 use crate::options::NoiseChoice;
 use crate::preparation::{EstimationProblem, Prepared};

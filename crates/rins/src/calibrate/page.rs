@@ -15,7 +15,7 @@ use super::departure::departure_in_words;
 use super::noise::{noise_section, noise_sentence};
 use crate::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::free_navigation::{gain_sentence, navigation_section};
-use crate::history::RunComparison;
+use crate::homogeneity::RunComparison;
 use crate::identifiability::{badge, gauge_sentences, observability, rank_sentence};
 use crate::table::aligned;
 

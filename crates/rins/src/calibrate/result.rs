@@ -11,7 +11,7 @@ use super::compensation::EQUATION;
 use super::departure::quantity;
 use crate::consistency::ConsistencyResult;
 use crate::free_navigation::BeforeAfterResult;
-use crate::history::{HomogeneityResult, RunComparison, VariationResult};
+use crate::homogeneity::{HomogeneityResult, RunComparison, VariationResult};
 use crate::identifiability::{IdentifiabilityResult, ObservabilityResult, coefficient, meaning};
 use crate::log::StaticIntervalResult;
 use crate::options::NoiseChoice;

@@ -17,14 +17,14 @@ use rins_terms::{Model, TermInstance, Unit};
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
 use crate::calibrate::Certificate;
-use crate::history::RunComparison;
+use crate::homogeneity::RunComparison;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// An amplitude beyond the largest usual one by more than this many of its sigmas is not plausible.
 const BEYOND: f64 = 2.0;
 
-/// A parameter is observed if its 1σ is less than this part of the 1σ before.
+/// A parameter is observed if its 1σ is less than this part of the 1σ of the data sheet.
 const OBSERVED: f64 = 0.5;
 
 /// An estimate was wrong that moves by so many sigmas of such moves by chance, and by its own sigma at least.
@@ -173,7 +173,7 @@ impl DiagnosisOutcome {
                     separating_test(run, &imu, &case.model, (&cause, rival))
                 });
                 let mut named = Named::of(cause, &diagnosis.after, &imu, next);
-                named.show_sums(&diagnosis.after);
+                named.show_sums(&diagnosis.after, &imu);
                 named.cause = named.cause.along_own(&axes);
                 named
             })
@@ -242,18 +242,18 @@ impl DiagnosisOutcome {
 impl Named {
     /// Of an error that differs between runs, shows what it is in each run: its deviation is known but for what is the same in all runs,
     /// the whole is known.
-    fn show_sums(&mut self, after: &Fit) {
+    fn show_sums(&mut self, after: &Fit, imu: &ImuSpec) {
         let Some(same) = same_in_all_runs(self.cause.term) else { return };
         let whole = |estimate: &Estimate| {
-            let name = self.cause.term.parameters[estimate.parameter.parameter].name;
-            let common = format!("{}.{name}", same.id);
+            let parameter = &self.cause.term.parameters[estimate.parameter.parameter];
+            let common = format!("{}.{}", same.id, parameter.name);
             let common = after.parameters.iter().position(|one| one.parameter.id == common)?;
             let own = after.parameters.iter().position(|one| {
                 one.parameter.id == estimate.parameter.id && one.run == estimate.run
             })?;
             let alias = Alias { unknown: common, coefficient: 1.0, exactly: false };
             let (value, sigma) = after.sum(own, &[alias]);
-            let is_observed = sigma < OBSERVED * estimate.parameter.sigma;
+            let is_observed = sigma < OBSERVED * parameter.sigma(imu);
             is_observed.then(|| Estimate { value, sigma, ..estimate.clone() })
         };
         let wholes: Vec<Estimate> = self.cause.parameters.iter().filter_map(whole).collect();

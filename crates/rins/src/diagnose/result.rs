@@ -11,7 +11,7 @@ use super::measured::GainResult;
 use super::structure::{size_in_words, structure_in_words};
 use crate::calibrate::{DepartureResult, NoiseResult, departures};
 use crate::consistency::ConsistencyResult;
-use crate::history::{HomogeneityResult, RunComparison, VariationResult};
+use crate::homogeneity::{HomogeneityResult, RunComparison, VariationResult};
 use crate::settings::settings_in_words;
 
 /// The result of `rins diagnose`.

@@ -6,7 +6,7 @@ use rins_terms::catalogue;
 use super::found::{ByChance, DiagnosisOutcome, Named, Verdict};
 use super::gain::gain_sentence;
 use super::structure::{size_in_words, structure_in_words};
-use crate::history::RunComparison;
+use crate::homogeneity::RunComparison;
 use crate::settings::{settings_in_words, symbol};
 use rins_report::number::{estimate, figure};
 

@@ -1,13 +1,12 @@
 //! What calibrations say of the parameters, and the conditions of their runs.
 
-use std::collections::BTreeMap;
-
 use anyhow::Context;
 use nalgebra::{DMatrix, DVector};
 use rins_history::{Conditions, History, Quantity, RunEstimate};
 use rins_io::{Calibration, Measured, Parameter, parameters};
 
 use super::source::Source;
+use crate::homogeneity::conditions;
 
 /// A parameter counts as observed by a run if its 1σ is this part of the 1σ before at most.
 const OBSERVED: f64 = 0.5;
@@ -18,8 +17,6 @@ const TYPICAL: (f64, f64) = (0.01, 3.0);
 
 /// The same relative to the smallest 1σ of the estimates, of a calibration that does not state what was known before.
 const UNSTATED: (f64, f64) = (1.0, 1e3);
-
-const DAY: f64 = 86_400.0;
 
 /// The parameters that at least two runs observe: their ids and units.
 pub(super) struct Observed {
@@ -132,50 +129,4 @@ fn without(information: &DMatrix<f64>, known: &DMatrix<f64>) -> DMatrix<f64> {
     let kept = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0)));
     let scaled = &eigen.eigenvectors * kept * eigen.eigenvectors.transpose();
     DMatrix::from_fn(n, n, |a, b| scaled[(a, b)] * unit(a) * unit(b))
-}
-
-/// The conditions of all runs: units by serial number, power-ons by series.
-pub(super) fn conditions(measured: &[Measured]) -> Vec<Conditions> {
-    let mut units: BTreeMap<Option<&String>, usize> = BTreeMap::new();
-    for one in measured {
-        let next = units.len();
-        units.entry(one.serial.as_ref()).or_insert(next);
-    }
-    // The first start of each power-on that several runs share.
-    let mut first: BTreeMap<(Option<&String>, &String), f64> = BTreeMap::new();
-    for one in measured {
-        if let (Some(series), Some(started)) = (&one.series, &one.started) {
-            let earliest = first.entry((one.serial.as_ref(), series)).or_insert(started.seconds);
-            *earliest = earliest.min(started.seconds);
-        }
-    }
-    let mut power_ons: Vec<(Option<&String>, &String)> = Vec::new();
-    let mut all = Vec::with_capacity(measured.len());
-    for (place, one) in measured.iter().enumerate() {
-        let power_on = match &one.series {
-            // A run without a series has a power-on of its own.
-            None => measured.len() + place,
-            Some(series) => {
-                let key = (one.serial.as_ref(), series);
-                power_ons.iter().position(|other| *other == key).unwrap_or_else(|| {
-                    power_ons.push(key);
-                    power_ons.len() - 1
-                })
-            }
-        };
-        let started = one.started.as_ref().map(|started| started.seconds);
-        let since_first = one
-            .series
-            .as_ref()
-            .and_then(|series| Some(started? - first.get(&(one.serial.as_ref(), series))?));
-        all.push(Conditions {
-            unit: units[&one.serial.as_ref()],
-            power_on,
-            date: started.map(|seconds| seconds / DAY),
-            since_power_on: one.since_power_on.or(since_first),
-            temperature: one.temperature,
-            warming: one.warming,
-        });
-    }
-    all
 }

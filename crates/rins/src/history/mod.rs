@@ -1,6 +1,5 @@
 //! How the parameters of an IMU vary between runs: homogeneity, causes, and the next run.
 
-mod comparison;
 mod estimates;
 mod outcome;
 mod page;
@@ -12,14 +11,14 @@ use std::path::PathBuf;
 
 use rins_history::{Conditions, Explanation, Forecast, History, Past, baselines};
 
-pub(crate) use self::comparison::RunComparison;
 use self::estimates::Observed;
 pub use self::result::{
-    AlternativeResult, ForecastResult, HistoryResult, HomogeneityResult, IntervalResult,
-    PredictionResult, RunConditionsResult, RunValueResult, ScoreResult, VariationResult,
+    ForecastResult, HistoryResult, IntervalResult, PredictionResult, RunConditionsResult,
+    RunValueResult, ScoreResult,
 };
 use self::source::sources;
 use crate::error::Result;
+use crate::homogeneity::RunComparison;
 use crate::progress::Progress;
 
 /// The probability of the intervals of a forecast.

@@ -3,8 +3,8 @@
 use rins_report::{Band, Item, Plot, Report, Section, Series, Style};
 
 use super::RunHistory;
-use super::comparison::HOMOGENEITY;
-use super::text::{forecasts, homogeneity, predicted_run, scores, summary, title};
+use super::text::{forecasts, predicted_run, scores, title};
+use crate::homogeneity::{HOMOGENEITY, homogeneity, summary};
 use crate::table::report_table;
 
 /// The report page.

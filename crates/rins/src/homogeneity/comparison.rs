@@ -5,22 +5,15 @@ use rins_frames::SignedAxes;
 use rins_history::{Cause, Conditions, Explanation, History, Homogeneity, Quantity, RunEstimate};
 use rins_imu::ImuSpec;
 use rins_io::Measured;
-use rins_report::{Item, Section};
 use rins_terms::Owner;
 
-use super::estimates::conditions;
-use super::text::{homogeneity, summary};
+use super::conditions::conditions;
 use crate::log::measured;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
-use crate::table::report_table;
 
 /// The family-wise significance level of the homogeneity test.
 const SIGNIFICANT: f64 = 0.01;
-
-/// The caption of the table of the homogeneity tests.
-pub(super) const HOMOGENEITY: &str = "Test of homogeneity. p: all other parameters are the same in all runs; beside others: those with \
-                                      smaller p-values are not";
 
 /// The parameters of several runs, compared: whether they are the same, and how they vary.
 #[derive(Clone, Debug)]
@@ -38,7 +31,7 @@ pub(crate) struct RunComparison {
 }
 
 impl RunComparison {
-    pub(super) fn of(names: Vec<String>, units: Vec<&'static str>, history: History) -> Self {
+    pub(crate) fn of(names: Vec<String>, units: Vec<&'static str>, history: History) -> Self {
         let (homogeneity, explanation) = (history.homogeneity(), history.explain());
         Self { names, units, history, homogeneity, explanation }
     }
@@ -73,36 +66,6 @@ impl RunComparison {
     pub(crate) fn inhomogeneous(&self) -> impl Iterator<Item = &Homogeneity> {
         let level = (SIGNIFICANT / self.homogeneity.len() as f64).ln();
         self.homogeneity.iter().filter(move |one| one.ln_p.max(one.ln_p_beside) < level)
-    }
-
-    /// What differs between the runs, in words; nothing if nothing does.
-    pub(crate) fn differences(&self) -> Vec<String> {
-        let differ = self.inhomogeneous().next().is_some() || !self.causes().is_empty();
-        if differ { summary(self) } else { Vec::new() }
-    }
-
-    /// The same for an estimate from all runs together.
-    pub(crate) fn differences_of_joint_estimate(&self) -> Vec<String> {
-        let mut sentences = self.differences();
-        if !sentences.is_empty() {
-            sentences.push(
-                "The runs were estimated together as if these parameters were the same in all: their values are means, and their 1σ too \
-                 small."
-                    .into(),
-            );
-        }
-        sentences
-    }
-
-    /// The section of a report page.
-    pub(crate) fn section(&self) -> Section {
-        let mut table = report_table(&homogeneity(self));
-        table.caption = HOMOGENEITY.into();
-        Section {
-            heading: "The same in all runs?".into(),
-            intro: "Each run was estimated by itself.".into(),
-            items: vec![Item::Table(table)],
-        }
     }
 
     /// The causes.
