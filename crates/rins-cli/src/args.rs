@@ -79,10 +79,10 @@ pub(crate) enum Command {
     Calibrate(Calibrate),
     /// Identify unmodeled effects in a run, and measure the gain in predicting held-out data
     ///
-    /// The model is estimated. Every effect of the catalogue is then tested on the residuals, at all event times and
-    /// harmonic orders. The most probable significant effect is added to the model; the result states its p-value and the
-    /// alternatives that this run does not distinguish from it. The search ends when no change of the model is more probable.
-    /// Residual structure that no effect explains is reported as such. An error of units, signs or axes ends the command;
+    /// The model is estimated. Hypotheses of one or several effects of the catalogue, at all event times and harmonic orders, are then
+    /// compared by their marginal likelihood times their prior probability: effects are added, dropped and exchanged until no change
+    /// is more probable. The result states the p-value of each effect and its credible set of alternatives. In several runs, errors of
+    /// the sensors that differ between the runs are hypotheses too. Residual structure that no effect explains is reported as such. An error of units, signs or axes ends the command;
     /// the message states the correction.
     Diagnose(Diagnose),
     /// Predict the observability of parameters under a rotation schedule, and propose the schedule to run next
@@ -108,6 +108,16 @@ pub(crate) enum Command {
     Compare(Compare),
     /// Test whether parameters are the same in several runs, name how they vary (drift, warm-up, temperature, turn-on), and predict the
     /// next run
+    ///
+    /// Compares the estimates of bias, scale error and misalignment from several runs.
+    ///
+    /// Each parameter is tested for homogeneity: is it the same in all runs? Hypotheses of how it varies are compared by their marginal
+    /// likelihood: linear drift over the date or since power-on, exponential warm-up, a polynomial of temperature, thermal hysteresis, turn-on
+    /// repeatability, a random walk, a change at a date, a run or a unit unlike the others. Each cause has a credible set of alternatives. The
+    /// forecast of the next run is the mean over all hypotheses.
+    ///
+    /// The conditions come from the rig files, [run] serial, series (one name for each power-on) and started, and from the
+    /// temperature of the logs.
     History(History),
 }
 

@@ -10,7 +10,7 @@ use rins_testing::{Fault, assert_rows, is, says};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 17] = [
     "",
     "demo",
     "init",
@@ -27,6 +27,7 @@ const COMMANDS: [&str; 16] = [
     "merge",
     "apply",
     "compare",
+    "history",
 ];
 
 /// The assumed width of a terminal.

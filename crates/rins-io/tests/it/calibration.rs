@@ -104,8 +104,26 @@ const CASES: &[(&str, &str, &str)] = &[
     ("[accel]", "[sigma]\ngyro.scale.z = \"1 arcsec\"\n[accel]", "c.toml:10: [sigma] gyro.scale.z: \"1 arcsec\" is an angle, expected a ratio such as \"300 ppm\""),
     ("[accel]", "[sigma]\naccel.bias.x = \"0 ug\"\n[accel]", "c.toml:10: [sigma] accel.bias.x: \"0 ug\" is out of range, expected more than zero"),
     ("[accel]", "[sigma]\naccel.bias.x = \"-1 mg\"\n[accel]", "c.toml:10: [sigma] accel.bias.x: \"-1 mg\" is out of range, expected more than zero"),
+    ("schema = 1", "schema = 1\nmeasured = { serial = \"A7\" }", "c.toml:3: measured: needs schema = 2"),
+    ("schema = 1", "schema = 2\nmeasured = { temperature_is = \"warm\" }", "c.toml:3: [measured] temperature_is: \"warm\" is not known, expected one of \"rising\", \"falling\""),
     ("[accel]", "[sigma.gyro]\nbias = [\"1 deg/h\"]\n[accel]", "c.toml:10: [sigma] gyro.bias: a list, expected a table with the keys x, y, z"),
 ];
+
+/// When and how it was measured, and what was known before, is written and read again.
+#[test]
+fn conditions_are_read_again() {
+    let prior = Parameter { id: "gyro.scale.z".into(), value: 300.0, unit: "ppm" };
+    let text = "[measured]\nserial = \"A \\\"7\\\"\"\nseries = \"morning\"\nstarted = \"2026-11-26T10:00:00Z\"\nsince_power_on = \"600.5 s\"\n\
+                temperature = \"23.25 degC\"\ntemperature_is = \"falling\"\nlaboratory = \"L\"\noperator = \"O\"\nprocedure = \"P\"\n[gyro]\n";
+    let text = TEXT.replacen("schema = 1", "schema = 2", 1).replacen("[gyro]\n", text, 1);
+    let read = Calibration::parse(&text, Path::new("c.toml")).unwrap();
+    assert_eq!((read.measured.temperature, read.measured.warming), (Some(23.25), Some(-1.0)));
+    assert_eq!(read.measured.serial.as_deref(), Some("A \"7\""));
+    let written = Calibration { priors: vec![prior.clone()], ..read };
+    let again = Calibration::parse(&written.to_toml(), Path::new("c.toml")).unwrap();
+    assert_eq!(again.measured, written.measured);
+    assert_eq!(again.priors, [prior]);
+}
 
 #[test]
 fn wrong_calibrations_are_refused_with_file_line_key_and_expectation() {

@@ -79,6 +79,25 @@ fn a_table_profile_is_counted_in_the_sense_that_is_stated() {
     assert!(error.contains("[table] sense") && error.contains("reversed"), "{error}");
 }
 
+#[test]
+fn a_run_says_what_it_is_of() {
+    let rig = parse(&format!(
+        "{RIG}[run]\nid = \"7\"\nserial = \"A7\"\nseries = \"morning\"\nstarted = \"2026-11-26T10:00:00+01:00\"\n\
+         since_power_on = \"20 min\"\nnote = \"warm\"\n[lab]\nname = \"L\"\noperator = \"O\"\nprocedure = \"P\"\n"
+    ))
+    .unwrap();
+    let [id, serial, series, note] =
+        [&rig.run.id, &rig.run.serial, &rig.run.series, &rig.run.note].map(Option::as_deref);
+    assert_eq!([id, serial, series, note], [Some("7"), Some("A7"), Some("morning"), Some("warm")]);
+    assert_close!(rig.run.since_power_on.unwrap(), 1200.0, 1e-9);
+    let later = parse(&format!("{RIG}[run]\nstarted = \"2026-11-26T09:00:01Z\"\n")).unwrap();
+    let seconds = |rig: &Rig| rig.run.started.as_ref().unwrap().seconds;
+    assert_close!(seconds(&later) - seconds(&rig), 1.0, 1e-6);
+    assert_eq!(rig.laboratory.operator.as_deref(), Some("O"));
+    let silent = parse(RIG).unwrap();
+    assert_eq!((silent.run, silent.laboratory), Default::default());
+}
+
 /// A text in a rig file, its replacement, and the message.
 #[rustfmt::skip]
 const CASES: &[(&str, &str, &str)] = &[
@@ -87,8 +106,14 @@ const CASES: &[(&str, &str, &str)] = &[
     ("[attitude]", "[site]", "rig.toml:15: duplicate key"),
     // Sections and keys.
     ("[attitude]", "[atitude]", "rig.toml:15: atitude: unknown key; did you mean \"attitude\"?"),
-    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis, run"),
+    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis, run, lab"),
     ("[attitude]", "[axis]", "rig.toml:16: [axis] roll: unknown key, expected one of spin"),
+    ("[attitude]", "[run]\nserial = \"\"\n[attitude]", "rig.toml:16: [run] serial: \"\" is not allowed, expected a serial number, such as \"FOG-0012\""),
+    ("[attitude]", "[run]\nstarted = \"2026-11-26\"\n[attitude]", "rig.toml:16: [run] started: \"2026-11-26\" is not allowed, expected a date and time with its offset from UTC, such as \"2026-11-26T10:00:00Z\""),
+    ("[attitude]", "[run]\nstarted = 2026\n[attitude]", "rig.toml:16: [run] started: 2026 is a bare number, expected a date and time with its offset from UTC, such as \"2026-11-26T10:00:00Z\""),
+    ("[attitude]", "[run]\nsince_power_on = \"-1 s\"\n[attitude]", "rig.toml:16: [run] since_power_on: \"-1 s\" is out of range, expected zero or more"),
+    ("[attitude]", "[run]\nserials = \"7\"\n[attitude]", "rig.toml:16: [run] serials: unknown key; did you mean \"serial\"?"),
+    ("[attitude]", "[lab]\noperater = \"N. N.\"\n[attitude]", "rig.toml:16: [lab] operater: unknown key; did you mean \"operator\"?"),
     ("latitude = ", "latitud = ", "rig.toml:3: [site] latitud: unknown key; did you mean \"latitude\"?"),
     ("latitude = \"34.25 deg\"\n", "", "rig.toml:2: [site] latitude: missing, expected a latitude such as \"34.25 deg\""),
     ("sigma = \"0.1 deg\"", "", "rig.toml:15: [attitude] sigma: missing, expected an angle such as \"0.1 deg\""),
