@@ -1,5 +1,7 @@
 //! The comparison of runs in words.
 
+use std::collections::BTreeSet;
+
 use rins_history::{Cause, Conditions, Variation};
 use rins_io::date_text;
 use rins_report::number::{estimate, figure};
@@ -49,13 +51,19 @@ impl RunComparison {
 pub(crate) fn summary(comparison: &RunComparison) -> Vec<String> {
     let total = comparison.homogeneity.len();
     let differing: Vec<&str> = comparison.inhomogeneous().map(|one| one.id.as_str()).collect();
+    let units: BTreeSet<usize> =
+        comparison.history.runs().iter().map(|run| run.conditions.unit).collect();
+    let runs = match units.len() {
+        1 => "the runs".into(),
+        units => format!("the runs of {units} units"),
+    };
     let mut sentences = vec![if differing.is_empty() {
         format!(
-            "None of {total} parameters differs significantly between the runs (p > 0.01, family-wise)."
+            "None of {total} parameters differs significantly between {runs} (p > 0.01, family-wise)."
         )
     } else {
         format!(
-            "{} of {total} parameters differ between the runs: {}.",
+            "{} of {total} parameters differ between {runs}: {}.",
             differing.len(),
             differing.join(", ")
         )
@@ -85,7 +93,8 @@ pub(crate) fn summary(comparison: &RunComparison) -> Vec<String> {
     };
     let unnamed: Vec<&str> = differing.into_iter().filter(|id| !is_named(id)).collect();
     if !unnamed.is_empty() {
-        sentences.push(format!("No variation is significant for {}.", unnamed.join(", ")));
+        let but = if units.len() > 1 { " beyond the spread of the units" } else { "" };
+        sentences.push(format!("No variation{but} is significant for {}.", unnamed.join(", ")));
     }
     sentences
 }
