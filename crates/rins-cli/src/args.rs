@@ -82,8 +82,8 @@ pub(crate) enum Command {
     /// The model is estimated. Hypotheses of one or several effects of the catalogue, at all event times and harmonic orders, are then
     /// compared by their marginal likelihood times their prior probability: effects are added, dropped and exchanged until no change
     /// is more probable. The result states the p-value of each effect and its credible set of alternatives. In several runs, errors of
-    /// the sensors that differ between the runs are hypotheses too. Residual structure that no effect explains is reported as such. An error of units, signs or axes ends the command;
-    /// the message states the correction.
+    /// the sensors that differ between the runs are hypotheses too. Residual structure that no effect explains is reported as such. An
+    /// error of units, signs or axes ends the command; the message states the correction.
     Diagnose(Diagnose),
     /// Predict the observability of parameters under a rotation schedule, and propose the schedule to run next
     ///

@@ -77,6 +77,15 @@ struct Weighted {
     ln_weight: f64,
 }
 
+/// The best hypothesis, or it without an effect.
+struct Base<'a> {
+    /// The place of the effect that it lacks.
+    lacks: Option<usize>,
+    scored: Scored,
+    /// What may be added to it, the most probable first.
+    additions: Vec<Addition<'a>>,
+}
+
 impl Explanation {
     pub(crate) fn of(
         ids: Vec<String>,
@@ -86,8 +95,9 @@ impl Explanation {
         let (causes, hypotheses) = (Vec::new(), Vec::new());
         let mut explanation =
             Self { ids, information, conduct, catalogue, best, causes, hypotheses };
-        explanation.causes = explanation.found();
-        explanation.hypotheses = explanation.weighted();
+        let bases = explanation.bases();
+        (explanation.causes, explanation.hypotheses) =
+            (explanation.found(&bases), explanation.weighted(&bases));
         explanation
     }
 
@@ -142,37 +152,46 @@ impl Explanation {
         Ok((!components.is_empty()).then_some(Forecast { components }))
     }
 
-    /// The hypotheses that matter: the best one, it with an effect more or less, and with another in an effect's place.
-    fn weighted(&self) -> Vec<Weighted> {
+    /// The best hypothesis, and it without each of its effects, with what may be added to each.
+    fn bases(&self) -> Vec<Base<'_>> {
         let Some(best) = &self.best else { return Vec::new() };
-        let mut bases = vec![(best.clone(), None)];
-        for place in self.catalogue.always.len()..best.effects.len() {
+        let without = |place: usize| {
             let mut effects = best.effects.clone();
-            let left_out = effects.remove(place);
-            let without = Scored::of(&self.information, &self.catalogue, effects);
-            bases.extend(without.map(|without| (without, Some(left_out))));
-        }
+            effects.remove(place);
+            Some((Some(place), Scored::of(&self.information, &self.catalogue, effects)?))
+        };
+        let fixed = self.catalogue.always.len();
+        let all = std::iter::once(Some((None, best.clone())))
+            .chain((fixed..best.effects.len()).map(without));
+        let base = |(lacks, scored): (Option<usize>, Scored)| {
+            let additions = additions(&self.information, &self.catalogue, &scored);
+            Base { lacks, scored, additions: additions.unwrap_or_default() }
+        };
+        all.flatten().map(base).collect()
+    }
+
+    /// The hypotheses that matter: the best one, it with an effect more or less, and with another in an effect's place.
+    fn weighted(&self, bases: &[Base<'_>]) -> Vec<Weighted> {
+        let Some(best) = &self.best else { return Vec::new() };
         let mut all = Vec::new();
-        for (base, left_out) in &bases {
-            let Scored { effects, scales, score, .. } = base;
-            let more = additions(&self.information, &self.catalogue, base).unwrap_or_default();
-            let alone = Weighted {
-                effects: effects.clone(),
-                scales: scales.clone(),
-                further: None,
-                ln_weight: *score,
-            };
+        for Base { lacks, scored, additions } in bases {
+            let Scored { effects, scales, score, .. } = scored;
             let with = |Addition { effect, ln_odds, scale }: &Addition<'_>| Weighted {
                 effects: effects.iter().chain([*effect]).cloned().collect(),
                 scales: scales.iter().chain([scale]).copied().collect(),
                 further: Some(effect.quantity),
                 ln_weight: score + ln_odds,
             };
-            let is_new = |one: &&Addition<'_>| {
-                left_out.as_ref().is_none_or(|out: &Effect| !out.is(one.effect))
-            };
-            all.extend(more.iter().filter(is_new).map(with));
-            all.push(alone);
+            // With the effect that it lacks it is the best hypothesis again.
+            let is_new =
+                |one: &&Addition<'_>| lacks.is_none_or(|place| !best.effects[place].is(one.effect));
+            all.extend(additions.iter().filter(is_new).map(with));
+            all.push(Weighted {
+                effects: effects.clone(),
+                scales: scales.clone(),
+                further: None,
+                ln_weight: *score,
+            });
         }
         all
     }
@@ -226,29 +245,24 @@ impl Explanation {
     }
 
     /// The causes of the best hypothesis that are probable enough to be named.
-    fn found(&self) -> Vec<Cause> {
+    fn found(&self, bases: &[Base<'_>]) -> Vec<Cause> {
         let Some(best) = &self.best else { return Vec::new() };
-        let fixed = self.catalogue.always.len();
-        let causes = (fixed..best.effects.len()).filter_map(|place| self.cause(best, place));
+        let causes = bases.iter().filter_map(|base| self.cause(best, base.lacks?, &base.additions));
         let mut causes: Vec<Cause> =
             causes.filter(|cause| cause.ln_p < FALSE_ALARMS.ln()).collect();
         causes.sort_by(|a, b| a.ln_p.total_cmp(&b.ln_p));
         causes
     }
 
-    /// An effect of the best hypothesis, with what may be there in its place.
-    fn cause(&self, best: &Scored, place: usize) -> Option<Cause> {
+    /// An effect of the best hypothesis, with all that may be there in its place.
+    fn cause(&self, best: &Scored, place: usize, all: &[Addition<'_>]) -> Option<Cause> {
         let effect = &best.effects[place];
-        let mut others = best.effects.clone();
-        others.remove(place);
-        let without = Scored::of(&self.information, &self.catalogue, others)?;
-        let all = additions(&self.information, &self.catalogue, &without)?;
         let total = log_sum(all.iter().map(|one| one.ln_odds));
         // The odds of the parameters together against nothing are at most so many times those of one.
         let seen = (0..self.ids.len()).filter(|&at| self.information.sees(at)).count();
         let ln_p = ((seen as f64).ln() - total).min(0.0);
         let mut kinds: Vec<(usize, Kind, f64)> = Vec::new();
-        for one in &all {
+        for one in all {
             let Some(kind) = one.effect.variation.map(Variation::kind) else { continue };
             let ln_p = one.ln_odds - total;
             let known = kinds

@@ -40,6 +40,7 @@ pub struct Homogeneity {
 const LARGE: f64 = 0.05;
 
 /// How much a parameter differs between runs.
+#[derive(Clone, Copy)]
 struct Difference {
     chi_square: f64,
     dof: usize,
@@ -98,9 +99,9 @@ impl History {
         let alone = self.differences(&information, &[], &all);
         let mut beside: Vec<f64> = vec![0.0; all.len()];
         let mut free: Vec<usize> = Vec::new();
-        while free.len() < all.len() {
-            let rest: Vec<usize> = all.iter().copied().filter(|at| !free.contains(at)).collect();
-            let tests = self.differences(&information, &free, &rest);
+        // With none free, the tests are those of each alone.
+        let (mut rest, mut tests) = (all, alone.clone());
+        loop {
             let least = rest.iter().zip(&tests).min_by(|a, b| a.1.ln_p().total_cmp(&b.1.ln_p()));
             let Some((&place, test)) = least else { break };
             if test.ln_p() > LARGE.ln() {
@@ -109,6 +110,8 @@ impl History {
             }
             beside[place] = test.ln_p();
             free.push(place);
+            rest.retain(|&at| at != place);
+            tests = self.differences(&information, &free, &rest);
         }
         let of = |((place, quantity), test): ((usize, &Quantity), &Difference)| Homogeneity {
             id: quantity.id.clone(),
