@@ -143,7 +143,7 @@ impl Case<'_> {
         before: &Fit,
         (state, round, tried): (State, &Round, &[Tried]),
     ) -> Result<(Fit, Vec<Cause>), DiagnosisError> {
-        let mut causes = self.causes_of(&state, round, tried)?;
+        let mut causes = self.causes_of(before, &state, round, tried)?;
         if state.hypothesis.is(&Hypothesis::default()) {
             return Ok((before.clone(), causes));
         }

@@ -43,6 +43,19 @@ impl<'a> Compared<'a> {
             inverse_gains,
         }
     }
+
+    /// The logarithm of the volume that the measurements of an epoch take up per volume of the true quantities. Residuals are differences
+    /// of true quantities, and are smaller the larger the scale errors are; the density of the readings is theirs over this volume.
+    pub(crate) fn ln_volume(&self) -> f64 {
+        let [gyro, accel] = &self.inverse_gains;
+        let gyro = match self.run.rig.reference {
+            Reference::Gravity => gyro.fixed_view::<2, 2>(0, 0).determinant(),
+            Reference::Encoder { .. } | Reference::Command { .. } | Reference::Rest => {
+                gyro.determinant()
+            }
+        };
+        -(gyro * accel.determinant()).abs().ln()
+    }
 }
 
 /// The construction of successive epochs.

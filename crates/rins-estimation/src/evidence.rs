@@ -106,8 +106,8 @@ fn innovation(whitened: &[f64]) -> SVector<f64, SHOWN> {
     SVector::from_fn(|part, _| -whitened[part * width])
 }
 
-/// Runs the filter; `each` receives every epoch, the filter after it, and half the log-determinant of its innovation
-/// covariance. A `None` from it means that a covariance is not positive definite.
+/// Runs the filter; `each` receives every epoch, the filter after it, and half the log-determinant of the covariance of its readings
+/// given the earlier ones. A `None` from it means that a covariance is not positive definite.
 ///
 /// With a `combination` the columns are replaced by their sum with these weights.
 pub(crate) fn pass(
@@ -135,7 +135,7 @@ pub(crate) fn pass(
         let anew = linear.starts_anew(index);
         filter
             .step(&space, epoch, gains, anew)
-            .and_then(|log_determinant| each(epoch, &filter, log_determinant))
+            .and_then(|log_determinant| each(epoch, &filter, log_determinant + linear.ln_volume))
             .ok_or(Indefinite { epoch: index })?;
     }
     Ok(())

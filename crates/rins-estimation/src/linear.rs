@@ -49,6 +49,8 @@ pub struct Linear {
     /// The number of free parameters.
     pub(crate) parameters: usize,
     pub(crate) reference: Reference,
+    /// The logarithm of the volume of an epoch's readings per volume of its residuals.
+    pub(crate) ln_volume: f64,
     /// The power cycle that the run belongs to, or `None` if it has its own.
     pub(crate) turn_on: Option<usize>,
     /// Whether the rotation since another run is known.
@@ -177,6 +179,7 @@ fn in_epochs(
         earth_rate: surroundings.earth_rate,
         parameters: free.len(),
         reference: run.rig.reference,
+        ln_volume: compared.ln_volume(),
         turn_on: run.turn_on,
         follows_turn: run.in_sequence.as_ref().is_some_and(|place| place.turn.is_some()),
         track,

@@ -1,13 +1,14 @@
 //! The causes of the best hypothesis, each with its alternatives.
 
 use rins_bayes::{Block, log_sum};
-use rins_estimation::{Estimate, Indefinite};
+use rins_estimation::{Estimate, Fit, Indefinite};
 use rins_terms::{Model, Term};
 
 use crate::case::Case;
-use crate::evidence::Screen;
+use crate::evidence::{Family, Screen};
 use crate::generic::is_generic;
 use crate::hypothesis::{Departure, Effect, Hypothesis, Process, SOMETHING};
+use crate::proposal::candidates::Candidate;
 use crate::search::{Round, State, Tried};
 use crate::verdict::cause::{Cause, Rival};
 
@@ -18,8 +19,48 @@ const CREDIBLE: f64 = 0.98;
 /// simulated runs it is this part of it.
 const CALIBRATED: f64 = 0.02;
 
-/// Something in place of a cause: the term, the logarithm of its odds against nothing, and its settings.
-type Alternative = (&'static Term, f64, Vec<f64>);
+/// What fits worse than a cause by no more than this, in nats, is not distinguished from it, however improbable it is beforehand: twice
+/// this is the difference of Akaike's criterion below which Burnham and Anderson (2002, section 2.6) call support considerable.
+const ALIKE: f64 = 2.0;
+
+/// An amplitude is not plausible if it is so many times the largest typical magnitude.
+const PLAUSIBLE: f64 = 30.0;
+
+/// Something in place of a cause.
+struct Alternative {
+    term: &'static Term,
+    settings: Vec<f64>,
+    /// The logarithm of its odds: against the cause once that is known, before against nothing.
+    odds: f64,
+    /// How well it fits, if that is known and its amplitude is plausible.
+    likeness: Option<f64>,
+}
+
+impl Alternative {
+    fn of(family: Family, list: &[Candidate]) -> Self {
+        let best = family.best;
+        Self {
+            term: family.term,
+            settings: list[best.candidate].chosen.settings.clone(),
+            odds: family.score,
+            likeness: (best.amplitude < PLAUSIBLE).then(|| likeness(&best.block)),
+        }
+    }
+}
+
+/// By how much a block of amplitudes raises the logarithm of the likelihood, less one for each of them (Akaike 1974).
+fn likeness(block: &Block) -> f64 {
+    0.5 * block.statistic - block.dof as f64
+}
+
+/// What the linear pass says of a part of a hypothesis, and of all that may stand in its place.
+#[derive(Default)]
+struct Linear {
+    /// The logarithm of the odds of the part against nothing.
+    own: f64,
+    block: Option<Block>,
+    others: Vec<Alternative>,
+}
 
 /// A part of a hypothesis.
 #[derive(Clone, Copy)]
@@ -69,9 +110,10 @@ impl Hypothesis {
 }
 
 impl Case<'_> {
-    /// The causes of a hypothesis: its effects in their order, then its processes.
+    /// The causes of a hypothesis: its effects in their order, then its processes, then its departures.
     pub(crate) fn causes_of(
         &self,
+        before: &Fit,
         state: &State,
         round: &Round,
         tried: &[Tried],
@@ -81,25 +123,22 @@ impl Case<'_> {
         let of_state = (self.given, state, tried);
         let mut causes = Vec::new();
         for (index, effect) in hypothesis.effects.iter().enumerate() {
-            let (own, block, linear) = self.linear_alternatives(state, round, index);
             let parameters = state.fit.parameters.iter();
             let of = |one: &&Estimate| one.parameter.term == given + index;
-            let mut cause = cause(Part::Effect(effect), of_state, own, linear);
+            let linear = self.beside_effect(state, round, index);
+            let mut cause = cause(Part::Effect(effect), of_state, linear);
             cause.parameters = parameters.filter(of).cloned().collect();
-            if let Some(block) = block {
-                (cause.dof, cause.gain) = (block.dof, 0.5 * block.statistic);
-            }
             causes.push(cause);
         }
         for &process in &hypothesis.open {
-            let mut cause = cause(Part::Process(process), of_state, 0.0, Vec::new());
+            let mut cause = cause(Part::Process(process), of_state, Linear::default());
             cause.parameters = vec![self.strength(&state.fit, process)?];
             causes.push(cause);
         }
-        for one in &hypothesis.departures {
+        for (index, one) in hypothesis.departures.iter().enumerate() {
             let term = self.given.terms[one.term].term;
-            let part = Part::Departure(term, one);
-            let mut cause = cause(part, of_state, 0.0, Vec::new());
+            let linear = self.beside_departure((before, state), round.terms, index)?;
+            let mut cause = cause(Part::Departure(term, one), of_state, linear);
             let of = |estimate: &&Estimate| {
                 let own = &estimate.parameter;
                 own.term == one.term && one.parameters.contains(&own.parameter)
@@ -111,47 +150,67 @@ impl Case<'_> {
         Ok(causes)
     }
 
-    /// The score of an effect of a hypothesis in the linear pass, its block, and the scores of all other terms in its place.
-    fn linear_alternatives(
-        &self,
-        state: &State,
-        round: &Round,
-        index: usize,
-    ) -> (f64, Option<Block>, Vec<Alternative>) {
+    /// What the linear pass says of an effect of a hypothesis, and of all other terms in its place.
+    fn beside_effect(&self, state: &State, round: &Round, index: usize) -> Linear {
         let dropped = self.places(round, &[index]);
         let of = (&round.survey, self.imu, round.terms);
         let Some(screen) = Screen::of(of, &round.ln_priors, &dropped, &[]) else {
-            return (0.0, None, Vec::new());
+            return Linear::default();
         };
         let Some((own, block)) = self.own(state, round, index, &screen) else {
-            return (0.0, None, Vec::new());
+            return Linear::default();
         };
-        let families = screen.families(&round.list, |one| {
-            let others = &state.hypothesis.effects;
-            others.iter().all(|effect| !effect.instance.term.is(one.chosen.term))
-                && !is_generic(one.chosen.term)
-        });
-        let others = families.into_iter().map(|family| {
-            let settings = round.list[family.best.candidate].chosen.settings.clone();
-            (family.term, family.score, settings)
-        });
-        (own, Some(block), others.collect())
+        Linear { own, block: Some(block), others: others(&screen, round, &state.hypothesis) }
+    }
+
+    /// What the linear pass without a departure says of it, and of all other terms in its place.
+    fn beside_departure(
+        &self,
+        (before, state): (&Fit, &State),
+        terms: usize,
+        index: usize,
+    ) -> Result<Linear, Indefinite> {
+        let mut without = state.hypothesis.clone();
+        let Departure { term, .. } = without.departures.remove(index);
+        let Some(without) = self.fitted((before, state), without, terms, f64::INFINITY) else {
+            return Ok(Linear::default());
+        };
+        let round = self.round(before, &without, terms)?;
+        let of = (&round.survey, self.imu, terms);
+        let Some(screen) = Screen::of(of, &round.ln_priors, &[], &[]) else {
+            return Ok(Linear::default());
+        };
+        let own = round.list.iter().position(|one| one.departs == Some(term));
+        let own = own.and_then(|place| screen.candidate(place, &round.list[place]));
+        let Some(own) = own else { return Ok(Linear::default()) };
+        let others = others(&screen, &round, &state.hypothesis);
+        Ok(Linear { own: own.score, block: Some(own.block), others })
     }
 }
 
-/// A part of a hypothesis as a cause. `own` is its score in the linear pass, and `linear` are those of what may stand in its
-/// place; where a hypothesis was fitted, its score counts.
+/// All terms that a hypothesis does not have, where a part of it was dropped.
+fn others(screen: &Screen<'_>, round: &Round, hypothesis: &Hypothesis) -> Vec<Alternative> {
+    let families = screen.families(&round.list, |one| {
+        let is_new = match one.departs {
+            Some(term) => hypothesis.departures.iter().all(|own| own.term != term),
+            None => hypothesis.effects.iter().all(|own| !own.instance.term.is(one.chosen.term)),
+        };
+        is_new && !is_generic(one.chosen.term)
+    });
+    families.into_iter().map(|family| Alternative::of(family, &round.list)).collect()
+}
+
+/// A part of a hypothesis as a cause; where a hypothesis was fitted, its score counts and not that of the linear pass.
 fn cause(
     part: Part<'_>,
     (given, state, tried): (&Model, &State, &[Tried]),
-    own: f64,
-    linear: Vec<Alternative>,
+    Linear { own, block, others: linear }: Linear,
 ) -> Cause {
     let hypothesis = &state.hypothesis;
     let mut without = None;
-    let mut fitted: Vec<Alternative> = Vec::new();
+    let mut all: Vec<Alternative> = Vec::new();
     for other in tried.iter().filter(|other| !part.is_in(&other.hypothesis)) {
-        let gain = other.score - state.score;
+        let odds = other.score - state.score;
         // The same effect with another setting is no other part.
         let is_of = |one: &Part<'_>, hypothesis: &Hypothesis| {
             one.is_in(hypothesis)
@@ -161,51 +220,56 @@ fn cause(
             other.hypothesis.parts(given).filter(|one| !is_of(one, hypothesis)).collect();
         let lost = hypothesis.parts(given).filter(|one| !is_of(one, &other.hypothesis)).count();
         match &new[..] {
-            [] if lost == 1 => without = Some(without.map_or(gain, |most: f64| most.max(gain))),
+            [] if lost == 1 => without = Some(without.map_or(odds, |most: f64| most.max(odds))),
             // Several may stand in its place together.
             [_, ..] if new.len() <= 2 => {
-                for one in new {
-                    match fitted.iter_mut().find(|(term, ..)| term.is(one.term())) {
-                        Some(known) if known.1 < gain => {
-                            *known = (one.term(), gain, one.settings());
-                        }
+                for one in new.into_iter().filter(|one| !one.term().is(part.term())) {
+                    let (term, settings) = (one.term(), one.settings());
+                    let fitted = Alternative { term, settings, odds, likeness: None };
+                    match all.iter_mut().find(|known| known.term.is(term)) {
+                        Some(known) if known.odds < odds => *known = fitted,
                         Some(_) => {}
-                        None => fitted.push((one.term(), gain, one.settings())),
+                        None => all.push(fitted),
                     }
                 }
             }
             _ => {}
         }
     }
-    fitted.retain(|(term, ..)| !term.is(part.term()));
-    for (term, score, settings) in linear {
-        if !fitted.iter().any(|(known, ..)| known.is(term)) {
-            fitted.push((term, score - own, settings));
+    for one in linear {
+        match all.iter_mut().find(|known| known.term.is(one.term)) {
+            Some(known) => known.likeness = one.likeness,
+            None => all.push(Alternative { odds: one.odds - own, ..one }),
         }
     }
     // Against nothing.
-    let own = without.map_or(own, |gain| -gain - SOMETHING);
-    fitted.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let total = log_sum(fitted.iter().map(|(_, odds, _)| *odds).chain([0.0]));
+    let own = without.map_or(own, |odds| -odds - SOMETHING);
+    all.sort_by(|a, b| b.odds.total_cmp(&a.odds));
     // Those that are more probable than a supposed effect are no evidence for it.
-    let at_most = log_sum(fitted.iter().map(|(_, odds, _)| odds.min(0.0)).chain([0.0]));
-    let mut mass = (-total).exp();
-    let mut rivals = Vec::new();
-    for (term, odds, settings) in fitted {
-        if mass >= CREDIBLE {
-            break;
-        }
-        mass += (odds - total).exp();
-        rivals.push(Rival { term, settings, odds });
-    }
+    let at_most = log_sum(all.iter().map(|one| one.odds.min(0.0)).chain([0.0]));
     Cause {
         term: part.term(),
         settings: part.settings(),
         sought: None,
         parameters: Vec::new(),
         ln_p: (CALIBRATED.ln() - own - at_most).min(0.0),
-        dof: 1,
-        gain: own,
-        rivals,
+        dof: block.as_ref().map_or(1, |block| block.dof),
+        gain: block.as_ref().map_or(own, |block| 0.5 * block.statistic),
+        rivals: credible(all, block.as_ref().map(likeness)),
     }
+}
+
+/// Those of the alternatives, best first, that make up a credible set together with the cause, and those that fit no worse than it.
+fn credible(all: Vec<Alternative>, own: Option<f64>) -> Vec<Rival> {
+    let total = log_sum(all.iter().map(|one| one.odds).chain([0.0]));
+    let mut mass = (-total).exp();
+    let mut rivals = Vec::new();
+    for Alternative { term, settings, odds, likeness } in all {
+        let is_alike = likeness.zip(own).is_some_and(|(other, own)| other > own - ALIKE);
+        if mass < CREDIBLE || is_alike {
+            rivals.push(Rival { term, settings, odds });
+        }
+        mass += (odds - total).exp();
+    }
+    rivals
 }

@@ -1,12 +1,16 @@
 //! Faster methods have the result of the exact ones.
 
+use std::sync::Arc;
+
 use rins_estimation::{
     Evidence, Linear, Noise, NoiseKnowledge, NoiseParameters, Run, fit, fit_approximately,
     fit_near, linearise, linearise_coarsely,
 };
+use rins_frames::InFrame;
 use rins_frames::units::PPM;
 use rins_imu::{Axis, ImuError, TriadError};
 use rins_terms::{Model, SettingKind, TermInstance, catalogue};
+use rins_testing::assert_close;
 
 use crate::support::{fibre, profile, run, scenario, tilted, white};
 
@@ -118,4 +122,27 @@ fn an_approximate_fit_is_within_a_part_of_each_sigma() {
     }
     let off = near.log_likelihood - exact.log_likelihood;
     assert!(off.abs() < 0.3, "{off}");
+}
+
+/// The density of the same readings in another unit: residuals and their noise are the same, and the readings are spread wider.
+#[test]
+fn a_density_is_one_of_the_readings() {
+    let (run, imu) = (turned(), fibre());
+    let larger = 1.02;
+    let mut scaled = run.clone();
+    for sample in &mut Arc::make_mut(&mut scaled.recording).increments {
+        sample.velocity = InFrame::from_components(sample.velocity.components() * larger);
+    }
+    let density = |run: &Run, scale: f64| {
+        let mut model = Model::full();
+        let accel = model.terms.iter_mut().find(|one| one.term.is(&catalogue::ACCEL_SCALE));
+        accel.unwrap().values.fill(scale);
+        let linear = linearise(run, &model, &[]);
+        let noise = Noise::on(&run.rig, &NoiseParameters::of(&imu));
+        let evidence = Evidence::of(&linear, &noise).unwrap();
+        (-0.5 * evidence.square - evidence.log_determinant, linear.epochs() as f64)
+    };
+    let (one, epochs) = density(&run, 0.0);
+    let (other, _) = density(&scaled, larger - 1.0);
+    assert_close!(one - other, 3.0 * epochs * larger.ln(), 1e-3);
 }
