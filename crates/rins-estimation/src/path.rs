@@ -1,8 +1,8 @@
 //! The trajectory of the table, as known before the estimation.
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use rayon::prelude::*;
-use rins_terms::{Acting, KinematicStates, Model, Surroundings, Track};
+use rins_terms::{Acting, KinematicStates, Model, Signals, Surroundings, Track, values};
 
 use crate::run::{Reference, Run};
 use crate::smoothing::Differences;
@@ -25,43 +25,84 @@ const SAMPLES_AT_A_TIME: usize = 4096;
 /// The reference determines its low frequencies, the z gyro its high frequencies above the one at which they are equally noisy
 /// ([`Differences::smoothed`]); those of a quantized reference begin below the rate of the epochs, which have `epoch` samples.
 pub(crate) fn track(run: &Run, surroundings: Surroundings, model: &Model, epoch: usize) -> Track {
-    let mut known = vec![0.0; run.recording.len()];
-    let mut track = through(run, surroundings, &known, epoch);
-    let Reference::Encoder { .. } = run.rig.reference else { return track };
+    match run.rig.reference {
+        Reference::Encoder { .. } => {
+            let angle = |signals: &Signals| signals.angle.re;
+            let change = |known: &f64, error: &f64| (error - known).abs();
+            let through = |errors: &[f64]| through(run, surroundings, (errors, &[]), epoch);
+            corrected((model, angle), through, change)
+        }
+        Reference::Gravity => {
+            let force = |signals: &Signals| values(&signals.accel);
+            // How far the direction of gravity is off.
+            let gravity = surroundings.specific_force.norm();
+            let change =
+                |known: &Vector3<f64>, error: &Vector3<f64>| (error - known).norm() / gravity;
+            let through = |errors: &[_]| through(run, surroundings, (&[], errors), epoch);
+            corrected((model, force), through, change)
+        }
+        Reference::Command { .. } | Reference::Rest => {
+            through(run, surroundings, (&[], &[]), epoch)
+        }
+    }
+}
+
+/// The trajectory through readings without their errors, which depend on the trajectory. `through` gets the errors, or none of them at
+/// first; `change` of two errors is an angle \[rad\].
+fn corrected<E>(
+    (model, error): (&Model, impl Fn(&Signals) -> E + Sync),
+    through: impl Fn(&[E]) -> Track,
+    change: impl Fn(&E, &E) -> f64,
+) -> Track
+where
+    E: Clone + Default + Send,
+{
+    let mut track = through(&[]);
+    let mut known = vec![E::default(); track.len()];
     for pass in 0..MOST_PASSES {
-        let errors = errors(&track, model);
-        let change = known.iter().zip(&errors).map(|(known, error)| (error - known).abs());
+        let errors = errors(&track, model, &error);
+        let changes = known.iter().zip(&errors).map(|(known, error)| change(known, error));
         let small = if pass == 0 { SMALL_ERROR } else { SAME_ERROR };
-        if change.fold(0.0, f64::max) < small {
+        if changes.fold(0.0, f64::max) < small {
             break;
         }
-        track = through(run, surroundings, &errors, epoch);
+        track = through(&errors);
         known = errors;
     }
     track
 }
 
-/// The error of the table angle according to the model, at the end of each sample \[rad\].
-fn errors(track: &Track, model: &Model) -> Vec<f64> {
+/// The errors of the readings of each sample according to the model.
+fn errors<E: Send>(
+    track: &Track,
+    model: &Model,
+    error: &(impl Fn(&Signals) -> E + Sync),
+) -> Vec<E> {
     let present = Acting::present(model, track);
     let starts = (0..track.len()).step_by(SAMPLES_AT_A_TIME);
-    let of = |mut moments: KinematicStates<'_>| -> Vec<f64> {
-        let mut error = || Some(Acting::together(&present, moments.advance()?).angle.re);
+    let of = |mut moments: KinematicStates<'_>| -> Vec<E> {
+        let mut error = || Some(error(&Acting::together(&present, moments.advance()?)));
         (0..SAMPLES_AT_A_TIME).map_while(|_| error()).collect()
     };
-    let errors: Vec<Vec<f64>> = track.moments_from(starts).into_par_iter().map(of).collect();
-    errors.concat()
+    let errors: Vec<Vec<E>> = track.moments_from(starts).into_par_iter().map(of).collect();
+    errors.into_iter().flatten().collect()
 }
 
-/// The trajectory if the table angle has these errors.
-fn through(run: &Run, surroundings: Surroundings, errors: &[f64], epoch: usize) -> Track {
+/// The trajectory if the table angle and the specific force have these errors; a sample without an entry has none.
+fn through(
+    run: &Run,
+    surroundings: Surroundings,
+    (errors, of_force): (&[f64], &[Vector3<f64>]),
+    epoch: usize,
+) -> Track {
     let recording = &run.recording;
     let gyro = integrated_gyro(run, &surroundings);
     let correction = match run.rig.reference {
         Reference::Rest => gyro.iter().map(|angle| -angle).collect(),
-        Reference::Gravity => correction_by_gravity(run, &surroundings, &gyro),
+        Reference::Gravity => correction_by_gravity((run, of_force), &surroundings, &gyro),
         Reference::Encoder { .. } | Reference::Command { .. } => {
             let read = readings(run).unwrap_or_default();
+            let errors = errors.iter().copied().chain(std::iter::repeat(0.0));
             let read: Vec<f64> =
                 read.iter().zip(errors).map(|(read, error)| read - error).collect();
             let differences = Differences {
@@ -137,8 +178,13 @@ fn interpolated(knots: &[(f64, f64)], length: usize) -> Vec<f64> {
 
 /// The correction of the gyro angle by the direction of gravity in the plane of rotation: one value for each revolution.
 ///
-/// A constant in the body, such as a bias or the centripetal acceleration of a lever arm, cancels over a whole revolution.
-fn correction_by_gravity(run: &Run, around: &Surroundings, gyro: &[f64]) -> Vec<f64> {
+/// A constant in the body, such as a bias or the centripetal acceleration of a lever arm, cancels over a whole revolution. The
+/// specific force has these errors.
+fn correction_by_gravity(
+    (run, errors): (&Run, &[Vector3<f64>]),
+    around: &Surroundings,
+    gyro: &[f64],
+) -> Vec<f64> {
     let expected = around.specific_force.y.atan2(around.specific_force.x);
     let increments = &run.recording.increments;
     let mut knots = Vec::new();
@@ -146,7 +192,8 @@ fn correction_by_gravity(run: &Run, around: &Surroundings, gyro: &[f64]) -> Vec<
     let mut sum = Vector2::<f64>::zeros();
     let mut before: Option<f64> = None;
     for (index, sample) in increments.iter().enumerate() {
-        let velocity = sample.velocity.components();
+        let error = errors.get(index).copied().unwrap_or_default();
+        let velocity = sample.velocity.components() - error * sample.interval;
         let (sin, cos) = (0.5 * (gyro[index] + gyro[index + 1])).sin_cos();
         sum.x += velocity.x * cos - velocity.y * sin;
         sum.y += velocity.x * sin + velocity.y * cos;

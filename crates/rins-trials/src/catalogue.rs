@@ -3,12 +3,13 @@
 use rins_blind::Effect;
 use rins_terms::{Model, SettingKind, Term, TermInstance, catalogue};
 
-/// What is a choice of frame, and what leaves nothing behind.
-static NEVER_HIDDEN: [&Term; 4] = [
+/// What is a choice of frame, what leaves nothing behind, and what a table in a laboratory does not do.
+static NEVER_HIDDEN: [&Term; 5] = [
     &catalogue::AXIS_AZIMUTH,
     &catalogue::MOUNTING,
     &catalogue::ENCODER_ZERO,
     &catalogue::TABLE_RATE_RIPPLE,
+    &catalogue::BASE_ROLLING,
 ];
 
 /// The orders of the table angle at which rivals are tried.

@@ -86,7 +86,9 @@ pub use diagnose::{DiagnoseOptions, diagnose};
 pub use error::{Error, Result};
 pub use free_navigation::{BeforeAfterResult, NavigationResult};
 pub use history::{HistoryOptions, history};
-pub use homogeneity::{HomogeneityResult, VariantResult, VariationResult};
+pub use homogeneity::{
+    ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult, VariationResult,
+};
 pub use identifiability::{
     GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,
 };

@@ -103,8 +103,31 @@ fn what_is_the_same_in_all_runs_is_not_said_to_differ() {
     for one in list(&calibration, "/homogeneity") {
         assert!(number(one, "/p_value") > 1e-5, "{one:#}");
     }
-    let diagnosis = result_in(folder, &format!("diagnose {RIGS}"));
+    let diagnosis = result_in(folder, "diagnose a/rig.toml b/rig.toml --held-out c/rig.toml");
     assert_eq!(diagnosis["verdict"], "adequate", "{:#}", diagnosis["causes"]);
+    let held_out = &diagnosis["held_out"];
+    assert_eq!(held_out["consistent"], true, "{held_out:#}");
+    let scale = of(list(held_out, "/parameters"), "gyro.scale.z");
+    assert!(number(scale, "/sigmas").abs() < 5.0 && scale["forecast"].is_object(), "{scale:#}");
+}
+
+#[test]
+fn scale_error_of_a_held_out_run_is_told_where_the_other_run_shows_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulated(folder, "a", 100.0, (7, ""));
+    simulated(folder, "b", 300.0, (8, ""));
+    let diagnosis = result_in(folder, "diagnose a/rig.toml --held-out b/rig.toml -o out");
+    assert_eq!(diagnosis["verdict"], "adequate", "{:#}", diagnosis["causes"]);
+    let held_out = &diagnosis["held_out"];
+    assert_eq!(held_out["consistent"], false, "{held_out:#}");
+    let first = &list(held_out, "/parameters")[0];
+    assert_eq!(first["id"], "gyro.scale.z");
+    let difference = number(first, "/held_out/value") - number(first, "/other_runs/value");
+    let sigma = difference / number(first, "/sigmas");
+    assert!((difference - 200.0).abs() < 5.0 * sigma && sigma < 5.0, "{first:#}");
+    let page = fs::read_to_string(folder.join("out/report.html")).unwrap();
+    assert!(page.contains("In b/rig.toml gyro.scale.z is"), "the page does not tell");
 }
 
 #[test]

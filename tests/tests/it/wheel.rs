@@ -25,6 +25,9 @@ const EARTH_RATE: f64 = 7.292115e-5;
 const RATE: f64 = 100.0;
 const STEPS: [u32; 3] = [800, 100, 3000];
 
+/// A reading is the mean of so many instants.
+const PARTS: u32 = 4;
+
 /// White noise of a gyro \[rad/s/√Hz\] and of an accelerometer \[m/s²/√Hz\].
 const NOISE: [f64; 2] = [8e-5, 9e-3];
 
@@ -39,8 +42,9 @@ struct Truth {
     leans_to: f64,
 }
 
-/// A log and a rig file without `[attitude]`, of a wheel whose axis is tilted by 20 to 90 deg in any direction.
-fn wheel(folder: &Path, seed: u64) -> Truth {
+/// A log and a rig file without `[attitude]`, of a wheel of this radius that rolls \[m\], or of one off the ground, whose axis is tilted by
+/// 20 to 90 deg in any direction.
+fn wheel(folder: &Path, seed: u64, radius: f64) -> Truth {
     let mut rng = Pcg64::seed_from_u64(seed);
     let latitude = rng.random_range(-60.0_f64..60.0);
     let (azimuth, tilt) = (rng.random_range(0.0..TAU), rng.random_range(0.35..TAU / 4.0));
@@ -67,16 +71,27 @@ fn wheel(folder: &Path, seed: u64) -> Truth {
     ];
     let back = [(-speed, -speed, lasting), (-speed, 0.0, change), (0.0, 0.0, rest)];
     for (from, to, steps) in rates.into_iter().chain(back) {
+        let acceleration = RATE * (to - from) / f64::from(steps);
+        let force = up * GRAVITY + Vector3::z().cross(&up) * (radius * acceleration);
         for step in 0..steps {
-            let rate = from + (to - from) * (f64::from(step) + 0.5) / f64::from(steps);
-            let table_from_body =
-                Rotation3::from_axis_angle(&Vector3::z_axis(), turned + 0.5 * rate / RATE);
-            let body = |vector: &Vector3<f64>| table_from_body.inverse() * vector;
-            turned += rate / RATE;
-            let mut gyro = body(&earth) + Vector3::z() * rate;
+            let (mut gyro, mut accel) = (Vector3::zeros(), Vector3::zeros());
+            // A reading is the mean over its interval.
+            for part in 0..PARTS {
+                let within = f64::from(step) + (f64::from(part) + 0.5) / f64::from(PARTS);
+                let rate = from + (to - from) * within / f64::from(steps);
+                let turn = rate / RATE / f64::from(PARTS);
+                let table_from_body =
+                    Rotation3::from_axis_angle(&Vector3::z_axis(), turned + 0.5 * turn);
+                turned += turn;
+                let body = |vector: &Vector3<f64>| {
+                    table_from_body.inverse() * vector / f64::from(PARTS)
+                };
+                gyro += body(&earth) + Vector3::z() * rate / f64::from(PARTS);
+                accel += body(&force);
+            }
             gyro.z *= 1.0 + scale;
             gyro += gyro_bias + noise(NOISE[0]);
-            let accel = body(&up) * GRAVITY + accel_bias + noise(NOISE[1]);
+            accel += accel_bias + noise(NOISE[1]);
             samples += 1;
             write!(log, "{:.2}", f64::from(samples) / RATE).unwrap();
             for reading in gyro.iter().chain(accel.iter()) {
@@ -113,7 +128,7 @@ fn its_azimuth_is_a_parameter_and_its_rests_are_used() {
     let (mut square, mut count) = (0.0, 0.0);
     for seed in 0..12 {
         let folder = tempfile::tempdir().unwrap();
-        let truth = wheel(folder.path(), seed);
+        let truth = wheel(folder.path(), seed, 0.0);
         let result = result_in(folder.path(), "calibrate rig.toml");
         assert_eq!(result["runs"][0]["static_intervals_used"], 2, "{seed}");
         // The horizontal rate relative to the assumed direction of the tilt.
@@ -149,8 +164,24 @@ fn its_azimuth_is_a_parameter_and_its_rests_are_used() {
 fn its_azimuth_is_no_effect() {
     for seed in 20..24 {
         let folder = tempfile::tempdir().unwrap();
-        wheel(folder.path(), seed);
+        wheel(folder.path(), seed, 0.0);
         let diagnosis = result_in(folder.path(), "diagnose rig.toml");
         assert_eq!(diagnosis["verdict"], "adequate", "{seed}: {}", diagnosis["causes"]);
+    }
+}
+
+#[test]
+fn rolling_on_the_ground_is_named_and_its_radius_found() {
+    for (seed, radius) in [(30, 0.3), (31, -0.2), (32, 0.06)] {
+        let folder = tempfile::tempdir().unwrap();
+        wheel(folder.path(), seed, radius);
+        let diagnosis = result_in(folder.path(), "diagnose rig.toml");
+        let cause = &diagnosis["causes"][0];
+        assert_eq!(cause["effect"], "base_rolling", "{seed}: {}", diagnosis["causes"]);
+        let found = &cause["parameters"][0];
+        let off = number(found, "/value") - 1000.0 * radius;
+        // Gravity, by which the angle is known, is not its direction while the wheel accelerates.
+        let allowed = 4.0 * number(found, "/sigma") + 20.0 * radius.abs();
+        assert!(off.abs() < allowed && number(found, "/sigma") < 20.0, "{seed}: {found}");
     }
 }

@@ -1,4 +1,6 @@
-//! Base motion: tilt, sway, rotation.
+//! Base motion: tilt, sway, rotation, rolling.
+
+use nalgebra::{Rotation3, Vector3};
 
 use crate::catalogue::parameters::{DURATION, FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
@@ -106,5 +108,31 @@ pub static BASE_ROTATION: Term = Term {
     action: Action::Signal(|p, _, moment, out| {
         let up = moment.surroundings.specific_force.normalize();
         out.add_tilt(p[0] * moment.end.time, &up);
+    }),
+};
+
+/// Rolling of the base: the axis is that of a wheel.
+pub static BASE_ROLLING: Term = Term {
+    id: "base_rolling",
+    also: &[],
+    name: "rolling of the base",
+    cause: "the IMU is on a wheel of radius R that rolls on the ground; R < 0: the axis points to the other side",
+    equation: "accel += R (ω' t + 2 ω_ie×ω t), t = z×u, z the spin axis and u the vertical",
+    source: "rolling without slip; groves2013",
+    parameters: &[parameter("radius", Unit::MILLIMETRE, Prior::Anywhere(20.0, 600.0))],
+    settings: &[],
+    needs: &[],
+    partners: &["accel_lever_arm", "accel_bias_step"],
+    told_apart_by: "change the rate quickly: a lever arm turns with the wheel, the acceleration along the ground does not",
+    owner: Owner::Run,
+    prevalence: Prevalence::Particular,
+    parity: Parity::Unchanged,
+    action: Action::Signal(|p, _, moment, out| {
+        let up = moment.surroundings.specific_force.normalize();
+        let ahead = Vector3::z().cross(&up);
+        let coriolis = moment.surroundings.earth_rate.cross(&ahead) * (2.0 * moment.mean.rate);
+        let body_from_axis = Rotation3::from_axis_angle(&Vector3::z_axis(), -moment.mean.angle);
+        let felt = body_from_axis * (ahead * moment.mean.acceleration + coriolis);
+        out.add_accel(p[0], &felt);
     }),
 };

@@ -23,7 +23,7 @@ const WANTED: &str = "
     accel_vibration_rectification accel_latency stuck_samples accel_quantisation accel_saturation
     encoder_eccentricity encoder_harmonic table_wobble table_rate_ripple encoder_latency encoder_backlash
     encoder_slip clock_drift timestamp_jitter dropped_samples readout_lag
-    base_tilt_ramp base_tilt_step base_sway base_rotation cable_torque_tilt thermal_one_per_turn
+    base_tilt_ramp base_tilt_step base_sway base_rotation base_rolling cable_torque_tilt thermal_one_per_turn
     wrong_latitude wrong_gravity unit_error axis_convention table_sense interference_line outliers";
 
 /// What the catalogue has besides: the baseline, and the accelerometers' share of the noise.

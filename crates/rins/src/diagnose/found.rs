@@ -17,7 +17,7 @@ use rins_terms::{Model, TermInstance, Unit};
 use super::measured::Measured;
 use super::testable::{Untestable, untestable};
 use crate::calibrate::Certificate;
-use crate::homogeneity::RunComparison;
+use crate::homogeneity::{HeldOutComparison, RunComparison};
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
@@ -67,6 +67,8 @@ pub(crate) struct DiagnosisOutcome {
     pub(crate) overlays: Vec<[Overlay; 2]>,
     /// The parameters of the sensors in each log by itself, if there are several.
     pub(crate) comparison: Option<RunComparison>,
+    /// Those of the held-out run beside the estimate, if there is one.
+    pub(crate) held_out: Option<HeldOutComparison>,
     /// The calibration with the extended model.
     pub(crate) certificate: Certificate,
     /// How long it took \[s\].
@@ -204,6 +206,9 @@ impl DiagnosisOutcome {
         };
         let overlays = (0..runs.len()).map(left).collect();
         let comparison = RunComparison::of_logs(&case, progress);
+        let held_out = asked.held_out.as_ref().and_then(|held_out| {
+            HeldOutComparison::of(&case, &diagnosis.after, held_out, comparison.as_ref())
+        });
         let mut certificate = Certificate::with(case, diagnosis.after)?;
         certificate.besides = causes.iter().filter_map(|named| no_signal(&named.cause)).collect();
         let seconds = started.elapsed().as_secs_f64();
@@ -220,6 +225,7 @@ impl DiagnosisOutcome {
             by_chance,
             overlays,
             comparison,
+            held_out,
             certificate,
             seconds,
         })

@@ -100,6 +100,19 @@ pub(super) fn gain_sentence(measured: &Measured) -> String {
     }
 }
 
+/// That a model to which no cause was added does not predict another run, if it does not.
+pub(super) fn failed_prediction(measured: &Measured) -> Option<String> {
+    let (On::Run(rig), Ok(gain)) = (&measured.on, &measured.gain) else { return None };
+    let before = &gain.before;
+    (!before.is_consistent()).then(|| {
+        format!(
+            "The model does not predict {rig} within the stated uncertainty: mean NIS {}, {} expected.",
+            figure(before.nis_mean, 3),
+            before.nis_dof
+        )
+    })
+}
+
 /// The absolute check of the prediction, if it fails.
 fn consistency(gain: &Gain) -> String {
     let after = &gain.after;

@@ -5,6 +5,7 @@ use rins_estimation::Estimate;
 
 use super::found::{DiagnosisOutcome, Named};
 use super::gain::gain_section;
+use crate::homogeneity::{HeldOutComparison, RunComparison};
 use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
 use super::words::{alternatives, probability, separating_tests, summary};
@@ -34,6 +35,8 @@ pub(super) fn diagnosis_report(found: &DiagnosisOutcome) -> Report {
         summary,
         sections: [
             vec![causes(found), unexplained(found)],
+            found.comparison.iter().map(RunComparison::section).collect(),
+            found.held_out.iter().map(HeldOutComparison::section).collect(),
             overlay_sections(found),
             std::iter::once(&found.gain).chain(&found.transfer).map(gain_section).collect(),
             vec![shifts(found), limits(found), untestable(found)],

@@ -11,7 +11,7 @@ use super::measured::GainResult;
 use super::structure::{size_in_words, structure_in_words};
 use crate::calibrate::{DepartureResult, NoiseResult, departures};
 use crate::consistency::ConsistencyResult;
-use crate::homogeneity::{HomogeneityResult, RunComparison, VariationResult};
+use crate::homogeneity::{HeldOutResult, HomogeneityResult, RunComparison, VariationResult};
 use crate::settings::settings_in_words;
 
 /// The result of `rins diagnose`.
@@ -56,6 +56,9 @@ pub struct DiagnoseResult {
     /// How parameters vary between the runs, the most significant first.
     #[serde(default)]
     pub variations: Vec<VariationResult>,
+    /// The held-out run beside the estimate, if one was given and can be estimated by itself.
+    #[serde(default)]
+    pub held_out: Option<HeldOutResult>,
     /// The file of the extended model among the files.
     pub model: String,
     /// How long it took \[s\].
@@ -283,6 +286,7 @@ impl DiagnoseResult {
             }),
             homogeneity: of_comparison(found, HomogeneityResult::all),
             variations: of_comparison(found, VariationResult::all),
+            held_out: found.held_out.as_ref().map(HeldOutResult::from),
             noise: certificate.into(),
             consistency: (&certificate.consistency).into(),
             prior_consistency: departures(certificate),

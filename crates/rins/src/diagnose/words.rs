@@ -4,9 +4,9 @@ use rins_diagnosis::Unexplained;
 use rins_terms::catalogue;
 
 use super::found::{ByChance, DiagnosisOutcome, Named, Verdict};
-use super::gain::gain_sentence;
+use super::gain::{failed_prediction, gain_sentence};
 use super::structure::{size_in_words, structure_in_words};
-use crate::homogeneity::RunComparison;
+use crate::homogeneity::{HeldOutComparison, RunComparison};
 use crate::settings::{settings_in_words, symbol};
 use rins_report::number::{estimate, figure};
 
@@ -24,8 +24,11 @@ pub(super) fn summary(found: &DiagnosisOutcome) -> Vec<String> {
     let mut sentences = vec![headline(found)];
     sentences.extend(found.causes.iter().filter_map(doubt));
     sentences.extend(found.comparison.as_ref().into_iter().flat_map(RunComparison::differences));
+    sentences.extend(found.held_out.iter().flat_map(HeldOutComparison::summary));
     sentences.extend(found.unexplained.iter().map(|one| remainder(found, one)));
-    if !found.causes.is_empty() {
+    if found.causes.is_empty() {
+        sentences.extend(failed_prediction(&found.gain));
+    } else {
         sentences.push(damage(found));
         sentences.push(gain_sentence(&found.gain));
         sentences.extend(found.transfer.as_ref().map(gain_sentence));

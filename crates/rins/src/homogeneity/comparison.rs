@@ -2,7 +2,9 @@
 
 use rins_estimation::{Fit, fit};
 use rins_frames::SignedAxes;
-use rins_history::{Cause, Conditions, Explanation, History, Homogeneity, Quantity, RunEstimate};
+use rins_history::{
+    Cause, Conditions, Explanation, Forecast, History, Homogeneity, Quantity, RunEstimate,
+};
 use rins_imu::ImuSpec;
 use rins_io::Measured;
 use rins_terms::Owner;
@@ -13,7 +15,7 @@ use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// The family-wise significance level of the homogeneity test.
-const SIGNIFICANT: f64 = 0.01;
+pub(super) const SIGNIFICANT: f64 = 0.01;
 
 /// The parameters of several runs, compared: whether they are the same, and how they vary.
 #[derive(Clone, Debug)]
@@ -52,7 +54,7 @@ impl RunComparison {
             let fitted = fit(&own, &problem.model, problem.imu(), problem.knowledge(), |_| ());
             fits.extend(fitted.ok().map(|fit| (prepared, fit.along(SignedAxes::IDENTITY))));
         }
-        let quantities = quantities(&fits, problem.imu());
+        let quantities = quantities(fits.iter().map(|(_, fit)| fit), problem.imu());
         let conditions = conditions(&fits.iter().map(|(log, _)| of_log(log)).collect::<Vec<_>>());
         let runs = fits.iter().zip(conditions);
         let runs: Option<Vec<RunEstimate>> =
@@ -73,6 +75,12 @@ impl RunComparison {
         self.explanation.causes()
     }
 
+    /// The forecast of a parameter for a run under these conditions, if the runs determine it.
+    pub(super) fn forecast(&self, id: &str, conditions: Conditions) -> Option<Forecast> {
+        let place = self.history.quantities().iter().position(|one| one.id == id)?;
+        self.explanation.forecast(place, conditions).ok().flatten()
+    }
+
     /// The unit of a parameter.
     pub(crate) fn unit(&self, id: &str) -> &'static str {
         let place = self.history.quantities().iter().position(|one| one.id == id);
@@ -81,14 +89,17 @@ impl RunComparison {
 }
 
 /// When and how a log was made.
-fn of_log(prepared: &Prepared) -> Measured {
+pub(super) fn of_log(prepared: &Prepared) -> Measured {
     measured(&prepared.loaded.rig, prepared.rests().map(|run| &*run.recording))
 }
 
 /// The errors of the sensors that any of these fits estimates: the unit with its symbol, and the typical range of variations.
-fn quantities(fits: &[(&Prepared, Fit)], imu: &ImuSpec) -> Vec<((f64, &'static str), Quantity)> {
+pub(super) fn quantities<'a>(
+    fits: impl IntoIterator<Item = &'a Fit>,
+    imu: &ImuSpec,
+) -> Vec<((f64, &'static str), Quantity)> {
     let mut all: Vec<((f64, &'static str), Quantity)> = Vec::new();
-    for (_, fit) in fits {
+    for fit in fits {
         for estimate in &fit.parameters {
             let of = &estimate.parameter;
             let is_known = all.iter().any(|(_, other)| other.id == of.id);
@@ -107,7 +118,7 @@ fn quantities(fits: &[(&Prepared, Fit)], imu: &ImuSpec) -> Vec<((f64, &'static s
 }
 
 /// What the log of a fit says of the sensors' errors, all else integrated out; `None` if that is not finite.
-fn estimate(
+pub(super) fn estimate(
     fit: &Fit,
     quantities: &[((f64, &'static str), Quantity)],
     conditions: Conditions,

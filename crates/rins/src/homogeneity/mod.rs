@@ -2,10 +2,12 @@
 
 mod comparison;
 mod conditions;
+mod held_out;
 mod result;
 mod words;
 
 pub(crate) use self::comparison::RunComparison;
 pub(crate) use self::conditions::conditions;
-pub use self::result::{HomogeneityResult, VariantResult, VariationResult};
+pub(crate) use self::held_out::HeldOutComparison;
+pub use self::result::{ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult, VariationResult};
 pub(crate) use self::words::{HOMOGENEITY, homogeneity, summary};

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::comparison::RunComparison;
+use super::held_out::{Forecasted, HeldOutComparison, HeldOutParameter};
 use super::words::amount;
 use crate::values::EstimateResult;
 
@@ -25,6 +26,80 @@ pub struct HomogeneityResult {
     pub dof: usize,
     /// The estimate from each run; null where the run does not observe it.
     pub per_run: Vec<Option<EstimateResult>>,
+}
+
+/// A held-out run, estimated by itself, beside the estimate from the other runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HeldOutResult {
+    /// The rig file of the held-out run.
+    pub rig: String,
+    /// Whether no parameter differs significantly: 1 %, family-wise.
+    pub consistent: bool,
+    /// Each parameter of the sensors that both determine, the most significant difference first.
+    pub parameters: Vec<HeldOutParameterResult>,
+}
+
+/// A parameter of a held-out run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HeldOutParameterResult {
+    /// The parameter.
+    pub id: String,
+    /// The unit of all values.
+    pub unit: String,
+    /// The estimate from the other runs.
+    pub other_runs: EstimateResult,
+    /// The estimate from the held-out run.
+    pub held_out: EstimateResult,
+    /// The difference over its 1σ.
+    pub sigmas: f64,
+    /// The p-value of the test of equality, all other parameters being the same.
+    pub p_value: f64,
+    /// The p-value if the more significant parameters are not.
+    pub p_value_beside_others: f64,
+    /// Of several other runs, the forecast from the differences between them.
+    pub forecast: Option<ForecastedResult>,
+}
+
+/// A forecast of the estimate from a held-out run, and the estimate.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ForecastedResult {
+    /// The 95 % interval.
+    pub interval_95: [f64; 2],
+    /// The estimate with the given model.
+    pub found: EstimateResult,
+    /// Whether the interval contains it.
+    pub holds: bool,
+}
+
+impl From<&HeldOutComparison> for HeldOutResult {
+    fn from(comparison: &HeldOutComparison) -> Self {
+        Self {
+            rig: comparison.name.clone(),
+            consistent: comparison.contradicting().next().is_none(),
+            parameters: comparison.parameters.iter().map(HeldOutParameterResult::from).collect(),
+        }
+    }
+}
+
+impl From<&HeldOutParameter> for HeldOutParameterResult {
+    fn from(one: &HeldOutParameter) -> Self {
+        let value = |(value, sigma): (f64, f64)| EstimateResult { value, sigma };
+        let forecast = |of: Forecasted| ForecastedResult {
+            interval_95: of.interval.into(),
+            found: value(of.found),
+            holds: of.holds(),
+        };
+        Self {
+            id: one.test.id.clone(),
+            unit: one.unit.into(),
+            other_runs: value(one.expected),
+            held_out: value(one.found),
+            sigmas: one.sigmas(),
+            p_value: one.test.ln_p.exp(),
+            p_value_beside_others: one.test.ln_p_beside.exp(),
+            forecast: one.forecast.map(forecast),
+        }
+    }
 }
 
 /// A parameter that varies between runs.

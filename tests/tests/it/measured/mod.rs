@@ -317,6 +317,13 @@ fn chair_that_turns_under_the_wheel_is_named() {
     let [rate] = list(chair, "/parameters") else { panic!("{chair:#}") };
     let (value, sigma) = (number(rate, "/value"), number(rate, "/sigma"));
     assert!((value - 10_900.0).abs() < 1_500.0 && sigma < 700.0, "{rate}");
+    // The wheel rolls, as it slows down; a wheelchair's main wheels have diameters of 22 to 26 inches.
+    let rolling = causes.iter().find(|cause| cause["effect"] == "base_rolling");
+    let rolling = rolling.unwrap_or_else(|| panic!("{causes:#?}"));
+    let radius = &list(rolling, "/parameters")[0];
+    let (value, sigma) = (number(radius, "/value").abs(), number(radius, "/sigma"));
+    assert!((270.0..350.0).contains(&value) && sigma < 15.0, "{radius}");
+    assert!(number(&result, "/gain/log_score_rise_95/0") > 100.0, "{:#}", result["gain"]);
     // With this effect in the model, no harmonic of the first order remains.
     let structures = list(&result, "/unexplained");
     assert!(structures.iter().all(|one| one["structure"] != "1st order in table angle"));
