@@ -18,8 +18,8 @@
 //! 8. The search adds one effect or two, drops, exchanges one for one, one for two or two for one, adds or drops a noise process, and
 //!    widens or restores a prior; it fits the best few moves without linearization, takes the best, and ends when none is better
 //!    (`search`).
-//! 9. Each cause of the last hypothesis is reported with the alternatives that hold 98 % of the probability, and with a p-value for the
-//!    whole search (`search::alternatives`).
+//! 9. Each cause of the last hypothesis is reported with the alternatives that hold 98 % of the probability or fit as well, and with a
+//!    p-value for the whole search (`search::alternatives`).
 //! 10. What remains is tested against white noise, and what the causes gain is measured on data that were not used for the fit
 //!     (`criticism`, `prediction`).
 //!
