@@ -11,6 +11,7 @@
 //! **What it does not do.** It reads no files and decides nothing about measured data.
 
 mod budget;
+mod coverage;
 mod effect;
 mod error;
 mod library;
@@ -20,6 +21,7 @@ mod planned;
 mod proposal;
 
 pub use budget::{Budget, Contribution, Drift, EstimatedParameter, Truth};
+pub use coverage::{COVERAGE, coverage_factor};
 pub use effect::Effect;
 pub use error::DesignError;
 pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};

@@ -59,10 +59,10 @@ pub use output::{
 pub use parameter::{Parameter, parameters};
 pub use quantity::{Dimension, Kind, Quantity, QuantityError, Unit};
 pub use rig::{
-    AngleColumn, Axes, Coarse, ColumnSpec, Decimal, Gaps, InitialAttitude, Laboratory, LogFormat,
-    LogSpec, OwnClock, Reading, Rig, RowFilter, RunIdentity, ScaledColumn, SplitTime, Stamp,
-    Started, StatedRotation, Table, TableSpec, TemperatureColumn, TextForm, TimeColumn, TimeUnit,
-    TriadColumns,
+    Accuracy, AngleColumn, Axes, Coarse, ColumnSpec, Decimal, Gaps, InitialAttitude, Laboratory,
+    LogFormat, LogSpec, OwnClock, Reading, Rig, RowFilter, RunIdentity, ScaledColumn, SplitTime,
+    Stamp, Started, StatedRotation, Table, TableSpec, TemperatureColumn, TextForm, TimeColumn,
+    TimeUnit, TriadColumns,
 };
 pub use run::truth_json;
 pub use scenario::ScenarioFile;

@@ -87,7 +87,8 @@ pub use error::{Error, Result};
 pub use free_navigation::{BeforeAfterResult, NavigationResult};
 pub use history::{HistoryOptions, history};
 pub use homogeneity::{
-    ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult, VariationResult,
+    ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult,
+    VariationResult,
 };
 pub use identifiability::{
     GaugeResult, IdentifiabilityResult, ObservabilityResult, PredictedResult, SummandResult,

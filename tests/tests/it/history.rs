@@ -164,6 +164,17 @@ fn temperature_between_runs_is_named_and_the_next_run_predicted() {
     let [rigs, calibrations] = [&history, &again]
         .map(|result| number(of(list(result, "/homogeneity"), "gyro.scale.z"), "/chi_square"));
     assert!((rigs / calibrations - 1.0).abs() < 1e-3, "{rigs} {calibrations}");
+
+    // A calibration of January, applied in April, and to another IMU.
+    let navigate = |rig: &str| format!("navigate {rig} --calibration cal-0/calibration.toml");
+    let navigated = result_in(folder, &navigate("runs/3/rig.toml"));
+    let days = number(&navigated, "/outside_calibrated_range/days");
+    assert!((days - 90.0).abs() < 0.1, "{days}");
+    let rig = fs::read_to_string(folder.join("runs/3/rig.toml")).unwrap();
+    fs::write(folder.join("runs/3/other.toml"), rig.replace("A7", "B8")).unwrap();
+    let refused = rins_in(folder, &navigate("runs/3/other.toml"));
+    assert_eq!(refused.code, Some(1));
+    assert!(refused.err.contains("use one of the same IMU"), "{}", refused.err);
 }
 
 #[test]

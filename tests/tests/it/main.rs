@@ -1,6 +1,7 @@
 //! The `rins` command from the view of its users.
 #![expect(clippy::unwrap_used, reason = "in a test an unwrap is an assertion")]
 
+mod accuracy;
 mod at_rest;
 mod bad_input;
 mod blind;

@@ -83,9 +83,8 @@ fn wheel(folder: &Path, seed: u64, radius: f64) -> Truth {
                 let table_from_body =
                     Rotation3::from_axis_angle(&Vector3::z_axis(), turned + 0.5 * turn);
                 turned += turn;
-                let body = |vector: &Vector3<f64>| {
-                    table_from_body.inverse() * vector / f64::from(PARTS)
-                };
+                let body =
+                    |vector: &Vector3<f64>| table_from_body.inverse() * vector / f64::from(PARTS);
                 gyro += body(&earth) + Vector3::z() * rate / f64::from(PARTS);
                 accel += body(&force);
             }

@@ -181,6 +181,12 @@ pub const DURATION: Kind = Kind::new("a time", Dimension::TIME, "60 s", Range::P
 /// A table rate.
 pub const TABLE_RATE: Kind =
     Kind::new("an angular rate", Dimension::ANGULAR_RATE, "10 deg/s", Range::Any);
+/// The accuracy of an angular rate.
+pub(crate) const RATE_ACCURACY: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "0.0001 deg/s", Range::Positive);
+/// The accuracy of gravity.
+pub(crate) const GRAVITY_ACCURACY: Kind =
+    Kind::new("an acceleration", Dimension::ACCELERATION, "20 ug", Range::Positive);
 /// A table acceleration.
 pub const TABLE_ACCELERATION: Kind = Kind::new(
     "an angular acceleration",

@@ -20,7 +20,7 @@ use crate::quantity::kinds;
 use crate::section::Section;
 
 /// The keys of `[log]`.
-pub(crate) const KEYS: [&str; 15] = [
+pub(crate) const KEYS: [&str; 16] = [
     "path",
     "format",
     "decimal",
@@ -36,6 +36,7 @@ pub(crate) const KEYS: [&str; 15] = [
     "gaps",
     "static",
     "window",
+    "clock_accuracy",
 ];
 
 const SOME_COLUMNS: &str = r#"one to three columns such as ["x", "y", "z"]"#;

@@ -1,5 +1,6 @@
 //! The rig file: site, log, table and data sheets of a measurement.
 
+mod accuracy;
 mod axes;
 mod formats;
 mod identity;
@@ -19,6 +20,7 @@ use std::path::{Path, PathBuf};
 use rins_imu::{ImuSpec, Preset};
 use rins_motion::Station;
 
+pub use accuracy::Accuracy;
 pub use axes::Axes;
 pub use identity::{Laboratory, RunIdentity, Started};
 pub(crate) use identity::{named, started};
@@ -90,6 +92,8 @@ pub struct Rig {
     pub run: RunIdentity,
     /// Who made it.
     pub laboratory: Laboratory,
+    /// How accurate the references are: of `[table]`, `[site]` and `[log]`.
+    pub accuracy: Accuracy,
 }
 
 /// The sections of a rig file.
@@ -121,7 +125,8 @@ impl Rig {
         if station.is_none() && !matches!(log.format, LogFormat::Psins) {
             return Err(root.missing("[site]", "latitude, and height or gravity"));
         }
-        Ok(Self { station, log, ..Self::without_log(document, &root)? })
+        let accuracy = accuracy::read(&root)?;
+        Ok(Self { station, log, accuracy, ..Self::without_log(document, &root)? })
     }
 
     /// All sections except the station and the log, which a scenario reads differently.
@@ -139,6 +144,7 @@ impl Rig {
             spin: spin(root)?,
             run: identity::run(root)?,
             laboratory: identity::laboratory(root)?,
+            accuracy: Accuracy::default(),
         })
     }
 

@@ -17,7 +17,8 @@ pub struct InitialAttitude {
 }
 
 /// The keys of `[site]`.
-const SITE: [&str; 4] = ["latitude", "longitude", "height", "gravity"];
+pub(super) const SITE: [&str; 6] =
+    ["latitude", "longitude", "height", "gravity", "latitude_accuracy", "gravity_accuracy"];
 
 /// The station of `[site]`. No result depends on its longitude, which may be left out, and without a height it is at sea level.
 pub(crate) fn station(root: &Section<'_>) -> Result<Option<Station>, IoError> {

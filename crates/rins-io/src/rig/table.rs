@@ -43,9 +43,19 @@ pub struct TableSpec {
     pub wobble: Option<f64>,
 }
 
+/// The keys of `[table]`.
+pub(super) const KEYS: [&str; 7] = [
+    "profile",
+    "sense",
+    "acceleration",
+    "wobble",
+    "angle_sigma",
+    "rate_accuracy",
+    "angle_accuracy",
+];
+
 pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
-    let known = ["profile", "sense", "acceleration", "wobble", "angle_sigma"];
-    let Some(table) = root.section("table", &known)? else { return Ok(None) };
+    let Some(table) = root.section("table", &KEYS)? else { return Ok(None) };
     let acceleration = table.quantity("acceleration", &kinds::TABLE_ACCELERATION)?;
     let sense = sense(&table)?;
     let wobble = table.quantity("wobble", &kinds::ANGLE_SIGMA)?;

@@ -7,7 +7,7 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use rins_frames::InFrame;
-use rins_frames::units::DEG;
+use rins_frames::units::{DEG, PPM};
 
 use super::compare::{Difference, differences};
 use super::exact::inverted;
@@ -227,8 +227,9 @@ impl Description<'_> {
                     text.push_str(&self.log_keys(log_name, rate, &angle));
                 }
                 ("table", Node::Table(entries)) if profile_is_void => {
-                    let kept: Vec<Entry> =
-                        entries.iter().filter(|entry| entry.key == "wobble").cloned().collect();
+                    let is_kept =
+                        |entry: &&Entry| entry.key == "wobble" || entry.key.ends_with("_accuracy");
+                    let kept: Vec<Entry> = entries.iter().filter(is_kept).cloned().collect();
                     push_table(&mut text, "table", &kept);
                 }
                 (key, Node::Table(entries)) => push_table(&mut text, key, entries),
@@ -243,6 +244,9 @@ impl Description<'_> {
         let mut keys = format!("\n[log]\npath = {log_name:?}\nformat = {:?}\n", self.format.name());
         if let Some(rate) = rate {
             let _ = writeln!(keys, "rate = \"{rate} Hz\"");
+        }
+        if let Some(clock) = self.loaded.rig.accuracy.clock {
+            let _ = writeln!(keys, "clock_accuracy = \"{} ppm\"", clock / PPM);
         }
         match self.format {
             LogFile::Csv | LogFile::Parquet => keys.push_str(&column_keys(recording, angle)),

@@ -17,6 +17,7 @@ use rins_terms::{
     Model, NotUndone, Owner, Role, Surroundings, TermInstance, catalogue, compensated,
 };
 
+use super::uncertainty::{Contribution, Uncertainty, contributions};
 use crate::check::steady_rates;
 use crate::homogeneity::RunComparison;
 use crate::log::repairs;
@@ -43,6 +44,8 @@ pub(crate) struct Certificate {
     pub(crate) identifiability: Identifiability,
     /// The parameters that keep the values that were expected of them.
     pub(crate) held: Vec<usize>,
+    /// What the accuracy of the references adds to the uncertainty.
+    pub(crate) contributions: Vec<Contribution>,
     /// What was found, against the data sheet and what else was stated beforehand.
     pub(crate) departures: Vec<Departure>,
     /// Whether the innovations of all runs are what the model says.
@@ -112,13 +115,23 @@ impl Certificate {
         drop(stage);
         let fit = fit.with_context(|| case.names())?;
         let comparison = RunComparison::of_logs(&case, progress);
-        Ok(Self { comparison, ..Self::with(case, fit)? })
+        let contributions = contributions(&case, &fit);
+        Ok(Self { comparison, ..Self::with_contributions(case, fit, contributions)? })
     }
 
     /// What follows from a case and what was estimated from it.
     ///
     /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
-    pub(crate) fn with(mut case: EstimationProblem, fit: Fit) -> anyhow::Result<Self> {
+    pub(crate) fn with(case: EstimationProblem, fit: Fit) -> anyhow::Result<Self> {
+        Self::with_contributions(case, fit, Vec::new())
+    }
+
+    /// The same with what the accuracy of the references adds to the uncertainty.
+    fn with_contributions(
+        mut case: EstimationProblem,
+        fit: Fit,
+        contributions: Vec<Contribution>,
+    ) -> anyhow::Result<Self> {
         let given = case.given_of_logs();
         // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
         let is_kept = |run: usize, id: &str| match case.runs.get(run) {
@@ -153,6 +166,10 @@ impl Certificate {
         let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();
         whole.linear = linear;
         let fit = whole.with_prior_values_at(&places).marginal(is_kept);
+        let fit = contributions.iter().fold(fit, |fit, one| {
+            let moves = one.on(&fit);
+            fit.with_unknown(&moves)
+        });
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
             let undone = undone(&prepared.run, &fit.models[place]);
@@ -175,6 +192,7 @@ impl Certificate {
             fit,
             identifiability,
             held,
+            contributions,
             departures,
             consistency,
             noise,
@@ -187,6 +205,14 @@ impl Certificate {
     /// The value and the 1σ of what the data tell of a parameter: of itself, or of the sum that it is in, in SI units.
     pub(crate) fn value(&self, place: usize) -> (f64, f64) {
         self.fit.sum(place, &self.identifiability.parameters[place].aliases)
+    }
+
+    /// The uncertainty of what the data tell of a parameter, if the accuracy of a reference is stated.
+    pub(crate) fn uncertainty(&self, place: usize) -> Option<Uncertainty> {
+        let aliases = &self.identifiability.parameters[place].aliases;
+        let (_, sigma) = self.value(place);
+        let of = || Uncertainty::of((&self.fit, place), aliases, sigma, &self.contributions);
+        (!self.contributions.is_empty()).then(of)
     }
 
     /// What reading the logs has repaired or left out, log by log.

@@ -11,6 +11,9 @@ mod outcome;
 mod page;
 mod paper;
 mod result;
+mod uncertainty;
+mod uncertainty_result;
+mod uncertainty_words;
 
 pub use self::budget::{BudgetResult, ContributionResult, DriftResult};
 pub(crate) use self::certificate::Certificate;
@@ -20,6 +23,7 @@ pub use self::result::{
     AccelNoiseResult, CalibrateResult, DepartureResult, GyroNoiseResult, IterationResult,
     NoiseResult, ParameterResult, RunResult,
 };
+pub use self::uncertainty_result::{ContributionOfReference, UncertaintyResult};
 use rins_calibration::CalibrationError;
 
 use crate::error::Result;
@@ -77,6 +81,12 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
     let mut remark = None;
     let choice = match &options.model {
         Some(ModelChoice::Paper12) => {
+            if let Some(log) = logs.iter().find(|log| log.loaded.rig.accuracy.is_stated()) {
+                anyhow::bail!(
+                    "{}: the rig file states the accuracy of a reference, which the paper's filter does not take into account: full does",
+                    log.name
+                );
+            }
             anyhow::ensure!(
                 logs.len() == 1,
                 "the paper's filter takes one log; full takes several"
@@ -84,6 +94,11 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
             return paper(logs.remove(0), options);
         }
         Some(choice) => choice.clone(),
+        None if logs.iter().any(|log| log.loaded.rig.accuracy.is_stated()) => {
+            let why = "The model is full: the accuracy of a reference is stated, which paper12 does not take into account.";
+            remark = has_table_reading(&logs[0]).then(|| why.to_owned());
+            ModelChoice::Full
+        }
         None => match &logs[..] {
             [only] if has_table_reading(only) && only.loaded.rig.attitude.is_some() => {
                 return paper(logs.remove(0), options);

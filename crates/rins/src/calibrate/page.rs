@@ -13,6 +13,7 @@ use super::certificate::{Certificate, CertifiedRun};
 use super::compensation_guide::{budget_section, compensation_section};
 use super::departure::departure_in_words;
 use super::noise::{noise_section, noise_sentence};
+use super::uncertainty_words::{uncertainty_section, uncertainty_sentences};
 use crate::consistency::{Residuals, consistency_section, consistency_sentence};
 use crate::free_navigation::{gain_sentence, navigation_section};
 use crate::homogeneity::RunComparison;
@@ -84,6 +85,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
     });
     sentences.extend(gains);
+    sentences.extend(uncertainty_sentences(certificate));
     sentences.push(consistency_sentence(&certificate.consistency));
     sentences.push(rank_sentence(&certificate.identifiability));
     sentences.push(noise_sentence(certificate));
@@ -93,7 +95,9 @@ fn summary(certificate: &Certificate) -> Vec<String> {
 
 /// The report page.
 pub(super) fn certificate_report(certificate: &Certificate) -> Report {
-    let mut sections = vec![parameters_section(certificate), correlation_section(certificate)];
+    let mut sections = vec![parameters_section(certificate)];
+    sections.extend(uncertainty_section(certificate));
+    sections.push(correlation_section(certificate));
     sections.extend(certificate.comparison.as_ref().map(RunComparison::section));
     let several = certificate.runs.len() > 1;
     let of = |heading: &str, run: &CertifiedRun| {

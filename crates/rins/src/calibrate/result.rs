@@ -9,6 +9,7 @@ use super::budget::BudgetResult;
 use super::certificate::{Certificate, CertifiedRun};
 use super::compensation::EQUATION;
 use super::departure::quantity;
+use super::uncertainty_result::UncertaintyResult;
 use crate::consistency::ConsistencyResult;
 use crate::free_navigation::BeforeAfterResult;
 use crate::homogeneity::{HomogeneityResult, RunComparison, VariationResult};
@@ -84,6 +85,9 @@ pub struct ParameterResult {
     pub sigma: f64,
     /// The unit.
     pub unit: String,
+    /// The uncertainty budget, if the accuracy of a reference is stated; `sigma` is its combined standard uncertainty.
+    #[serde(default)]
+    pub uncertainty: Option<UncertaintyResult>,
     /// The estimate of the parameter itself, which what was known beforehand bounds.
     pub marginal: Option<EstimateResult>,
     /// The 1σ known beforehand.
@@ -292,6 +296,7 @@ impl ParameterResult {
             value: value / factor,
             sigma: sigma / factor,
             unit: unknown.unit.symbol.into(),
+            uncertainty: UncertaintyResult::of(certificate, place),
             marginal: Some(EstimateResult {
                 value: estimate.value / factor,
                 sigma: estimate.sigma / factor,

@@ -5,10 +5,10 @@ use rins_estimation::Estimate;
 
 use super::found::{DiagnosisOutcome, Named};
 use super::gain::gain_section;
-use crate::homogeneity::{HeldOutComparison, RunComparison};
 use super::overlay::overlay_sections;
 use super::structure::{size_in_words, structure_in_words};
 use super::words::{alternatives, probability, separating_tests, summary};
+use crate::homogeneity::{HeldOutComparison, RunComparison};
 use crate::settings::settings_in_words;
 use rins_report::number::figure;
 use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Table, Tone};

@@ -172,9 +172,18 @@ impl HeldOutComparison {
     /// The section of a report page.
     pub(crate) fn section(&self) -> Section {
         let mut rows = vec![
-            ["parameter", "other runs", "held-out run", "difference", "p", "p beside others", "forecast (95 %)", "unit"]
-                .map(String::from)
-                .to_vec(),
+            [
+                "parameter",
+                "other runs",
+                "held-out run",
+                "difference",
+                "p",
+                "p beside others",
+                "forecast (95 %)",
+                "unit",
+            ]
+            .map(String::from)
+            .to_vec(),
         ];
         for one in &self.parameters {
             let p = |ln_p: f64| probability(ln_p.exp()).trim_start_matches("= ").into();
@@ -185,10 +194,18 @@ impl HeldOutComparison {
                 format!("{:.1}σ", one.sigmas()),
                 p(one.test.ln_p),
                 p(one.test.ln_p_beside),
-                one.forecast.map_or_else(|| "–".into(), |of| {
-                    let (low, high) = of.interval;
-                    format!("{} in {} to {}", with_sigma(of.found), figure(low, 4), figure(high, 4))
-                }),
+                one.forecast.map_or_else(
+                    || "–".into(),
+                    |of| {
+                        let (low, high) = of.interval;
+                        format!(
+                            "{} in {} to {}",
+                            with_sigma(of.found),
+                            figure(low, 4),
+                            figure(high, 4)
+                        )
+                    },
+                ),
                 one.unit.into(),
             ]);
         }

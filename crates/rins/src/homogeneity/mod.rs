@@ -9,5 +9,8 @@ mod words;
 pub(crate) use self::comparison::RunComparison;
 pub(crate) use self::conditions::conditions;
 pub(crate) use self::held_out::HeldOutComparison;
-pub use self::result::{ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult, VariationResult};
+pub use self::result::{
+    ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult,
+    VariationResult,
+};
 pub(crate) use self::words::{HOMOGENEITY, homogeneity, summary};

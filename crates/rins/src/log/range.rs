@@ -7,11 +7,13 @@ use rins_terms::{Model, Need, Role, TermInstance};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use rins_io::shown;
+use rins_io::{date_text, shown};
 use rins_report::number::figure;
 
 /// The averaging time of a rate \[s\], so that noise does not widen the covered range.
 const MEAN_OVER: f64 = 1.0;
+
+const DAY: f64 = 86_400.0;
 
 /// A rate counts as covered if it exceeds the highest calibrated rate by less than this fraction.
 const SAME_RATE: f64 = 0.1;
@@ -66,6 +68,12 @@ pub struct OutsideRange {
     /// The rate about the axis of rotation, if it does \[deg/s\].
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub rate_deg_s: Option<OutsideRate>,
+    /// How many days after the calibration the log was made, if that is a day or more; negative before it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub days: Option<f64>,
+    /// Whether the log is of another power-on, as far as both state one; turn-on biases are other ones then.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub power_on: bool,
 }
 
 /// A temperature outside of what a calibration covers \[°C\].
@@ -91,8 +99,8 @@ pub struct OutsideRate {
 /// The part of a run outside the calibrated range; `terms` are the terms of the calibration in this run.
 ///
 /// # Errors
-/// If a term depends on a temperature that the log lacks, or would be extrapolated further than the calibrated range allows,
-/// unless `extrapolate`.
+/// If the calibration is of another IMU, if a term depends on a temperature that the log lacks, or would be extrapolated further than
+/// the calibrated range allows, unless `extrapolate`.
 pub(crate) fn beyond(
     calibration: &Calibration,
     terms: &Model,
@@ -102,6 +110,13 @@ pub(crate) fn beyond(
     let (log, file) = (shown(&loaded.rig.log.path), shown(&calibration.path));
     let here = covered([&loaded.recording]);
     ensure_temperature(&log, &file, terms, &loaded.recording)?;
+    let (run, measured) = (&loaded.rig.run, &calibration.measured);
+    if let (Some(own), Some(of)) = (&run.serial, &measured.serial) {
+        anyhow::ensure!(
+            own == of,
+            "{log}: the rig file states the IMU {own:?}, and {file} is a calibration of {of:?}: use one of the same IMU"
+        );
+    }
     let mut beyond = Beyond::default();
     let (temperature, rate) = (calibration.range.temperature, calibration.range.rate);
     let mut outside = OutsideRange::default();
@@ -145,6 +160,26 @@ pub(crate) fn beyond(
             figure(calibrated, 4)
         ));
         outside.rate_deg_s = Some(OutsideRate { log: range, calibrated });
+    }
+    if let Some((own, of)) = run.started.as_ref().zip(measured.started.as_ref()) {
+        let days = (own.seconds - of.seconds) / DAY;
+        if days.abs() >= 1.0 {
+            beyond.notes.push(format!(
+                "Calibrated on {}, {:.0} days {} this log: what changed in between is not known.",
+                date_text(of.seconds),
+                days.abs(),
+                if days > 0.0 { "before" } else { "after" }
+            ));
+            outside.days = Some(days);
+        }
+    }
+    if let Some((own, of)) =
+        run.series.as_ref().zip(measured.series.as_ref()).filter(|(a, b)| a != b)
+    {
+        beyond.notes.push(format!(
+            "The calibration is of another power-on ({of:?}, this log {own:?}): turn-on biases are not the same."
+        ));
+        outside.power_on = true;
     }
     beyond.outside = Some(outside);
     Ok(beyond)

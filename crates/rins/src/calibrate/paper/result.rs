@@ -71,6 +71,7 @@ fn parameter(parameter: &Parameter) -> ParameterResult {
         value: parameter.value / factor,
         sigma: parameter.sigma / factor,
         unit: parameter.kind.unit().into(),
+        uncertainty: None,
         marginal: None,
         prior_sigma: None,
         data_sigma: None,
