@@ -4,7 +4,7 @@ use rins_terms::catalogue;
 
 use crate::answer::{Analyser, Answer};
 use crate::draw::Trial;
-use crate::journal::try_out;
+use crate::journal::answered;
 use crate::laboratory::{Length, Level, Schedule};
 use crate::trouble::Trouble;
 
@@ -108,7 +108,7 @@ impl Frozen {
         if let Some(other) = self.is_another(&trial) {
             return Ok(Some(other));
         }
-        let answer = try_out(&trial, analyser)?;
+        let (_, answer) = answered(&trial, analyser)?;
         let right = answer.failure.is_none() && self.wanted.is_met(&answer);
         Ok((!right).then(|| format!("wanted {:?}, got {answer:?}", self.wanted)))
     }

@@ -11,6 +11,7 @@ use std::thread;
 use rins_blind::{record, write};
 use rins_terms::{Model, Term, TermInstance, catalogue};
 use serde::{Deserialize, Serialize};
+use tempfile::TempDir;
 
 use crate::answer::{Analyser, Answer};
 use crate::draw::{Kind, Trial};
@@ -98,9 +99,7 @@ pub fn records(journal: &Path) -> Result<Vec<Record>, Trouble> {
 /// # Errors
 /// [`Trouble`] if the trial cannot be made or the program not be asked.
 pub fn try_out(trial: &Trial, analyser: &Analyser) -> Result<Answer, Trouble> {
-    let folder = tempfile::tempdir()?;
-    write(folder.path(), &record(&trial.experiment), &trial.known, trial.experiment.interval)?;
-    let mut answer = analyser.ask(folder.path())?;
+    let (folder, mut answer) = answered(trial, analyser)?;
     if let ([hidden], false) = (&trial.hidden[..], trial.has_an_imperfect_table())
         && hidden.strength >= GAINFUL
         && let Some(truth) = hidden.as_term()
@@ -110,6 +109,17 @@ pub fn try_out(trial: &Trial, analyser: &Analyser) -> Result<Answer, Trouble> {
         answer.true_ln_p = given.causes.first().map(|cause| cause.ln_p);
     }
     Ok(answer)
+}
+
+/// Makes a trial in a temporary folder, and asks the program.
+///
+/// # Errors
+/// [`Trouble`] if the trial cannot be made or the program not be asked.
+pub(crate) fn answered(trial: &Trial, analyser: &Analyser) -> Result<(TempDir, Answer), Trouble> {
+    let folder = tempfile::tempdir()?;
+    write(folder.path(), &record(&trial.experiment), &trial.known, trial.experiment.interval)?;
+    let answer = analyser.ask(folder.path())?;
+    Ok((folder, answer))
 }
 
 impl Trial {

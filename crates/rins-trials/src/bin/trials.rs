@@ -3,6 +3,7 @@
 
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rins_trials::{
     Analyser, FROZEN, Length, Plan, Population, Record, Trial, Trouble, card, history_page,
@@ -57,7 +58,7 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             let (seed, trials) = (seed.parse().ok()?, trials.parse().ok()?);
             time(seed, trials, &analyser, Path::new(journal), told)
         }
-        ["frozen", program, ref more @ ..] => frozen(&Analyser::new(program, cores).with(more)),
+        ["frozen", program, ref more @ ..] => frozen(&Analyser::new(program, 1).with(more), cores),
         ["folder", seed, index, folder, ref kind @ ..] => {
             let (seed, index) = (seed.parse().ok()?, index.parse().ok()?);
             let trial = match *kind {
@@ -92,18 +93,30 @@ fn histories(seed: u64, campaigns: u64, page: &Path, revision: &str) -> Result<(
     Ok(std::fs::write(page, history_page(&all, seed, revision))?)
 }
 
-/// Runs the frozen trials, says what came of each, and fails if any is not as it was.
-fn frozen(analyser: &Analyser) -> Result<(), Trouble> {
-    let mut wrong = 0;
-    for trial in FROZEN {
-        match trial.fault(analyser)? {
-            None => println!("as before: {}", trial.name),
-            Some(fault) => {
-                wrong += 1;
-                println!("NOT AS BEFORE: {}: {fault}", trial.name);
+/// Runs the frozen trials, so many at once, says what came of each, and fails if any is not as it was.
+fn frozen(analyser: &Analyser, at_once: usize) -> Result<(), Trouble> {
+    let next = AtomicUsize::new(0);
+    let work = || -> Result<usize, Trouble> {
+        let mut wrong = 0;
+        while let Some(trial) = FROZEN.get(next.fetch_add(1, Ordering::Relaxed)) {
+            match trial.fault(analyser)? {
+                None => println!("as before: {}", trial.name),
+                Some(fault) => {
+                    wrong += 1;
+                    println!("NOT AS BEFORE: {}: {fault}", trial.name);
+                }
             }
         }
-    }
+        Ok(wrong)
+    };
+    let wrong = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..at_once).map(|_| scope.spawn(work)).collect();
+        let each = workers.into_iter().map(|worker| match worker.join() {
+            Ok(wrong) => wrong,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        each.sum::<Result<usize, Trouble>>()
+    })?;
     if wrong == 0 { Ok(()) } else { Err(Trouble::Frozen { wrong, of: FROZEN.len() }) }
 }
 
