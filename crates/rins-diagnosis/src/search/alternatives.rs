@@ -26,6 +26,10 @@ const ALIKE: f64 = 2.0;
 /// An amplitude is not plausible if it is so many times the largest typical magnitude.
 const PLAUSIBLE: f64 = 30.0;
 
+/// The odds of what fits as well are not smaller, as a logarithm: one in a thousand. By more than that no plausible prior differs from
+/// another; a fit was worse than the linear pass promised.
+const LEAST_ODDS: f64 = -6.9;
+
 /// Something in place of a cause.
 struct Alternative {
     term: &'static Term,
@@ -265,7 +269,8 @@ fn credible(all: Vec<Alternative>, own: Option<f64>) -> Vec<Rival> {
     let mut mass = (-total).exp();
     let mut rivals = Vec::new();
     for Alternative { term, settings, odds, likeness } in all {
-        let is_alike = likeness.zip(own).is_some_and(|(other, own)| other > own - ALIKE);
+        let fits = likeness.zip(own).is_some_and(|(other, own)| other > own - ALIKE);
+        let is_alike = fits && odds > LEAST_ODDS;
         if mass < CREDIBLE || is_alike {
             rivals.push(Rival { term, settings, odds });
         }
