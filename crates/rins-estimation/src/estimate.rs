@@ -107,6 +107,24 @@ impl Fit {
         self
     }
 
+    /// A copy without the linearized runs, which of a log of a day are too large for one.
+    #[must_use]
+    pub fn without_linear(&self) -> Self {
+        Self {
+            parameters: self.parameters.clone(),
+            covariance: self.covariance.clone(),
+            evidence: self.evidence.clone(),
+            models: self.models.clone(),
+            run_axes: self.run_axes.clone(),
+            noise: self.noise.clone(),
+            linear: Vec::new(),
+            moved: self.moved.clone(),
+            iterations: self.iterations.clone(),
+            inverse_curvature: self.inverse_curvature.clone(),
+            ..*self
+        }
+    }
+
     /// The same fit with an additional unknown effect that changes the parameters by `moves` \[SI\] at its 1σ.
     ///
     /// # Panics

@@ -73,7 +73,7 @@ where
 }
 
 /// The errors of the readings of each sample according to the model.
-fn errors<E: Send>(
+fn errors<E: Clone + Send>(
     track: &Track,
     model: &Model,
     error: &(impl Fn(&Signals) -> E + Sync),
@@ -85,7 +85,7 @@ fn errors<E: Send>(
         (0..SAMPLES_AT_A_TIME).map_while(|_| error()).collect()
     };
     let errors: Vec<Vec<E>> = track.moments_from(starts).into_par_iter().map(of).collect();
-    errors.into_iter().flatten().collect()
+    errors.concat()
 }
 
 /// The trajectory if the table angle and the specific force have these errors; a sample without an entry has none.

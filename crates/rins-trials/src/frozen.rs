@@ -1,5 +1,7 @@
 //! Trials that were got wrong once, or that stand for a kind of trial: what is to come of each does not change.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rins_terms::catalogue;
 
 use crate::answer::{Analyser, Answer};
@@ -7,6 +9,7 @@ use crate::draw::Trial;
 use crate::journal::answered;
 use crate::laboratory::{Length, Level, Schedule};
 use crate::trouble::Trouble;
+use crate::workers::at_once;
 
 /// A trial, and what is to come of it.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +61,7 @@ const fn frozen(name: &'static str, made: Made, wanted: Wanted) -> Frozen {
 
 /// All of them.
 #[rustfmt::skip]
-pub const FROZEN: &[Frozen] = &[
+const FROZEN: &[Frozen] = &[
     frozen("nothing at a constant rate", Hiding(const { &[] }, Constant, White, 1), Adequate),
     frozen("nothing but flicker", Hiding(const { &[] }, Reversal, Flicker, 2), Adequate),
     frozen("nothing at three rates", Hiding(const { &[] }, ThreeRates, White, 3), Adequate),
@@ -89,6 +92,28 @@ pub const FROZEN: &[Frozen] = &[
     // Means over epochs may show outliers, and not enough to be believed: samples do.
     frozen("heavy tails that epochs hardly show", OfCampaign(25, 171), Unexplained("heavy tails", "gyro.x")),
 ];
+
+/// Runs the frozen trials, so many at once. `told` gets each with what is wrong with it, if anything is.
+///
+/// # Errors
+/// [`Trouble::Frozen`] if any is not as it was, and any other [`Trouble`] of a trial.
+pub fn run_frozen(
+    analyser: &Analyser,
+    threads: usize,
+    told: impl Fn(&Frozen, Option<&str>) + Sync,
+) -> Result<(), Trouble> {
+    let wrong = AtomicUsize::new(0);
+    at_once(threads, FROZEN, |trial| {
+        let fault = trial.fault(analyser)?;
+        wrong.fetch_add(usize::from(fault.is_some()), Ordering::Relaxed);
+        told(trial, fault.as_deref());
+        Ok(())
+    })?;
+    match wrong.into_inner() {
+        0 => Ok(()),
+        wrong => Err(Trouble::Frozen { wrong, of: FROZEN.len() }),
+    }
+}
 
 impl Frozen {
     /// What is wrong with what the program says of it; nothing if it is as wanted.

@@ -5,8 +5,6 @@ use std::fs::{self, OpenOptions};
 use std::io::Write as _;
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread;
 
 use rins_blind::{record, write};
 use rins_terms::{Model, Term, TermInstance, catalogue};
@@ -19,6 +17,7 @@ use crate::hide::Hidden;
 use crate::laboratory::{Grade, Length, Level, Schedule};
 use crate::outside::Outside;
 use crate::trouble::Trouble;
+use crate::workers::at_once;
 
 /// What one effect of so many sigmas gains is set against what the true model gains.
 const GAINFUL: f64 = 6.0;
@@ -154,30 +153,18 @@ pub fn run(
         before.iter().filter(|r| r.seed == plan.seed && !r.timed).map(|r| r.index).collect();
     let left: Vec<u64> = (0..plan.trials as u64).filter(|index| !done.contains(index)).collect();
     let file = Mutex::new(OpenOptions::new().create(true).append(true).open(journal)?);
-    let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let work = || -> Result<(), Trouble> {
-        while !stopped.load(Ordering::Relaxed) {
-            let Some(&index) = left.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-            let trial = match plan.population {
-                Population::Blind => Trial::draw(plan.seed, index, Length::Drawn)?,
-                Population::Null => Trial::null(plan.seed, index),
-            };
-            let record = Record::of(trial, (plan.seed, index, false), analyser)?;
-            let line = serde_json::to_string(&record)? + "\n";
-            let mut file = file.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            file.write_all(line.as_bytes())?;
-            drop(file);
-            told(&record);
-        }
+    at_once(plan.threads, &left, |&index| {
+        let trial = match plan.population {
+            Population::Blind => Trial::draw(plan.seed, index, Length::Drawn)?,
+            Population::Null => Trial::null(plan.seed, index),
+        };
+        let record = Record::of(trial, (plan.seed, index, false), analyser)?;
+        let line = serde_json::to_string(&record)? + "\n";
+        let mut file = file.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        file.write_all(line.as_bytes())?;
+        drop(file);
+        told(&record);
         Ok(())
-    };
-    let stopping = || work().inspect_err(|_| stopped.store(true, Ordering::Relaxed));
-    thread::scope(|scope| {
-        let workers: Vec<_> = (0..plan.threads).map(|_| scope.spawn(stopping)).collect();
-        workers.into_iter().try_for_each(|worker| match worker.join() {
-            Ok(result) => result,
-            Err(panic) => std::panic::resume_unwind(panic),
-        })
     })
 }
 

@@ -33,11 +33,13 @@ mod null;
 mod score;
 mod statistics;
 
+mod workers;
+
 pub use answer::{Analyser, Answer, Named};
 pub use card::card;
 pub use catalogue::{hidden, is_hideable};
 pub use draw::{Kind, Trial};
-pub use frozen::{FROZEN, Frozen};
+pub use frozen::{Frozen, run_frozen};
 pub use hide::Hidden;
 pub use histories::{HistoryTrial, history_page, history_trial};
 pub use journal::{Plan, Population, Record, records, run, time, try_out};

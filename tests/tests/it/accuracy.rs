@@ -3,15 +3,15 @@
 use std::fs;
 use std::path::Path;
 
+use rins_testing::{data_sheets, site};
 use serde_json::Value;
 
 use crate::support::{list, number, parameter, result_in, rins_in};
 
-const SCENARIO: &str = r#"[site]
-latitude = "34.25 deg"
-longitude = "0 deg"
-height = "100 m"
-[log]
+const SCENARIO: &str = concat!(
+    site!(),
+    data_sheets!(),
+    r#"[log]
 rate = "20 Hz"
 table_angle = { noise = "1 arcsec" }
 [table]
@@ -22,20 +22,11 @@ roll = "30 deg"
 pitch = "20 deg"
 yaw = "40 deg"
 sigma = "0.05 deg"
-[imu.gyro]
-noise = "0.005 deg/h/sqrt(Hz)"
-bias_sigma = "0.05 deg/h"
-scale_sigma = "100 ppm"
-misalignment_sigma = "60 arcsec"
-[imu.accel]
-noise = "20 ug/sqrt(Hz)"
-bias_sigma = "200 ug"
-scale_sigma = "100 ppm"
-misalignment_sigma = "20 arcsec"
 [truth]
 seed = 3
-gyro = { bias = ["0.02 deg/h", "0.01 deg/h", "-0.01 deg/h"], scale = ["0 ppm", "0 ppm", "84 ppm"] }
-"#;
+gyro = { scale = ["0 ppm", "0 ppm", "84 ppm"] }
+"#
+);
 
 /// The calibration of the run with further keys in sections of its rig file.
 fn calibrated(folder: &Path, keys: &[(&str, &str)]) -> Value {

@@ -1,6 +1,6 @@
 //! Base motion: tilt, sway, rotation, rolling.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 
 use crate::catalogue::parameters::{DURATION, FREQUENCY, TIME, named, parameter, usual};
 use crate::signals::add_constant;
@@ -131,8 +131,6 @@ pub static BASE_ROLLING: Term = Term {
         let up = moment.surroundings.specific_force.normalize();
         let ahead = Vector3::z().cross(&up);
         let coriolis = moment.surroundings.earth_rate.cross(&ahead) * (2.0 * moment.mean.rate);
-        let body_from_axis = Rotation3::from_axis_angle(&Vector3::z_axis(), -moment.mean.angle);
-        let felt = body_from_axis * (ahead * moment.mean.acceleration + coriolis);
-        out.add_accel(p[0], &felt);
+        out.add_accel(p[0], &moment.in_body(&(ahead * moment.mean.acceleration + coriolis)));
     }),
 };

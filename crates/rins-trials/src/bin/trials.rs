@@ -3,11 +3,10 @@
 
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rins_trials::{
-    Analyser, FROZEN, Length, Plan, Population, Record, Trial, Trouble, card, history_page,
-    history_trial, null_page, records, run, time,
+    Analyser, Frozen, Length, Plan, Population, Record, Trial, Trouble, card, history_page,
+    history_trial, null_page, records, run, run_frozen, time,
 };
 
 const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
@@ -58,7 +57,13 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             let (seed, trials) = (seed.parse().ok()?, trials.parse().ok()?);
             time(seed, trials, &analyser, Path::new(journal), told)
         }
-        ["frozen", program, ref more @ ..] => frozen(&Analyser::new(program, 1).with(more), cores),
+        ["frozen", program, ref more @ ..] => {
+            let told = |trial: &Frozen, fault: Option<&str>| match fault {
+                None => println!("as before: {}", trial.name),
+                Some(fault) => println!("NOT AS BEFORE: {}: {fault}", trial.name),
+            };
+            run_frozen(&Analyser::new(program, 1).with(more), cores, told)
+        }
         ["folder", seed, index, folder, ref kind @ ..] => {
             let (seed, index) = (seed.parse().ok()?, index.parse().ok()?);
             let trial = match *kind {
@@ -91,33 +96,6 @@ fn histories(seed: u64, campaigns: u64, page: &Path, revision: &str) -> Result<(
         println!("{index:5} {} {:.2} s", all[all.len() - 1], start.elapsed().as_secs_f64());
     }
     Ok(std::fs::write(page, history_page(&all, seed, revision))?)
-}
-
-/// Runs the frozen trials, so many at once, says what came of each, and fails if any is not as it was.
-fn frozen(analyser: &Analyser, at_once: usize) -> Result<(), Trouble> {
-    let next = AtomicUsize::new(0);
-    let work = || -> Result<usize, Trouble> {
-        let mut wrong = 0;
-        while let Some(trial) = FROZEN.get(next.fetch_add(1, Ordering::Relaxed)) {
-            match trial.fault(analyser)? {
-                None => println!("as before: {}", trial.name),
-                Some(fault) => {
-                    wrong += 1;
-                    println!("NOT AS BEFORE: {}: {fault}", trial.name);
-                }
-            }
-        }
-        Ok(wrong)
-    };
-    let wrong = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..at_once).map(|_| scope.spawn(work)).collect();
-        let each = workers.into_iter().map(|worker| match worker.join() {
-            Ok(wrong) => wrong,
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        each.sum::<Result<usize, Trouble>>()
-    })?;
-    if wrong == 0 { Ok(()) } else { Err(Trouble::Frozen { wrong, of: FROZEN.len() }) }
 }
 
 /// Makes the folder of one trial, and says what is hidden in it.

@@ -17,7 +17,7 @@ use rins_terms::{
     Model, NotUndone, Owner, Role, Surroundings, TermInstance, catalogue, compensated,
 };
 
-use super::uncertainty::{Contribution, Uncertainty, contributions};
+use super::uncertainty::{Contribution, Moves, Uncertainty, moves};
 use crate::check::steady_rates;
 use crate::homogeneity::RunComparison;
 use crate::log::repairs;
@@ -115,23 +115,19 @@ impl Certificate {
         drop(stage);
         let fit = fit.with_context(|| case.names())?;
         let comparison = RunComparison::of_logs(&case, progress);
-        let contributions = contributions(&case, &fit);
-        Ok(Self { comparison, ..Self::with_contributions(case, fit, contributions)? })
+        let moves = moves(&case, &fit);
+        Ok(Self { comparison, ..Self::with_moves(case, fit, &moves)? })
     }
 
     /// What follows from a case and what was estimated from it.
     ///
     /// Readings from which the errors cannot be undone are navigated as they were recorded, and that is said.
     pub(crate) fn with(case: EstimationProblem, fit: Fit) -> anyhow::Result<Self> {
-        Self::with_contributions(case, fit, Vec::new())
+        Self::with_moves(case, fit, &[])
     }
 
     /// The same with what the accuracy of the references adds to the uncertainty.
-    fn with_contributions(
-        mut case: EstimationProblem,
-        fit: Fit,
-        contributions: Vec<Contribution>,
-    ) -> anyhow::Result<Self> {
+    fn with_moves(mut case: EstimationProblem, fit: Fit, moves: &[Moves]) -> anyhow::Result<Self> {
         let given = case.given_of_logs();
         // How an IMU stood in each of many rests is nothing to keep; where an axis points about which it turns is.
         let is_kept = |run: usize, id: &str| match case.runs.get(run) {
@@ -142,13 +138,11 @@ impl Certificate {
         let is_kept = |Estimate { parameter, run, .. }: &Estimate| {
             parameter.owner != Owner::Placement || run.is_none_or(|run| is_kept(run, &parameter.id))
         };
-        let mut whole = fit.along(SignedAxes::IDENTITY);
-        // Those of a run of a day are too large for a copy.
-        let linear = std::mem::take(&mut whole.linear);
+        let whole = fit.along(SignedAxes::IDENTITY);
         let kept: Vec<usize> = (0..whole.parameters.len())
             .filter(|&place| is_kept(&whole.parameters[place]))
             .collect();
-        let fit = whole.clone().marginal(is_kept);
+        let fit = whole.without_linear().marginal(is_kept);
         let mut identifiability = fit.identifiability();
         if let [_] = case.runs[..] {
             identifiability.unknowns.iter_mut().for_each(|unknown| unknown.run = None);
@@ -164,12 +158,9 @@ impl Certificate {
         let held = held(&fit, &identifiability);
         // The attitudes that are not kept change with the parameters that are left at their prior values.
         let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();
-        whole.linear = linear;
         let fit = whole.with_prior_values_at(&places).marginal(is_kept);
-        let fit = contributions.iter().fold(fit, |fit, one| {
-            let moves = one.on(&fit);
-            fit.with_unknown(&moves)
-        });
+        let contributions: Vec<Contribution> = moves.iter().map(|one| one.of(&fit)).collect();
+        let fit = contributions.iter().fold(fit, |fit, one| fit.with_unknown(&one.moves));
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {
             let undone = undone(&prepared.run, &fit.models[place]);
@@ -207,11 +198,11 @@ impl Certificate {
         self.fit.sum(place, &self.identifiability.parameters[place].aliases)
     }
 
-    /// The uncertainty of what the data tell of a parameter, if the accuracy of a reference is stated.
+    /// The uncertainty of a parameter, or of the combination in which it is observable, if the accuracy of a reference is stated.
     pub(crate) fn uncertainty(&self, place: usize) -> Option<Uncertainty> {
         let aliases = &self.identifiability.parameters[place].aliases;
         let (_, sigma) = self.value(place);
-        let of = || Uncertainty::of((&self.fit, place), aliases, sigma, &self.contributions);
+        let of = || Uncertainty::of(place, aliases, sigma, &self.contributions);
         (!self.contributions.is_empty()).then(of)
     }
 

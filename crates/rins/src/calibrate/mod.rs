@@ -79,9 +79,10 @@ pub fn calibrate(logs: Vec<Log>, options: &CalibrateOptions) -> Result<Calibrati
 
 fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<Calibration> {
     let mut remark = None;
+    let stated = logs.iter().find(|log| log.loaded.rig.accuracy.is_stated());
     let choice = match &options.model {
         Some(ModelChoice::Paper12) => {
-            if let Some(log) = logs.iter().find(|log| log.loaded.rig.accuracy.is_stated()) {
+            if let Some(log) = stated {
                 anyhow::bail!(
                     "{}: the rig file states the accuracy of a reference, which the paper's filter does not take into account: full does",
                     log.name
@@ -94,7 +95,7 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
             return paper(logs.remove(0), options);
         }
         Some(choice) => choice.clone(),
-        None if logs.iter().any(|log| log.loaded.rig.accuracy.is_stated()) => {
+        None if stated.is_some() => {
             let why = "The model is full: the accuracy of a reference is stated, which paper12 does not take into account.";
             remark = has_table_reading(&logs[0]).then(|| why.to_owned());
             ModelChoice::Full

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use nalgebra::DVector;
 use rins_design::coverage_factor;
-use rins_estimation::{Alias, Fit, Run, fit_near};
+use rins_estimation::{Alias, Estimate, Fit, Run, fit_near};
 use rins_frames::SignedAxes;
 use rins_io::{Accuracy, LogFormat, Reading, Rig};
 use rins_motion::Recording;
@@ -130,6 +131,32 @@ fn correct_clock(error: f64, recording: &mut Recording, rig: &Rig) {
     }
 }
 
+/// How far the estimates move with the standard uncertainty of one reference.
+#[derive(Clone, Debug)]
+pub(crate) struct Moves {
+    reference: Reference,
+    standard_uncertainty: f64,
+    /// By id and run, in SI units.
+    each: Vec<(String, Option<usize>, f64)>,
+}
+
+impl Moves {
+    /// The contribution to the parameters of a fit; those that are in no other fit do not move.
+    pub(crate) fn of(&self, fit: &Fit) -> Contribution {
+        let moved = |one: &Estimate| {
+            let own =
+                self.each.iter().find(|(id, run, _)| *id == one.parameter.id && *run == one.run);
+            own.map_or(0.0, |(.., moved)| *moved)
+        };
+        let moves = fit.parameters.iter().map(moved);
+        Contribution {
+            reference: self.reference,
+            standard_uncertainty: self.standard_uncertainty,
+            moves: DVector::from_iterator(fit.parameters.len(), moves),
+        }
+    }
+}
+
 /// What one reference adds to the uncertainty of all parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct Contribution {
@@ -137,45 +164,31 @@ pub(crate) struct Contribution {
     pub(crate) reference: Reference,
     /// Its standard uncertainty, in SI units; the largest of all runs.
     pub(crate) standard_uncertainty: f64,
-    /// How far each parameter moves with that, by id and run, in SI units.
-    moves: Vec<(String, Option<usize>, f64)>,
+    /// How far each parameter moves with that, in SI units.
+    pub(crate) moves: DVector<f64>,
 }
 
-impl Contribution {
-    /// How far a parameter moves \[SI\].
-    fn of(&self, id: &str, run: Option<usize>) -> f64 {
-        let own = |one: &&(String, Option<usize>, f64)| one.0 == id && one.1 == run;
-        self.moves.iter().find(own).map_or(0.0, |(.., moved)| *moved)
+/// How far the estimates move with all references whose accuracy is stated: the model is estimated again with each of them off by its
+/// standard uncertainty.
+pub(crate) fn moves(problem: &EstimationProblem, fit: &Fit) -> Vec<Moves> {
+    let stated: Vec<Accuracy> = problem.runs.iter().map(|run| run.loaded.rig.accuracy).collect();
+    if !stated.iter().any(Accuracy::is_stated) {
+        return Vec::new();
     }
-
-    /// How far all parameters of a fit move.
-    pub(crate) fn on(&self, fit: &Fit) -> nalgebra::DVector<f64> {
-        let each = fit.parameters.iter().map(|one| self.of(&one.parameter.id, one.run));
-        nalgebra::DVector::from_iterator(fit.parameters.len(), each)
-    }
-}
-
-/// The contributions of all references whose accuracy is stated: the model is estimated again with each of them off by its standard
-/// uncertainty.
-pub(crate) fn contributions(problem: &EstimationProblem, fit: &Fit) -> Vec<Contribution> {
-    let along = fit.clone().along(SignedAxes::IDENTITY);
+    let along = fit.without_linear().along(SignedAxes::IDENTITY);
     let of = |reference: Reference| {
-        let each = problem.runs.iter().map(|run| run.loaded.rig.accuracy);
-        let largest = each
-            .filter_map(|accuracy| reference.standard_uncertainty(&accuracy))
-            .reduce(f64::max)?;
+        let each = stated.iter().filter_map(|accuracy| reference.standard_uncertainty(accuracy));
+        let largest = each.reduce(f64::max)?;
         let (runs, model) = with_error(problem, reference, largest);
         let moved = fit_near(fit, &runs, &model, problem.imu(), problem.knowledge()).ok()?;
         let moved = moved.along(SignedAxes::IDENTITY);
-        let moves = along.parameters.iter().filter_map(|one| {
-            let id = &one.parameter.id;
-            let same = moved
-                .parameters
-                .iter()
-                .find(|other| other.parameter.id == *id && other.run == one.run)?;
-            Some((id.clone(), one.run, same.value - one.value))
+        let each = along.parameters.iter().filter_map(|one| {
+            let is_same =
+                |other: &&Estimate| other.parameter.id == one.parameter.id && other.run == one.run;
+            let same = moved.parameters.iter().find(is_same)?;
+            Some((one.parameter.id.clone(), one.run, same.value - one.value))
         });
-        Some(Contribution { reference, standard_uncertainty: largest, moves: moves.collect() })
+        Some(Moves { reference, standard_uncertainty: largest, each: each.collect() })
     };
     Reference::ALL.into_iter().filter_map(of).collect()
 }
@@ -208,15 +221,14 @@ pub(crate) struct Uncertainty {
 impl Uncertainty {
     /// That of the sum of a parameter with others, whose 1σ with all contributions is this, in SI units.
     pub(crate) fn of(
-        (fit, place): (&Fit, usize),
+        place: usize,
         aliases: &[Alias],
         sigma: f64,
         contributions: &[Contribution],
     ) -> Self {
         let moved = |one: &Contribution| {
-            let moves = one.on(fit);
-            let others = aliases.iter().map(|alias| alias.coefficient * moves[alias.unknown]);
-            (one.reference, moves[place] + others.sum::<f64>())
+            let others = aliases.iter().map(|alias| alias.coefficient * one.moves[alias.unknown]);
+            (one.reference, one.moves[place] + others.sum::<f64>())
         };
         let by_reference: Vec<(Reference, f64)> = contributions.iter().map(moved).collect();
         let square: f64 = by_reference.iter().map(|(_, moved)| moved * moved).sum();

@@ -34,7 +34,7 @@ pub struct ContributionOfReference {
 }
 
 impl UncertaintyResult {
-    /// The uncertainty of what the data tell of a parameter; `None` if the accuracy of no reference is stated.
+    /// Of a parameter, or of the combination in which it is observable; `None` if the accuracy of no reference is stated.
     pub(super) fn of(certificate: &Certificate, place: usize) -> Option<Self> {
         let uncertainty = certificate.uncertainty(place)?;
         let factor = certificate.fit.parameters[place].parameter.unit.factor;

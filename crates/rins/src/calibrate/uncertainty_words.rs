@@ -6,10 +6,10 @@ use rins_report::{Cell, Column, Item, Section, Table};
 use super::certificate::Certificate;
 use super::uncertainty::{Reference, Uncertainty};
 
-/// What is told of a parameter whose uncertainty references enlarge by this part.
+/// A parameter is in the summary if the references enlarge its uncertainty by more than this fraction.
 const ENLARGED: f64 = 0.1;
 
-/// So many parameters are told one by one.
+/// The maximum number of parameters in the summary.
 const TOLD: usize = 3;
 
 /// The parameters whose uncertainty the references enlarge most, and their expanded uncertainty.

@@ -19,10 +19,8 @@ pub use self::result::{
 use self::source::sources;
 use crate::error::Result;
 use crate::homogeneity::RunComparison;
+use crate::log::DAY;
 use crate::progress::Progress;
-
-/// The probability of the intervals of a forecast.
-pub(crate) const INTERVAL: f64 = 0.95;
 
 /// A run is predicted from the runs before it if these are as many.
 const FEWEST_BEFORE: usize = 3;
@@ -149,7 +147,7 @@ fn next(history: &History, options: &HistoryOptions) -> Conditions {
     Conditions {
         unit: runs.last().map_or(0, |run| run.conditions.unit),
         power_on: power_ons.max().unwrap_or(0) + 1,
-        date: options.date.map(|seconds| seconds / 86_400.0).or(date),
+        date: options.date.map(|seconds| seconds / DAY).or(date),
         since_power_on: options.since_power_on.or_else(|| median(of(|one| one.since_power_on))),
         temperature: options.temperature.or_else(|| median(of(|one| one.temperature))),
         warming: runs.last().and_then(|run| run.conditions.warming),

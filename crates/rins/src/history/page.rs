@@ -4,7 +4,7 @@ use rins_report::{Band, Item, Plot, Report, Section, Series, Style};
 
 use super::RunHistory;
 use super::text::{forecasts, predicted_run, scores, title};
-use crate::homogeneity::{HOMOGENEITY, homogeneity, summary};
+use crate::homogeneity::{HOMOGENEITY, INTERVAL, homogeneity, summary};
 use crate::table::report_table;
 
 /// The report page.
@@ -75,7 +75,7 @@ fn plot(history: &RunHistory, place: usize) -> Plot {
     let ends: Vec<(f64, f64, f64)> = predicted
         .iter()
         .map(|(run, forecast, ..)| {
-            let (low, high) = forecast.interval(super::INTERVAL);
+            let (low, high) = forecast.interval(INTERVAL);
             (x(*run), low, high)
         })
         .collect();

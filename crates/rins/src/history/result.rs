@@ -4,8 +4,9 @@ use rins_history::{Conditions, Forecast};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{INTERVAL, Predicted, RunHistory, Score};
-use crate::homogeneity::{HomogeneityResult, VariationResult};
+use super::{Predicted, RunHistory, Score};
+use crate::homogeneity::{HomogeneityResult, INTERVAL, VariationResult};
+use crate::log::DAY;
 use crate::values::EstimateResult;
 
 /// The result of `rins history`.
@@ -117,7 +118,7 @@ impl RunConditionsResult {
             file,
             unit: conditions.unit,
             power_on: conditions.power_on,
-            date_s: conditions.date.map(|days| days * 86_400.0),
+            date_s: conditions.date.map(|days| days * DAY),
             since_power_on_s: conditions.since_power_on,
             temperature_degc: conditions.temperature,
         }

@@ -7,7 +7,8 @@ use rins_io::date_text;
 use rins_report::number::figure;
 
 use super::{Predicted, RunHistory};
-use crate::homogeneity::{homogeneity, summary};
+use crate::homogeneity::{INTERVAL, homogeneity, summary};
+use crate::log::DAY;
 use crate::table::aligned;
 
 /// The summary for a terminal.
@@ -37,7 +38,7 @@ pub(super) fn title(history: &RunHistory) -> String {
 pub(super) fn predicted_run(history: &RunHistory) -> String {
     let Conditions { date, since_power_on, temperature, .. } = history.next;
     let mut under: Vec<String> = Vec::new();
-    under.extend(date.map(|days| date_text(days * 86_400.0)));
+    under.extend(date.map(|days| date_text(days * DAY)));
     under.extend(
         since_power_on.map(|time| format!("{} min after power-on", figure(time / 60.0, 3))),
     );
@@ -54,7 +55,7 @@ pub(super) fn forecasts(history: &RunHistory) -> Vec<Vec<String>> {
     for ((one, unit), predicted) in parameters.zip(&history.forecasts) {
         match predicted {
             Predicted::Forecast(forecast) => {
-                let (low, high) = forecast.interval(super::INTERVAL);
+                let (low, high) = forecast.interval(INTERVAL);
                 rows.push(vec![
                     one.id.clone(),
                     figure(forecast.mean(), 5),
@@ -81,7 +82,7 @@ pub(super) fn scores(history: &RunHistory) -> Vec<Vec<String>> {
     for ((one, unit), score) in parameters.zip(&history.scores) {
         let Some(crps) = score.crps else { continue };
         let inside = score.runs.iter().filter(|(_, forecast, value, _)| {
-            let (low, high) = forecast.interval(super::INTERVAL);
+            let (low, high) = forecast.interval(INTERVAL);
             low <= *value && *value <= high
         });
         let mut row = vec![one.id.clone(), format!("{} of {}", inside.count(), score.runs.len())];

@@ -1,13 +1,13 @@
 //! The parameters of several runs, compared.
 
-use rins_estimation::{Fit, fit};
+use rins_estimation::{Fit, Run, fit};
 use rins_frames::SignedAxes;
 use rins_history::{
     Cause, Conditions, Explanation, Forecast, History, Homogeneity, Quantity, RunEstimate,
 };
 use rins_imu::ImuSpec;
 use rins_io::Measured;
-use rins_terms::Owner;
+use rins_terms::{Model, Owner};
 
 use super::conditions::conditions;
 use crate::log::measured;
@@ -15,7 +15,7 @@ use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
 
 /// The family-wise significance level of the homogeneity test.
-pub(super) const SIGNIFICANT: f64 = 0.01;
+const SIGNIFICANT: f64 = 0.01;
 
 /// The parameters of several runs, compared: whether they are the same, and how they vary.
 #[derive(Clone, Debug)]
@@ -51,8 +51,7 @@ impl RunComparison {
             stage.done(done);
             let own: Vec<_> = places.iter().map(|&place| given[place].clone()).collect();
             // A log that shows too little by itself says nothing of differences.
-            let fitted = fit(&own, &problem.model, problem.imu(), problem.knowledge(), |_| ());
-            fits.extend(fitted.ok().map(|fit| (prepared, fit.along(SignedAxes::IDENTITY))));
+            fits.extend(by_itself(problem, &own, &problem.model).map(|fit| (prepared, fit)));
         }
         let quantities = quantities(fits.iter().map(|(_, fit)| fit), problem.imu());
         let conditions = conditions(&fits.iter().map(|(log, _)| of_log(log)).collect::<Vec<_>>());
@@ -66,8 +65,8 @@ impl RunComparison {
 
     /// The parameters that are not the same in all runs, and would not be if those that differ more were free.
     pub(crate) fn inhomogeneous(&self) -> impl Iterator<Item = &Homogeneity> {
-        let level = (SIGNIFICANT / self.homogeneity.len() as f64).ln();
-        self.homogeneity.iter().filter(move |one| one.ln_p.max(one.ln_p_beside) < level)
+        let among = self.homogeneity.len();
+        self.homogeneity.iter().filter(move |one| is_significant(one, among))
     }
 
     /// The causes.
@@ -86,6 +85,17 @@ impl RunComparison {
         let place = self.history.quantities().iter().position(|one| one.id == id);
         place.map_or("", |place| self.units[place])
     }
+}
+
+/// Whether the estimates of a parameter differ significantly, as one of so many, and would do so if those that differ more were free.
+pub(super) fn is_significant(one: &Homogeneity, among: usize) -> bool {
+    one.ln_p.max(one.ln_p_beside) < (SIGNIFICANT / among as f64).ln()
+}
+
+/// A model estimated from the runs of one log, along the sensors' own axes; `None` if the log shows too little for that.
+pub(super) fn by_itself(problem: &EstimationProblem, runs: &[Run], model: &Model) -> Option<Fit> {
+    let fit = fit(runs, model, problem.imu(), problem.knowledge(), |_| ()).ok()?;
+    Some(fit.along(SignedAxes::IDENTITY))
 }
 
 /// When and how a log was made.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rins_history::Conditions;
 use rins_io::Measured;
 
-const DAY: f64 = 86_400.0;
+use crate::log::DAY;
 
 /// The conditions of all runs: units by serial number, power-ons by series.
 pub(crate) fn conditions(measured: &[Measured]) -> Vec<Conditions> {

@@ -1,23 +1,23 @@
 //! A held-out run beside the estimate from other runs: which parameters differ.
 
 use rins_diagnosis::same_in_all_runs;
-use rins_estimation::{Fit, Run, fit};
+use rins_estimation::{Fit, Run};
 use rins_frames::SignedAxes;
 use rins_history::{Conditions, History, Homogeneity};
 use rins_report::number::figure;
 use rins_report::{Item, Section};
 use rins_terms::{Model, Owner, Role};
 
-use super::comparison::{RunComparison, SIGNIFICANT, estimate, of_log, quantities};
+use super::comparison::{RunComparison, by_itself, estimate, is_significant, of_log, quantities};
 use super::conditions::conditions;
-use crate::consistency::probability;
+use super::words::p_value;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::table::report_table;
 
 /// The probability of the interval of a forecast.
-pub(crate) const FORECAST: f64 = 0.95;
+pub(crate) const INTERVAL: f64 = 0.95;
 
-/// So many contradictions are told one by one.
+/// The maximum number of parameters in the summary.
 const TOLD: usize = 3;
 
 /// The sensor errors of a held-out run, estimated by itself, beside those of the other runs.
@@ -47,7 +47,7 @@ pub(crate) struct HeldOutParameter {
 /// A parameter of a held-out run, forecast from the differences between the other runs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Forecasted {
-    /// The interval that contains the estimate with a probability of [`FORECAST`].
+    /// The interval that contains the estimate with a probability of [`INTERVAL`].
     pub(crate) interval: (f64, f64),
     /// The estimate of the held-out run with the given model, as those of the other runs that were compared, with its 1σ.
     pub(crate) found: (f64, f64),
@@ -82,12 +82,9 @@ impl HeldOutComparison {
         comparison: Option<&RunComparison>,
     ) -> Option<Self> {
         let runs: Vec<Run> = held_out.rests().cloned().collect();
-        let by_itself = |model: &Model| {
-            let fit = fit(&runs, model, problem.imu(), problem.knowledge(), |_| ()).ok()?;
-            Some(fit.along(SignedAxes::IDENTITY))
-        };
+        let by_itself = |model: &Model| by_itself(problem, &runs, model);
         let own = by_itself(&of_another_run(together.model(), &problem.model))?;
-        let together = together.clone().along(SignedAxes::IDENTITY);
+        let together = together.without_linear().along(SignedAxes::IDENTITY);
         let found = quantities([&together, &own], problem.imu());
         let conditions = {
             let logs = problem.runs.iter().chain([held_out]);
@@ -107,7 +104,7 @@ impl HeldOutComparison {
         let forecast = |place: usize, id: &str| {
             let found = alone.as_ref()?.value(place)?;
             let forecast = comparison?.forecast(id, of_held_out)?.estimated_within(found.1);
-            Some(Forecasted { interval: forecast.interval(FORECAST), found })
+            Some(Forecasted { interval: forecast.interval(INTERVAL), found })
         };
         let tests = pair.homogeneity().into_iter().zip(units).enumerate();
         let parameters = tests.filter_map(|(place, (test, unit))| {
@@ -123,23 +120,21 @@ impl HeldOutComparison {
 
     /// The parameters whose estimates contradict each other, the most significant first.
     pub(crate) fn contradicting(&self) -> impl Iterator<Item = &HeldOutParameter> {
-        let level = (SIGNIFICANT / self.parameters.len() as f64).ln();
-        self.parameters.iter().filter(move |one| one.test.ln_p.max(one.test.ln_p_beside) < level)
+        let among = self.parameters.len();
+        self.parameters.iter().filter(move |one| is_significant(&one.test, among))
     }
 }
 
 /// A model for another run of the same IMU: effects of the sensors beyond the given model are held as found; those of a run, of its
 /// placement, and of differences between runs are left out.
 fn of_another_run(extended: &Model, given: &Model) -> Model {
-    let mut model = extended.clone();
-    let effects = model.terms.split_off(given.terms.len());
-    model.terms.clone_from(&given.terms);
-    let lasts = effects.into_iter().filter(|one| {
+    let mut model = given.clone();
+    let lasts = extended.terms[given.terms.len()..].iter().filter(|one| {
         one.term.owner == Owner::Sensor
             && one.term.is_signal()
             && same_in_all_runs(one.term).is_none()
     });
-    model.terms.extend(lasts.map(|mut one| {
+    model.terms.extend(lasts.cloned().map(|mut one| {
         one.roles.fill(Role::Held);
         one
     }));
@@ -186,14 +181,13 @@ impl HeldOutComparison {
             .to_vec(),
         ];
         for one in &self.parameters {
-            let p = |ln_p: f64| probability(ln_p.exp()).trim_start_matches("= ").into();
             rows.push(vec![
                 one.test.id.clone(),
                 with_sigma(one.expected),
                 with_sigma(one.found),
                 format!("{:.1}σ", one.sigmas()),
-                p(one.test.ln_p),
-                p(one.test.ln_p_beside),
+                p_value(one.test.ln_p),
+                p_value(one.test.ln_p_beside),
                 one.forecast.map_or_else(
                     || "–".into(),
                     |of| {

@@ -8,7 +8,7 @@ mod words;
 
 pub(crate) use self::comparison::RunComparison;
 pub(crate) use self::conditions::conditions;
-pub(crate) use self::held_out::HeldOutComparison;
+pub(crate) use self::held_out::{HeldOutComparison, INTERVAL};
 pub use self::result::{
     ForecastedResult, HeldOutParameterResult, HeldOutResult, HomogeneityResult, VariantResult,
     VariationResult,

@@ -9,6 +9,7 @@ use rins_report::{Item, Section};
 
 use super::comparison::RunComparison;
 use crate::consistency::probability;
+use crate::log::DAY;
 use crate::table::report_table;
 
 /// The caption of the table of the homogeneity tests.
@@ -167,7 +168,7 @@ pub(super) fn amount(comparison: &RunComparison, cause: &Cause) -> String {
         Variation::Walk => format!("about {} {unit} (1σ) over all runs", figure(cause.scale, 2)),
         Variation::Change { instant, .. } => {
             let when = if runs.iter().all(|run| run.conditions.date.is_some()) {
-                format!("about {}", date_text(instant * 86_400.0))
+                format!("about {}", date_text(instant * DAY))
             } else {
                 let before = runs.iter().enumerate().filter(|(place, _)| (*place as f64) < instant);
                 format!("after run {}", before.count())
@@ -193,6 +194,11 @@ fn coefficients(legendre: &[(f64, f64)], range: f64) -> Vec<(f64, f64)> {
     scaled[..legendre.len().min(3)].to_vec()
 }
 
+/// A p-value in a table, from its logarithm.
+pub(super) fn p_value(ln_p: f64) -> String {
+    probability(ln_p.exp()).trim_start_matches("= ").into()
+}
+
 /// The test of homogeneity as a table.
 pub(crate) fn homogeneity(comparison: &RunComparison) -> Vec<Vec<String>> {
     let mut rows = vec![
@@ -211,8 +217,8 @@ pub(crate) fn homogeneity(comparison: &RunComparison) -> Vec<Vec<String>> {
             figure(extreme(f64::min), 5),
             figure(extreme(f64::max), 5),
             figure(sigma, 2),
-            probability(one.ln_p.exp()).trim_start_matches("= ").into(),
-            probability(one.ln_p_beside.exp()).trim_start_matches("= ").into(),
+            p_value(one.ln_p),
+            p_value(one.ln_p_beside),
             (*unit).into(),
         ]);
     }

@@ -13,7 +13,7 @@ use rins_io::{Loaded, LogPolicy, Rig, shown};
 
 pub(crate) use self::data_sheet::DataSheet;
 pub(crate) use self::measured::{measured, measured_together};
-pub(crate) use self::range::{Beyond, beyond, covered, ensure_temperature};
+pub(crate) use self::range::{Beyond, DAY, beyond, covered, ensure_temperature};
 pub use self::range::{OutsideRange, OutsideRate, OutsideTemperature};
 pub(crate) use self::repairs::{repairs, with_repairs};
 pub(crate) use self::setup::{setup, setup_at, table_accuracy};

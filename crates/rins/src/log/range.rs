@@ -13,7 +13,8 @@ use rins_report::number::figure;
 /// The averaging time of a rate \[s\], so that noise does not widen the covered range.
 const MEAN_OVER: f64 = 1.0;
 
-const DAY: f64 = 86_400.0;
+/// A day \[s\].
+pub(crate) const DAY: f64 = 86_400.0;
 
 /// A rate counts as covered if it exceeds the highest calibrated rate by less than this fraction.
 const SAME_RATE: f64 = 0.1;
