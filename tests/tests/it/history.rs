@@ -15,14 +15,14 @@ latitude = "45 deg"
 longitude = "0 deg"
 height = "100 m"
 [log]
-rate = "20 Hz"
+rate = "10 Hz"
 table_angle = {{ noise = "1 arcsec" }}
 [table]
 acceleration = "10 deg/s^2"
 profile = [
     {{ rate = "0 deg/s", duration = "20 s" }},
-    {{ rate = "20 deg/s", duration = "100 s" }},
-    {{ rate = "-10 deg/s", duration = "100 s" }},
+    {{ rate = "20 deg/s", duration = "50 s" }},
+    {{ rate = "-10 deg/s", duration = "50 s" }},
 ]
 [attitude]
 roll = "20 deg"

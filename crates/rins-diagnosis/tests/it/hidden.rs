@@ -12,7 +12,7 @@ use rins_imu::Seed;
 use rins_terms::{Model, SettingKind, Term, TermInstance, Unit, catalogue};
 use rins_testing::assert_close;
 
-use crate::support::{SEED, STRONG, fibre, run};
+use crate::support::{SEED, STRONG, fibre, run, run_of};
 
 /// Three rates, both ways: most effects differ here.
 pub(crate) const RATES: [f64; 7] = [0.0, 10.0, -10.0, 40.0, -40.0, 20.0, -20.0];
@@ -236,7 +236,8 @@ fn flicker_is_not_named_as_an_effect() {
 #[test]
 fn limits_are_where_detection_begins() {
     let term = &catalogue::ACCEL_LEVER_ARM;
-    let clean = run(&RATES, Model::default(), 0.0, SEED);
+    let simulated = |hidden| run_of(&RATES, 25.0, hidden, SEED);
+    let clean = simulated(Model::default());
     let imu = fibre();
     let before = found(&clean, NoiseKnowledge::Given).before;
     let limits = limits(&[clean], &before, &imu).unwrap();
@@ -246,7 +247,7 @@ fn limits_are_where_detection_begins() {
     assert_close!(limit.power(limit.significant * limit.sigma), 0.5, 1e-6);
     for (part, named) in [(3.0, &[term.id][..]), (0.2, &[])] {
         let effects = hiding(&[(term, &[part * limit.detectable, 0.0])]);
-        let diagnosis = found(&run(&RATES, effects, 0.0, SEED), NoiseKnowledge::Given);
+        let diagnosis = found(&simulated(effects), NoiseKnowledge::Given);
         let ids: Vec<&str> = diagnosis.causes.iter().map(|cause| cause.term.id).collect();
         assert_eq!(ids, named, "{part} of what is detectable: {:?}", diagnosis.causes);
     }
@@ -256,14 +257,14 @@ fn limits_are_where_detection_begins() {
 /// trusted, are not.
 #[test]
 fn simulated_runs_show_how_often_nothing_is_taken_for_something() {
-    let clean = run(&RATES, Model::default(), 0.0, SEED);
+    let clean = run_of(&RATES, 20.0, Model::default(), SEED);
     let mut fit = found(&clean, NoiseKnowledge::Given).before;
     let (imu, runs) = (fibre(), [clean]);
     let alarms = |draws: u32, fit: &Fit, knowledge: fn(NoiseParameters) -> NoiseKnowledge| {
         let knowledge = knowledge(NoiseParameters::of(&imu));
         false_alarms(&runs, fit, (&imu, knowledge), (draws, Seed::new(5)), |_| ()).unwrap()
     };
-    assert!(alarms(8, &fit, NoiseKnowledge::Likely) <= 1);
+    assert!(alarms(5, &fit, NoiseKnowledge::Likely) <= 1);
     fit.noise[0].imu.gyro.white *= 3.0;
     assert_eq!(alarms(2, &fit, NoiseKnowledge::Given), 2);
 }
