@@ -2,12 +2,14 @@
 
 mod covariance;
 mod measured;
+mod provenance;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 pub use covariance::Covariance;
 pub use measured::Measured;
+pub use provenance::Provenance;
 use rins_frames::SignedAxes;
 use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
@@ -29,7 +31,8 @@ use crate::term::{self, Use};
 const SCHEMAS: [u64; 2] = [1, 2];
 
 /// The keys that only version 2 has.
-const NEWER: [&str; 6] = ["term", "covariance", REFERENCE, "range", "measured", "prior"];
+const NEWER: [&str; 7] =
+    ["term", "covariance", REFERENCE, "range", "measured", "provenance", "prior"];
 
 /// The values of the key `spin`.
 const SPINS: &str = r#""x", "y", "z", "-x", "-y" or "-z""#;
@@ -115,6 +118,8 @@ pub struct Calibration {
     pub range: CalibratedRange,
     /// When and how these runs were made.
     pub measured: Measured,
+    /// The program and the files from which it was made.
+    pub provenance: Provenance,
     /// The standard deviations of the numbers before the calibration, by id and in the units of [`parameters`](crate::parameters):
     /// what the runs said of them is what the covariance says beyond these.
     pub priors: Vec<Parameter>,
@@ -143,6 +148,7 @@ impl Calibration {
             reference_temperature: REFERENCE_TEMPERATURE.default,
             range: CalibratedRange::default(),
             measured: Measured::default(),
+            provenance: Provenance::default(),
             priors: Vec::new(),
         }
     }
@@ -192,6 +198,7 @@ impl Calibration {
             None => Vec::new(),
         };
         let measured = measured::read(&root)?;
+        let provenance = provenance::read(&root)?;
         let spin = match root.text("spin", SPINS)? {
             Some(name) => Axes::spin(name).ok_or_else(|| root.not_allowed("spin", SPINS))?,
             None => Axes::IDENTITY,
@@ -232,6 +239,7 @@ impl Calibration {
             reference_temperature: reference.unwrap_or(REFERENCE_TEMPERATURE.default),
             range,
             measured,
+            provenance,
             priors,
         };
         calibration.compensation()?;
@@ -289,7 +297,7 @@ impl Calibration {
     /// The text of the calibration file.
     pub fn to_toml(&self) -> String {
         let ranged = self.range != CalibratedRange::default();
-        let measured = measured::written(&self.measured);
+        let measured = measured::written(&self.measured) + &provenance::written(&self.provenance);
         let known = !measured.is_empty() || !self.priors.is_empty();
         let newer = !self.terms.terms.is_empty() || self.covariance.is_some() || ranged || known;
         let mut text = format!("{MEANING}schema = {}\n", SCHEMAS[usize::from(newer)]);

@@ -21,6 +21,7 @@ mod content;
 mod document;
 mod draft;
 mod error;
+mod input_file;
 mod inputs;
 mod log;
 mod model;
@@ -39,13 +40,14 @@ mod term;
 mod unfinished;
 mod write;
 
-pub use calibration::{CalibratedRange, Calibration, Covariance, Measured};
+pub use calibration::{CalibratedRange, Calibration, Covariance, Measured, Provenance};
 pub use campaign::{
     GridCell, Heading, Identity, Journal, PartRuns, Record, Row, RunRows, ScenarioGrid, write_part,
 };
 pub use content::TomlContent;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WriteProblem};
+pub use input_file::InputFile;
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
     Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,

@@ -5,15 +5,18 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use rins_imu::ImuError;
-use rins_io::{Calibration, Converted, Loaded, LogFile, Overwrite, convert_changed, shown};
+use rins_io::{
+    Calibration, Converted, InputFile, Loaded, LogFile, Overwrite, convert_changed, shown,
+};
 use rins_terms::{Model, Surroundings, compensated};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::basis::BasisResult;
 use crate::check::refuse_mistaken;
-use crate::convert::{format_of, remarks};
+use crate::convert::{basis_of, format_of, remarks};
 use crate::error::Result;
-use crate::log::{Beyond, OutsideRange, beyond, repairs};
+use crate::log::{Beyond, OutsideRange, beyond};
 use crate::navigate::axis_attitude;
 use crate::outcome::Outcome;
 
@@ -41,6 +44,7 @@ pub struct Applied {
     undone: Vec<&'static str>,
     beyond: Beyond,
     converted: Converted,
+    basis: BasisResult,
 }
 
 /// The result of `rins apply`.
@@ -74,8 +78,9 @@ pub struct ApplyResult {
     pub left_out: Vec<String>,
     /// The time of the log from which the new one counts \[s\].
     pub time_origin_s: f64,
-    /// What reading the log has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// Compensates a log with a calibration file, and writes the compensated log with its rig file.
@@ -122,7 +127,8 @@ fn applied(rig: &Path, options: ApplyOptions) -> anyhow::Result<Applied> {
     let triads = Model::from(&calibration.error);
     let terms = triads.terms.iter().chain(&calibration.terms.terms);
     let undone = terms.map(|chosen| chosen.term.id).collect();
-    Ok(Applied { rig: shown(rig), format, undone, beyond: found, converted, options })
+    let basis = basis_of(&converted)?.with_files([InputFile::of(file)?]);
+    Ok(Applied { rig: shown(rig), format, undone, beyond: found, converted, basis, options })
 }
 
 impl fmt::Display for Applied {
@@ -147,7 +153,7 @@ impl Outcome for Applied {
     type Result = ApplyResult;
 
     fn result(&self) -> ApplyResult {
-        let Self { rig, options, format, undone, beyond, converted } = self;
+        let Self { rig, options, format, undone, beyond, converted, .. } = self;
         ApplyResult {
             schema: crate::SCHEMA,
             command: "apply".into(),
@@ -163,8 +169,12 @@ impl Outcome for Applied {
             exact: converted.differences.is_empty(),
             left_out: converted.left_out.iter().map(|name| (*name).to_owned()).collect(),
             time_origin_s: converted.time_origin,
-            repairs: repairs(&converted.old, &converted.summary),
+            basis: self.basis.clone(),
         }
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
     }
 }
 

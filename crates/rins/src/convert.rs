@@ -7,6 +7,7 @@ use rins_io::{Converted, LogFile, Overwrite, shown};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::log::repairs;
 use crate::outcome::Outcome;
@@ -29,6 +30,7 @@ pub struct Conversion {
     output: PathBuf,
     format: LogFile,
     converted: Converted,
+    basis: BasisResult,
 }
 
 /// The result of `rins convert`.
@@ -56,8 +58,9 @@ pub struct ConvertResult {
     pub left_out: Vec<String>,
     /// The time of the log from which the new one counts \[s\].
     pub time_origin_s: f64,
-    /// What reading the log has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// A signal that differs when a new log is read again.
@@ -90,7 +93,8 @@ pub fn convert(rig: &Path, options: ConvertOptions) -> Result<Conversion> {
     let ConvertOptions { output, format, overwrite } = options;
     let format = format_of(&output, format)?;
     let converted = rins_io::convert(rig, &output, format, overwrite)?;
-    Ok(Conversion { rig: shown(rig), output, format, converted })
+    let basis = basis_of(&converted)?;
+    Ok(Conversion { rig: shown(rig), output, format, converted, basis })
 }
 
 impl fmt::Display for Conversion {
@@ -130,9 +134,20 @@ impl Outcome for Conversion {
             differences: differences.collect(),
             left_out: converted.left_out.iter().map(|name| (*name).to_owned()).collect(),
             time_origin_s: converted.time_origin,
-            repairs: repairs(&converted.old, &converted.summary),
+            basis: self.basis.clone(),
         }
     }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
+    }
+}
+
+/// The basis of a converted log.
+pub(crate) fn basis_of(converted: &Converted) -> anyhow::Result<BasisResult> {
+    let Converted { old, summary, .. } = converted;
+    let basis = BasisResult::of_rig(old, old.input_files()?);
+    Ok(BasisResult { repairs: repairs(old, summary), ..basis })
 }
 
 /// The format of a new log: the given one, or that of the extension of its name.

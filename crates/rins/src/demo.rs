@@ -1,13 +1,15 @@
 //! Calibration and diagnosis of an embedded run, without any preparation.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use rins_io::InputFile;
 use rins_report::Report;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::basis::BasisResult;
 use crate::calibrate::{CalibrateOptions, CalibrateResult, Calibration, calibrate};
 use crate::diagnose::{DiagnoseOptions, DiagnoseResult, Diagnosis, diagnose};
 use crate::error::Result;
@@ -60,7 +62,13 @@ pub fn log(folder: &Path) -> Result<Log> {
     write("rig.toml", RIG)?;
     write("run.csv", LOG)?;
     let log = Log::open(folder.join("rig.toml"))?;
-    Ok(Log { name: "the embedded demo run".into(), ..log })
+    let inputs = log.inputs.into_iter().map(|input| {
+        // Of the embedded run only the names are the same everywhere.
+        let name = input.path.file_name().map(PathBuf::from);
+        InputFile { path: name.unwrap_or_default(), ..input }
+    });
+    let inputs = inputs.collect();
+    Ok(Log { name: "the embedded demo run".into(), inputs, ..log })
 }
 
 /// Calibrates and diagnoses the embedded run.
@@ -91,6 +99,10 @@ impl Outcome for Demo {
             calibration: CalibrateResult { command: "demo".into(), ..self.calibration.result() },
             diagnosis: self.diagnosis.result(),
         }
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.calibration.basis()
     }
 
     fn report(&self) -> Option<Report> {

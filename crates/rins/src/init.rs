@@ -3,10 +3,11 @@
 use std::fmt::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use rins_io::{Draft, draft_rig, shown};
+use rins_io::{Draft, InputFile, draft_rig, shown};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::outcome::Outcome;
 
@@ -16,6 +17,7 @@ pub struct DraftedRig {
     log: PathBuf,
     output: Option<PathBuf>,
     draft: Draft,
+    basis: BasisResult,
 }
 
 /// The result of `rins init`.
@@ -31,6 +33,9 @@ pub struct InitResult {
     pub guesses: Vec<GuessResult>,
     /// What is to be filled in.
     pub to_fill_in: Vec<ToFillInResult>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// A key of the rig file whose value was guessed.
@@ -77,7 +82,8 @@ pub fn init(log: &Path, output: Option<&Path>) -> Result<DraftedRig> {
         return Err(anyhow::Error::msg(why).into());
     }
     let draft = draft_rig(log, folder)?;
-    Ok(DraftedRig { log: log.into(), output: output.map(Path::to_path_buf), draft })
+    let basis = BasisResult::of_files([InputFile::of(log)?]);
+    Ok(DraftedRig { log: log.into(), output: output.map(Path::to_path_buf), draft, basis })
 }
 
 impl DraftedRig {
@@ -115,7 +121,12 @@ impl Outcome for DraftedRig {
             rig: self.output.as_deref().map_or_else(|| text.clone(), shown),
             guesses: guesses.collect(),
             to_fill_in: to_fill_in.collect(),
+            basis: self.basis.clone(),
         }
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
     }
 }
 

@@ -46,6 +46,7 @@ pub mod navigate;
 pub mod observe;
 pub mod simulate;
 
+mod basis;
 mod consistency;
 mod error;
 mod finite;
@@ -76,6 +77,7 @@ pub use rins_terms as terms;
 pub use align::align;
 pub use allan::allan;
 pub use apply::{ApplyOptions, apply};
+pub use basis::{BasisResult, InputResult, ItemResult, MeasurementResult, ProvenanceResult};
 pub use calibrate::{CalibrateOptions, calibrate};
 pub use campaign::{MonteCarloOptions, merge, monte_carlo};
 pub use check::check;

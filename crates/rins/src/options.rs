@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use rins_io::{Axes, ModelFile, shown};
+use rins_io::{Axes, InputFile, ModelFile, shown};
 use rins_terms::Model;
 
 /// The name of the model of all of eq. (1).
@@ -67,16 +67,23 @@ pub enum NoiseChoice {
 pub(crate) struct NamedModel {
     pub(crate) name: String,
     pub(crate) model: Model,
+    /// Its file, if it has one.
+    pub(crate) file: Option<InputFile>,
 }
 
 impl NamedModel {
     /// The chosen model for a run with these axes; a model file is read.
     pub(crate) fn of(choice: &ModelChoice, axes: &Axes) -> anyhow::Result<Self> {
-        let (name, model) = match choice {
-            ModelChoice::Paper12 => ("paper12".into(), Model::paper12()),
-            ModelChoice::Full => (FULL.into(), Model::full()),
-            ModelChoice::File(path) => (shown(path), ModelFile::read_along(path, axes)?.model),
-        };
-        Ok(Self { name, model })
+        Ok(match choice {
+            ModelChoice::Paper12 => {
+                Self { name: "paper12".into(), model: Model::paper12(), file: None }
+            }
+            ModelChoice::Full => Self { name: FULL.into(), model: Model::full(), file: None },
+            ModelChoice::File(path) => Self {
+                name: shown(path),
+                model: ModelFile::read_along(path, axes)?.model,
+                file: Some(InputFile::of(path)?),
+            },
+        })
     }
 }

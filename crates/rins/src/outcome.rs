@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::basis::BasisResult;
 use crate::error::Result;
 
 /// The file name of the report page in a folder of results.
@@ -23,7 +24,10 @@ pub trait Outcome: Display {
     /// The machine-readable result.
     fn result(&self) -> Self::Result;
 
-    /// The report page, if there is one.
+    /// The basis of the result: its inputs, what was repaired in them, and what was assumed.
+    fn basis(&self) -> BasisResult;
+
+    /// The report page, if there is one; the folder of results has it with the basis.
     fn report(&self) -> Option<Report> {
         None
     }
@@ -54,7 +58,10 @@ pub trait Outcome: Display {
     /// If the folder exists and must not be overwritten, or cannot be written.
     fn write(&self, folder: &Path, overwrite: Overwrite) -> Result<Option<PathBuf>> {
         let json = serde_json::to_string_pretty(&self.result()).map_err(anyhow::Error::from)?;
-        let page = self.report().map(|report| render(&report));
+        let page = self.report().map(|mut report| {
+            report.sections.push(self.basis().section());
+            render(&report)
+        });
         write_folder(folder, overwrite, |folder| {
             put(folder, "result.json", json.as_bytes())?;
             if let Some(page) = &page {

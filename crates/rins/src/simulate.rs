@@ -5,11 +5,12 @@ use std::path::Path;
 
 use anyhow::Context;
 use rins_frames::units::DEG;
-use rins_io::{IoError, ScenarioFile, shown};
+use rins_io::{InputFile, IoError, ScenarioFile, shown};
 use rins_motion::Recording;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::outcome::Outcome;
 
@@ -19,6 +20,7 @@ pub struct SimulatedRun {
     name: String,
     file: ScenarioFile,
     run: Recording,
+    basis: BasisResult,
 }
 
 /// The result of `rins simulate`.
@@ -40,6 +42,9 @@ pub struct SimulateResult {
     pub seed: u64,
     /// The files of the run.
     pub files: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// Simulates the run of a scenario file, with `seed` in place of the scenario's seed if it is given.
@@ -63,7 +68,8 @@ pub fn simulate(scenario: &Path, seed: Option<u64>) -> Result<SimulatedRun> {
     }
     let name = shown(scenario);
     let run = rins_simulation::simulate(&file.scenario).with_context(|| name.clone())?.recording;
-    Ok(SimulatedRun { name, file, run })
+    let basis = BasisResult::of_files([InputFile::of(scenario)?]);
+    Ok(SimulatedRun { name, file, run, basis })
 }
 
 impl fmt::Display for SimulatedRun {
@@ -92,7 +98,12 @@ impl Outcome for SimulatedRun {
             turns: turned / (360.0 * DEG),
             seed: self.file.scenario.seed.seed,
             files: ["run.csv", "rig.toml", "truth.json"].map(String::from).to_vec(),
+            basis: self.basis.clone(),
         }
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
     }
 
     fn fill(&self, folder: &Path) -> std::result::Result<(), IoError> {

@@ -10,6 +10,10 @@ use crate::section::Section;
 pub struct RunIdentity {
     /// The id of the run.
     pub id: Option<String>,
+    /// The maker of the IMU.
+    pub maker: Option<String>,
+    /// The model of the IMU.
+    pub model: Option<String>,
     /// The serial number of the IMU.
     pub serial: Option<String>,
     /// The name of the series of runs between which the IMU was not switched off. They have the same turn-on biases.
@@ -43,7 +47,8 @@ pub struct Laboratory {
 }
 
 /// The keys of `[run]`.
-const KEYS: [&str; 6] = ["id", "serial", "series", "started", "since_power_on", "note"];
+const KEYS: [&str; 8] =
+    ["id", "maker", "model", "serial", "series", "started", "since_power_on", "note"];
 
 /// The form of `started`.
 const STARTED: &str = r#"a date and time with its offset from UTC, such as "2026-11-26T10:00:00Z""#;
@@ -53,6 +58,8 @@ pub(super) fn run(root: &Section<'_>) -> Result<RunIdentity, IoError> {
     let Some(run) = root.section("run", &KEYS)? else { return Ok(RunIdentity::default()) };
     Ok(RunIdentity {
         id: named(&run, "id", r#"a name of the run, such as "7""#)?,
+        maker: named(&run, "maker", "the maker of the IMU")?,
+        model: named(&run, "model", "the model of the IMU")?,
         serial: named(&run, "serial", r#"a serial number, such as "FOG-0012""#)?,
         series: named(
             &run,

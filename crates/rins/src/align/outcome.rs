@@ -8,7 +8,8 @@ use rins_report::{Item, Report, Section};
 use super::Alignment;
 use super::result::AlignResult;
 use super::text::{rows, sentences};
-use crate::log::{statics_in_words, with_repairs};
+use crate::basis::BasisResult;
+use crate::log::{site_assumption, statics_in_words, with_repairs};
 use crate::outcome::Outcome;
 use crate::table::{aligned, report_table};
 
@@ -40,6 +41,10 @@ impl Outcome for Alignment<'_> {
 
     fn result(&self) -> AlignResult {
         AlignResult::of(self)
+    }
+
+    fn basis(&self) -> BasisResult {
+        BasisResult::of_log(self.log).assuming(site_assumption(&self.log.loaded.rig))
     }
 
     fn report(&self) -> Option<Report> {

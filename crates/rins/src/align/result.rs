@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Alignment;
 use super::text::own_axes;
+use crate::basis::BasisResult;
 use crate::log::{StaticIntervalResult, only, statics_result};
+use crate::outcome::Outcome as _;
 use crate::values::EulerDegrees;
 
 /// The result of `rins align`.
@@ -41,8 +43,9 @@ pub struct AlignResult {
     pub accel_bias_ug: [f64; 3],
     /// The attitude that the header of a PSINS log has \[deg\].
     pub header_attitude_deg: Option<EulerDegrees>,
-    /// What reading the log has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// An attitude of which the yaw may not be known \[deg\].
@@ -140,7 +143,7 @@ impl AlignResult {
             gyro_bias_observable: bias_sigma.map(|_| found.bias_shown(&own_axes)),
             accel_bias_ug: accel.into(),
             header_attitude_deg: loaded.psins_header.map(|header| header.attitude.into()),
-            repairs: log.repairs(),
+            basis: alignment.basis(),
         }
     }
 }

@@ -8,6 +8,7 @@ use rins_report::Report;
 use super::Allan;
 use super::page::{allan_report, allan_text};
 use super::result::AllanResult;
+use crate::basis::BasisResult;
 use crate::log::with_repairs;
 use crate::outcome::Outcome;
 
@@ -29,6 +30,10 @@ impl Outcome for Allan<'_> {
 
     fn result(&self) -> AllanResult {
         AllanResult::of(&self.rest, self.log)
+    }
+
+    fn basis(&self) -> BasisResult {
+        BasisResult::of_log(self.log)
     }
 
     fn report(&self) -> Option<Report> {

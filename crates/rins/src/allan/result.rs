@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::noise::{Channel, Rest, term};
+use crate::basis::BasisResult;
 use crate::log::{Log, StaticIntervalResult};
 
 /// The result of `rins allan`.
@@ -28,8 +29,9 @@ pub struct AllanResult {
     pub confidence: f64,
     /// The gyros, then the accelerometers, along the sensors' own axes.
     pub channels: Vec<ChannelResult>,
-    /// What reading the log has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// The noise of one sensor.
@@ -109,7 +111,7 @@ impl AllanResult {
             static_intervals: rest.statics.clone(),
             confidence: CONFIDENCE,
             channels: rest.channels.iter().map(ChannelResult::from).collect(),
-            repairs: log.repairs(),
+            basis: BasisResult::of_log(log),
         }
     }
 }

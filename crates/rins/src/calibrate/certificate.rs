@@ -12,12 +12,14 @@ use rins_estimation::{
 };
 use rins_frames::units::DEG;
 use rins_frames::{Dcm, Nav, SignedAxes, Table};
+use rins_io::InputFile;
 use rins_motion::Recording;
 use rins_terms::{
     Model, NotUndone, Owner, Role, Surroundings, TermInstance, catalogue, compensated,
 };
 
 use super::uncertainty::{Contribution, Moves, Uncertainty, moves};
+use crate::basis::BasisResult;
 use crate::check::steady_rates;
 use crate::homogeneity::RunComparison;
 use crate::log::repairs;
@@ -58,6 +60,8 @@ pub(crate) struct Certificate {
     pub(crate) comparison: Option<RunComparison>,
     /// What else a reader must know.
     pub(crate) remarks: Vec<String>,
+    /// The file of the model, if it has one.
+    pub(crate) model_file: Option<InputFile>,
 }
 
 /// A run with what the estimates make of it.
@@ -175,7 +179,7 @@ impl Certificate {
         let innovations: Vec<_> =
             certified.iter().flat_map(|run| run.innovations.iter().copied()).collect();
         let consistency = Consistency::of(&innovations).context("too few epochs")?;
-        let EstimationProblem { name: model, noise, remarks, .. } = case;
+        let EstimationProblem { name: model, noise, remarks, model_file, .. } = case;
         let besides = Vec::new();
         Ok(Self {
             model,
@@ -190,6 +194,7 @@ impl Certificate {
             besides,
             comparison: None,
             remarks,
+            model_file,
         })
     }
 
@@ -211,6 +216,12 @@ impl Certificate {
         let of =
             |run: &CertifiedRun| repairs(&run.prepared.loaded.rig, &run.prepared.loaded.summary);
         self.runs.iter().flat_map(of).collect()
+    }
+
+    /// The basis of the estimates.
+    pub(crate) fn basis(&self) -> BasisResult {
+        BasisResult::together(self.runs.iter().map(|run| &run.prepared.basis))
+            .with_files(self.model_file.clone())
     }
 
     /// What the calibration is called.

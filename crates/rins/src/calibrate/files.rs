@@ -97,6 +97,7 @@ fn calibration(certificate: &Certificate, run: usize) -> rins_io::Calibration {
                 })
                 .collect::<Vec<_>>(),
         ),
+        provenance: certificate.basis().provenance(),
         sigmas,
         ..rins_io::Calibration::of(error.along(&axes.inverse().matrix()))
     }

@@ -8,6 +8,7 @@ use super::certificate::Certificate;
 use super::page::{certificate_report, certificate_text};
 use super::result::CalibrateResult;
 use super::{Calibration, Kind};
+use crate::basis::BasisResult;
 use crate::log::with_repairs;
 use crate::outcome::Outcome;
 
@@ -22,6 +23,10 @@ impl Outcome for Certificate {
 
     fn result(&self) -> CalibrateResult {
         CalibrateResult::of(self)
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis()
     }
 
     fn report(&self) -> Option<Report> {
@@ -59,6 +64,10 @@ impl Outcome for Calibration {
 
     fn result(&self) -> CalibrateResult {
         self.outcome().result()
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.outcome().basis()
     }
 
     fn report(&self) -> Option<Report> {

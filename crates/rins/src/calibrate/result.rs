@@ -10,6 +10,7 @@ use super::certificate::{Certificate, CertifiedRun};
 use super::compensation::EQUATION;
 use super::departure::quantity;
 use super::uncertainty_result::UncertaintyResult;
+use crate::basis::BasisResult;
 use crate::consistency::ConsistencyResult;
 use crate::free_navigation::BeforeAfterResult;
 use crate::homogeneity::{HomogeneityResult, RunComparison, VariationResult};
@@ -68,8 +69,9 @@ pub struct CalibrateResult {
     pub runs: Vec<RunResult>,
     /// What else is to be known.
     pub notes: Vec<String>,
-    /// What reading the logs has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// The estimate of a parameter, in its unit; of one that is observable only in a combination, that of the combination.
@@ -237,7 +239,7 @@ impl CalibrateResult {
             static_intervals: statics(&runs),
             runs,
             notes: certificate.remarks.clone(),
-            repairs: certificate.repairs(),
+            basis: certificate.basis(),
         }
     }
 }

@@ -3,10 +3,11 @@
 use std::iter::Peekable;
 use std::path::{Path, PathBuf};
 
-use rins_io::{Heading, IoError, Overwrite, PartRuns, RunRows, shown};
+use rins_io::{Heading, InputFile, IoError, Overwrite, PartRuns, RunRows, shown};
 
 use super::page::{CampaignOutcome, deliver};
 use super::runs::Run;
+use crate::basis::BasisResult;
 use crate::error::Result;
 
 /// Joins the shards of a campaign; the output is byte-identical to that of a campaign that was run without shards.
@@ -51,7 +52,8 @@ fn merged(
         .collect::<Result<_, IoError>>()?;
     let runs = InOrder { parts }.map(|rows| rows.map(|rows| Run::read(&rows)));
     let names: Vec<String> = paths.iter().map(|path| shown(path)).collect();
-    let source = (&*names.join(", "), "merge");
+    let files = paths.iter().map(|path| InputFile::of(path)).collect::<Result<Vec<_>, _>>()?;
+    let source = (&*names.join(", "), "merge", BasisResult::of_files(files));
     deliver(&heading, runs, output, source, overwrite)
 }
 

@@ -10,13 +10,15 @@ use rayon::prelude::*;
 use rins_campaign::{Campaign, Cell, Chunk, Prepared};
 use rins_imu::Seed;
 use rins_io::{
-    Heading, Identity, IoError, Journal, Overwrite, Rig, ScenarioGrid, ensure_replaceable, shown,
+    Heading, Identity, InputFile, IoError, Journal, Overwrite, Rig, ScenarioGrid,
+    ensure_replaceable, shown,
 };
 use rins_simulation::{Scenario, simulate};
 
 use super::page::{CampaignOutcome, deliver};
 use super::runs::Run;
 use super::size::refuse_too_large;
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::log::setup_at;
 use crate::progress::Progress;
@@ -127,7 +129,8 @@ fn campaign(scenario: &Path, options: &MonteCarloOptions) -> anyhow::Result<Camp
         values: grid.cells.into_iter().map(|cell| cell.values).collect(),
     };
     let runs = chunks.iter().flat_map(|chunk| of_chunk(&campaign, chunk, &mut journal));
-    let source = (&*shown(scenario), "monte-carlo");
+    let basis = BasisResult::of_files([InputFile::of(scenario)?]);
+    let source = (&*shown(scenario), "monte-carlo", basis);
     let outcome = deliver(&heading, runs, output, source, *overwrite)?;
     journal.remove()?;
     Ok(outcome)

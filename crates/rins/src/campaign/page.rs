@@ -11,6 +11,7 @@ use rins_report::{Cell, Column, Item, Plot, Report, Section, Series, Style, Tabl
 
 use super::result::{CampaignResult, CellResult};
 use super::runs::{Run, UNITS};
+use crate::basis::BasisResult;
 use crate::outcome::Outcome;
 
 /// The maximum number of runs in a plot, of each scenario and in total.
@@ -35,6 +36,10 @@ impl Outcome for CampaignOutcome {
     fn result(&self) -> CampaignResult {
         self.result.clone()
     }
+
+    fn basis(&self) -> BasisResult {
+        self.result.basis.clone()
+    }
 }
 
 /// A scenario of the grid with the statistics of its runs.
@@ -55,7 +60,7 @@ pub(super) fn deliver(
     heading: &Heading,
     runs: impl Iterator<Item = Result<Run, IoError>>,
     output: &Path,
-    (source, command): (&str, &'static str),
+    (source, command, basis): (&str, &'static str, BasisResult),
     overwrite: Overwrite,
 ) -> anyhow::Result<CampaignOutcome> {
     let title = format!("Campaign of {source}");
@@ -83,6 +88,7 @@ pub(super) fn deliver(
         results: output.display().to_string(),
         report: page.display().to_string(),
         cells: scored.iter().map(|cell| cell_result(&heading.keys, cell)).collect(),
+        basis,
     };
     let text = text(heading, &scored, &title)
         + &format!("\nResults: {}\nReport: {}\n", shown(output), shown(&page));

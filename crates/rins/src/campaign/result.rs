@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::runs::UNITS;
+use crate::basis::BasisResult;
 
 /// The result of `rins monte-carlo` and `rins merge`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,6 +31,9 @@ pub struct CampaignResult {
     pub report: String,
     /// The scenarios of the grid.
     pub cells: Vec<CellResult>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// What the runs of one scenario say together; of too few runs only `grid` and `runs` are there.

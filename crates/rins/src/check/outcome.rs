@@ -10,7 +10,8 @@ use super::mends::mends_in_words;
 use super::page::page;
 use super::result::CheckResult;
 use super::text::{judged, rests, rows};
-use crate::log::statics_in_words;
+use crate::basis::BasisResult;
+use crate::log::{site_assumption, statics_in_words};
 use crate::outcome::Outcome;
 use crate::table::aligned;
 
@@ -63,6 +64,10 @@ impl Outcome for Check<'_> {
 
     fn result(&self) -> CheckResult {
         CheckResult::of(self)
+    }
+
+    fn basis(&self) -> BasisResult {
+        BasisResult::of_log(self.log).assuming(site_assumption(&self.log.loaded.rig))
     }
 
     fn report(&self) -> Option<Report> {

@@ -9,7 +9,9 @@ use super::Check;
 use super::mends::Mend;
 use super::verdicts::Verdict;
 use super::words::suspicion_in_words;
+use crate::basis::BasisResult;
 use crate::log::{StaticIntervalResult, statics_result};
+use crate::outcome::Outcome as _;
 
 /// The result of `rins check`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -52,8 +54,9 @@ pub struct CheckResult {
     pub remarks: Vec<String>,
     /// A verdict on each thing that can be wrong with a log.
     pub verdicts: Vec<VerdictResult>,
-    /// What reading the log has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// A gap.
@@ -152,7 +155,7 @@ impl CheckResult {
             corrections: mends.iter().map(CorrectionResult::from).collect(),
             remarks: oddities.clone(),
             verdicts: verdicts.iter().map(VerdictResult::from).collect(),
-            repairs: log.repairs(),
+            basis: check.basis(),
         }
     }
 }

@@ -7,11 +7,12 @@ mod result;
 use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
-use rins_io::{Calibration, parameters, shown};
+use rins_io::{Calibration, InputFile, parameters, shown};
 use rins_terms::Role;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 pub use self::result::{ChangeResult, CompareResult, TogetherResult};
+use crate::basis::BasisResult;
 use crate::error::Result;
 
 /// The change of one parameter.
@@ -61,6 +62,7 @@ pub struct Comparison {
     pub(crate) together: Option<Together>,
     /// The parameters that only one has estimated.
     pub(crate) only: [Vec<String>; 2],
+    pub(crate) basis: BasisResult,
 }
 
 /// Compares two calibration files of one IMU.
@@ -81,8 +83,15 @@ pub struct Comparison {
 /// ```
 pub fn compare(before: &Path, after: &Path) -> Result<Comparison> {
     let names = [shown(before), shown(after)];
-    let (before, after) = (Calibration::read(before)?, Calibration::read(after)?);
-    let comparison = Comparison::of(&before, &after, names);
+    let files = [InputFile::of(before)?, InputFile::of(after)?];
+    let calibrations = [Calibration::read(before)?, Calibration::read(after)?];
+    let bases: Vec<BasisResult> = files
+        .into_iter()
+        .zip(&calibrations)
+        .map(|(file, calibration)| BasisResult::of_calibration(file, &calibration.measured))
+        .collect();
+    let basis = BasisResult::together(&bases);
+    let comparison = Comparison::of(calibrations.each_ref(), names, basis);
     if comparison.moved.is_empty() {
         let why = format!(
             "{} and {} have no parameter in common that was estimated in both",
@@ -124,8 +133,9 @@ fn estimated(calibration: &Calibration) -> Vec<Estimated> {
 }
 
 impl Comparison {
-    fn of(before: &Calibration, after: &Calibration, names: [String; 2]) -> Self {
-        let lists = [estimated(before), estimated(after)];
+    fn of(of: [&Calibration; 2], names: [String; 2], basis: BasisResult) -> Self {
+        let [before, after] = of;
+        let lists = of.map(estimated);
         let moved: Vec<Moved> = lists[0]
             .iter()
             .filter_map(|a| {
@@ -144,7 +154,7 @@ impl Comparison {
         };
         let only = [only(&lists[0]), only(&lists[1])];
         let together = together(&moved, before, after);
-        Self { names, moved, together, only }
+        Self { names, moved, together, only, basis }
     }
 }
 

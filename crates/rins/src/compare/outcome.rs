@@ -7,6 +7,7 @@ use rins_report::Report;
 use super::Comparison;
 use super::page::{comparison_report, comparison_text};
 use super::result::CompareResult;
+use crate::basis::BasisResult;
 use crate::outcome::Outcome;
 
 impl fmt::Display for Comparison {
@@ -20,6 +21,10 @@ impl Outcome for Comparison {
 
     fn result(&self) -> CompareResult {
         self.into()
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
     }
 
     fn report(&self) -> Option<Report> {

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Comparison;
+use crate::basis::BasisResult;
 use crate::values::EstimateResult;
 
 /// The result of `rins compare`.
@@ -25,6 +26,9 @@ pub struct CompareResult {
     pub only_before: Vec<String>,
     /// Those of what only the second has estimated.
     pub only_after: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// The change of one parameter, in its unit.
@@ -85,6 +89,7 @@ impl From<&Comparison> for CompareResult {
             }),
             only_before: comparison.only[0].clone(),
             only_after: comparison.only[1].clone(),
+            basis: comparison.basis.clone(),
         }
     }
 }

@@ -14,7 +14,7 @@ mod words;
 
 use std::path::{Path, PathBuf};
 
-use rins_io::{ModelFile, shown};
+use rins_io::{InputFile, ModelFile, shown};
 use rins_terms::TermInstance;
 
 use self::found::{DiagnosisOutcome, Request};
@@ -23,6 +23,7 @@ pub use self::result::{
     AlternativeResult, CauseParameterResult, CauseResult, DiagnoseResult, FalseAlarmsResult,
     NextTestResult, SettingResult, ShiftResult, UnexplainedResult, UntestableResult, WorstResult,
 };
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::log::Log;
 use crate::options::{ModelChoice, NamedModel, NoiseChoice};
@@ -64,7 +65,10 @@ impl Default for DiagnoseOptions {
 
 /// What a model leaves unexplained, the effects that explain it, and what they gain.
 #[derive(Debug)]
-pub struct Diagnosis(Box<DiagnosisOutcome>);
+pub struct Diagnosis {
+    found: Box<DiagnosisOutcome>,
+    basis: BasisResult,
+}
 
 /// Estimates a model from the logs of one IMU, and searches the catalogue for effects that it lacks.
 ///
@@ -85,10 +89,10 @@ pub struct Diagnosis(Box<DiagnosisOutcome>);
 /// # Ok::<(), rins::Error>(())
 /// ```
 pub fn diagnose(logs: Vec<Log>, options: DiagnoseOptions) -> Result<Diagnosis> {
-    Ok(Diagnosis(Box::new(found(logs, options)?)))
+    Ok(diagnosed(logs, options)?)
 }
 
-fn found(logs: Vec<Log>, options: DiagnoseOptions) -> anyhow::Result<DiagnosisOutcome> {
+fn diagnosed(logs: Vec<Log>, options: DiagnoseOptions) -> anyhow::Result<Diagnosis> {
     let stage = options.progress.begin("preparing", None);
     let prepared = |log: Log| anyhow::Ok(Prepared::of(log, options.noise)?.alone());
     let runs = logs.into_iter().map(prepared).collect::<anyhow::Result<Vec<_>>>()?;
@@ -99,10 +103,15 @@ fn found(logs: Vec<Log>, options: DiagnoseOptions) -> anyhow::Result<DiagnosisOu
     if let Some(held_out) = &held_out {
         case.ensure_same_imu(held_out)?;
     }
+    let hypothesis_file = options.hypothesis.as_deref().map(InputFile::of).transpose()?;
+    let of_runs = case.runs.iter().chain(&held_out).map(|run| &run.basis);
+    let basis = BasisResult::together(of_runs)
+        .with_files(case.model_file.clone().into_iter().chain(hypothesis_file));
     let supposed = options.hypothesis.as_deref().map(|file| hypothesis(file, &case)).transpose()?;
     let asked =
         Request { supposed, held_out, transfer: options.transfer, bootstrap: options.bootstrap };
-    DiagnosisOutcome::of(case, &asked, &options.progress)
+    let found = Box::new(DiagnosisOutcome::of(case, &asked, &options.progress)?);
+    Ok(Diagnosis { found, basis })
 }
 
 /// The effects of a model file beyond a case's model.

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::found::{DiagnosisOutcome, Named, Shift, Verdict};
 use super::measured::GainResult;
 use super::structure::{size_in_words, structure_in_words};
+use crate::basis::BasisResult;
 use crate::calibrate::{DepartureResult, NoiseResult, departures};
 use crate::consistency::ConsistencyResult;
 use crate::homogeneity::{HeldOutResult, HomogeneityResult, RunComparison, VariationResult};
@@ -65,8 +66,9 @@ pub struct DiagnoseResult {
     pub seconds: f64,
     /// What else is to be known.
     pub notes: Vec<String>,
-    /// What reading the logs has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// A cause: an effect that the model lacks.
@@ -247,7 +249,7 @@ fn of_comparison<T>(found: &DiagnosisOutcome, of: fn(&RunComparison) -> Vec<T>) 
 
 impl DiagnoseResult {
     /// The whole of a diagnosis.
-    pub(super) fn of(found: &DiagnosisOutcome) -> Self {
+    pub(super) fn of(found: &DiagnosisOutcome, basis: BasisResult) -> Self {
         let certificate = &found.certificate;
         let names: Vec<String> =
             certificate.runs.iter().map(|run| run.prepared.name.clone()).collect();
@@ -293,7 +295,7 @@ impl DiagnoseResult {
             model: "model.toml".into(),
             seconds: found.seconds,
             notes: certificate.remarks.clone(),
-            repairs: certificate.repairs(),
+            basis,
         }
     }
 }

@@ -17,6 +17,7 @@ pub use self::result::{
     RunValueResult, ScoreResult,
 };
 use self::source::sources;
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::homogeneity::RunComparison;
 use crate::log::DAY;
@@ -49,6 +50,7 @@ pub struct RunHistory {
     /// How well each run is predicted from the runs before it.
     scores: Vec<Score>,
     remarks: Vec<String>,
+    basis: BasisResult,
 }
 
 /// A forecast, or why there is none.
@@ -115,6 +117,7 @@ fn of_paths(paths: &[PathBuf], options: &HistoryOptions) -> anyhow::Result<RunHi
                 .into(),
         );
     }
+    let basis = BasisResult::together(sources.iter().map(|source| &source.basis));
     let names = sources.into_iter().map(|source| source.name).collect();
     let parameters = observed.ids.len();
     let comparison = RunComparison::of(names, observed.units, history);
@@ -123,7 +126,7 @@ fn of_paths(paths: &[PathBuf], options: &HistoryOptions) -> anyhow::Result<RunHi
     let forecasts = forecasts.collect();
     let scores = scores(&comparison.history)?;
     drop(stage);
-    Ok(RunHistory { comparison, next, forecasts, scores, remarks })
+    Ok(RunHistory { comparison, next, forecasts, scores, remarks, basis })
 }
 
 fn predicted(explanation: &Explanation, place: usize, conditions: Conditions) -> Predicted {

@@ -8,6 +8,7 @@ use super::RunHistory;
 use super::page::history_report;
 use super::result::HistoryResult;
 use super::text::history_text;
+use crate::basis::BasisResult;
 use crate::outcome::Outcome;
 
 impl fmt::Display for RunHistory {
@@ -21,6 +22,10 @@ impl Outcome for RunHistory {
 
     fn result(&self) -> HistoryResult {
         self.into()
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
     }
 
     fn report(&self) -> Option<Report> {

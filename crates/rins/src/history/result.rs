@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Predicted, RunHistory, Score};
+use crate::basis::BasisResult;
 use crate::homogeneity::{HomogeneityResult, INTERVAL, VariationResult};
 use crate::log::DAY;
 use crate::values::EstimateResult;
@@ -30,6 +31,9 @@ pub struct HistoryResult {
     pub prediction: Vec<PredictionResult>,
     /// What else is to be known.
     pub notes: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// The conditions of a run; null where they are not known.
@@ -188,6 +192,7 @@ impl From<&RunHistory> for HistoryResult {
                 .map(|((one, unit), score)| PredictionResult::of(&one.id, unit, score))
                 .collect(),
             notes: of.remarks.clone(),
+            basis: of.basis.clone(),
         }
     }
 }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use rins_io::{Calibration, TomlContent, shown};
+use rins_io::{Calibration, InputFile, TomlContent, shown};
 
+use crate::basis::BasisResult;
 use crate::calibrate::single_calibration;
-use crate::log::Log;
+use crate::log::{Log, setup};
 use crate::progress::Progress;
 
 /// The name of a calibration file in a folder of results.
@@ -21,6 +22,7 @@ pub(super) struct Source {
     /// The path of its file.
     pub(super) name: String,
     pub(super) calibration: Calibration,
+    pub(super) basis: BasisResult,
 }
 
 /// The calibrations at these paths: a calibration file, a rig file whose log is calibrated by itself, or a folder with one of either in it
@@ -64,13 +66,21 @@ fn in_folder(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
 }
 
 fn source(file: &Path, progress: &Progress) -> anyhow::Result<Source> {
-    let calibration = match TomlContent::of(file)? {
-        TomlContent::Calibration => Calibration::read(file)?,
-        TomlContent::Rig => single_calibration(Log::open(file)?, progress)?,
+    let (calibration, basis) = match TomlContent::of(file)? {
+        TomlContent::Calibration => {
+            let calibration = Calibration::read(file)?;
+            let basis = BasisResult::of_calibration(InputFile::of(file)?, &calibration.measured);
+            (calibration, basis)
+        }
+        TomlContent::Rig => {
+            let log = Log::open(file)?;
+            let basis = BasisResult::of_log(&log).assuming(setup(&log.loaded).1);
+            (single_calibration(log, progress)?, basis)
+        }
         TomlContent::Other => anyhow::bail!(
             "{}: neither a calibration file (it has no key `schema`) nor a rig file (no [log])",
             shown(file)
         ),
     };
-    Ok(Source { name: shown(file), calibration })
+    Ok(Source { name: shown(file), calibration, basis })
 }

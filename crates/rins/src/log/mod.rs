@@ -9,14 +9,14 @@ mod statics;
 
 use std::path::Path;
 
-use rins_io::{Loaded, LogPolicy, Rig, shown};
+use rins_io::{InputFile, Loaded, LogPolicy, Rig, shown};
 
 pub(crate) use self::data_sheet::DataSheet;
 pub(crate) use self::measured::{measured, measured_together};
 pub(crate) use self::range::{Beyond, DAY, beyond, covered, ensure_temperature};
 pub use self::range::{OutsideRange, OutsideRate, OutsideTemperature};
 pub(crate) use self::repairs::{repairs, with_repairs};
-pub(crate) use self::setup::{setup, setup_at, table_accuracy};
+pub(crate) use self::setup::{setup, setup_at, site_assumption, table_accuracy};
 pub use self::statics::StaticIntervalResult;
 pub(crate) use self::statics::{
     lasting, longest, none_found, only, static_intervals, statics_in_words, statics_result,
@@ -33,6 +33,8 @@ pub struct Log {
     pub name: String,
     /// The content of both files in SI units, and the repairs made while reading.
     pub loaded: Loaded,
+    /// The files that were read: the rig file and those of the log.
+    pub inputs: Vec<InputFile>,
 }
 
 impl Log {
@@ -42,7 +44,7 @@ impl Log {
     /// If a file cannot be read or has an invalid value; the error states file, line or key, the value, and the expected value.
     pub fn open(rig: impl AsRef<Path>) -> Result<Self> {
         let rig = rig.as_ref();
-        Ok(Self { name: shown(rig), loaded: rins_io::read(rig)? })
+        Self::of(shown(rig), rins_io::read(rig)?)
     }
 
     /// Reads a rig file and a log that may have fewer than three gyros and three accelerometers, for [`allan`](crate::allan()).
@@ -52,7 +54,12 @@ impl Log {
     pub fn open_partial(rig: impl AsRef<Path>) -> Result<Self> {
         let rig = rig.as_ref();
         let policy = LogPolicy { incomplete: true, ..LogPolicy::default() };
-        Ok(Self { name: shown(rig), loaded: rins_io::read_log(Rig::read(rig)?, policy)? })
+        Self::of(shown(rig), rins_io::read_log(Rig::read(rig)?, policy)?)
+    }
+
+    fn of(name: String, loaded: Loaded) -> Result<Self> {
+        let inputs = loaded.rig.input_files()?;
+        Ok(Self { name, loaded, inputs })
     }
 
     /// The repairs and omissions made while reading the log, one sentence each.

@@ -16,12 +16,15 @@ use super::DataSheet;
 pub(crate) fn setup(loaded: &Loaded) -> (Setup, Vec<String>) {
     let DataSheet { imu, assumption } = DataSheet::of(loaded);
     let mut assumptions = Vec::from_iter(assumption);
-    if loaded.rig.at_sea_level {
-        assumptions.push(
-            "The site has no height: gravity is that of sea level; it decreases by 0.03 % in 1000 m.".into(),
-        );
-    }
+    assumptions.extend(site_assumption(&loaded.rig));
     (setup_with(&loaded.rig, loaded.station, imu), assumptions)
+}
+
+/// The assumption of a site without height.
+pub(crate) fn site_assumption(rig: &Rig) -> Option<String> {
+    let told =
+        "The site has no height: gravity is that of sea level; it decreases by 0.03 % in 1000 m.";
+    rig.at_sea_level.then(|| told.into())
 }
 
 /// [`setup`] where the station is known.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use rins_calibration::FreeNavigation;
 use rins_frames::EulerAngles;
-use rins_io::shown;
+use rins_io::{InputFile, shown};
 
 pub(crate) use self::free::axis_attitude;
 use self::free::{Start, navigated, start, undone};
@@ -34,6 +34,7 @@ pub struct Navigation<'a> {
     start: Start,
     runs: Vec<(&'static str, FreeNavigation)>,
     beyond: Beyond,
+    calibration: Option<InputFile>,
 }
 
 /// Computes free inertial navigation of a log from standstill, with the vertical channel held.
@@ -79,5 +80,6 @@ fn navigation<'a>(log: &'a Log, options: &NavigateOptions) -> anyhow::Result<Nav
             log.name
         );
     }
-    Ok(Navigation { log, start, runs, beyond: found })
+    let calibration = options.calibration.as_deref().map(InputFile::of).transpose()?;
+    Ok(Navigation { log, start, runs, beyond: found, calibration })
 }

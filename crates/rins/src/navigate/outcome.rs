@@ -10,8 +10,9 @@ use rins_report::{Item, Report, Section};
 use super::Navigation;
 use super::free::has_table;
 use super::result::NavigateResult;
+use crate::basis::BasisResult;
 use crate::free_navigation::{attitude_plot, position_plot, velocity_plot};
-use crate::log::with_repairs;
+use crate::log::{site_assumption, with_repairs};
 use crate::outcome::Outcome;
 use crate::table::{aligned, report_table};
 
@@ -83,6 +84,11 @@ impl Outcome for Navigation<'_> {
 
     fn result(&self) -> NavigateResult {
         NavigateResult::of(self)
+    }
+
+    fn basis(&self) -> BasisResult {
+        let basis = BasisResult::of_log(self.log);
+        basis.assuming(site_assumption(&self.log.loaded.rig)).with_files(self.calibration.clone())
     }
 
     fn report(&self) -> Option<Report> {

@@ -4,8 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Navigation;
+use crate::basis::BasisResult;
 use crate::free_navigation::NavigationResult;
 use crate::log::OutsideRange;
+use crate::outcome::Outcome as _;
 
 /// The result of `rins navigate`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,8 +28,9 @@ pub struct NavigateResult {
     pub outside_calibrated_range: Option<OutsideRange>,
     /// The same in sentences.
     pub notes: Vec<String>,
-    /// What reading the log has repaired or left out.
-    pub repairs: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// What navigation ends with.
@@ -42,7 +45,7 @@ pub struct NavigatedResult {
 
 impl NavigateResult {
     pub(super) fn of(navigation: &Navigation<'_>) -> Self {
-        let Navigation { log, start, runs, beyond } = navigation;
+        let Navigation { log, start, runs, beyond, .. } = navigation;
         let runs = runs.iter().map(|(name, run)| NavigatedResult {
             name: (*name).to_owned(),
             navigation: run.into(),
@@ -56,7 +59,7 @@ impl NavigateResult {
             runs: runs.collect(),
             outside_calibrated_range: beyond.outside.clone(),
             notes: beyond.notes.clone(),
-            repairs: log.repairs(),
+            basis: navigation.basis(),
         }
     }
 }

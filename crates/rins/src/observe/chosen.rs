@@ -18,6 +18,12 @@ pub struct Want {
     pub typed: String,
 }
 
+/// The model file that `name` is, if it is one.
+pub(super) fn model_file(name: &str) -> Option<&Path> {
+    let file = Path::new(name);
+    file.extension().is_some_and(|ending| ending == "toml").then_some(file)
+}
+
 /// The model of a preset, or of a file.
 pub(super) fn model(name: &str) -> anyhow::Result<Model> {
     match name {
@@ -25,13 +31,13 @@ pub(super) fn model(name: &str) -> anyhow::Result<Model> {
         "paper12" => Ok(Model::paper12()),
         "baseline" => Ok(baseline()),
         "all" => Ok(everything()),
-        file if Path::new(file).extension().is_some_and(|ending| ending == "toml") => {
-            Ok(ModelFile::read(Path::new(file))?.model)
-        }
-        other => anyhow::bail!(
-            "{other:?} is no model{}: full, paper12, baseline, all, or a file that ends in .toml",
-            suggestion(other, ["full", "paper12", "baseline", "all"])
-        ),
+        other => match model_file(other) {
+            Some(file) => Ok(ModelFile::read(file)?.model),
+            None => anyhow::bail!(
+                "{other:?} is no model{}: full, paper12, baseline, all, or a file that ends in .toml",
+                suggestion(other, ["full", "paper12", "baseline", "all"])
+            ),
+        },
     }
 }
 

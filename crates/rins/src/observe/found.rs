@@ -5,6 +5,7 @@ use rins_estimation::Identifiability;
 use rins_terms::Model;
 
 use super::schedule::{Schedule, scenarios};
+use crate::basis::BasisResult;
 use crate::progress::Progress;
 
 /// What was found of one schedule.
@@ -28,6 +29,7 @@ pub(super) struct ObservabilityStudy {
     pub(super) proposed_pair: Option<Pair>,
     /// The scenario files of the proposal.
     pub(super) scenarios: Vec<String>,
+    pub(super) basis: BasisResult,
 }
 
 impl ObservabilityStudy {

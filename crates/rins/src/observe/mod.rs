@@ -11,6 +11,7 @@ mod words;
 use std::path::PathBuf;
 
 use rins_design::{Limits, Pair, Planned, TYPICAL_ACCELERATION, TYPICAL_RATE, information};
+use rins_io::InputFile;
 
 pub use self::chosen::Want;
 use self::found::{ObservabilityStudy, Observed};
@@ -19,6 +20,7 @@ pub use self::result::{
     SeparationResult, SeparationsResult,
 };
 use self::schedule::Schedule;
+use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::progress::Progress;
 
@@ -109,6 +111,9 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Obse
     for effect in sought {
         model = chosen::with(model, effect);
     }
+    let model_file = chosen::model_file(name).map(InputFile::of).transpose()?;
+    let scenario_files = scenarios.iter().map(|path| InputFile::of(path));
+    let scenario_files = scenario_files.collect::<std::result::Result<Vec<_>, _>>()?;
     let schedules = schedules(scenarios, options.compare)?;
     let limits = limits(options, &schedules[0]);
     let stage = options.progress.begin("looking at schedules", Some(schedules.len()));
@@ -129,6 +134,7 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Obse
         proposal: None,
         proposed_pair: None,
         scenarios: Vec::new(),
+        basis: BasisResult::of_files(scenario_files).with_files(model_file),
     };
     if !options.compare {
         found.search(&model, &options.progress)?;

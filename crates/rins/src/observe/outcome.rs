@@ -8,6 +8,7 @@ use super::Observability;
 use super::page::report;
 use super::result::ObserveResult;
 use super::words::text;
+use crate::basis::BasisResult;
 use crate::outcome::Outcome;
 
 impl fmt::Display for Observability {
@@ -21,6 +22,10 @@ impl Outcome for Observability {
 
     fn result(&self) -> ObserveResult {
         ObserveResult::of(&self.0)
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.0.basis.clone()
     }
 
     fn report(&self) -> Option<Report> {

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::found::{ObservabilityStudy, Observed};
+use crate::basis::BasisResult;
 use crate::finite::finite;
 use crate::identifiability::{IdentifiabilityResult, PredictedResult};
 use crate::values::EulerDegrees;
@@ -26,6 +27,9 @@ pub struct ObserveResult {
     pub limits: LimitsResult,
     /// The schedule to run next; null if the given one does, or nothing was asked.
     pub proposal: Option<ProposalResult>,
+    /// Its basis: inputs, repairs and assumptions.
+    #[serde(flatten)]
+    pub basis: BasisResult,
 }
 
 /// One schedule: one scenario, or several as runs of one IMU.
@@ -151,6 +155,7 @@ impl ObserveResult {
                 directions: limits.directions,
             },
             proposal: found.proposal.as_ref().map(|proposal| ProposalResult::of(proposal, found)),
+            basis: found.basis.clone(),
         }
     }
 }

@@ -6,6 +6,7 @@ use rins_estimation::{NoiseKnowledge, NoiseParameters, Reference, Run};
 use rins_frames::EARTH_RATE;
 use rins_frames::units::DEG_PER_HOUR;
 use rins_imu::ImuSpec;
+use rins_io::InputFile;
 use rins_report::number::figure;
 use rins_terms::{Model, Role, TermInstance, catalogue};
 
@@ -27,6 +28,8 @@ pub(crate) struct EstimationProblem {
     pub(crate) is_default: bool,
     /// Further remarks for the report.
     pub(crate) remarks: Vec<String>,
+    /// The file of the model, if it has one.
+    pub(crate) model_file: Option<InputFile>,
 }
 
 impl EstimationProblem {
@@ -97,7 +100,15 @@ impl EstimationProblem {
         }
         let preset = named.name == FULL;
         let model = on_these_runs(named.model, &runs, preset, &mut remarks);
-        let case = Self { runs, name: named.name, model, noise, is_default: false, remarks };
+        let case = Self {
+            runs,
+            name: named.name,
+            model,
+            noise,
+            is_default: false,
+            remarks,
+            model_file: named.file,
+        };
         case.runs.iter().try_for_each(|run| case.ensure_same_imu(run))?;
         let has_temperature = |run: &Prepared| {
             ensure_temperature(&run.name, "the model", &case.model, &run.run.recording)

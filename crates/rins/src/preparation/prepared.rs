@@ -11,6 +11,7 @@ use rins_io::{Loaded, shown};
 use super::attitude::Attitude;
 use super::axis::{Axis, axis};
 use super::rests;
+use crate::basis::BasisResult;
 use crate::check::refuse_mistaken;
 use crate::log::{
     Log, StaticIntervalResult, lasting, only, setup, static_intervals, statics_in_words,
@@ -42,6 +43,8 @@ pub(crate) struct Prepared {
     pub(crate) static_intervals: Vec<StaticIntervalResult>,
     /// Remarks on the preparation.
     pub(crate) remarks: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    pub(crate) basis: BasisResult,
 }
 
 /// The station, table and IMU of a rig, after a check for gross errors of units, signs and axes, and what was assumed of
@@ -55,8 +58,9 @@ pub(crate) fn screened(loaded: &Loaded) -> anyhow::Result<(Setup, Vec<String>)> 
 impl Prepared {
     /// Prepares a log.
     pub(crate) fn of(log: Log, noise: NoiseChoice) -> anyhow::Result<Self> {
-        let Log { name, mut loaded } = log;
-        let (mut setup, assumptions) = screened(&loaded)?;
+        let (mut setup, assumptions) = screened(&log.loaded)?;
+        let basis = BasisResult::of_log(&log).assuming(assumptions.iter().cloned());
+        let Log { name, mut loaded, .. } = log;
         let path = shown(&loaded.rig.log.path);
         let log = || path.clone();
         let has_wobble = loaded.rig.table.as_ref().is_some_and(|table| table.wobble.is_some());
@@ -120,7 +124,18 @@ impl Prepared {
                 step / ARCSEC
             )
         }));
-        Ok(Self { name, loaded, imu, run, others, repeats, attitude, static_intervals, remarks })
+        Ok(Self {
+            name,
+            loaded,
+            imu,
+            run,
+            others,
+            repeats,
+            attitude,
+            static_intervals,
+            remarks,
+            basis,
+        })
     }
 
     /// The number of samples in use.

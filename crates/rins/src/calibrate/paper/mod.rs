@@ -18,6 +18,7 @@ use rins_terms::{Model, Role, Surroundings, Track};
 
 use self::gates::refuse_standing;
 use self::observability::meaning;
+use crate::basis::BasisResult;
 use crate::log::{Log, covered, measured};
 use crate::preparation::{repeats_in_words, screened};
 use crate::progress::Progress;
@@ -35,13 +36,16 @@ pub(crate) struct PaperCalibration {
     budget: Budget,
     /// What was assumed of data sheet and site, and what was taken out of the log.
     remarks: Vec<String>,
+    /// Its basis: inputs, repairs and assumptions.
+    basis: BasisResult,
 }
 
 impl PaperCalibration {
     /// Calibrates a log; what repeats in it is taken out first.
     pub(super) fn of(mut log: Log, progress: &Progress) -> anyhow::Result<Self> {
+        let (mut setup, assumptions) = screened(&log.loaded)?;
+        let basis = BasisResult::of_log(&log).assuming(assumptions.iter().cloned());
         let loaded = &mut log.loaded;
-        let (mut setup, assumptions) = screened(loaded)?;
         refuse_standing(loaded)?;
         let repeated = Repeats::take_out_of(&mut loaded.recording).map(|repeats| {
             format!(
@@ -62,7 +66,7 @@ impl PaperCalibration {
         let model = model(&calibration);
         let budget = budget(&calibration, &model, loaded)?;
         let calibration = along_own(&calibration, &model, &SignedAxes::from(loaded.rig.spin));
-        Ok(Self { log, calibration, model, budget, remarks })
+        Ok(Self { log, calibration, model, budget, remarks, basis })
     }
 
     /// The samples that were estimated from.
@@ -86,6 +90,7 @@ impl PaperCalibration {
             covariance: Some(covariance(calibration)),
             spin: log.loaded.rig.spin,
             measured: measured(&log.loaded.rig, [&log.loaded.recording]),
+            provenance: self.basis.provenance(),
             range: covered([&log.loaded.recording.slice(span.start, span.end)]),
             ..rins_io::Calibration::of(calibration.imu_error)
         }

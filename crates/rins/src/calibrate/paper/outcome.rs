@@ -10,6 +10,7 @@ use rins_report::Report;
 use super::PaperCalibration;
 use super::page::{calibration_report, calibration_text};
 use super::result::result;
+use crate::basis::BasisResult;
 use crate::calibrate::compensation_guide::{budget_section, compensation_section};
 use crate::calibrate::departure::ABSURD_NIS;
 use crate::calibrate::result::CalibrateResult;
@@ -48,6 +49,10 @@ impl Outcome for PaperCalibration {
 
     fn result(&self) -> CalibrateResult {
         result(self)
+    }
+
+    fn basis(&self) -> BasisResult {
+        self.basis.clone()
     }
 
     fn report(&self) -> Option<Report> {

@@ -46,7 +46,7 @@ pub(super) fn result(of: &PaperCalibration) -> CalibrateResult {
         static_intervals: statics,
         runs: Vec::new(),
         notes,
-        repairs: log.repairs(),
+        basis: of.basis.clone(),
     }
 }
 
