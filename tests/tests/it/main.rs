@@ -25,6 +25,7 @@ mod no_room;
 mod observe;
 mod population;
 mod prior_consistency;
+mod provenance;
 mod repairs;
 mod replaced;
 mod round_trip;
