@@ -3,6 +3,7 @@
 mod covariance;
 mod measured;
 mod provenance;
+mod range;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,8 +11,8 @@ use std::path::{Path, PathBuf};
 pub use covariance::Covariance;
 pub use measured::Measured;
 pub use provenance::Provenance;
+pub use range::CalibratedRange;
 use rins_frames::SignedAxes;
-use rins_frames::units::DEG;
 use rins_imu::{Compensation, ImuError, TriadError};
 use rins_terms::catalogue::REFERENCE_TEMPERATURE;
 use rins_terms::{Model, Role, TermInstance};
@@ -21,7 +22,6 @@ use crate::error::{IoError, KeyError, KeyProblem};
 use crate::model::REFERENCE;
 use crate::output::{Overwrite, write_file};
 use crate::parameter::{self, LeftOut, Parameter, parameters};
-use crate::quantity::kinds;
 use crate::rig::Axes;
 use crate::section::Section;
 use crate::term::{self, Use};
@@ -52,12 +52,6 @@ const MEANING: &str = "\
 const TERMS: &str = "
 # Further effects. Each term adds its equation, for the true rate and force, to a reading. All of them are
 # compensated together: true = measured - (bias + (S + M) true + terms(true)), iterated to convergence.
-";
-
-/// The comment above the range.
-const RANGE: &str = "
-# Range of the runs of the calibration; rate is about the spin axis.
-[range]
 ";
 
 /// The comment above the standard deviations.
@@ -123,15 +117,6 @@ pub struct Calibration {
     /// The standard deviations of the numbers before the calibration, by id and in the units of [`parameters`](crate::parameters):
     /// what the runs said of them is what the covariance says beyond these.
     pub priors: Vec<Parameter>,
-}
-
-/// The range covered by the runs from which a calibration was made, as minimum and maximum.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CalibratedRange {
-    /// The temperature \[°C\].
-    pub temperature: Option<[f64; 2]>,
-    /// The rate about the spin axis, positive about the sensor's own axis \[rad/s\].
-    pub rate: Option<[f64; 2]>,
 }
 
 impl Calibration {
@@ -221,13 +206,7 @@ impl Calibration {
             .collect();
         let covariance = covariance::read(&root, &known, &stated)?;
         let path = document.path.clone();
-        let range = match root.section("range", &["temperature", "rate"])? {
-            Some(section) => CalibratedRange {
-                temperature: section.celsius_range("temperature")?,
-                rate: section.quantity_range("rate", &kinds::TABLE_RATE)?,
-            },
-            None => CalibratedRange::default(),
-        };
+        let range = range::read(&root)?;
         let calibration = Self {
             path,
             error,
@@ -315,16 +294,7 @@ impl Calibration {
             }
             text.push_str("]\n");
         }
-        let CalibratedRange { temperature, rate } = self.range;
-        if ranged {
-            text.push_str(RANGE);
-        }
-        if let Some([low, high]) = temperature {
-            let _ = writeln!(text, "temperature = [\"{low} degC\", \"{high} degC\"]");
-        }
-        if let Some([low, high]) = rate.map(|range| range.map(|rate| rate / DEG)) {
-            let _ = writeln!(text, "rate = [\"{low} deg/s\", \"{high} deg/s\"]");
-        }
+        text.push_str(&range::written(&self.range));
         text.push_str(&measured);
         let mut push = |header: &str, triad: &TriadError, keys| {
             text.push_str("\n[");

@@ -21,8 +21,8 @@ table_angle = {{ noise = "1 arcsec" }}
 acceleration = "10 deg/s^2"
 profile = [
     {{ rate = "0 deg/s", duration = "20 s" }},
-    {{ rate = "20 deg/s", duration = "50 s" }},
-    {{ rate = "-10 deg/s", duration = "50 s" }},
+    {{ rate = "20 deg/s", duration = "70 s" }},
+    {{ rate = "-10 deg/s", duration = "70 s" }},
 ]
 [attitude]
 roll = "20 deg"

@@ -67,7 +67,7 @@ fn every_result_has_its_basis() {
         ("diagnose run/rig.toml --hypothesis h.toml".to_owned(), with("h.toml")),
         (format!("navigate run/rig.toml --calibration {calibration}"), with(calibration)),
         (format!("apply run/rig.toml --calibration {calibration} -o new.csv"), with(calibration)),
-        ("convert run/rig.toml -o new.parquet".to_owned(), log()),
+        ("convert run/rig.toml -o other.parquet".to_owned(), log()),
         ("init run/run.csv".to_owned(), only("run/run.csv")),
         (format!("compare {calibration} {calibration}"), only(calibration)),
         ("observe scenario.toml".to_owned(), only("scenario.toml")),

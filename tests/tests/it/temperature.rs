@@ -22,8 +22,8 @@ table_angle = {{ noise = "0.5 arcsec" }}
 acceleration = "10 deg/s^2"
 profile = [
     {{ rate = "0 deg/s", duration = "40 s" }},
-    {{ rate = "20 deg/s", duration = "72 s" }},
-    {{ rate = "-20 deg/s", duration = "72 s" }},
+    {{ rate = "20 deg/s", duration = "180 s" }},
+    {{ rate = "-20 deg/s", duration = "180 s" }},
 ]
 [attitude]
 roll = "20 deg"
