@@ -8,7 +8,7 @@ mod result;
 mod schedule;
 mod words;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use rins_design::{Limits, Pair, Planned, TYPICAL_ACCELERATION, TYPICAL_RATE, information};
 use rins_io::InputFile;
@@ -112,9 +112,15 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Obse
         model = chosen::with(model, effect);
     }
     let model_file = chosen::model_file(name).map(InputFile::of).transpose()?;
-    let scenario_files = scenarios.iter().map(|path| InputFile::of(path));
-    let scenario_files = scenario_files.collect::<std::result::Result<Vec<_>, _>>()?;
     let schedules = schedules(scenarios, options.compare)?;
+    let mut paths: Vec<&Path> = Vec::new();
+    for path in schedules.iter().flat_map(|schedule| &schedule.paths) {
+        if !paths.contains(&path.as_path()) {
+            paths.push(path);
+        }
+    }
+    let files = paths.into_iter().map(InputFile::of);
+    let files = files.collect::<std::result::Result<Vec<_>, _>>()?;
     let limits = limits(options, &schedules[0]);
     let stage = options.progress.begin("looking at schedules", Some(schedules.len()));
     let mut observed = Vec::new();
@@ -134,7 +140,7 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Obse
         proposal: None,
         proposed_pair: None,
         scenarios: Vec::new(),
-        basis: BasisResult::of_files(scenario_files).with_files(model_file),
+        basis: BasisResult::of_files(files).with_files(model_file),
     };
     if !options.compare {
         found.search(&model, &options.progress)?;
