@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand};
 
 mod bench;
 mod blind;
+mod certificates;
 mod ci;
 mod coverage;
 mod doc;
@@ -36,6 +37,8 @@ enum Command {
     Bench(bench::Options),
     /// Hide effects in independently simulated runs, and score the diagnosis
     Blind(blind::Options),
+    /// Simulate laboratories with wrong references, and check the coverage of the expanded uncertainty
+    Certificates(certificates::Options),
     /// Run everything that CI runs after `cargo test --workspace`
     Ci(ci::Options),
     /// Simulate runs with random truth and check the coverage of the estimator's intervals
@@ -61,6 +64,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Bench(options) => bench::run(&root, &options),
         Command::Blind(options) => blind::run(&root, &options),
+        Command::Certificates(options) => certificates::run(&root, &options),
         Command::Ci(options) => ci::run(&root, &options),
         Command::Coverage(options) => coverage::run(&root, &options),
         Command::Doc => doc::run(&root),

@@ -25,6 +25,7 @@ mod journal;
 
 mod frozen;
 
+mod certificates;
 mod histories;
 
 mod breakdown;
@@ -38,6 +39,7 @@ mod workers;
 pub use answer::{Analyser, Answer, Named};
 pub use card::card;
 pub use catalogue::{hidden, is_hideable};
+pub use certificates::certificates;
 pub use draw::{Kind, Trial};
 pub use frozen::{Frozen, run_frozen};
 pub use hide::Hidden;

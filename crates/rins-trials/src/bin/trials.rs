@@ -5,13 +5,14 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use rins_trials::{
-    Analyser, Frozen, Length, Plan, Population, Record, Trial, Trouble, card, history_page,
-    history_trial, null_page, records, run, run_frozen, time,
+    Analyser, Frozen, Length, Plan, Population, Record, Trial, Trouble, card, certificates,
+    history_page, history_trial, null_page, records, run, run_frozen, time,
 };
 
 const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
                      trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest|null] | trials card JOURNAL PAGE | \
-                     trials null-page JOURNAL PAGE REVISION | trials histories SEED CAMPAIGNS PAGE REVISION";
+                     trials null-page JOURNAL PAGE REVISION | trials histories SEED CAMPAIGNS PAGE REVISION | \
+                     trials certificates RINS SEED LABORATORIES THREADS PAGE REVISION";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -82,6 +83,11 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
         ["histories", seed, campaigns, page, revision] => {
             let (seed, campaigns) = (seed.parse().ok()?, campaigns.parse().ok()?);
             histories(seed, campaigns, Path::new(page), revision)
+        }
+        ["certificates", program, seed, laboratories, threads, page, revision] => {
+            let (seed, laboratories) = (seed.parse().ok()?, laboratories.parse().ok()?);
+            let page = (Path::new(page), revision);
+            certificates(program, (seed, laboratories), threads.parse().ok()?, page)
         }
         _ => return None,
     })
