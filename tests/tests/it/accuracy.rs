@@ -90,6 +90,34 @@ fn rate_of_the_table_limits_the_scale_error() {
     assert!(refused.err.contains("full does"), "{}", refused.err);
 }
 
+/// An error of the encoder once per revolution looks like a misalignment of the gyro about the axis: the Earth's rate turns once per
+/// revolution too.
+#[test]
+fn what_the_stated_accuracy_of_an_encoder_explains_is_no_wrong_data_sheet() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let eccentric =
+        "effects = [{ id = \"encoder_eccentricity\", cos = \"4 arcsec\", sin = \"0 arcsec\" }]\n";
+    // Long and quiet enough to show it.
+    let scenario = SCENARIO
+        .replace("0.02 deg/h/sqrt(Hz)", "0.005 deg/h/sqrt(Hz)")
+        .replace("1 arcsec", "0.3 arcsec")
+        .replace("120 s", "300 s");
+    fs::write(folder.join("scenario.toml"), format!("{scenario}{eccentric}")).unwrap();
+    result_in(folder, "simulate scenario.toml -o run");
+    let refused = rins_in(folder, "calibrate run/rig.toml --model full");
+    assert_eq!(refused.code, Some(1));
+    assert!(refused.err.contains("gyro.misalignment.z"), "{}", refused.err);
+    let stated = calibrated(folder, &[("table", "angle_accuracy = \"5 arcsec\"")]);
+    for id in ["gyro.misalignment.zx", "gyro.misalignment.zy"] {
+        let misalignment = parameter(&stated, id);
+        let (value, expanded) =
+            (number(misalignment, "/value"), number(misalignment, "/uncertainty/expanded"));
+        assert!(value.abs() < expanded, "{misalignment:#}");
+    }
+    assert!(list(&stated, "/prior_consistency").is_empty(), "{:#}", stated["prior_consistency"]);
+}
+
 #[test]
 fn accuracy_is_positive_and_has_a_unit() {
     let folder = tempfile::tempdir().unwrap();

@@ -164,6 +164,12 @@ impl Certificate {
         let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();
         let fit = whole.with_prior_values_at(&places).marginal(is_kept);
         let contributions: Vec<Contribution> = moves.iter().map(|one| one.of(&fit)).collect();
+        for departure in &mut departures {
+            if let Quantity::Parameter(place) = departure.of {
+                let aliases = &identifiability.parameters[place].aliases;
+                Uncertainty::of(place, aliases, 0.0, &contributions).weaken(departure);
+            }
+        }
         let fit = contributions.iter().fold(fit, |fit, one| fit.with_unknown(&one.moves));
         let mut certified = Vec::with_capacity(case.runs.len());
         for (place, (prepared, given)) in case.runs.into_iter().zip(&given).enumerate() {

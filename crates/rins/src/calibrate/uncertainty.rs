@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DVector;
 use rins_design::coverage_factor;
-use rins_estimation::{Alias, Estimate, Fit, Run, fit_near};
+use rins_estimation::{Alias, Departure, Estimate, Fit, Run, fit_near};
 use rins_frames::SignedAxes;
 use rins_io::{Accuracy, LogFormat, Reading, Rig};
 use rins_motion::Recording;
@@ -236,5 +236,15 @@ impl Uncertainty {
         let sizes: Vec<f64> = by_reference.iter().map(|(_, moved)| moved.abs()).collect();
         let coverage_factor = coverage_factor(estimated, &sizes);
         Self { estimated, by_reference, coverage_factor }
+    }
+
+    /// Weakens a departure from what was stated beforehand: the references may cause it too.
+    pub(crate) fn weaken(&self, departure: &mut Departure) {
+        let type_b: f64 = self.by_reference.iter().map(|(_, moved)| moved * moved).sum();
+        let spread = (departure.value - departure.expected) / departure.sigmas;
+        // No departure at all has no spread.
+        if spread.is_finite() {
+            departure.sigmas *= spread.abs() / spread.hypot(type_b.sqrt());
+        }
     }
 }
