@@ -275,10 +275,11 @@ impl Calibration {
 
     /// The text of the calibration file.
     pub fn to_toml(&self) -> String {
-        let ranged = self.range != CalibratedRange::default();
+        let range = range::written(&self.range);
         let measured = measured::written(&self.measured) + &provenance::written(&self.provenance);
         let known = !measured.is_empty() || !self.priors.is_empty();
-        let newer = !self.terms.terms.is_empty() || self.covariance.is_some() || ranged || known;
+        let newer =
+            !self.terms.terms.is_empty() || self.covariance.is_some() || !range.is_empty() || known;
         let mut text = format!("{MEANING}schema = {}\n", SCHEMAS[usize::from(newer)]);
         if self.spin != Axes::IDENTITY {
             // Writing to a string cannot fail, here and below.
@@ -294,7 +295,7 @@ impl Calibration {
             }
             text.push_str("]\n");
         }
-        text.push_str(&range::written(&self.range));
+        text.push_str(&range);
         text.push_str(&measured);
         let mut push = |header: &str, triad: &TriadError, keys| {
             text.push_str("\n[");

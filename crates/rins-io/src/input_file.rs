@@ -56,6 +56,17 @@ impl InputFile {
         });
         Ok(Self { path: path.into(), sha256 })
     }
+
+    /// The files at these paths, each once.
+    ///
+    /// # Errors
+    /// [`IoError::File`] if one of them cannot be read.
+    pub fn of_each<'p>(paths: impl IntoIterator<Item = &'p Path>) -> Result<Vec<Self>, IoError> {
+        let paths: Vec<&Path> = paths.into_iter().collect();
+        let is_first = |&(place, path): &(usize, &Path)| !paths[..place].contains(&path);
+        let each = paths.iter().copied().enumerate().filter(is_first);
+        each.map(|(_, path)| Self::of(path)).collect()
+    }
 }
 
 impl Rig {
@@ -72,8 +83,6 @@ impl Rig {
             paths.extend(angle.map(|(path, _)| path.as_path()));
             paths.extend(temperature.map(|(path, _)| path.as_path()));
         }
-        let is_first = |&(place, path): &(usize, &Path)| !paths[..place].contains(&path);
-        let each = paths.iter().copied().enumerate().filter(is_first);
-        each.map(|(_, path)| InputFile::of(path)).collect()
+        InputFile::of_each(paths)
     }
 }

@@ -12,12 +12,11 @@ use std::sync::Mutex;
 use nalgebra::Rotation3;
 use rand::RngExt;
 use rins_blind::{Log, Random, random};
-use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use rins_terms::{Model, catalogue};
 use serde_json::Value;
 
 use crate::laboratory::{Grade, Laboratory, Length, Level, Schedule, log_uniform};
-use crate::stand::Stand;
+use crate::stand::{Stand, attitude};
 use crate::statistics::Share;
 use crate::trouble::Trouble;
 use crate::workers::at_once;
@@ -135,16 +134,12 @@ fn laboratory(program: &str, folder: &Path, (seed, index): (u64, u64)) -> Result
     let answer: Value = serde_json::from_slice(&output.stdout)?;
     let truth = Stand::of(&experiment, &known).model;
     // The survey is off by a rotation of the axis frame.
-    let dcm = |[roll, pitch, yaw]: [f64; 3]| -> Dcm<Nav, Table> {
-        EulerAngles { roll, pitch, yaw }.dcm()
-    };
-    let (surveyed, own) = (dcm(known.attitude), dcm(experiment.attitude));
+    let [surveyed, own] = [&known.attitude, &experiment.attitude].map(attitude);
     let rotation = surveyed.matrix().transpose() * own.matrix();
     let rotation = Rotation3::from_matrix_unchecked(rotation).scaled_axis();
     let value = |id: &str| {
-        let about = ["x", "y", "z"].iter().position(|axis| {
-            id.strip_prefix(catalogue::AXIS_ATTITUDE.id).is_some_and(|rest| rest[1..] == **axis)
-        });
+        let is_about = |axis: &&str| id == format!("{}.{axis}", catalogue::AXIS_ATTITUDE.id);
+        let about = ["x", "y", "z"].iter().position(is_about);
         in_unit(&truth, id)
             .map(|(value, factor)| about.map_or(value, |axis| rotation[axis]) / factor)
     };

@@ -168,7 +168,8 @@ fn station(place: &Place) -> Station {
     Station { site, gravity: place.gravity }
 }
 
-fn attitude(angles: &[f64; 3]) -> Dcm<Nav, Table> {
+/// The attitude of an axis frame with these angles \[rad\].
+pub(crate) fn attitude(angles: &[f64; 3]) -> Dcm<Nav, Table> {
     EulerAngles { roll: angles[0], pitch: angles[1], yaw: angles[2] }.dcm()
 }
 

@@ -5,7 +5,7 @@ use rins_report::{Cell, Column, Item, Section, Table};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::log::Log;
+use crate::log::{Log, measured};
 
 /// The version of this program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -79,7 +79,8 @@ impl BasisResult {
     /// Of these files alone.
     pub(crate) fn of_files(inputs: impl IntoIterator<Item = InputFile>) -> Self {
         let inputs = inputs.into_iter().map(InputResult::from).collect();
-        let provenance = ProvenanceResult { inputs, ..ProvenanceResult::default() }.versioned();
+        let version = VERSION.into();
+        let provenance = ProvenanceResult { version, inputs, ..ProvenanceResult::default() };
         Self { provenance, ..Self::default() }
     }
 
@@ -106,16 +107,8 @@ impl BasisResult {
             model: run.model.clone(),
             serial: run.serial.clone(),
         };
-        basis.provenance.measured = vec![MeasurementResult {
-            file: shown(&rig.path),
-            run: run.id.clone(),
-            started: run.started.as_ref().map(|started| started.text.clone()),
-            series: run.series.clone(),
-            temperature_degc: None,
-            laboratory: rig.laboratory.name.clone(),
-            operator: rig.laboratory.operator.clone(),
-            procedure: rig.laboratory.procedure.clone(),
-        }];
+        let measured = MeasurementResult::of(shown(&rig.path), &measured(rig, []));
+        basis.provenance.measured = vec![MeasurementResult { run: run.id.clone(), ..measured }];
         basis
     }
 
@@ -124,16 +117,7 @@ impl BasisResult {
         let name = shown(&file.path);
         let mut basis = Self::of_files([file]);
         basis.provenance.item.serial.clone_from(&measured.serial);
-        basis.provenance.measured = vec![MeasurementResult {
-            file: name,
-            run: None,
-            started: measured.started.as_ref().map(|started| started.text.clone()),
-            series: measured.series.clone(),
-            temperature_degc: measured.temperature.map(|mean| [mean; 2]),
-            laboratory: measured.laboratory.name.clone(),
-            operator: measured.laboratory.operator.clone(),
-            procedure: measured.laboratory.procedure.clone(),
-        }];
+        basis.provenance.measured = vec![MeasurementResult::of(name, measured)];
         basis
     }
 
@@ -230,9 +214,20 @@ impl BasisResult {
     }
 }
 
-impl ProvenanceResult {
-    fn versioned(self) -> Self {
-        Self { version: VERSION.into(), ..self }
+impl MeasurementResult {
+    /// What this file states of when and how a measurement was made.
+    fn of(file: String, measured: &Measured) -> Self {
+        let Measured { laboratory, .. } = measured;
+        Self {
+            file,
+            run: None,
+            started: measured.started.as_ref().map(|started| started.text.clone()),
+            series: measured.series.clone(),
+            temperature_degc: measured.temperature.map(|mean| [mean; 2]),
+            laboratory: laboratory.name.clone(),
+            operator: laboratory.operator.clone(),
+            procedure: laboratory.procedure.clone(),
+        }
     }
 }
 

@@ -18,11 +18,10 @@ use rins_terms::{
     Model, NotUndone, Owner, Role, Surroundings, TermInstance, catalogue, compensated,
 };
 
-use super::uncertainty::{Contribution, Moves, Uncertainty, moves};
+use super::uncertainty::{Contribution, Moves, Uncertainty, by_reference, moves, weaken};
 use crate::basis::BasisResult;
 use crate::check::steady_rates;
 use crate::homogeneity::RunComparison;
-use crate::log::repairs;
 use crate::options::NoiseChoice;
 use crate::preparation::{EstimationProblem, Prepared};
 use crate::progress::Progress;
@@ -167,7 +166,7 @@ impl Certificate {
         for departure in &mut departures {
             if let Quantity::Parameter(place) = departure.of {
                 let aliases = &identifiability.parameters[place].aliases;
-                Uncertainty::of(place, aliases, 0.0, &contributions).weaken(departure);
+                weaken(departure, &by_reference(place, aliases, &contributions));
             }
         }
         let fit = contributions.iter().fold(fit, |fit, one| fit.with_unknown(&one.moves));
@@ -219,9 +218,7 @@ impl Certificate {
 
     /// What reading the logs has repaired or left out, log by log.
     pub(crate) fn repairs(&self) -> Vec<String> {
-        let of =
-            |run: &CertifiedRun| repairs(&run.prepared.loaded.rig, &run.prepared.loaded.summary);
-        self.runs.iter().flat_map(of).collect()
+        self.runs.iter().flat_map(|run| run.prepared.basis.repairs.iter().cloned()).collect()
     }
 
     /// The basis of the estimates.

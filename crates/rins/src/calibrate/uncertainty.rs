@@ -226,25 +226,37 @@ impl Uncertainty {
         sigma: f64,
         contributions: &[Contribution],
     ) -> Self {
-        let moved = |one: &Contribution| {
-            let others = aliases.iter().map(|alias| alias.coefficient * one.moves[alias.unknown]);
-            (one.reference, one.moves[place] + others.sum::<f64>())
-        };
-        let by_reference: Vec<(Reference, f64)> = contributions.iter().map(moved).collect();
-        let square: f64 = by_reference.iter().map(|(_, moved)| moved * moved).sum();
-        let estimated = (sigma * sigma - square).max(0.0).sqrt();
+        let by_reference = by_reference(place, aliases, contributions);
+        let estimated = (sigma * sigma - type_b_variance(&by_reference)).max(0.0).sqrt();
         let sizes: Vec<f64> = by_reference.iter().map(|(_, moved)| moved.abs()).collect();
         let coverage_factor = coverage_factor(estimated, &sizes);
         Self { estimated, by_reference, coverage_factor }
     }
+}
 
-    /// Weakens a departure from what was stated beforehand: the references may cause it too.
-    pub(crate) fn weaken(&self, departure: &mut Departure) {
-        let type_b: f64 = self.by_reference.iter().map(|(_, moved)| moved * moved).sum();
-        let spread = (departure.value - departure.expected) / departure.sigmas;
-        // No departure at all has no spread.
-        if spread.is_finite() {
-            departure.sigmas *= spread.abs() / spread.hypot(type_b.sqrt());
-        }
+/// How far the sum of a parameter with others moves with each reference, in SI units.
+pub(crate) fn by_reference(
+    place: usize,
+    aliases: &[Alias],
+    contributions: &[Contribution],
+) -> Vec<(Reference, f64)> {
+    let moved = |one: &Contribution| {
+        let others = aliases.iter().map(|alias| alias.coefficient * one.moves[alias.unknown]);
+        (one.reference, one.moves[place] + others.sum::<f64>())
+    };
+    contributions.iter().map(moved).collect()
+}
+
+/// The variance by all references: type B.
+fn type_b_variance(by_reference: &[(Reference, f64)]) -> f64 {
+    by_reference.iter().map(|(_, moved)| moved * moved).sum()
+}
+
+/// Weakens a departure from what was stated beforehand: the references may cause it too.
+pub(crate) fn weaken(departure: &mut Departure, by_reference: &[(Reference, f64)]) {
+    let spread = (departure.value - departure.expected) / departure.sigmas;
+    // No departure at all has no spread.
+    if spread.is_finite() {
+        departure.sigmas *= spread.abs() / spread.hypot(type_b_variance(by_reference).sqrt());
     }
 }

@@ -52,7 +52,7 @@ fn merged(
         .collect::<Result<_, IoError>>()?;
     let runs = InOrder { parts }.map(|rows| rows.map(|rows| Run::read(&rows)));
     let names: Vec<String> = paths.iter().map(|path| shown(path)).collect();
-    let files = paths.iter().map(|path| InputFile::of(path)).collect::<Result<Vec<_>, _>>()?;
+    let files = InputFile::of_each(paths.iter().map(PathBuf::as_path))?;
     let source = (&*names.join(", "), "merge", BasisResult::of_files(files));
     deliver(&heading, runs, output, source, overwrite)
 }

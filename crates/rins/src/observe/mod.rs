@@ -8,7 +8,7 @@ mod result;
 mod schedule;
 mod words;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rins_design::{Limits, Pair, Planned, TYPICAL_ACCELERATION, TYPICAL_RATE, information};
 use rins_io::InputFile;
@@ -113,14 +113,8 @@ fn found(scenarios: &[PathBuf], options: &ObserveOptions) -> anyhow::Result<Obse
     }
     let model_file = chosen::model_file(name).map(InputFile::of).transpose()?;
     let schedules = schedules(scenarios, options.compare)?;
-    let mut paths: Vec<&Path> = Vec::new();
-    for path in schedules.iter().flat_map(|schedule| &schedule.paths) {
-        if !paths.contains(&path.as_path()) {
-            paths.push(path);
-        }
-    }
-    let files = paths.into_iter().map(InputFile::of);
-    let files = files.collect::<std::result::Result<Vec<_>, _>>()?;
+    let paths = schedules.iter().flat_map(|schedule| &schedule.paths);
+    let files = InputFile::of_each(paths.map(PathBuf::as_path))?;
     let limits = limits(options, &schedules[0]);
     let stage = options.progress.begin("looking at schedules", Some(schedules.len()));
     let mut observed = Vec::new();
