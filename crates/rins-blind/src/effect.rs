@@ -31,6 +31,9 @@ pub enum Law {
     Sense(fn(&[f64], &[f64], &Instant) -> Read),
     /// A temperature variation once per revolution, to which gyros respond with a lag.
     Heat,
+    /// Errors in proportion to how far the sensors' temperature is above the measured one \[K\], behind which it is; the first setting is
+    /// the time constant.
+    Soak(fn(&[f64], f64) -> Read),
     /// Lever arms: the position of each accelerometer in the body \[m\].
     Places(fn(&[f64]) -> [Vector3<f64>; 3]),
     /// Delays of gyros and accelerometers \[s\].

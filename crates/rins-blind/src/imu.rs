@@ -3,7 +3,7 @@
 use nalgebra::{Complex, Matrix3, Vector3};
 
 use crate::drive::Way;
-use crate::effect::{Effect, Law};
+use crate::effect::{Effect, Law, Read};
 use crate::experiment::{Experiment, Rounding, Sensors};
 use crate::laws::Instant;
 use crate::motion::{Attitudes, Motion};
@@ -55,6 +55,35 @@ impl<'a> Warmth<'a> {
     }
 }
 
+/// A sensor that follows its thermometer with a time constant.
+struct Soak<'a> {
+    effect: &'a Effect,
+    law: fn(&[f64], f64) -> Read,
+    temperature: f64,
+    gain: f64,
+}
+
+/// The sensors of an experiment that do so, at the temperature of the start.
+fn soaks<'a>(experiment: &'a Experiment, start: f64, step: f64) -> Vec<Soak<'a>> {
+    let of = |effect: &'a Effect| match effect.law() {
+        Law::Soak(law) => {
+            let gain = 1.0 - (-step / effect.settings[0]).exp();
+            Some(Soak { effect, law, temperature: start, gain })
+        }
+        _ => None,
+    };
+    experiment.effects.iter().filter_map(of).collect()
+}
+
+impl Soak<'_> {
+    /// The errors half a step after the sensor began to follow `temperature`, its mean over the step.
+    fn follow(&mut self, temperature: f64) -> Read {
+        let before = self.temperature;
+        self.temperature += (temperature - before) * self.gain;
+        (self.law)(&self.effect.parameters, 0.5 * (before + self.temperature) - temperature)
+    }
+}
+
 /// Integrates the sensors' readings over the short steps of a trajectory.
 pub(crate) fn sums(
     experiment: &Experiment,
@@ -80,6 +109,7 @@ pub(crate) fn sums(
     let field = experiment.place.magnetic_field();
     let warm = |time: f64| experiment.temperature.at(time);
     let start = warm(0.0);
+    let mut soaks = soaks(experiment, start, grid.step);
     let axes = experiment.gyro.axes();
     // The first and the last point have only one neighbor.
     let points = way.angles.len() - 2;
@@ -107,6 +137,11 @@ pub(crate) fn sums(
         let mut accel = now.force + experiment.accel.error(&now.force);
         for (effect, law) in &senses {
             let (of_gyro, of_accel) = law(&effect.parameters, &effect.settings, &now);
+            gyro += of_gyro;
+            accel += of_accel;
+        }
+        for soak in &mut soaks {
+            let (of_gyro, of_accel) = soak.follow(warm(time));
             gyro += of_gyro;
             accel += of_accel;
         }

@@ -16,14 +16,11 @@ use crate::path;
 use crate::run::{Reference, Run};
 use crate::step::SHOWN;
 
-/// The duration of an epoch is a thousandth of the run, within these limits \[s\].
+/// The duration of an epoch is a thousandth of the run, but not less than the first of these \[s\], nor more than the second if the
+/// table turns: of a static run no signal changes faster.
 const EPOCH: (f64, f64) = (SHORTEST_EPOCH, 0.5);
 
-/// The upper limit of an epoch of a static run in the comparison of many parameters \[s\]: their signals do not change faster. Noise
-/// parameters are not estimated from such epochs: white noise and bias instability differ only in the shorter ones.
-const STATIC_EPOCH: f64 = 10.0;
-
-/// The largest number of epochs, for runs of any duration: those of a run of a day last two seconds.
+/// The largest number of epochs of a table that turns, for runs of any duration: those of a run of a day last two seconds.
 const MOST_EPOCHS: f64 = 40_000.0;
 
 /// The largest rotation of the table in a piece of an epoch \[rad\].
@@ -102,11 +99,9 @@ pub fn linearise(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
 
 /// The same with coarse derivatives, for the comparison of many parameters. The residuals are as exact; the derivatives are
 /// calculated over pieces in which the table rotates by about 2 deg at most, which biases a harmonic order `n` of its angle
-/// by less than `(0.02 n)²/6`. The epochs of a long static run are longer.
+/// by less than `(0.02 n)²/6`.
 pub fn linearise_coarsely(run: &Run, model: &Model, free: &[(usize, usize)]) -> Linear {
-    let is_static = matches!(run.rig.reference, Reference::Rest);
-    let longest = if is_static { STATIC_EPOCH } else { EPOCH.1 };
-    in_epochs(run, model, free, (Pieces::Coarse, longest))
+    linearised(run, model, free, Pieces::Coarse)
 }
 
 /// Linearizes a run with this resolution of the derivatives.
@@ -116,22 +111,14 @@ pub(crate) fn linearised(
     free: &[(usize, usize)],
     pieces: Pieces,
 ) -> Linear {
-    in_epochs(run, model, free, (pieces, EPOCH.1))
-}
-
-/// The same with epochs of at most this duration \[s\].
-fn in_epochs(
-    run: &Run,
-    model: &Model,
-    free: &[(usize, usize)],
-    (pieces, longest): (Pieces, f64),
-) -> Linear {
     let (surroundings, model) = with_attitude(run, model);
     let moved = without_latency(run, &model);
     let (run, model) = moved.as_ref().map_or((run, &model), |(run, model)| (run, model));
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
-    let length = (duration / 1000.0).clamp(EPOCH.0, longest).max(duration / MOST_EPOCHS);
+    let is_static = matches!(run.rig.reference, Reference::Rest);
+    let longest = if is_static { f64::INFINITY } else { EPOCH.1.max(duration / MOST_EPOCHS) };
+    let length = (duration / 1000.0).clamp(EPOCH.0, longest);
     let interval = duration / (recording.len() - 1) as f64;
     let block = whole(length / interval);
     let track = path::track(run, surroundings, model, block);

@@ -6,7 +6,7 @@ use nalgebra::Complex;
 use num_dual::Dual64;
 
 use crate::catalogue::{AXIS_ATTITUDE, GYRO_MISALIGNMENT};
-use crate::following::following;
+use crate::following::{behind, following};
 use crate::kinematic_state::KinematicState;
 use crate::model::{Model, TermInstance};
 use crate::signals::{Signals, derivatives};
@@ -20,12 +20,18 @@ pub struct Acting<'a> {
     parameters: Vec<Dual64>,
     /// What turns the gyros' axes from the body's, where the term acts on the rate about them.
     axes: Vec<Self>,
-    /// How it follows the table in each of the track's samples, where it does so slowly.
+    /// How it follows the table or its temperature in each of the track's samples, where it does so slowly.
     follows: Option<Follows>,
 }
 
-/// How `exp(iζ)` is followed in each sample of a track, in units of it.
-type Follows = Arc<[Complex<f64>]>;
+/// How something is followed in each sample of a track.
+#[derive(Clone, Debug)]
+enum Follows {
+    /// `exp(iζ)`, in units of it.
+    Angle(Arc<[Complex<f64>]>),
+    /// The temperature: by how much what follows is above it \[K\].
+    Temperature(Arc<[f64]>),
+}
 
 impl<'a> Acting<'a> {
     /// The term at `place` in a model, with a derivative by parameter `by` of this or another term.
@@ -114,12 +120,17 @@ impl<'a> Acting<'a> {
     #[inline]
     fn act(&self, moment: &KinematicState, signals: &mut Signals) {
         let Self { chosen, parameters, .. } = self;
-        if let (Some(follows), Action::Following(act)) = (&self.follows, chosen.term.action) {
-            act(parameters, moment.exp_angle() * follows[moment.sample], signals);
-        } else if self.axes.is_empty() {
-            chosen.term.act(parameters, &chosen.settings, moment, signals);
-        } else {
-            self.act_about_axes(moment, signals);
+        match (&self.follows, chosen.term.action) {
+            (Some(Follows::Angle(follows)), Action::Following(act)) => {
+                act(parameters, moment.exp_angle() * follows[moment.sample], signals);
+            }
+            (Some(Follows::Temperature(behind)), Action::Soaking(act)) => {
+                act(parameters, behind[moment.sample], signals);
+            }
+            _ if self.axes.is_empty() => {
+                chosen.term.act(parameters, &chosen.settings, moment, signals);
+            }
+            _ => self.act_about_axes(moment, signals),
         }
     }
 
@@ -143,7 +154,7 @@ impl<'a> Acting<'a> {
 }
 
 impl Model {
-    /// What all its terms add at `moment`, those that follow the table having settled.
+    /// What all its terms add at `moment`, those that follow the table or its temperature having settled.
     pub fn signals(&self, moment: &KinematicState) -> Signals {
         Acting::together(&Acting::settled(self), moment)
     }
@@ -154,10 +165,15 @@ fn turns_axes(chosen: &TermInstance) -> bool {
     [GYRO_MISALIGNMENT.id, AXIS_ATTITUDE.id].contains(&chosen.term.id)
 }
 
-/// How a term follows the table on a track, if it does so slowly.
+/// How a term follows the table on a track, or its temperature, if it does so slowly.
 fn follows(chosen: &TermInstance, track: &Track) -> Option<Follows> {
-    let Action::Following(_) = chosen.term.action else { return None };
-    Some(following(track, chosen.settings[0]).into())
+    match chosen.term.action {
+        Action::Following(_) => {
+            Some(Follows::Angle(following(track, chosen.settings[0]).into()))
+        }
+        Action::Soaking(_) => Some(Follows::Temperature(behind(track, chosen.settings[0]).into())),
+        _ => None,
+    }
 }
 
 fn does_anything(chosen: &TermInstance) -> bool {

@@ -1,4 +1,4 @@
-//! What follows a table's angle slowly, as the warmth of a sensor does that turns beside a source of heat.
+//! What follows a table's angle or its temperature slowly, as the warmth of a sensor does.
 
 use nalgebra::Complex;
 
@@ -28,4 +28,21 @@ pub(crate) fn following(track: &Track, time_constant: f64) -> Vec<Complex<f64>> 
         middle
     };
     track.moments().map(follow).collect()
+}
+
+/// By how much `1/(1 + τ d/dt)` of the temperature is above it, in the middle of each of a track's samples \[K\]: settled at the start,
+/// and exact for a temperature that changes evenly from the end of one sample to that of the next. Zero where it is not known.
+pub(crate) fn behind(track: &Track, time_constant: f64) -> Vec<f64> {
+    let mut last: Option<(f64, f64)> = None;
+    let follow = |sample: usize| {
+        let Some(temperature) = track.temperature(sample) else { return 0.0 };
+        let (before, follows) = last.unwrap_or((temperature, 0.0));
+        let elapsed = track.over(sample).1;
+        // How far behind an even change it stays.
+        let settled = (before - temperature) * (time_constant / elapsed);
+        let after = |elapsed: f64| settled + (follows - settled) * (-elapsed / time_constant).exp();
+        last = Some((temperature, after(elapsed)));
+        after(elapsed - 0.5 * track.intervals[sample])
+    };
+    (0..track.len()).map(follow).collect()
 }

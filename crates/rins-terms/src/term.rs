@@ -190,6 +190,9 @@ pub enum Action {
     /// It follows the table's angle behind a low-pass, whose time constant is the first setting: parameters, what comes of
     /// `exp(iζ)`, and what is added to.
     Following(fn(&[Dual64], Complex<f64>, &mut Signals)),
+    /// It follows the temperature behind a low-pass, whose time constant is the first setting: parameters, by how much what follows
+    /// is above the temperature \[K\], and what is added to.
+    Soaking(fn(&[Dual64], f64, &mut Signals)),
     /// It changes the random errors: parameters, settings, and the noise.
     Noise(fn(&[f64], &[f64], &mut Noises)),
     /// It changes the log: parameters, settings, random numbers, and the recording.
@@ -202,6 +205,7 @@ impl std::fmt::Debug for Action {
             Self::Signal(_) => "Signal",
             Self::Sensed(_) => "Sensed",
             Self::Following(_) => "Following",
+            Self::Soaking(_) => "Soaking",
             Self::Noise(_) => "Noise",
             Self::Log(_) => "Log",
         })
@@ -220,7 +224,7 @@ pub struct Noises {
 impl Term {
     /// Whether it adds to signals, and so can be estimated.
     pub const fn is_signal(&self) -> bool {
-        matches!(self.action, Action::Signal(_) | Action::Sensed(_) | Action::Following(_))
+        !matches!(self.action, Action::Noise(_) | Action::Log(_))
     }
 
     /// The full ids of its parameters, such as `accel_lever_arm.r_x`.
@@ -245,7 +249,7 @@ impl Term {
 
     /// What it adds at `moment` with these parameters, in SI units.
     ///
-    /// A term that is no signal adds nothing; one that follows the table is taken to have settled.
+    /// A term that is no signal adds nothing; one that follows the table or its temperature is taken to have settled.
     pub fn signals(
         &self,
         parameters: &[f64],
@@ -259,7 +263,7 @@ impl Term {
     }
 
     /// Adds what it does at `moment`, with the derivative that the parameters carry, to gyros whose axes are the body's; if it
-    /// follows the table, then as settled.
+    /// follows the table or its temperature, then as settled.
     #[inline]
     pub fn act(
         &self,
@@ -292,6 +296,8 @@ impl Term {
                 let follows = settled(moment.mean.rate, settings[0]);
                 act(parameters, moment.exp_angle() * follows, signals);
             }
+            // What has settled is at the temperature.
+            Action::Soaking(act) => act(parameters, 0.0, signals),
             Action::Noise(_) | Action::Log(_) => {}
         }
     }

@@ -24,6 +24,10 @@ impl Unit {
     pub(crate) const DEG_PER_HOUR_PER_HOUR: Self = Self::new("deg/h/h", DEG_PER_HOUR / 3600.0);
     /// Degrees an hour per kelvin \[rad/s/K\].
     pub(crate) const DEG_PER_HOUR_PER_KELVIN: Self = Self::new("deg/h/K", DEG_PER_HOUR);
+    /// Degrees an hour per kelvin squared \[rad/s/K²\].
+    pub(crate) const DEG_PER_HOUR_PER_KELVIN_2: Self = Self::new("deg/h/K^2", DEG_PER_HOUR);
+    /// Degrees an hour per kelvin cubed \[rad/s/K³\].
+    pub(crate) const DEG_PER_HOUR_PER_KELVIN_3: Self = Self::new("deg/h/K^3", DEG_PER_HOUR);
     /// Degrees an hour per kelvin a minute \[rad/K\].
     pub(crate) const DEG_PER_HOUR_PER_KELVIN_PER_MINUTE: Self =
         Self::new("deg/h/(K/min)", DEG_PER_HOUR * 60.0);
@@ -41,6 +45,10 @@ impl Unit {
     pub(crate) const MICRO_G_PER_HOUR: Self = Self::new("ug/h", MICRO_G / 3600.0);
     /// Millionths of standard gravity per kelvin \[m/s²/K\].
     pub(crate) const MICRO_G_PER_KELVIN: Self = Self::new("ug/K", MICRO_G);
+    /// Millionths of standard gravity per kelvin squared \[m/s²/K²\].
+    pub(crate) const MICRO_G_PER_KELVIN_2: Self = Self::new("ug/K^2", MICRO_G);
+    /// Millionths of standard gravity per kelvin cubed \[m/s²/K³\].
+    pub(crate) const MICRO_G_PER_KELVIN_3: Self = Self::new("ug/K^3", MICRO_G);
     /// Millionths of standard gravity per g² \[s²/m\].
     pub(crate) const MICRO_G_PER_G2: Self =
         Self::new("ug/g^2", MICRO_G / (STANDARD_GRAVITY * STANDARD_GRAVITY));

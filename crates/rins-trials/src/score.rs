@@ -87,6 +87,8 @@ static CLASSES: [(&str, &[&Term]); 11] = [
             &catalogue::GYRO_BIAS_RAMP,
             &catalogue::GYRO_WARMUP,
             &catalogue::GYRO_THERMAL_BIAS,
+            &catalogue::GYRO_THERMAL_POLYNOMIAL,
+            &catalogue::GYRO_THERMAL_LAG,
             &catalogue::GYRO_SHUPE,
         ],
     ),
@@ -118,6 +120,8 @@ static CLASSES: [(&str, &[&Term]); 11] = [
             &catalogue::ACCEL_BIAS_RAMP,
             &catalogue::ACCEL_WARMUP,
             &catalogue::ACCEL_THERMAL_BIAS,
+            &catalogue::ACCEL_THERMAL_POLYNOMIAL,
+            &catalogue::ACCEL_THERMAL_LAG,
         ],
     ),
     (

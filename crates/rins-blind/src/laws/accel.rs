@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Instant, after, axes};
+use super::{Instant, after, axes, thermal};
 use crate::effect::{Law, Read};
 
 /// The table rate to which the vibration rectification parameter refers \[rad/s\].
@@ -14,6 +14,8 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("accel_bias_ramp", Law::Sense(|p, _, now| accel(axes(p) * now.time))),
     ("accel_warmup", Law::Sense(|p, s, now| accel(axes(p) * (-now.time / s[0]).exp()))),
     ("accel_thermal_bias", Law::Sense(|p, _, now| accel(axes(p) * now.warming))),
+    ("accel_thermal_polynomial", Law::Sense(|p, _, now| accel(thermal(p, now)))),
+    ("accel_thermal_lag", Law::Soak(|p, behind| accel(axes(p) * behind))),
     (
         "accel_vibration_rectification",
         Law::Sense(|p, s, now| accel(axes(p) * (now.rate.abs() / TEN_DEGREES).powf(s[0]))),

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Instant, after, axes};
+use super::{Instant, after, axes, thermal};
 use crate::effect::{Law, Read};
 
 /// The laws of this file.
@@ -11,6 +11,8 @@ pub(crate) const LAWS: &[(&str, Law)] = &[
     ("gyro_bias_ramp", Law::Sense(|p, _, now| gyro(axes(p) * now.time))),
     ("gyro_warmup", Law::Sense(|p, s, now| gyro(axes(p) * (-now.time / s[0]).exp()))),
     ("gyro_thermal_bias", Law::Sense(|p, _, now| gyro(axes(p) * now.warming))),
+    ("gyro_thermal_polynomial", Law::Sense(|p, _, now| gyro(thermal(p, now)))),
+    ("gyro_thermal_lag", Law::Soak(|p, behind| gyro(axes(p) * behind))),
     ("gyro_shupe", Law::Sense(|p, _, now| gyro(axes(p) * now.warming_rate))),
     ("gyro_rate_dependent_bias", Law::Sense(rate_dependent_bias)),
     ("gyro_scale_asymmetry", Law::Sense(|p, _, now| z(p[0] * now.turning.z.abs()))),

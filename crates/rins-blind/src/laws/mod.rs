@@ -50,6 +50,11 @@ pub(crate) fn after(time: f64, now: f64) -> f64 {
     if now >= time { 1.0 } else { 0.0 }
 }
 
+/// A polynomial of the third degree in the temperature above that at the start.
+pub(crate) fn thermal(p: &[f64], now: &Instant) -> Vector3<f64> {
+    (axes(p) + (axes(&p[3..]) + axes(&p[6..]) * now.warming) * now.warming) * now.warming
+}
+
 /// Three parameters as a vector, one per axis.
 pub(crate) fn axes(p: &[f64]) -> Vector3<f64> {
     Vector3::new(p[0], p[1], p[2])

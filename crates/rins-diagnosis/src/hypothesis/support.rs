@@ -43,10 +43,29 @@ fn choices(term: &Term) -> Vec<Choice> {
         // Single orders have a term of their own.
         return vec![Choice::likely((0..term.parameters.len()).collect())];
     }
+    if POLYNOMIALS.iter().any(|polynomial| polynomial.is(term)) {
+        return polynomials();
+    }
     let tilts = term.is(&catalogue::BASE_TILT_STEP);
     let mut list: Vec<Choice> = choices_of(units.len()).into_iter().map(of_parameters).collect();
     list.retain(|choice| !(tilts && choice.parameters == [ABOUT_AXIS]));
     list
+}
+
+/// The polynomials in temperature: three coefficients of each power, the linear ones first.
+static POLYNOMIALS: [&Term; 2] =
+    [&catalogue::GYRO_THERMAL_POLYNOMIAL, &catalogue::ACCEL_THERMAL_POLYNOMIAL];
+
+/// What may be there of a polynomial of three axes: on any of them all powers up to the second or up to the third. A linear one is an
+/// effect of its own, and a higher power without the lower ones would depend on where zero is.
+fn polynomials() -> Vec<Choice> {
+    let of = |degree: usize| {
+        choices_of(3).into_iter().map(move |Choice { parameters: axes, .. }| {
+            let power = |power: usize| axes.iter().map(move |axis| 3 * power + axis);
+            Choice::likely((0..degree).flat_map(power).collect())
+        })
+    };
+    (2..=catalogue::THERMAL_DEGREE).flat_map(of).collect()
 }
 
 /// Parameters of an effect that may be there without the others.
@@ -134,6 +153,18 @@ mod tests {
             vec![0, 1, 2]
         ]));
         assert_eq!(choices(&catalogue::ACCEL_LEVER_ARM).len(), 3);
+    }
+
+    #[test]
+    fn a_polynomial_has_all_its_lower_powers() {
+        let all = choices(&catalogue::GYRO_THERMAL_POLYNOMIAL);
+        assert_eq!(all.len(), 14);
+        assert_eq!(all[0].parameters, [0, 3]);
+        assert_eq!(all[13].parameters, (0..9).collect::<Vec<_>>());
+        for Choice { parameters, .. } in all {
+            let lower = |&place: &usize| place < 3 || parameters.contains(&(place - 3));
+            assert!(parameters.iter().all(lower), "{parameters:?}");
+        }
     }
 
     #[test]

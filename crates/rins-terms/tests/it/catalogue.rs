@@ -7,18 +7,19 @@ use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G};
 use rins_imu::{NoiseModel, Seed};
 use rins_terms::catalogue::{CATALOGUE, MOST_PARAMETERS, term};
 use rins_terms::{
-    Action, Model, Noises, Parameter, Prior, SettingKind, Signals, Term, TermInstance, values,
+    Acting, Action, KinematicState, Model, Noises, Parameter, Prior, SettingKind, Signals, Term,
+    TermInstance, values,
 };
 
 use crate::support::{run, sheet};
 
 /// The effects that the catalogue must know, by sensor.
 const WANTED: &str = "
-    gyro_bias_step gyro_bias_ramp gyro_warmup gyro_thermal_bias gyro_shupe gyro_bias_instability
+    gyro_bias_step gyro_bias_ramp gyro_warmup gyro_thermal_bias gyro_thermal_polynomial gyro_thermal_lag gyro_shupe gyro_bias_instability
     gyro_rate_random_walk gyro_noise_level accel_noise_level gyro_quantisation gyro_scale_asymmetry
     gyro_scale_nonlinearity gyro_rate_dependent_bias gyro_thermal_scale gyro_scale_ramp gyro_g_sensitivity
     gyro_g2_sensitivity gyro_magnetic gyro_dead_zone gyro_hysteresis gyro_lag gyro_saturation
-    accel_bias_step accel_bias_ramp accel_warmup accel_thermal_bias accel_scale accel_misalignment
+    accel_bias_step accel_bias_ramp accel_warmup accel_thermal_bias accel_thermal_polynomial accel_thermal_lag accel_scale accel_misalignment
     accel_quadratic accel_cubic accel_asymmetry accel_cross_coupling accel_lever_arm accel_size_effect
     accel_vibration_rectification accel_latency stuck_samples accel_quantisation accel_saturation
     encoder_eccentricity encoder_harmonic table_wobble table_rate_ripple encoder_latency encoder_backlash
@@ -117,20 +118,24 @@ fn matters(signals: &Signals) -> bool {
 
 #[test]
 fn every_parameter_of_a_signal_does_something_at_its_usual_magnitude() {
-    let moments: Vec<_> = run().track.moments().collect();
+    let track = &run().track;
+    let moments: Vec<_> = track.moments().collect();
     for term in CATALOGUE.iter().filter(|term| term.is_signal()) {
         for (place, parameter) in term.parameters.iter().enumerate() {
             for magnitude in largest(parameter) {
                 let mut chosen = chosen(term);
                 chosen.values[place] = magnitude;
+                let model = Model::default().with(chosen);
+                let acting = Acting::present(&model, track);
+                let signals = |moment: &KinematicState| Acting::together(&acting, moment);
                 assert!(
-                    moments.iter().any(|moment| matters(&chosen.signals(moment, None))),
+                    moments.iter().any(|moment| matters(&signals(moment))),
                     "{}.{} = {magnitude} does nothing",
                     term.id,
                     parameter.name
                 );
                 assert!(moments.iter().all(|moment| {
-                    let signals = chosen.signals(moment, None);
+                    let signals = signals(moment);
                     values(&signals.gyro).iter().all(|x| x.is_finite())
                         && values(&signals.accel).iter().all(|x| x.is_finite())
                         && values(&signals.tilt).iter().all(|x| x.is_finite())
@@ -165,7 +170,7 @@ fn every_noise_and_every_fault_of_a_log_does_something_at_its_usual_magnitude() 
         let high: Vec<f64> = term.parameters.iter().map(|p| p.range(&sheet()).0).collect();
         let model = Model::default().with(chosen(term).with_values(&high));
         match term.action {
-            Action::Signal(_) | Action::Sensed(_) | Action::Following(_) => {}
+            _ if term.is_signal() => {}
             Action::Noise(_) => assert_ne!(model.stirred(noises.clone()), noises, "{}", term.id),
             Action::Log(_) => {
                 let mut recording = run.recording.clone();
@@ -173,6 +178,7 @@ fn every_noise_and_every_fault_of_a_log_does_something_at_its_usual_magnitude() 
                 assert_ne!(recording, run.recording, "{}", term.id);
                 assert_eq!(recording.times, run.recording.times, "{}", term.id);
             }
+            _ => panic!("{} does nothing", term.id),
         }
     }
 }

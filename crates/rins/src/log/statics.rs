@@ -80,7 +80,14 @@ pub(crate) fn none_found(loaded: &Loaded, shortest: f64) -> String {
         .take(LISTED)
         .filter_map(|interval| Some(format!("{}: {}", span(interval), interval.remark()?)))
         .collect();
-    if rejected.is_empty() { message } else { format!("{message} ({})", rejected.join("; ")) }
+    if rejected.is_empty() {
+        return message;
+    }
+    // A sensor that drifts, as in a thermal chamber, looks like one that moves.
+    format!(
+        "{message} ({}); if it was, state the interval in the rig file: [log] static = [[\"0 s\", \"600 s\"]]",
+        rejected.join("; ")
+    )
 }
 
 fn span(interval: &StaticInterval) -> String {

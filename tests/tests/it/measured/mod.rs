@@ -3,6 +3,7 @@
 //! Expected figures were computed from the files with awk, or are those of the project that measured
 //! them; none is an output of `rins`. The rigs are in `tests/rigs`, with the origin of their values.
 
+mod chamber;
 mod drafts;
 mod least_squares;
 mod logs;
