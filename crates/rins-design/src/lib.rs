@@ -6,7 +6,8 @@
 //! **What it does.** A [`Planned`] run is a scenario of which only motion, site and data sheet matter. [`information`] is the
 //! joint information of several of them. [`Pair`] is the separability of two effects, [`propose`] searches a library of
 //! schedules for the shortest one that reaches a [`Goal`] within the [`Limits`] of a table, and [`next_test`] does that for
-//! two effects that a run could not distinguish. A [`Budget`] is the error budget of free inertial navigation.
+//! two effects that a run could not distinguish. A [`Budget`] is the error budget of free inertial navigation over minutes, [`Growth`]
+//! that over days.
 //!
 //! **What it does not do.** It reads no files and decides nothing about measured data.
 
@@ -14,6 +15,7 @@ mod budget;
 mod coverage;
 mod effect;
 mod error;
+mod growth;
 mod library;
 mod next;
 mod pair;
@@ -24,6 +26,7 @@ pub use budget::{Budget, Contribution, Drift, EstimatedParameter, Truth};
 pub use coverage::{COVERAGE, coverage_factor};
 pub use effect::Effect;
 pub use error::DesignError;
+pub use growth::{GROWTH_STATES, Growth, GrowthError, Service};
 pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
 pub use next::{Confused, NextTest, next_test};
 pub use pair::{ENOUGH, Pair, information};

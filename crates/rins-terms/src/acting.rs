@@ -168,9 +168,7 @@ fn turns_axes(chosen: &TermInstance) -> bool {
 /// How a term follows the table on a track, or its temperature, if it does so slowly.
 fn follows(chosen: &TermInstance, track: &Track) -> Option<Follows> {
     match chosen.term.action {
-        Action::Following(_) => {
-            Some(Follows::Angle(following(track, chosen.settings[0]).into()))
-        }
+        Action::Following(_) => Some(Follows::Angle(following(track, chosen.settings[0]).into())),
         Action::Soaking(_) => Some(Follows::Temperature(behind(track, chosen.settings[0]).into())),
         _ => None,
     }

@@ -18,7 +18,10 @@ const LAG: Setting = Setting {
 };
 
 /// The coefficients of the first, second and third power, each of all axes.
-const fn polynomial(units: [Unit; THERMAL_DEGREE], priors: [Prior; THERMAL_DEGREE]) -> [Parameter; 9] {
+const fn polynomial(
+    units: [Unit; THERMAL_DEGREE],
+    priors: [Prior; THERMAL_DEGREE],
+) -> [Parameter; 9] {
     const NAMES: [[&str; 3]; THERMAL_DEGREE] = [
         ["linear_x", "linear_y", "linear_z"],
         ["square_x", "square_y", "square_z"],

@@ -44,8 +44,10 @@ fn thermal_cycle_predicts_its_other_half() {
     part(folder, "first.toml", FIRST_HALF);
     part(folder, "later.toml", LATER);
     let predicted = |name: &str, terms: &[&str]| {
-        let list: String = terms.iter().map(|term| format!("[[term]]\nid = {term}\n")).collect();
-        fs::write(folder.join("model.toml"), format!("schema = 1\nbase = \"full\"\n{list}")).unwrap();
+        let list: Vec<String> = terms.iter().map(|term| format!("[[term]]\nid = {term}")).collect();
+        let list = list.join("\n");
+        fs::write(folder.join("model.toml"), format!("schema = 1\nbase = \"full\"\n{list}\n"))
+            .unwrap();
         let found =
             result_in(folder, &format!("calibrate first.toml --model model.toml -o {name}"));
         let applied =
