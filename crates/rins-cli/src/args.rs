@@ -10,9 +10,11 @@ use rins_io::{LogFile, Overwrite, shown};
 use crate::choices::Noise;
 
 mod history;
+mod mission;
 mod observe;
 
 pub(crate) use self::history::History;
+pub(crate) use self::mission::Mission;
 pub(crate) use self::observe::Observe;
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
@@ -119,6 +121,13 @@ pub(crate) enum Command {
     /// The conditions come from the rig files, [run] serial, series (one name for each power-on) and started, and from the
     /// temperature of the logs.
     History(History),
+    /// Predict the position error of a system after days in service, for several schemes of rotation
+    ///
+    /// The mission file states the site, the schemes and the errors: [errors] has errors of a certain size, [imu] a data sheet. The errors
+    /// are propagated linearly, with the Schuler, Foucault and Earth-rate oscillations and the growth of the longitude. The result has the
+    /// position error east and north by the stated errors, and CEP50, CEP95 and TRMS by the uncertainties of the data sheet, or by what a
+    /// calibration leaves.
+    Mission(Mission),
 }
 
 #[derive(Debug, Args)]
@@ -377,6 +386,7 @@ impl Command {
             Self::Diagnose(diagnose) => diagnose.output.as_deref(),
             Self::Compare(compare) => compare.output.as_deref(),
             Self::History(history) => history.output.as_deref(),
+            Self::Mission(mission) => mission.output.as_deref(),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rins::{
     ApplyOptions, CalibrateOptions, ConvertOptions, DiagnoseOptions, HistoryOptions, Log,
-    MonteCarloOptions, NavigateOptions, ObserveOptions,
+    MissionOptions, MonteCarloOptions, NavigateOptions, ObserveOptions,
 };
 use rins_io::{IoError, ensure_replaceable_folder, shown, write_file};
 
@@ -59,6 +59,11 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 progress: drawn(),
             };
             deliver(arguments, &rins::history(&history.runs, &options)?, "")
+        }
+        Command::Mission(mission) => {
+            let options =
+                MissionOptions { calibration: mission.calibration.clone(), progress: drawn() };
+            deliver(arguments, &rins::mission(&mission.file, &options)?, "")
         }
     }
 }

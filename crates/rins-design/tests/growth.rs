@@ -9,30 +9,12 @@ use rins_frames::units::{
 };
 use rins_frames::{Body, Dcm, EulerAngles, InFrame, Increments, Site, Table};
 use rins_motion::{Navigator, Profile, Segment, Station, TrueMotion, VerticalChannel};
-use rins_terms::{KinematicState, Model, Signals, Surroundings, TermInstance, catalogue, values};
+use rins_terms::{KinematicState, Model, Signals, Surroundings, catalogue, values};
 
 const HOUR: f64 = 3600.0;
 const NAUTICAL_MILE: f64 = 1852.0;
 const RATE: f64 = 6.0 * DEG_PER_SECOND;
 const TURN: f64 = TAU / RATE;
-
-/// All 24 errors of the sensors.
-fn sensors() -> Model {
-    let terms = [
-        &catalogue::GYRO_BIAS,
-        &catalogue::GYRO_SCALE,
-        &catalogue::GYRO_MISALIGNMENT,
-        &catalogue::ACCEL_BIAS,
-        &catalogue::ACCEL_SCALE,
-        &catalogue::ACCEL_MISALIGNMENT,
-    ];
-    Model { terms: terms.map(TermInstance::new).to_vec() }
-}
-
-fn parameters(model: &Model) -> Vec<(usize, usize)> {
-    let of = |(term, one): (usize, &TermInstance)| (0..one.values.len()).map(move |p| (term, p));
-    model.terms.iter().enumerate().flat_map(of).collect()
-}
 
 fn surroundings(latitude: f64, attitude: EulerAngles) -> Surroundings {
     let site = Site { latitude, longitude: 0.0, height: 0.0 };
@@ -77,8 +59,8 @@ fn errors(model: &Model) -> Vec<f64> {
 
 /// The position error east at these hours \[nmi\], at 45 deg with the axis upright.
 fn east(cycle: &[Segment], hours: &[f64]) -> Vec<f64> {
-    let model = sensors();
-    let parameters = parameters(&model);
+    let model = Model::sensors();
+    let parameters = model.places().collect::<Vec<_>>();
     let errors = errors(&model);
     let surroundings = surroundings(45.0 * DEG, upright());
     let service =
@@ -98,6 +80,34 @@ fn schemes_drift_as_an_independent_model_says() {
     near(forth_and_back[0], 7.444);
     near(forth_and_back[2], 21.88);
     near(east(&four_positions(), &[24.0])[0], 7.46);
+}
+
+/// `(eps_z + S_z w) sin L cos L` in longitude for a table that turns on and on; without it, what is along the Earth's axis.
+#[test]
+fn secular_growth_is_the_law() {
+    let model = Model::sensors();
+    let places = model.places().collect::<Vec<_>>();
+    // The law has the errors along the axis only.
+    let along = |(id, error): (String, f64)| {
+        if ["gyro.bias.z", "gyro.scale.z"].contains(&id.as_str()) { error } else { 0.0 }
+    };
+    let errors: Vec<f64> = model.ids().zip(errors(&model)).map(along).collect();
+    let surroundings = surroundings(45.0 * DEG, upright());
+    let law = |cycle: &[Segment]| {
+        let service =
+            Service { surroundings, cycle, model: &model, parameters: &places, noise: [0.0; 2] };
+        let east = service.secular_east().expect("a cycle of a table at 45 deg")?;
+        let rate: f64 = east.iter().zip(&errors).map(|(by, error)| by * error).sum();
+        Some(rate * 24.0 * HOUR / NAUTICAL_MILE)
+    };
+    let near = |got: Option<f64>, want: f64| {
+        assert!(got.is_some_and(|got| (got / want - 1.0).abs() < 0.01), "{got:?}, not {want}");
+    };
+    near(law(&continuous()), 84.96);
+    near(law(&reciprocating()), 21.60 / 3.0);
+    near(law(&four_positions()), 21.60 / 3.0);
+    // A cycle that does not close has no such law.
+    assert_eq!(law(&[Segment { rate: RATE, duration: 0.4 * TURN }]), None);
 }
 
 /// Free inertial navigation over some hours, with these errors of the readings; east and north \[m\].
@@ -155,7 +165,7 @@ fn navigated(
 }
 
 fn with_errors(part: f64) -> Model {
-    let mut model = sensors();
+    let mut model = Model::sensors();
     let mut seed = 0.37_f64;
     for chosen in &mut model.terms {
         let bias =
@@ -187,9 +197,9 @@ fn strapdown_navigation_differs_by_the_second_order() {
         let surroundings = surroundings(latitude * DEG, attitude);
         let left = [1.0, 0.5].map(|part| {
             let model = with_errors(part);
-            let places = parameters(&model);
+            let places = model.places().collect::<Vec<_>>();
             let values: Vec<f64> = model.terms.iter().flat_map(|one| one.values.clone()).collect();
-            let none = sensors();
+            let none = Model::sensors();
             let service = Service {
                 surroundings,
                 cycle: &cycle,
@@ -215,7 +225,7 @@ fn strapdown_navigation_differs_by_the_second_order() {
 /// Random walks of the angle grow the covariance as many runs of them scatter; and a state at the start as the system says.
 #[test]
 fn covariance_is_that_of_noise_in_small_steps() {
-    let model = sensors();
+    let model = Model::sensors();
     let surroundings = surroundings(45.0 * DEG, upright());
     let cycle = continuous();
     let noise = [0.002 * DEG_PER_ROOT_HOUR, 1e-5];
@@ -241,7 +251,7 @@ fn covariance_is_that_of_noise_in_small_steps() {
 
 #[test]
 fn bad_input_is_told() {
-    let model = sensors();
+    let model = Model::sensors();
     let at = |latitude: f64, cycle: &[Segment], times: &[f64]| {
         let surroundings = surroundings(latitude, upright());
         let service =
@@ -260,8 +270,8 @@ fn bad_input_is_told() {
 
 #[test]
 fn exact_start_has_no_error() {
-    let model = sensors();
-    let places = parameters(&model);
+    let model = Model::sensors();
+    let places = model.places().collect::<Vec<_>>();
     let surroundings = surroundings(0.7, upright());
     let cycle = reciprocating();
     let service = Service {

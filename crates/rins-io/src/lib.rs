@@ -24,6 +24,7 @@ mod error;
 mod input_file;
 mod inputs;
 mod log;
+mod mission;
 mod model;
 mod output;
 mod parameter;
@@ -54,6 +55,7 @@ pub use log::{
     Overflow, PsinsHeader, Redivided, Rounded, TableClock, date_seconds, date_text, peek, read,
     read_log,
 };
+pub use mission::{MissionFile, RotationScheme};
 pub use model::ModelFile;
 pub use output::{
     Overwrite, ensure_replaceable, ensure_replaceable_folder, write_file, write_files, write_folder,

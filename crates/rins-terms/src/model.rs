@@ -157,8 +157,8 @@ impl Model {
         }
     }
 
-    /// All of eq. (1) for both triads, and the attitude of the axis: 27 numbers.
-    pub fn full() -> Self {
+    /// All of eq. (1) for both triads: biases, scale errors and misalignments, 24 numbers.
+    pub fn sensors() -> Self {
         let terms = [
             &catalogue::GYRO_BIAS,
             &catalogue::GYRO_SCALE,
@@ -166,9 +166,13 @@ impl Model {
             &catalogue::ACCEL_BIAS,
             &catalogue::ACCEL_SCALE,
             &catalogue::ACCEL_MISALIGNMENT,
-            &catalogue::AXIS_ATTITUDE,
         ];
         Self { terms: terms.map(|term| TermInstance::new(term).estimated()).to_vec() }
+    }
+
+    /// The errors of the sensors, and the attitude of the axis: 27 numbers.
+    pub fn full() -> Self {
+        Self::sensors().with(TermInstance::new(&catalogue::AXIS_ATTITUDE).estimated())
     }
 
     /// The same with its coefficients of temperature about this temperature \[°C\].
@@ -241,17 +245,20 @@ impl Model {
 
     /// The full ids of all its parameters, in order.
     pub fn ids(&self) -> impl Iterator<Item = String> {
-        let places = |term: usize| 0..self.terms[term].values.len();
-        (0..self.terms.len())
-            .flat_map(move |term| places(term).map(move |place| self.id(term, place)))
+        self.places().map(|(term, parameter)| self.id(term, parameter))
+    }
+
+    /// The places of all its parameters: of its term in the model, and of it in its term.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let of = |(term, chosen): (usize, &TermInstance)| {
+            (0..chosen.values.len()).map(move |parameter| (term, parameter))
+        };
+        self.terms.iter().enumerate().flat_map(of)
     }
 
     /// The parameter of this id: its term's place, and its own.
     pub fn find(&self, id: &str) -> Option<(usize, usize)> {
-        (0..self.terms.len()).find_map(|term| {
-            let places = 0..self.terms[term].values.len();
-            places.map(|place| (term, place)).find(|&(term, place)| self.id(term, place) == id)
-        })
+        self.places().find(|&(term, parameter)| self.id(term, parameter) == id)
     }
 
     /// The parameter of this id, in SI units, if the model has it.

@@ -34,6 +34,9 @@ these trials draws an IMU, a schedule, an accuracy of each reference, and the er
 table, latitude, gravity, and the clock of the log. The simulator is that of the [blind trials](blind.md). `rins calibrate` reads the log
 and the rig file, which states the accuracies. `cargo xtask certificates` runs the laboratories and writes this page.
 
+The noise of these runs is white. The estimate allows for bias instability, which a short run cannot exclude: where noise predominates, the
+intervals are therefore conservative.
+
 | reference | stated accuracy, every factor as likely as another |
 | --- | --- |
 | rate of the table | 0.00001 to 0.001 deg/s |

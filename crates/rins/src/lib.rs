@@ -12,6 +12,7 @@
 //! | what is observable under a schedule? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
 //! | what changed between calibrations? | [`compare`](compare()) | [`CompareResult`](compare::CompareResult) |
 //! | how do parameters vary between runs? | [`history`](history()) | [`HistoryResult`](history::HistoryResult) |
+//! | what position error after days in service? | [`mission`](mission()) | [`MissionResult`](mission::MissionResult) |
 //! | do errors agree with covariances? | [`monte_carlo`], [`merge`] | [`CampaignResult`](campaign::CampaignResult) |
 //! | a run, a log, a compensated log | [`simulate`](simulate()), [`convert`](convert()), [`apply`](apply()) | theirs |
 //!
@@ -42,6 +43,7 @@ pub mod demo;
 pub mod diagnose;
 pub mod history;
 pub mod init;
+pub mod mission;
 pub mod navigate;
 pub mod observe;
 pub mod simulate;
@@ -97,6 +99,7 @@ pub use identifiability::{
 };
 pub use init::init;
 pub use log::{Log, OutsideRange, OutsideRate, OutsideTemperature, StaticIntervalResult};
+pub use mission::{MissionOptions, mission};
 pub use navigate::{NavigateOptions, navigate};
 pub use observe::{ObserveOptions, observe};
 pub use options::{ModelChoice, NoiseChoice};

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use crate::{
     align, allan, apply, calibrate, campaign, check, compare, convert, demo, diagnose, history,
-    init, navigate, observe, simulate,
+    init, mission, navigate, observe, simulate,
 };
 
 /// The JSON schema of every command's result, by the name of the command; the schema of `merge` is that of `monte-carlo`.
@@ -15,7 +15,7 @@ use crate::{
 /// let (_, calibrate) = schemas.iter().find(|(command, _)| *command == "calibrate").unwrap();
 /// assert!(calibrate["properties"]["parameters"]["description"].is_string());
 /// ```
-pub fn schemas() -> [(&'static str, Value); 15] {
+pub fn schemas() -> [(&'static str, Value); 16] {
     [
         ("align", schema::<align::AlignResult>()),
         ("allan", schema::<allan::AllanResult>()),
@@ -24,6 +24,7 @@ pub fn schemas() -> [(&'static str, Value); 15] {
         ("check", schema::<check::CheckResult>()),
         ("compare", schema::<compare::CompareResult>()),
         ("history", schema::<history::HistoryResult>()),
+        ("mission", schema::<mission::MissionResult>()),
         ("convert", schema::<convert::ConvertResult>()),
         ("demo", schema::<demo::DemoResult>()),
         ("diagnose", schema::<diagnose::DiagnoseResult>()),

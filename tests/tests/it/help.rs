@@ -10,7 +10,7 @@ use rins_testing::{Fault, assert_rows, is, says};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "",
     "demo",
     "init",
@@ -28,6 +28,7 @@ const COMMANDS: [&str; 17] = [
     "apply",
     "compare",
     "history",
+    "mission",
 ];
 
 /// The assumed width of a terminal.

@@ -19,6 +19,7 @@ mod interrupted;
 mod level_table;
 mod library;
 mod measured;
+mod mission;
 mod mistakes;
 mod monte_carlo;
 mod no_room;

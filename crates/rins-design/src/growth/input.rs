@@ -40,6 +40,21 @@ impl Input {
     }
 }
 
+impl Input {
+    /// The mean while the table turns by `turn` from `angle` \[rad\].
+    pub(super) fn mean(&self, angle: f64, turn: f64) -> Columns {
+        let mut mean = self.cos[0].clone();
+        for order in 1..=HARMONICS {
+            let [from, by] = [angle, turn].map(|part| order as f64 * part);
+            let half = 0.5 * by;
+            let part = if half.abs() < 1e-6 { 1.0 } else { half.sin() / half };
+            let (sin, cos) = (from + half).sin_cos();
+            mean += (&self.cos[order] * cos + &self.sin[order] * sin) * part;
+        }
+        mean
+    }
+}
+
 /// The derivatives of the states by the parameters at a table angle \[rad\].
 fn at(service: &Service<'_>, angle: f64, rate: f64) -> Columns {
     let Service { surroundings, model, parameters, .. } = service;

@@ -105,6 +105,31 @@ impl Service<'_> {
         Ok(grown)
     }
 
+    /// The secular growth of the position error east \[m/s\] per unit of each parameter, if a cycle is a whole number of revolutions: the gyro
+    /// errors along the Earth's axis, averaged over the cycle, move the longitude; all else oscillates.
+    ///
+    /// # Errors
+    /// [`GrowthError`] as of [`growth`](Self::growth).
+    pub fn secular_east(&self) -> Result<Option<Vec<f64>>, GrowthError> {
+        self.check(&[])?;
+        let site = self.surroundings.station.site;
+        let (sin, cos) = site.latitude.sin_cos();
+        let radius = (site.transverse_radius() + site.height) * cos;
+        let mut sums = vec![0.0; self.parameters.len()];
+        let (mut angle, mut lasting) = (0.0, 0.0);
+        for &Segment { rate, duration } in self.cycle {
+            let mean = Input::of(self, rate).mean(angle, rate * duration);
+            for (sum, column) in sums.iter_mut().zip(mean.column_iter()) {
+                *sum -= radius * (column[2] * sin + column[1] * cos) * duration;
+            }
+            angle += rate * duration;
+            lasting += duration;
+        }
+        let turns = angle / std::f64::consts::TAU;
+        let closes = (turns - turns.round()).abs() < 1e-6;
+        Ok(closes.then(|| sums.into_iter().map(|sum| sum / lasting).collect()))
+    }
+
     fn check(&self, times: &[f64]) -> Result<(), GrowthError> {
         if self.cycle.is_empty() {
             return Err(GrowthError::Empty);

@@ -1,0 +1,193 @@
+//! A mission as text and as a report page.
+
+use rins_report::number::figure;
+use rins_report::{Item, Plot, Report, Section, Series, Table};
+
+use super::Mission;
+use super::result::{MissionResult, NAUTICAL_MILE, SchemeResult};
+use crate::table::{aligned, report_table};
+
+/// The times of the text: thirds of the mission.
+const THIRDS: [usize; 3] = [1, 2, 3];
+
+/// The number of sources in the budget.
+const TOLD: usize = 8;
+
+/// The summary for a terminal.
+pub(super) fn mission_text(mission: &Mission) -> String {
+    let result = MissionResult::from(mission);
+    let mut lines = vec![title(mission)];
+    let told = summary(&result).into_iter().chain(mission.remarks.iter().cloned());
+    lines.extend(told.map(|sentence| format!("  {sentence}")));
+    lines.push(String::new());
+    lines.push(aligned(&rows(mission, &result)));
+    for scheme in result.schemes.iter().filter(|scheme| !scheme.budget.is_empty()) {
+        lines.push(format!("  {}, 1σ at the end by each source alone [nmi]", scheme.name));
+        lines.push(aligned(&budget_rows(scheme)));
+    }
+    // The last column of a table is empty.
+    let text = lines.join("\n");
+    text.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
+}
+
+fn title(mission: &Mission) -> String {
+    format!("Mission {}", mission.name)
+}
+
+/// The schemes in the order of their error at the end.
+fn summary(result: &MissionResult) -> Vec<String> {
+    let last = |list: &Option<Vec<f64>>| list.as_ref().and_then(|list| list.last().copied());
+    let size = |scheme: &SchemeResult| {
+        let by_errors = last(&scheme.east_nmi).zip(last(&scheme.north_nmi));
+        last(&scheme.trms_nmi).or_else(|| by_errors.map(|(east, north)| east.hypot(north)))
+    };
+    let mut all: Vec<(&SchemeResult, f64)> =
+        result.schemes.iter().filter_map(|scheme| Some((scheme, size(scheme)?))).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((best, least)) = all.first() else { return Vec::new() };
+    let hours = last(&Some(best.hours.clone())).unwrap_or_default();
+    let what = if best.trms_nmi.is_some() {
+        "rms radial position error (TRMS)"
+    } else {
+        "position error by the stated errors"
+    };
+    let others: Vec<String> = all[1..]
+        .iter()
+        .map(|(scheme, size)| format!("{} {}", scheme.name, figure(*size, 3)))
+        .collect();
+    let beside =
+        if others.is_empty() { String::new() } else { format!("; {} nmi", others.join(", ")) };
+    vec![format!(
+        "After {} h the {what} is {} nmi with the scheme {}{beside}.",
+        figure(hours, 3),
+        figure(*least, 3),
+        best.name
+    )]
+}
+
+/// The columns of the table: their names, and what they hold of a scheme.
+type ColumnOf = (&'static str, fn(&SchemeResult) -> Option<&Vec<f64>>);
+
+const COLUMNS: [ColumnOf; 6] = [
+    ("east", |scheme| scheme.east_nmi.as_ref()),
+    ("north", |scheme| scheme.north_nmi.as_ref()),
+    ("law, east", |scheme| scheme.law_nmi.as_ref()),
+    ("CEP50", |scheme| scheme.cep50_nmi.as_ref()),
+    ("CEP95", |scheme| scheme.cep95_nmi.as_ref()),
+    ("TRMS", |scheme| scheme.trms_nmi.as_ref()),
+];
+
+/// The errors at a third, two thirds and the end of the mission, or at the only times that there are.
+fn rows(mission: &Mission, result: &MissionResult) -> Vec<Vec<String>> {
+    let count = mission.times.len();
+    let mut places: Vec<usize> = THIRDS
+        .iter()
+        .map(|thirds| (count * thirds / 3).max(1) - 1)
+        .filter(|place| *place < count)
+        .collect();
+    places.dedup();
+    let columns: Vec<&ColumnOf> = COLUMNS
+        .iter()
+        .filter(|(_, of)| result.schemes.iter().any(|scheme| of(scheme).is_some()))
+        .collect();
+    let mut rows = vec![
+        ["scheme", "hours"]
+            .into_iter()
+            .map(String::from)
+            .chain(columns.iter().map(|(name, _)| format!("{name} [nmi]")))
+            .chain([String::new()])
+            .collect::<Vec<_>>(),
+    ];
+    for scheme in &result.schemes {
+        for &place in &places {
+            let cell = |(_, of): &&ColumnOf| {
+                of(scheme).map_or_else(|| "–".into(), |list| figure(list[place], 4))
+            };
+            let mut row = vec![scheme.name.clone(), figure(scheme.hours[place], 3)];
+            row.extend(columns.iter().map(cell));
+            row.push(String::new());
+            rows.push(row);
+        }
+    }
+    rows
+}
+
+fn budget_rows(scheme: &SchemeResult) -> Vec<Vec<String>> {
+    let told = scheme.budget.iter().take(TOLD);
+    told.map(|one| vec![one.source.clone(), figure(one.radial_nmi, 3), String::new()]).collect()
+}
+
+/// The report page.
+pub(super) fn mission_report(mission: &Mission) -> Report {
+    let result = MissionResult::from(mission);
+    let errors = captioned("At a third, at two thirds and at the end", &rows(mission, &result));
+    let mut items = vec![Item::Table(errors)];
+    items.extend(plots(&result).into_iter().map(Item::Plot));
+    let mut sections = vec![Section {
+        heading: "Position errors".into(),
+        intro: "Linear propagation of the errors: Schuler, Foucault and Earth-rate oscillations and the growth of the longitude."
+            .into(),
+        items,
+    }];
+    let budgets: Vec<Table> = result
+        .schemes
+        .iter()
+        .filter(|scheme| !scheme.budget.is_empty())
+        .map(|scheme| {
+            let head = ["source", "radial, 1σ [nmi]", ""].map(String::from).to_vec();
+            let rows: Vec<_> = std::iter::once(head).chain(budget_rows(scheme)).collect();
+            captioned(&scheme.name, &rows)
+        })
+        .collect();
+    if !budgets.is_empty() {
+        sections.push(Section {
+            heading: "Error budget".into(),
+            intro: "The radial position error at the end by each source alone; correlations are not in it.".into(),
+            items: budgets.into_iter().map(Item::Table).collect(),
+        });
+    }
+    let remarks = mission.remarks.iter().cloned().map(Item::Text).collect();
+    sections.push(Section { heading: "Remarks".into(), intro: String::new(), items: remarks });
+    Report {
+        title: title(mission),
+        subtitle: "rins mission".into(),
+        summary: summary(&result),
+        sections,
+    }
+}
+
+/// A table of these rows, the first of which is the head.
+fn captioned(caption: &str, rows: &[Vec<String>]) -> Table {
+    Table { caption: caption.into(), ..report_table(rows) }
+}
+
+/// The errors over time.
+fn plots(result: &MissionResult) -> Vec<Plot> {
+    let plot = |title: &str, of: fn(&SchemeResult) -> Option<&Vec<f64>>| {
+        let series: Vec<Series> = result
+            .schemes
+            .iter()
+            .filter_map(|scheme| {
+                Some(Series {
+                    name: scheme.name.clone(),
+                    x: scheme.hours.clone(),
+                    y: of(scheme)?.clone(),
+                    ..Series::default()
+                })
+            })
+            .collect();
+        (!series.is_empty()).then(|| Plot {
+            title: title.into(),
+            x_label: "Time [h]".into(),
+            y_label: "Position error [nmi]".into(),
+            series,
+            caption: format!("One nautical mile is {NAUTICAL_MILE} m."),
+            ..Plot::default()
+        })
+    };
+    let all = [
+        plot("Position error east by the stated errors", |scheme| scheme.east_nmi.as_ref()),
+        plot("RMS radial position error (TRMS)", |scheme| scheme.trms_nmi.as_ref()),
+    ];
+    all.into_iter().flatten().collect()
+}
