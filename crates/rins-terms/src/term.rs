@@ -113,6 +113,8 @@ impl Parameter {
 pub enum Need {
     /// A temperature channel.
     Temperature,
+    /// A temperature that changes by tens of kelvins: over less, a curve is a line, and hysteresis a drift.
+    TemperatureRange,
     /// An encoder.
     TableAngle,
     /// A table that turns at rates of more than one magnitude.

@@ -1,7 +1,7 @@
 //! The catalogue's effects as hidden ones, and as their rivals.
 
 use rins_blind::Effect;
-use rins_terms::{Model, SettingKind, Term, TermInstance, catalogue};
+use rins_terms::{Model, Need, SettingKind, Term, TermInstance, catalogue};
 
 /// What is a choice of frame, what leaves nothing behind, and what a table in a laboratory does not do.
 static NEVER_HIDDEN: [&Term; 5] = [
@@ -21,7 +21,9 @@ const PARTS: u32 = 16;
 /// Whether a term is a signal that can be hidden in a run, and the baseline does not hold.
 pub fn is_hideable(term: &Term) -> bool {
     let is_baseline = Model::full().terms.iter().any(|own| own.term.is(term));
-    term.is_signal() && !is_baseline && !NEVER_HIDDEN.iter().any(|never| never.is(term))
+    // The temperature of these laboratories changes by a few kelvins.
+    let shows = !term.needs.contains(&Need::TemperatureRange);
+    term.is_signal() && !is_baseline && shows && !NEVER_HIDDEN.iter().any(|never| never.is(term))
 }
 
 /// A term with its numbers, as the generator takes it.

@@ -21,6 +21,10 @@ const APART: f64 = 3.0;
 /// A temperature that changes by less \[K\] shows no effect of temperature.
 const LEAST_WARMING: f64 = 0.05;
 
+/// Over a smaller range of temperature \[K\] the typical curvature of a bias, 0.01 per K of its slope, departs from a line by less than a
+/// fortieth of the change.
+const CURVED: f64 = 20.0;
+
 /// A table that has turned by less may stand \[rad\].
 const LEAST_TURN: f64 = 1e-3;
 
@@ -124,14 +128,18 @@ pub(crate) fn duration(runs: &[Run]) -> f64 {
     runs.iter().map(of).fold(0.0, f64::max)
 }
 
+/// By how much the temperature changes in and between runs \[K\]; minus infinity if it is not known.
+fn temperature_range(runs: &[Run]) -> f64 {
+    let all = || runs.iter().filter_map(|run| run.recording.temperature.as_ref()).flatten();
+    let most = all().copied().fold(f64::NEG_INFINITY, f64::max);
+    most - all().copied().fold(f64::INFINITY, f64::min)
+}
+
 fn offer(runs: &[Run], need: Need) -> bool {
     match need {
         // From run to run is a change too.
-        Need::Temperature => {
-            let all = || runs.iter().filter_map(|run| run.recording.temperature.as_ref()).flatten();
-            let most = all().copied().fold(f64::NEG_INFINITY, f64::max);
-            most - all().copied().fold(f64::INFINITY, f64::min) > LEAST_WARMING
-        }
+        Need::Temperature => temperature_range(runs) > LEAST_WARMING,
+        Need::TemperatureRange => temperature_range(runs) > CURVED,
         Need::TableAngle => {
             runs.iter().any(|run| matches!(run.rig.reference, Reference::Encoder { .. }))
         }

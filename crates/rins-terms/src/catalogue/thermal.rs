@@ -11,6 +11,8 @@ use crate::unit::Unit;
 /// The degree of the polynomials in temperature, as of the IEEE 952 and 1293 error models.
 pub const THERMAL_DEGREE: usize = 3;
 
+// Typical curvature, relative to the linear coefficient: 0.01 per K and 6e-5 per K², those of a measured MEMS gyro from -18 to 74 degC.
+
 /// The time constant of a sensor behind its thermometer \[s\].
 const LAG: Setting = Setting {
     meaning: "time constant with which the sensor follows its thermometer",
@@ -54,7 +56,7 @@ pub static GYRO_THERMAL_POLYNOMIAL: Term = Term {
     name: "temperature polynomial of the gyro bias",
     cause: "the bias of a gyro depends on its temperature, not linearly over the range of the run",
     equation: "gyro += k1 (T - T_ref) + k2 (T - T_ref)² + k3 (T - T_ref)³",
-    source: "series of the bias in temperature to the third power",
+    source: "series of the bias in temperature to the third power; curvature as of a measured thermal cycle",
     parameters: &polynomial(
         [
             Unit::DEG_PER_HOUR_PER_KELVIN,
@@ -63,12 +65,12 @@ pub static GYRO_THERMAL_POLYNOMIAL: Term = Term {
         ],
         [
             usual((0.005, 0.1), (5e-4, 0.01), (0.3, 30.0)),
-            usual((5e-5, 3e-3), (5e-6, 3e-4), (3e-3, 0.5)),
-            usual((5e-7, 3e-5), (5e-8, 3e-6), (3e-5, 0.01)),
+            usual((1e-5, 1e-3), (1e-6, 1e-4), (3e-3, 0.3)),
+            usual((6e-8, 6e-6), (6e-9, 6e-7), (2e-5, 2e-3)),
         ],
     ),
     settings: &[REFERENCE_TEMPERATURE],
-    needs: &[Need::Temperature],
+    needs: &[Need::Temperature, Need::TemperatureRange],
     partners: &["gyro_thermal_bias", "gyro_thermal_lag", "gyro_warmup"],
     told_apart_by: "raise and lower the temperature over the range of use",
     owner: Owner::Sensor,
@@ -92,7 +94,7 @@ pub static GYRO_THERMAL_LAG: Term = Term {
         usual((0.005, 0.1), (5e-4, 0.01), (0.3, 30.0)),
     ),
     settings: &[LAG],
-    needs: &[Need::Temperature],
+    needs: &[Need::Temperature, Need::TemperatureRange],
     partners: &["gyro_shupe", "gyro_warmup", "gyro_thermal_polynomial"],
     told_apart_by: "hold the temperature after a step: it fades with the time constant, the Shupe effect at once",
     owner: Owner::Sensor,
@@ -108,17 +110,17 @@ pub static ACCEL_THERMAL_POLYNOMIAL: Term = Term {
     name: "temperature polynomial of the accelerometer bias",
     cause: "the bias of an accelerometer depends on its temperature, not linearly over the range of the run",
     equation: "accel += k1 (T - T_ref) + k2 (T - T_ref)² + k3 (T - T_ref)³",
-    source: "series of the bias in temperature to the third power",
+    source: "series of the bias in temperature to the third power; curvature as of a measured thermal cycle",
     parameters: &polynomial(
         [Unit::MICRO_G_PER_KELVIN, Unit::MICRO_G_PER_KELVIN_2, Unit::MICRO_G_PER_KELVIN_3],
         [
             usual((1.0, 50.0), (1.0, 20.0), (50.0, 2000.0)),
-            usual((0.01, 1.5), (0.01, 0.6), (0.5, 30.0)),
-            usual((1e-4, 0.015), (1e-4, 0.006), (5e-3, 0.6)),
+            usual((0.01, 0.5), (0.01, 0.2), (0.5, 20.0)),
+            usual((6e-5, 3e-3), (6e-5, 1.2e-3), (3e-3, 0.12)),
         ],
     ),
     settings: &[REFERENCE_TEMPERATURE],
-    needs: &[Need::Temperature],
+    needs: &[Need::Temperature, Need::TemperatureRange],
     partners: &["accel_thermal_bias", "accel_thermal_lag", "accel_warmup"],
     told_apart_by: "raise and lower the temperature over the range of use",
     owner: Owner::Sensor,
@@ -142,7 +144,7 @@ pub static ACCEL_THERMAL_LAG: Term = Term {
         usual((1.0, 50.0), (1.0, 20.0), (50.0, 2000.0)),
     ),
     settings: &[LAG],
-    needs: &[Need::Temperature],
+    needs: &[Need::Temperature, Need::TemperatureRange],
     partners: &["accel_warmup", "accel_thermal_polynomial", "base_tilt_ramp"],
     told_apart_by: "hold the temperature after a step: it fades with the time constant",
     owner: Owner::Sensor,

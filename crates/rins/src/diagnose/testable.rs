@@ -53,6 +53,8 @@ fn unseen_for(term: &Term) -> String {
 fn missing(runs: &[Run], term: &Term) -> String {
     let lacks = |need: &&Need| match need {
         Need::Temperature => runs.iter().all(|run| run.recording.temperature.is_none()),
+        // It was not tried, although the temperature is known.
+        Need::TemperatureRange => true,
         Need::TableAngle => runs.iter().all(|run| run.recording.table_angle.is_none()),
         _ => false,
     };
@@ -66,6 +68,7 @@ fn missing(runs: &[Run], term: &Term) -> String {
 const fn in_words(need: Need) -> &'static str {
     match need {
         Need::Temperature => "a temperature channel",
+        Need::TemperatureRange => "a temperature that changes by tens of kelvins",
         Need::TableAngle => "a measured table angle",
         Need::SeveralRates => "more than one table rate",
         Need::Reversal => "rotation in both directions",
