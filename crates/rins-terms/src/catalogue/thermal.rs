@@ -11,7 +11,7 @@ use crate::unit::Unit;
 /// The degree of the polynomials in temperature, as of the IEEE 952 and 1293 error models.
 pub const THERMAL_DEGREE: usize = 3;
 
-// Typical curvature, relative to the linear coefficient: 0.01 per K and 6e-5 per K², those of a measured MEMS gyro from -18 to 74 degC.
+// Typical curvature of MEMS: that of a measured cycle from -18 to 74 degC; of the others 0.01 per K and 6e-5 per K² of the slope.
 
 /// The time constant of a sensor behind its thermometer \[s\].
 const LAG: Setting = Setting {
@@ -65,8 +65,8 @@ pub static GYRO_THERMAL_POLYNOMIAL: Term = Term {
         ],
         [
             usual((0.005, 0.1), (5e-4, 0.01), (0.3, 30.0)),
-            usual((1e-5, 1e-3), (1e-6, 1e-4), (3e-3, 0.3)),
-            usual((6e-8, 6e-6), (6e-9, 6e-7), (2e-5, 2e-3)),
+            usual((1e-5, 1e-3), (1e-6, 1e-4), (3e-3, 2.0)),
+            usual((6e-8, 6e-6), (6e-9, 6e-7), (2e-5, 0.02)),
         ],
     ),
     settings: &[REFERENCE_TEMPERATURE],
@@ -115,8 +115,8 @@ pub static ACCEL_THERMAL_POLYNOMIAL: Term = Term {
         [Unit::MICRO_G_PER_KELVIN, Unit::MICRO_G_PER_KELVIN_2, Unit::MICRO_G_PER_KELVIN_3],
         [
             usual((1.0, 50.0), (1.0, 20.0), (50.0, 2000.0)),
-            usual((0.01, 0.5), (0.01, 0.2), (0.5, 20.0)),
-            usual((6e-5, 3e-3), (6e-5, 1.2e-3), (3e-3, 0.12)),
+            usual((0.01, 0.5), (0.01, 0.2), (0.5, 40.0)),
+            usual((6e-5, 3e-3), (6e-5, 1.2e-3), (3e-3, 0.6)),
         ],
     ),
     settings: &[REFERENCE_TEMPERATURE],
