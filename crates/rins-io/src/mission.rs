@@ -73,6 +73,9 @@ pub struct RotationScheme {
     pub cycle: Vec<Segment>,
 }
 
+/// The expected form of a profile, for an error message.
+const PROFILE: &str = r#"a list such as [{ rate = "6 deg/s", duration = "60 s" }]"#;
+
 /// The names of the schemes that need no profile.
 const NAMED: [&str; 4] = ["static", "continuous", "reciprocating", "four-position"];
 
@@ -173,16 +176,9 @@ fn scheme(table: &Section<'_>) -> Result<RotationScheme, IoError> {
                 return Err(table.conflict(key, "the profile states rates and durations"));
             }
         }
-        let segment = |segment: &Section<'_>| {
-            let rate = segment.require_quantity("rate", &kinds::TABLE_RATE)?;
-            Ok(Segment { rate, duration: segment.require_quantity("duration", &kinds::DURATION)? })
-        };
-        let cycle = segments.iter().map(segment).collect::<Result<Vec<_>, IoError>>()?;
+        let cycle = segments.iter().map(rig::segment).collect::<Result<Vec<_>, IoError>>()?;
         if cycle.is_empty() {
-            return Err(table.not_allowed(
-                "profile",
-                r#"a list such as [{ rate = "6 deg/s", duration = "60 s" }]"#,
-            ));
+            return Err(table.not_allowed("profile", PROFILE));
         }
         return Ok(RotationScheme { name: name.into(), cycle });
     }
@@ -223,12 +219,7 @@ fn scheme(table: &Section<'_>) -> Result<RotationScheme, IoError> {
             };
             [[rate; 3], [-rate; 3]].concat().into_iter().flat_map(quarter).collect()
         }
-        _ => {
-            return Err(table.missing(
-                "profile",
-                r#"a list such as [{ rate = "6 deg/s", duration = "60 s" }]"#,
-            ));
-        }
+        _ => return Err(table.missing("profile", PROFILE)),
     };
     Ok(RotationScheme { name: name.into(), cycle })
 }

@@ -1,7 +1,7 @@
 //! A list of terms: what a simulator makes, an estimator estimates, a calibration holds.
 
 use num_dual::Dual64;
-use rins_imu::{ImuSpec, Seed};
+use rins_imu::{ImuError, ImuSpec, Seed};
 use rins_motion::Recording;
 
 use crate::catalogue;
@@ -159,15 +159,8 @@ impl Model {
 
     /// All of eq. (1) for both triads: biases, scale errors and misalignments, 24 numbers.
     pub fn sensors() -> Self {
-        let terms = [
-            &catalogue::GYRO_BIAS,
-            &catalogue::GYRO_SCALE,
-            &catalogue::GYRO_MISALIGNMENT,
-            &catalogue::ACCEL_BIAS,
-            &catalogue::ACCEL_SCALE,
-            &catalogue::ACCEL_MISALIGNMENT,
-        ];
-        Self { terms: terms.map(|term| TermInstance::new(term).estimated()).to_vec() }
+        let none = Self::from(&ImuError::default());
+        Self { terms: none.terms.into_iter().map(TermInstance::estimated).collect() }
     }
 
     /// The errors of the sensors, and the attitude of the axis: 27 numbers.

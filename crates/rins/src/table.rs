@@ -30,6 +30,11 @@ pub(crate) fn aligned(rows: &[Vec<String>]) -> String {
     text
 }
 
+/// The same with a caption.
+pub(crate) fn captioned(caption: &str, rows: &[Vec<String>]) -> Table {
+    Table { caption: caption.into(), ..report_table(rows) }
+}
+
 /// The same rows as a table of a report page: the first row is the head, the first and the last column are text.
 pub(crate) fn report_table(rows: &[Vec<String>]) -> Table {
     let mut rows = rows.iter();

@@ -38,9 +38,7 @@ impl Input {
         }
         input
     }
-}
 
-impl Input {
     /// The mean while the table turns by `turn` from `angle` \[rad\].
     pub(super) fn mean(&self, angle: f64, turn: f64) -> Columns {
         let mut mean = self.cos[0].clone();

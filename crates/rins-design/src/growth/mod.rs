@@ -116,9 +116,11 @@ impl Service<'_> {
         let (sin, cos) = site.latitude.sin_cos();
         let radius = (site.transverse_radius() + site.height) * cos;
         let mut sums = vec![0.0; self.parameters.len()];
+        let mut inputs: HashMap<u64, Input> = HashMap::new();
         let (mut angle, mut lasting) = (0.0, 0.0);
         for &Segment { rate, duration } in self.cycle {
-            let mean = Input::of(self, rate).mean(angle, rate * duration);
+            let input = inputs.entry(rate.to_bits()).or_insert_with(|| Input::of(self, rate));
+            let mean = input.mean(angle, rate * duration);
             for (sum, column) in sums.iter_mut().zip(mean.column_iter()) {
                 *sum -= radius * (column[2] * sin + column[1] * cos) * duration;
             }

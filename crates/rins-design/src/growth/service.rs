@@ -1,6 +1,6 @@
 //! A system in service, and its navigation errors after some time.
 
-use nalgebra::{Const, DMatrix, Dyn, OMatrix, SMatrix};
+use nalgebra::{Const, DMatrix, Dyn, Matrix2, OMatrix, SMatrix};
 use rins_motion::Segment;
 use rins_terms::{Model, Surroundings};
 
@@ -68,8 +68,13 @@ impl Growth {
         of_start + self.by_noise + of_parameters
     }
 
+    /// The covariance of the position error north and east \[m²\] in a covariance of the states.
+    pub fn of_position(covariance: &Square) -> Matrix2<f64> {
+        covariance.fixed_view::<2, 2>(NORTH, NORTH).into_owned()
+    }
+
     /// The root mean square of the radial position error \[m\] for a covariance of the states.
     pub fn radial(covariance: &Square) -> f64 {
-        (covariance[(NORTH, NORTH)] + covariance[(NORTH + 1, NORTH + 1)]).max(0.0).sqrt()
+        Self::of_position(covariance).trace().max(0.0).sqrt()
     }
 }

@@ -33,6 +33,7 @@ pub use log_spec::{
 pub(crate) use novatel::of_type as novatel_imu;
 pub use place::InitialAttitude;
 pub(crate) use place::{angles, station};
+pub(crate) use table::segment;
 pub use table::{StatedRotation, TableSpec};
 pub(crate) use table_columns::angle_figures;
 

@@ -75,12 +75,9 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
         return Err(table.conflict("angle_sigma", "the profile states no angles"));
     }
     for segment in profile.iter().flatten().take(MOST_SEGMENTS + 1) {
-        let rate = segment.require_quantity("rate", &kinds::TABLE_RATE)?;
-        segments.push(Segment {
-            // Avoids a negative zero.
-            rate: if rate == 0.0 { 0.0 } else { sense * rate },
-            duration: segment.require_quantity("duration", &kinds::DURATION)?,
-        });
+        let Segment { rate, duration } = self::segment(segment)?;
+        // Avoids a negative zero.
+        segments.push(Segment { rate: if rate == 0.0 { 0.0 } else { sense * rate }, duration });
     }
     if segments.len() > MOST_SEGMENTS {
         return Err(table.conflict("profile", format!("more than {MOST_SEGMENTS} segments")));
@@ -96,6 +93,12 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<TableSpec>, IoError> {
         None => None,
     };
     Ok(Some(TableSpec { profile, segments, turns: Vec::new(), sense, acceleration, wobble }))
+}
+
+/// A segment of a profile: a rate, and how long it lasts.
+pub(crate) fn segment(segment: &Section<'_>) -> Result<Segment, IoError> {
+    let rate = segment.require_quantity("rate", &kinds::TABLE_RATE)?;
+    Ok(Segment { rate, duration: segment.require_quantity("duration", &kinds::DURATION)? })
 }
 
 /// The rotations of a profile of angles, between which the table rests.

@@ -2,7 +2,7 @@
 
 use num_dual::Dual64;
 
-use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, TIME_CONSTANT, per_axis, usual};
+use crate::catalogue::parameters::{REFERENCE_TEMPERATURE, TIME_CONSTANT, named, per_axis, usual};
 use crate::setting::Setting;
 use crate::signals::{DualVector, add_constant};
 use crate::term::{Action, Need, Owner, Parameter, Parity, Prevalence, Prior, Term};
@@ -24,20 +24,12 @@ const fn polynomial(
     units: [Unit; THERMAL_DEGREE],
     priors: [Prior; THERMAL_DEGREE],
 ) -> [Parameter; 9] {
-    const NAMES: [[&str; 3]; THERMAL_DEGREE] = [
-        ["linear_x", "linear_y", "linear_z"],
-        ["square_x", "square_y", "square_z"],
-        ["cube_x", "cube_y", "cube_z"],
-    ];
-    let mut all = [Parameter { name: "", unit: units[0], prior: priors[0] }; 9];
-    let mut place = 0;
-    while place < all.len() {
-        let degree = place / 3;
-        let name = NAMES[degree][place % 3];
-        all[place] = Parameter { name, unit: units[degree], prior: priors[degree] };
-        place += 1;
-    }
-    all
+    let [linear_x, linear_y, linear_z] =
+        named(["linear_x", "linear_y", "linear_z"], units[0], priors[0]);
+    let [square_x, square_y, square_z] =
+        named(["square_x", "square_y", "square_z"], units[1], priors[1]);
+    let [cube_x, cube_y, cube_z] = named(["cube_x", "cube_y", "cube_z"], units[2], priors[2]);
+    [linear_x, linear_y, linear_z, square_x, square_y, square_z, cube_x, cube_y, cube_z]
 }
 
 /// Adds the polynomial of a temperature difference \[K\].

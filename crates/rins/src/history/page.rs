@@ -5,15 +5,11 @@ use rins_report::{Band, Item, Plot, Report, Section, Series, Style};
 use super::RunHistory;
 use super::text::{forecasts, predicted_run, scores, title};
 use crate::homogeneity::{HOMOGENEITY, INTERVAL, homogeneity, summary};
-use crate::table::report_table;
+use crate::table::captioned;
 
 /// The report page.
 pub(super) fn history_report(history: &RunHistory) -> Report {
-    let table = |rows: &[Vec<String>], caption: &str| {
-        let mut table = report_table(rows);
-        table.caption = caption.into();
-        Item::Table(table)
-    };
+    let table = |rows: &[Vec<String>], caption: &str| Item::Table(captioned(caption, rows));
     let mut over_runs: Vec<Item> = vec![table(&homogeneity(&history.comparison), HOMOGENEITY)];
     over_runs
         .extend((0..history.comparison.units.len()).map(|place| Item::Plot(plot(history, place))));

@@ -12,7 +12,7 @@ use super::comparison::{RunComparison, by_itself, estimate, is_significant, of_l
 use super::conditions::conditions;
 use super::words::p_value;
 use crate::preparation::{EstimationProblem, Prepared};
-use crate::table::report_table;
+use crate::table::captioned;
 
 /// The probability of the interval of a forecast.
 pub(crate) const INTERVAL: f64 = 0.95;
@@ -203,8 +203,8 @@ impl HeldOutComparison {
                 one.unit.into(),
             ]);
         }
-        let mut table = report_table(&rows);
-        table.caption = "Estimates of the sensor errors from the held-out run by itself and from the other runs together".into();
+        let caption = "Estimates of the sensor errors from the held-out run by itself and from the other runs together";
+        let table = captioned(caption, &rows);
         Section {
             heading: "Held-out run".into(),
             intro: self.summary().join(" "),

@@ -10,7 +10,7 @@ use rins_report::{Item, Section};
 use super::comparison::RunComparison;
 use crate::consistency::probability;
 use crate::log::DAY;
-use crate::table::report_table;
+use crate::table::captioned;
 
 /// The caption of the table of the homogeneity tests.
 pub(crate) const HOMOGENEITY: &str = "Test of homogeneity. p: all other parameters are the same in all runs; beside others: those with \
@@ -38,8 +38,7 @@ impl RunComparison {
 
     /// The section of a report page.
     pub(crate) fn section(&self) -> Section {
-        let mut table = report_table(&homogeneity(self));
-        table.caption = HOMOGENEITY.into();
+        let table = captioned(HOMOGENEITY, &homogeneity(self));
         Section {
             heading: "The same in all runs?".into(),
             intro: "Each run was estimated by itself.".into(),

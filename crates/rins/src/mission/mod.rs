@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::{DMatrix, SMatrix};
 use rins_design::{GROWTH_STATES, Growth, Service};
 use rins_imu::{ImuSpec, TriadSpec};
-use rins_io::{Calibration, InputFile, MissionFile, RotationScheme, parameters};
+use rins_io::{Calibration, InputFile, MissionFile, RotationScheme};
 use rins_terms::{Model, Surroundings};
 
 use self::radial::probable_radius;
@@ -104,7 +104,6 @@ fn of_file(path: &Path, options: &MissionOptions) -> anyhow::Result<Mission> {
         "{}: neither [errors] nor [imu] nor a calibration: there is no error to propagate",
         rins_io::shown(path)
     );
-    // In the order of the parameters of an IMU.
     let model = Model::sensors();
     let uncertainty = Uncertainty::of(&model, file.imu.as_ref(), calibration.as_ref());
     let mut remarks = vec![
@@ -208,11 +207,8 @@ impl SchemeInService {
         };
         let growth = service.growth(&file.times)?;
         let errors: Option<Vec<f64>> = file.errors.as_ref().map(|errors| {
-            let unit = |&(term, parameter): &(usize, usize)| {
-                model.terms[term].term.parameters[parameter].unit.factor
-            };
-            let values = parameters(errors).into_iter().map(|one| one.value);
-            values.zip(places.iter().map(unit)).map(|(value, unit)| value * unit).collect()
+            let stated = Model::from(errors);
+            model.ids().map(|id| stated.value(&id).unwrap_or_default()).collect()
         });
         let law = match (&errors, service.secular_east()?) {
             (Some(errors), Some(by)) => {
@@ -269,7 +265,7 @@ fn budget(
 
 impl Radial {
     fn of(covariance: &SMatrix<f64, GROWTH_STATES, GROWTH_STATES>) -> Self {
-        let position = covariance.fixed_view::<2, 2>(5, 5).into_owned();
+        let position = Growth::of_position(covariance);
         let spread = position.symmetric_eigenvalues().map(|variance| variance.max(0.0).sqrt());
         let sigmas = [spread.max(), spread.min()];
         Self {

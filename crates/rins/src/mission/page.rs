@@ -5,7 +5,7 @@ use rins_report::{Item, Plot, Report, Section, Series, Table};
 
 use super::Mission;
 use super::result::{MissionResult, NAUTICAL_MILE, SchemeResult};
-use crate::table::{aligned, report_table};
+use crate::table::{aligned, captioned};
 
 /// The times of the text: thirds of the mission.
 const THIRDS: [usize; 3] = [1, 2, 3];
@@ -45,7 +45,7 @@ fn summary(result: &MissionResult) -> Vec<String> {
         result.schemes.iter().filter_map(|scheme| Some((scheme, size(scheme)?))).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     let Some((best, least)) = all.first() else { return Vec::new() };
-    let hours = last(&Some(best.hours.clone())).unwrap_or_default();
+    let hours = best.hours.last().copied().unwrap_or_default();
     let what = if best.trms_nmi.is_some() {
         "rms radial position error (TRMS)"
     } else {
@@ -154,11 +154,6 @@ pub(super) fn mission_report(mission: &Mission) -> Report {
         summary: summary(&result),
         sections,
     }
-}
-
-/// A table of these rows, the first of which is the head.
-fn captioned(caption: &str, rows: &[Vec<String>]) -> Table {
-    Table { caption: caption.into(), ..report_table(rows) }
 }
 
 /// The errors over time.
