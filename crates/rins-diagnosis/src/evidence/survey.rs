@@ -10,7 +10,7 @@ use rins_terms::{FreeParameter, TermInstance, catalogue};
 
 use crate::evidence::left::{Left, chosen};
 use crate::hypothesis::ABOUT_AXIS;
-use crate::proposal::candidates::Candidate;
+use crate::proposal::candidates::{Candidate, has_encoder};
 use crate::proposal::dead_zone;
 
 /// The prior's information on an effect that has been found, in units of what is usual of it.
@@ -40,6 +40,8 @@ pub(crate) struct Survey {
     off: DVector<f64>,
     /// A tilt of the base by less is what the gyros' rounding does \[rad\].
     pub(crate) least_tilt: f64,
+    /// Whether an encoder may slip.
+    pub(crate) has_encoder: bool,
 }
 
 struct Said {
@@ -106,7 +108,16 @@ impl Survey {
             .collect::<Result<Vec<Said>, Indefinite>>()?;
         let terms = fit.model().terms.len();
         let Places { of_terms: places, sigmas, .. } = layout;
-        Ok(Self { known, terms, places, said, sigmas, off, least_tilt: 0.0 })
+        Ok(Self {
+            known,
+            terms,
+            places,
+            said,
+            sigmas,
+            off,
+            least_tilt: 0.0,
+            has_encoder: has_encoder(runs),
+        })
     }
 
     /// What one run says of what comes after the `known` parameters, in units of these `scales`; the known ones are estimated
@@ -122,7 +133,7 @@ impl Survey {
         let off = DVector::from_iterator(known.len(), off);
         let said = vec![Said::of(evidence, &sigmas)];
         let (known, places) = (known.len(), Vec::new());
-        Self { known, terms: 0, places, said, sigmas, off, least_tilt: 0.0 }
+        Self { known, terms: 0, places, said, sigmas, off, least_tilt: 0.0, has_encoder: false }
     }
 
     /// The survey of the first so many noises, which this one then lacks.
@@ -215,10 +226,10 @@ impl Survey {
     ) -> bool {
         let tilts = shape.term.is(&catalogue::BASE_TILT_STEP);
         let is_rounding = tilts && amplitudes.amax() < self.least_tilt;
-        // What turns the base about the table's axis tilts it too.
+        // What turns the base about the table's axis tilts it too; without an encoder it may be the table that turned.
         let across = parameters.iter().zip(amplitudes).filter(|(of, _)| **of != ABOUT_AXIS);
         let tilt = across.fold(0.0_f64, |most, (_, amplitude)| most.max(amplitude.abs()));
-        let is_slip = tilts && tilt < LEAST_ACROSS * amplitudes.amax();
+        let is_slip = tilts && self.has_encoder && tilt < LEAST_ACROSS * amplitudes.amax();
         let is_as_deep = !dead_zone::is_of_widths(shape)
             || dead_zone::is_as_deep(shape, parameters, amplitudes.as_slice());
         is_as_deep && !is_rounding && !is_slip

@@ -46,17 +46,27 @@ pub struct Candidate {
 /// Terms that the model estimates already, that need what no run has, or whose shape is an unknown
 /// frequency are left out.
 pub fn candidates(runs: &[Run], model: &Model) -> Vec<Candidate> {
-    catalogue::CATALOGUE
-        .iter()
-        .copied()
-        .filter(|term| term.is_signal() && !NEVER_TRIED.iter().any(|other| other.is(term)))
-        .filter(|term| term.needs.iter().all(|need| offer(runs, *need)))
+    terms(runs)
         .flat_map(|term| shapes(duration(runs), term))
         .chain(between_runs(runs, model))
         .map(|candidate| candidate.about(runs))
         .filter(|candidate| has_room(model, &candidate.chosen, duration(runs)))
         .filter(|candidate| !is_latency(runs, &candidate.chosen))
         .collect()
+}
+
+/// The signals of the catalogue that are tried on `runs`: those of which a run has what they need.
+pub(crate) fn terms(runs: &[Run]) -> impl Iterator<Item = &'static Term> {
+    catalogue::CATALOGUE
+        .iter()
+        .copied()
+        .filter(|term| term.is_signal() && !NEVER_TRIED.iter().any(|other| other.is(term)))
+        .filter(|term| term.needs.iter().all(|need| offer(runs, *need)))
+}
+
+/// Whether a run has an encoder.
+pub(crate) fn has_encoder(runs: &[Run]) -> bool {
+    runs.iter().any(|run| matches!(run.rig.reference, Reference::Encoder { .. }))
 }
 
 /// What may differ between several runs.
@@ -140,9 +150,7 @@ fn offer(runs: &[Run], need: Need) -> bool {
         // From run to run is a change too.
         Need::Temperature => temperature_range(runs) > LEAST_WARMING,
         Need::TemperatureRange => temperature_range(runs) > CURVED,
-        Need::TableAngle => {
-            runs.iter().any(|run| matches!(run.rig.reference, Reference::Encoder { .. }))
-        }
+        Need::TableAngle => has_encoder(runs),
         // Where rates, tilts or senses are too few, the information says so by itself.
         _ => true,
     }

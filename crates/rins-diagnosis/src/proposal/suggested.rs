@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::criticism::structure::{CHANNELS, Remainder, Structure, TableMotion};
 use crate::generic::disturbance::IN_ANGLE;
 use crate::generic::waveform::on_channel;
-use crate::proposal::candidates::Candidate;
+use crate::proposal::candidates::{Candidate, terms};
 use crate::proposal::jolt::Jolts;
 
 /// How many slow lines are tried at once.
@@ -59,7 +59,7 @@ impl Case<'_> {
                 Some(Candidate { chosen, looks: CHANNELS as f64, step: None, departs: None })
             }));
             list.extend(self.high_harmonics(present, run));
-            list.extend(Self::events([&innovations, &in_body], present, run, jolts));
+            list.extend(self.events([&innovations, &in_body], present, run, jolts));
             // What comes back less often is a drift.
             let slowest = FEWEST_CYCLES / length;
             let frequencies =
@@ -85,6 +85,7 @@ impl Case<'_> {
     /// Every event where the innovations of some epochs, in the axis frame or in the body, are largest together: what is
     /// over in an instant shows in one or a few of them only, what the noise swallows until it has gone along with it.
     fn events(
+        &self,
         innovations: [&[SVector<f64, CHANNELS>]; 2],
         present: &Fit,
         run: usize,
@@ -97,8 +98,7 @@ impl Case<'_> {
         let outliers = outliers(innovations);
         let count = innovations[0].len() as f64;
         let mut list = Vec::new();
-        let terms = catalogue::CATALOGUE.iter().filter(|term| term.is_signal());
-        for chosen in terms.map(|term| TermInstance::new(term).estimated()) {
+        for chosen in terms(self.runs).map(|term| TermInstance::new(term).estimated()) {
             let Some(place) = chosen.term.setting(SettingKind::Time) else { continue };
             let earlier = list.len();
             for outlier in &outliers {
