@@ -84,10 +84,46 @@ fn rate_of_the_table_limits_the_scale_error() {
     let bias = contribution(parameter(&stated, "gyro.bias.x"), "site.latitude_accuracy").abs();
     assert!((1e-5..5e-3).contains(&bias), "{bias}");
     let text = rins_in(folder, "calibrate run/stated.toml").out;
-    assert!(text.contains("The model is full: the accuracy of a reference is stated"), "{text}");
+    assert!(text.contains("The model is full: the accuracy of a reference"), "{text}");
     let refused = rins_in(folder, "calibrate run/stated.toml --model paper12");
     assert_eq!(refused.code, Some(1));
     assert!(refused.err.contains("full does"), "{}", refused.err);
+}
+
+/// The scale error of 84 ppm has an expanded uncertainty of 10 ppm by the rate of the table.
+#[test]
+fn statement_of_conformity_follows_from_tolerance_and_expanded_uncertainty() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("scenario.toml"), SCENARIO).unwrap();
+    result_in(folder, "simulate scenario.toml -o run");
+    let rig = fs::read_to_string(folder.join("run/rig.toml")).unwrap();
+    let rig = rig.replace("[table]\n", "[table]\nrate_accuracy = \"0.0001 deg/s\"\n");
+    let with = |scale: &str| {
+        let tolerance = format!("[tolerance.gyro]\nscale = [\"5 ppm\", \"0 ppm\", \"{scale}\"]\n");
+        fs::write(folder.join("run/stated.toml"), format!("{rig}\n{tolerance}")).unwrap();
+    };
+    for (tolerance, statement) in [
+        ("100 ppm", "pass"),
+        ("88 ppm", "conditional_pass"),
+        ("80 ppm", "conditional_fail"),
+        ("60 ppm", "fail"),
+    ] {
+        with(tolerance);
+        let result = result_in(folder, "calibrate run/stated.toml");
+        let all = list(&result, "/conformity");
+        assert_eq!(all.len(), 2, "{all:#?}");
+        assert_eq!(all[0]["id"], "gyro.scale.x");
+        // A table about one axis does not show the scale error about another one.
+        assert_eq!(all[0]["statement"], "not_determined");
+        assert_eq!(all[1]["statement"], statement, "{tolerance}: {all:#?}");
+    }
+    let text = rins_in(folder, "calibrate run/stated.toml").out;
+    assert!(text.contains("tolerance 60.0 ppm: fail."), "{text}");
+    with("-60 ppm");
+    let refused = rins_in(folder, "calibrate run/stated.toml");
+    assert_eq!(refused.code, Some(1));
+    assert!(refused.err.contains("[tolerance.gyro] scale"), "{}", refused.err);
 }
 
 /// An error of the encoder once per revolution looks like a misalignment of the gyro about the axis: the Earth's rate turns once per

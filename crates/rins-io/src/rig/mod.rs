@@ -14,10 +14,11 @@ mod readings;
 mod table;
 mod table_columns;
 mod time_keys;
+mod tolerance;
 
 use std::path::{Path, PathBuf};
 
-use rins_imu::{ImuSpec, Preset};
+use rins_imu::{ImuError, ImuSpec, Preset};
 use rins_motion::Station;
 
 pub use accuracy::Accuracy;
@@ -95,11 +96,13 @@ pub struct Rig {
     pub laboratory: Laboratory,
     /// How accurate the references are: of `[table]`, `[site]` and `[log]`.
     pub accuracy: Accuracy,
+    /// The largest magnitudes that are permitted of the errors, if they are stated; zero of an error without a tolerance.
+    pub tolerance: Option<ImuError>,
 }
 
 /// The sections of a rig file.
-pub(crate) const SECTIONS: [&str; 8] =
-    ["site", "log", "attitude", "imu", "table", "axis", "run", "lab"];
+pub(crate) const SECTIONS: [&str; 9] =
+    ["site", "log", "attitude", "imu", "table", "axis", "run", "lab", "tolerance"];
 
 impl Rig {
     /// Reads the rig file at `path`.
@@ -146,6 +149,7 @@ impl Rig {
             run: identity::run(root)?,
             laboratory: identity::laboratory(root)?,
             accuracy: Accuracy::default(),
+            tolerance: tolerance::read(root)?,
         })
     }
 

@@ -1,5 +1,6 @@
 //! What a calibration found, and all that follows from it.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use anyhow::Context;
@@ -47,6 +48,8 @@ pub(crate) struct Certificate {
     pub(crate) held: Vec<usize>,
     /// What the accuracy of the references adds to the uncertainty.
     pub(crate) contributions: Vec<Contribution>,
+    /// The tolerances of the errors, by parameter, in the units of results.
+    pub(crate) tolerances: BTreeMap<String, f64>,
     /// What was found, against the data sheet and what else was stated beforehand.
     pub(crate) departures: Vec<Departure>,
     /// Whether the innovations of all runs are what the model says.
@@ -193,6 +196,7 @@ impl Certificate {
             identifiability,
             held,
             contributions,
+            tolerances: BTreeMap::new(),
             departures,
             consistency,
             noise,

@@ -4,6 +4,7 @@ mod budget;
 mod certificate;
 mod compensation;
 mod compensation_guide;
+mod conformity;
 mod departure;
 mod files;
 mod noise;
@@ -17,6 +18,7 @@ mod uncertainty_words;
 
 pub use self::budget::{BudgetResult, ContributionResult, DriftResult};
 pub(crate) use self::certificate::Certificate;
+pub use self::conformity::{Conformity, ConformityResult};
 use self::paper::PaperCalibration;
 pub(crate) use self::result::departures;
 pub use self::result::{
@@ -79,12 +81,15 @@ pub fn calibrate(logs: Vec<Log>, options: &CalibrateOptions) -> Result<Calibrati
 
 fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<Calibration> {
     let mut remark = None;
-    let stated = logs.iter().find(|log| log.loaded.rig.accuracy.is_stated());
+    let tolerances = conformity::tolerances(&logs)?;
+    let states =
+        |log: &&Log| log.loaded.rig.accuracy.is_stated() || log.loaded.rig.tolerance.is_some();
+    let stated = logs.iter().find(states);
     let choice = match &options.model {
         Some(ModelChoice::Paper12) => {
             if let Some(log) = stated {
                 anyhow::bail!(
-                    "{}: the rig file states the accuracy of a reference, which the paper's filter does not take into account: full does",
+                    "{}: the rig file states the accuracy of a reference or tolerances, which the paper's filter does not take into account: full does",
                     log.name
                 );
             }
@@ -96,7 +101,7 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
         }
         Some(choice) => choice.clone(),
         None if stated.is_some() => {
-            let why = "The model is full: the accuracy of a reference is stated, which paper12 does not take into account.";
+            let why = "The model is full: the accuracy of a reference or a tolerance is stated, which paper12 does not take into account.";
             remark = has_table_reading(&logs[0]).then(|| why.to_owned());
             ModelChoice::Full
         }
@@ -123,7 +128,7 @@ fn calibrated(mut logs: Vec<Log>, options: &CalibrateOptions) -> anyhow::Result<
     let mut problem = EstimationProblem::of(runs, named, options.noise)?;
     problem.remarks.extend(remark);
     problem.is_default = options.model.is_none();
-    let certificate = Certificate::of(problem, &options.progress)?;
+    let certificate = Certificate { tolerances, ..Certificate::of(problem, &options.progress)? };
     Ok(Calibration(Kind::Certificate(Box::new(certificate))))
 }
 

@@ -11,6 +11,7 @@ use rins_terms::catalogue;
 
 use super::certificate::{Certificate, CertifiedRun};
 use super::compensation_guide::{budget_section, compensation_section};
+use super::conformity::{conformity_section, conformity_sentences};
 use super::departure::departure_in_words;
 use super::noise::{noise_section, noise_sentence};
 use super::uncertainty_words::{uncertainty_section, uncertainty_sentences};
@@ -85,6 +86,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
         if certificate.runs.len() > 1 { format!("{}: {gain}", run.prepared.name) } else { gain }
     });
     sentences.extend(gains);
+    sentences.extend(conformity_sentences(certificate));
     sentences.extend(uncertainty_sentences(certificate));
     sentences.push(consistency_sentence(&certificate.consistency));
     sentences.push(rank_sentence(&certificate.identifiability));
@@ -96,6 +98,7 @@ fn summary(certificate: &Certificate) -> Vec<String> {
 /// The report page.
 pub(super) fn certificate_report(certificate: &Certificate) -> Report {
     let mut sections = vec![parameters_section(certificate)];
+    sections.extend(conformity_section(certificate));
     sections.extend(uncertainty_section(certificate));
     sections.push(correlation_section(certificate));
     sections.extend(certificate.comparison.as_ref().map(RunComparison::section));

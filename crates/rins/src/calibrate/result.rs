@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::budget::BudgetResult;
 use super::certificate::{Certificate, CertifiedRun};
 use super::compensation::EQUATION;
+use super::conformity::ConformityResult;
 use super::departure::quantity;
 use super::uncertainty_result::UncertaintyResult;
 use crate::basis::BasisResult;
@@ -45,6 +46,9 @@ pub struct CalibrateResult {
     pub consistency: ConsistencyResult,
     /// What lies more than four sigmas off what was stated beforehand, the furthest first.
     pub prior_consistency: Vec<DepartureResult>,
+    /// Whether the errors are within the tolerances that the rig file states.
+    #[serde(default)]
+    pub conformity: Vec<ConformityResult>,
     /// Of several runs, the test of each parameter of the sensors whether it is the same in all: each run was estimated by itself.
     #[serde(default)]
     pub homogeneity: Vec<HomogeneityResult>,
@@ -228,6 +232,7 @@ impl CalibrateResult {
             navigation: BeforeAfterResult::of(&first.before, &first.after),
             consistency: (&certificate.consistency).into(),
             prior_consistency: departures(certificate),
+            conformity: ConformityResult::all(certificate),
             homogeneity: of_comparison(certificate, HomogeneityResult::all),
             variations: of_comparison(certificate, VariationResult::all),
             iterations: iterations.collect(),

@@ -35,6 +35,7 @@ pub(super) fn result(of: &PaperCalibration) -> CalibrateResult {
         navigation: BeforeAfterResult::of(&calibration.before, &calibration.after),
         consistency: (&calibration.consistency).into(),
         prior_consistency: Vec::new(),
+        conformity: Vec::new(),
         homogeneity: Vec::new(),
         variations: Vec::new(),
         iterations: Vec::new(),
