@@ -16,6 +16,7 @@ mod doc;
 mod false_alarms;
 mod fuzz;
 mod histories;
+mod injections;
 mod manifest;
 mod reproduce;
 mod tidy;
@@ -51,6 +52,8 @@ enum Command {
     Fuzz(fuzz::Options),
     /// Simulate campaigns of runs, and score what is named and predicted between the runs
     Histories(histories::Options),
+    /// Add known errors to measured logs, and score the diagnosis
+    Injections(injections::Options),
     /// Run the paper's experiments and write the book's page about them
     Reproduce(reproduce::Options),
     /// Check the rules of CONTRIBUTING.md that rustc and clippy cannot
@@ -71,6 +74,7 @@ fn main() -> ExitCode {
         Command::FalseAlarms(options) => false_alarms::run(&root, &options),
         Command::Fuzz(options) => fuzz::run(&root, &options),
         Command::Histories(options) => histories::run(&root, &options),
+        Command::Injections(options) => injections::run(&root, &options),
         Command::Reproduce(options) => reproduce::run(&root, &options),
         Command::Tidy => tidy::run(&root),
         Command::Verify => verify::run(&root),

@@ -28,6 +28,10 @@ mod frozen;
 mod certificates;
 mod histories;
 
+mod injected_log;
+mod injections;
+mod injections_page;
+
 mod breakdown;
 mod card;
 mod null;
@@ -44,6 +48,7 @@ pub use draw::{Kind, Trial};
 pub use frozen::{Frozen, run_frozen};
 pub use hide::Hidden;
 pub use histories::{HistoryTrial, history_page, history_trial};
+pub use injections::{Injection, InjectionTrial, injections};
 pub use journal::{Plan, Population, Record, records, run, time, try_out};
 pub use laboratory::{Grade, Laboratory, Length, Level, Schedule};
 pub use null::null_page;

@@ -1,18 +1,20 @@
 //! Runs blind trials, or makes the score card of those that were run.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program prints")]
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use rins_trials::{
-    Analyser, Frozen, Length, Plan, Population, Record, Trial, Trouble, card, certificates,
-    history_page, history_trial, null_page, records, run, run_frozen, time,
+    Analyser, Frozen, InjectionTrial, Length, Plan, Population, Record, Trial, Trouble, card,
+    certificates, history_page, history_trial, injections, null_page, records, run, run_frozen,
+    time,
 };
 
 const USAGE: &str = "usage: trials run|null RINS JOURNAL SEED TRIALS THREADS [ARGUMENT...] | trials time RINS JOURNAL SEED TRIALS [ARGUMENT...] | \
                      trials frozen RINS [ARGUMENT...] | trials folder SEED INDEX FOLDER [longest|null] | trials card JOURNAL PAGE | \
                      trials null-page JOURNAL PAGE REVISION | trials histories SEED CAMPAIGNS PAGE REVISION | \
-                     trials certificates RINS SEED LABORATORIES THREADS PAGE REVISION";
+                     trials certificates RINS SEED LABORATORIES THREADS PAGE REVISION | \
+                     trials injections RINS RIGS SEED ROUNDS PAGE REVISION";
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -84,6 +86,13 @@ fn commanded(words: &[&str]) -> Option<Result<(), Trouble>> {
             let (seed, campaigns) = (seed.parse().ok()?, campaigns.parse().ok()?);
             histories(seed, campaigns, Path::new(page), revision)
         }
+        ["injections", program, rigs, seed, rounds, page, revision] => {
+            let analyser = Analyser::new(program, cores);
+            let rigs: Vec<PathBuf> = rigs.split(',').map(PathBuf::from).collect();
+            let told = |one: &InjectionTrial| println!("{}", injected(one));
+            let draw = (seed.parse().ok()?, rounds.parse().ok()?);
+            injections(&rigs, &analyser, draw, (Path::new(page), revision), told)
+        }
         ["certificates", program, seed, laboratories, threads, page, revision] => {
             let (seed, laboratories) = (seed.parse().ok()?, laboratories.parse().ok()?);
             let page = (Path::new(page), revision);
@@ -112,6 +121,23 @@ fn made(trial: &Trial, folder: &Path) -> Result<(), Trouble> {
     println!("{}", serde_json::to_string_pretty(&trial.hidden)?);
     println!("{}", serde_json::to_string_pretty(&trial.outside)?);
     Ok(())
+}
+
+/// An injection in one line.
+fn injected(one: &InjectionTrial) -> String {
+    let error = one.error.map_or_else(String::new, |error| format!(" {error:.1}σ off"));
+    format!(
+        "{} {} {} {:.1}σ {}{error}; false [{}]; before [{}] {:.1} s {}",
+        one.log,
+        one.injection.id,
+        one.injection.channel,
+        one.injection.strength,
+        if one.is_found { "found" } else { "missed" },
+        one.false_names.join(", "),
+        one.before.join(", "),
+        one.seconds,
+        one.failure.as_deref().unwrap_or_default()
+    )
 }
 
 /// A trial in one line.

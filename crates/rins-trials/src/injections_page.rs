@@ -1,0 +1,78 @@
+//! The page of the injections into measured logs.
+
+use std::fmt::Write as _;
+
+use crate::injections::InjectionTrial;
+use crate::statistics::Share;
+
+const HEAD: &str = "# Injections into measured logs
+
+Simulated noise is what its author expects. These trials add known errors to measured logs, and compare the diagnosis of each log with
+and without them. `cargo xtask injections` runs them and writes this page.
+
+Each trial takes a part of a log (a laser gyro and a MEMS IMU in a thermal chamber, both static) or a whole log (a wheel that coasts
+down), and adds an error to one channel: a bias step, a bias ramp, an exponential transient, and on the wheel g-sensitivity of a gyro or
+a quadratic accelerometer error. The amplitude is 3, 8 or 20 sigma of its generalized least-squares estimate in the log's own noise,
+whose spectral density Welch's method estimates; biases, scale errors and misalignments are estimated beside it. An error of 0.1 sigma
+cannot be detected: what is named with it and not without it is a false alarm.
+
+- *Found*: the diagnosis names an effect that may be the error (itself, or its credible set contains it), at the time of an event within
+  a tenth of the log, which it does not name without it; or its amplitude changes by more than half of the error.
+- *Covered*: the error is named alone, and the change of its amplitude differs from the truth by less than 3 sigma.
+- *False*: an effect is named that is not the error and is not named without it.
+
+";
+
+/// The page for trials at this revision.
+pub(crate) fn injection_page(all: &[InjectionTrial], seed: u64, revision: &str) -> String {
+    let mut page = String::from(HEAD);
+    let failures = all.iter().filter(|one| one.failure.is_some()).count();
+    let _ = writeln!(
+        page,
+        "{} trials of seed {seed} at revision {revision}; {failures} ended without an answer. Brackets give counts and the bounds of Clopper \
+         and Pearson at 95 %.\n",
+        all.len()
+    );
+    let answered: Vec<&InjectionTrial> = all.iter().filter(|one| one.failure.is_none()).collect();
+    page.push_str(
+        "| log | amplitude | found | covered | false |\n| --- | --- | --- | --- | --- |\n",
+    );
+    let mut logs: Vec<&str> = all.iter().map(|one| one.log.as_str()).collect();
+    logs.sort_unstable();
+    logs.dedup();
+    for log in logs.iter().map(Some).chain([None]) {
+        let mut strengths: Vec<f64> = answered.iter().map(|one| one.injection.strength).collect();
+        strengths.sort_by(f64::total_cmp);
+        strengths.dedup();
+        for strength in strengths {
+            let of: Vec<&&InjectionTrial> = answered
+                .iter()
+                .filter(|one| log.is_none_or(|log| one.log == *log))
+                .filter(|one| one.injection.strength.total_cmp(&strength).is_eq())
+                .collect();
+            let _ = writeln!(
+                page,
+                "| {} | {strength} sigma | {} | {} | {} |",
+                log.map_or_else(|| "all".into(), |log| format!("`{log}`")),
+                Share::count(of.iter().map(|one| one.is_found)).text(),
+                Share::count(of.iter().filter_map(|one| one.is_covered())).text(),
+                Share::count(of.iter().map(|one| !one.false_names.is_empty())).text(),
+            );
+        }
+    }
+    page.push_str("\n| log | error | amplitude | found | error of the amplitude | false |\n| --- | --- | --- | --- | --- | --- |\n");
+    for one in answered {
+        let _ = writeln!(
+            page,
+            "| `{}` | `{}` on channel {} | {} sigma | {} | {} | {} |",
+            one.log,
+            one.injection.id,
+            one.channel(),
+            one.injection.strength,
+            if one.is_found { "yes" } else { "no" },
+            one.error.map_or_else(String::new, |error| format!("{error:.1} sigma")),
+            one.false_names.join(", "),
+        );
+    }
+    page
+}
