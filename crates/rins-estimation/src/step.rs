@@ -60,6 +60,12 @@ pub(crate) struct Step {
     pub(crate) cross: DMatrix<f64>,
 }
 
+/// The three states from this place on. It is no closure, which the compiler would not inline where it is called several times.
+#[inline(always)]
+fn three<T: Real>(state: &impl Fn(usize) -> T, place: usize) -> Vector<T> {
+    Vector([state(place), state(place + 1), state(place + 2)])
+}
+
 /// The product of a matrix that is common to all lanes and a vector.
 #[inline(always)]
 fn times<T: Real>(matrix: &Matrix3<f64>, vector: Vector<T>) -> Vector<T> {
@@ -70,18 +76,17 @@ impl Step {
     /// The linear functions of the states: the measured mean attitude, and attitude and velocity at the end.
     #[inline(always)]
     pub(crate) fn follow<T: Real>(&self, state: impl Fn(usize) -> T) -> [Vector<T>; 3] {
-        let at = |place| Vector([state(place), state(place + 1), state(place + 2)]);
-        let (attitude, velocity) = (at(0), at(3));
+        let (attitude, velocity) = (three(&state, 0), three(&state, 3));
         let like = attitude[0];
         let (mut gyro, mut gyro_mean, mut accel) =
             (Vector::zeros(like), Vector::zeros(like), Vector::zeros(like));
         for weight in &self.gyros {
-            let noise = at(weight.place);
+            let noise = three(&state, weight.place);
             gyro = gyro + noise.scaled(weight.mean);
             gyro_mean = gyro_mean + noise.scaled(weight.half_mean);
         }
         for weight in &self.accels {
-            accel = accel + at(weight.place).scaled(weight.mean);
+            accel = accel + three(&state, weight.place).scaled(weight.mean);
         }
         let mut mean = times(&self.mean_turned, attitude) - times(&self.body.mean, gyro_mean);
         for (index, &axis) in self.astray.iter().enumerate() {
