@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# What CI does with the Python package: build it with pip in a new environment, test it, check its types, execute the notebooks.
+#
+# PYTHON is the interpreter (3.11 or later, with venv), PROFILE the profile of cargo. The development profile is that of the tests,
+# so that their dependencies are not built again; the tests need no more.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+package=crates/rins-python
+folder="$(mktemp -d)"
+trap 'rm -rf "$folder"' EXIT
+
+"${PYTHON:-python3}" -m venv "$folder/venv"
+bin="$folder/venv/bin"
+pip() { "$bin/python" -m pip --disable-pip-version-check --quiet "$@"; }
+
+step() { echo "-- $1 (${SECONDS} s)"; }
+
+step "pip install ."
+MATURIN_PEP517_ARGS="--profile ${PROFILE:-dev}" pip install ".[plot,progress]"
+pip install -r "$package/tests/requirements.txt"
+
+step "pytest"
+"$bin/python" -m pytest "$package/tests"
+
+step "mypy, stubtest"
+"$bin/python" -m mypy "$package/python/rins"
+MYPYPATH="$package/tests" "$bin/python" -m mypy "$package/tests"
+# Outside the sources, so that the installed package is compared.
+(cd "$folder" && "$bin/python" -m mypy.stubtest rins --concise --allowlist "$OLDPWD/$package/stubtest-allowlist.txt")
+
+step "notebooks"
+cp -r docs/notebooks "$folder/notebooks"
+for notebook in "$folder"/notebooks/*.ipynb; do
+  RINS_ROOT="$PWD" "$bin/python" -m nbconvert --log-level ERROR --to notebook --execute --inplace "$notebook"
+  echo "   $(basename "$notebook") executed"
+done
+step "done"
