@@ -1,4 +1,4 @@
-"""Writes `rins/types.py`, the typed dicts of all results, from the JSON schemas in `docs/schema`.
+"""Writes `rins/schema.py`, the typed dicts of all results, from the JSON schemas in `docs/schema`.
 
 `python schema_types.py` writes the file; `python schema_types.py --check` compares it.
 """
@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import json
+import keyword
 import sys
 import textwrap
 from pathlib import Path
@@ -13,7 +14,7 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 SCHEMAS = HERE.parents[1] / "docs" / "schema"
-TYPES = HERE / "python" / "rins" / "types.py"
+TYPES = HERE / "python" / "rins" / "schema.py"
 
 HEADER = '''"""The fields of all results as typed dicts.
 
@@ -22,7 +23,7 @@ Made from the JSON schemas of the results by `schema_types.py`; do not edit.
 
 from __future__ import annotations
 
-from typing import Any, NotRequired, TypedDict
+from typing import NotRequired, TypedDict
 '''
 
 SCALARS = {"string": "str", "integer": "int", "number": "float", "boolean": "bool", "null": "None"}
@@ -71,6 +72,8 @@ def definition(name: str, schema: dict[str, Any]) -> str:
     if properties is None:
         return f"{name} = {kind(schema)}"
     required = set(schema.get("required", []))
+    if not all(key.isidentifier() and not keyword.iskeyword(key) for key in properties):
+        return functional(name, schema, required)
     lines = [f"class {name}(TypedDict):"]
     lines.append(prose(schema.get("description", name), "    "))
     for key, one in properties.items():
@@ -81,8 +84,19 @@ def definition(name: str, schema: dict[str, Any]) -> str:
     return "\n".join(lines)
 
 
+def functional(name: str, schema: dict[str, Any], required: set[str]) -> str:
+    """A typed dict with a key that is no name in Python."""
+    lines = [f"{name} = TypedDict(", f'    "{name}",', "    {"]
+    for key, one in schema["properties"].items():
+        of = kind(one)
+        lines.append(f'        "{key}": "{of if key in required else f"NotRequired[{of}]"}",')
+    return "\n".join([*lines, "    },", ")", prose(schema.get("description", name), "")])
+
+
 def text() -> str:
-    schemas = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(SCHEMAS.glob("*.json"))]
+    schemas = [
+        json.loads(path.read_text(encoding="utf-8")) for path in sorted(SCHEMAS.glob("*.json"))
+    ]
     variants: dict[str, list[Any]] = {}
     for schema in schemas:
         for name, one in schema.get("$defs", {}).items():

@@ -181,10 +181,3 @@ fn reports(
 pub(crate) fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| rins_cli::run(words))
 }
-
-/// Removes unfinished output, for an interpreter that is about to exit; output cannot be finished afterwards.
-#[pyfunction]
-pub(crate) fn abandon() {
-    // The guard is kept until the process ends.
-    std::mem::forget(rins::io::abandon());
-}

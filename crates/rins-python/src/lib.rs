@@ -16,7 +16,7 @@ mod outcome;
 #[pyo3::pymodule]
 mod _rins {
     #[pymodule_export]
-    use super::call::{abandon, command};
+    use super::call::command;
     #[pymodule_export]
     use super::campaign::{merge, monte_carlo};
     #[pymodule_export]

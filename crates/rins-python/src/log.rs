@@ -13,7 +13,7 @@ use pyo3_arrow::buffer::PyArrowBuffer;
 use rins::io::Rig;
 
 use crate::call::Call;
-use crate::columns::log_columns;
+use crate::columns::{log_columns, log_columns_of_stream};
 use crate::error::exception;
 
 /// A log with its rig.
@@ -113,7 +113,7 @@ impl Log {
         name: String,
         data: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let columns = crate::columns::log_columns_of_stream(py, &name, data)?;
+        let columns = log_columns_of_stream(py, &name, data)?;
         Self::of_columns(py, rig, columns)
     }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +22,7 @@ UNITS = {"t": "s", "gyro": "rad", "accel": "m/s", "table_angle": "rad"}
 
 def of_arrays(columns: Columns, **changes: Any) -> rins.Recording:
     sections = rins.read_rig(RIG).sections
-    accuracy = {
-        key: sections["log"]["table_angle"][key] for key in ("noise", "resolution")
-    }
+    accuracy = {key: sections["log"]["table_angle"][key] for key in ("noise", "resolution")}
     keywords: dict[str, Any] = {
         "units": UNITS,
         "axes": "xyz",
@@ -72,7 +71,8 @@ def test_memory_layout_does_not_matter(columns: Columns) -> None:
     fortran = {name: np.asfortranarray(one) for name, one in columns.items()}
     backward = {name: np.ascontiguousarray(one[::-1])[::-1] for name, one in columns.items()}
     listed = {name: one.tolist() for name, one in columns.items()}
-    for layout in (fortran, backward, listed):
+    layouts: list[dict[str, Any]] = [fortran, backward, listed]
+    for layout in layouts:
         made = of_arrays(layout)
         np.testing.assert_array_equal(made.gyro, expected.gyro)
         assert made.inputs[1] == expected.inputs[1]
@@ -96,8 +96,8 @@ def test_arrays_are_not_copied(columns: Columns) -> None:
         return int(array.__array_interface__["data"][0])
 
     assert address(recording.gyro) == address(recording.gyro)
-    table = recording.to_arrow().to_pyarrow()
-    shown = recording.to_arrow().to_polars()
+    table: Any = recording.to_arrow().to_pyarrow()
+    shown: Any = recording.to_arrow().to_polars()
     for name, array in (("t", recording.t), ("gyro_z", recording.gyro[:, 2])):
         assert table[name].chunk(0).buffers()[1].address + 8 * table[name].chunk(
             0
@@ -113,19 +113,20 @@ def test_arrays_are_not_copied(columns: Columns) -> None:
 @pytest.mark.parametrize("library", ["pandas", "polars", "pyarrow", "chunks"])
 def test_tables_are_read(library: str, columns: Columns) -> None:
     named = frame(columns)
-    data: Any = {
+    makers: dict[str, Callable[[], Any]] = {
         "pandas": lambda: pd.DataFrame(named),
         "polars": lambda: pl.DataFrame(named),
         "pyarrow": lambda: pa.table(named),
         "chunks": lambda: pa.concat_tables([pa.table(named)[:4000], pa.table(named)[4000:]]),
-    }[library]()
+    }
+    data = makers[library]()
     expected = rins.Recording.open(RIG)
     made = rins.Recording.from_table(data, RIG)
     np.testing.assert_array_equal(made.gyro, expected.gyro)
     np.testing.assert_array_equal(made.t, expected.t)
     back = made.to_arrow()
     assert back.column_names[:2] == ["t", "gyro_x"] and back.num_rows == len(made)
-    frames = {"pandas": back.to_pandas, "polars": back.to_polars}
+    frames: dict[str, Callable[[], Any]] = {"pandas": back.to_pandas, "polars": back.to_polars}
     frame_back = frames.get(library, back.to_pyarrow)()
     np.testing.assert_array_equal(np.asarray(frame_back["gyro_y"]), made.gyro[:, 1])
 
@@ -144,7 +145,7 @@ def test_integer_time_stamps_keep_their_digits(columns: Columns) -> None:
         # An f64 of this epoch resolves 256 ns.
         np.testing.assert_allclose(np.diff(made.t), np.diff(expected.t), atol=2e-9)
     units = {**UNITS, "t": "ns"}
-    of_integers = of_arrays({**columns, "t": stamps}, units=units)
+    of_integers = of_arrays(columns, t=stamps, units=units)
     np.testing.assert_allclose(np.diff(of_integers.t), np.diff(expected.t), atol=2e-9)
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike, fspath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from . import _rins, types
+from . import _rins
 from ._progress import Report, listener
 from ._recording import Recording, log_of
 from ._result import (
@@ -20,6 +20,9 @@ from ._result import (
     Result,
     SimulateResult,
 )
+
+if TYPE_CHECKING:
+    from . import schema
 
 Pathlike = str | PathLike[str]
 Run = Recording | Pathlike
@@ -51,7 +54,7 @@ def _logs(runs: Runs) -> list[_rins.Log]:
     return [log_of(one) for one in several]
 
 
-def check(run: Run) -> Result[types.CheckResult]:
+def check(run: Run) -> Result[schema.CheckResult]:
     """Inspect a run: sampling rate, gaps, static intervals, gravity, Earth rate, probable errors of units, signs and axes.
 
     Parameters
@@ -88,7 +91,7 @@ def allan(run: Run) -> AllanResult:
     return AllanResult(_rins.allan(log_of(run, partial=True)))
 
 
-def align(run: Run) -> Result[types.AlignResult]:
+def align(run: Run) -> Result[schema.AlignResult]:
     """Align over a static interval: level from gravity, north from the Earth's rotation.
 
     Parameters
@@ -221,7 +224,7 @@ def diagnose(
     return DiagnoseResult(outcome)
 
 
-def demo(*, progress: bool | Report = False) -> Result[types.DemoResult]:
+def demo(*, progress: bool | Report = False) -> Result[schema.DemoResult]:
     """Calibrate and diagnose the embedded run, with nothing to prepare; `Result.write` writes the run and its rig file too."""
     return Result(_rins.demo(listener(progress)))
 
@@ -259,7 +262,7 @@ def simulate(scenario: Pathlike, *, seed: int | None = None) -> SimulateResult:
 
 def convert(
     rig: Pathlike, output: Pathlike, *, format: str | None = None, force: bool = False
-) -> Result[types.ConvertResult]:
+) -> Result[schema.ConvertResult]:
     """Write a log in another format, and a matching rig file.
 
     Parameters
@@ -284,7 +287,7 @@ def apply(
     format: str | None = None,
     extrapolate: bool = False,
     force: bool = False,
-) -> Result[types.ApplyResult]:
+) -> Result[schema.ApplyResult]:
     """Write a log compensated by a calibration, and a matching rig file.
 
     Parameters
@@ -306,7 +309,7 @@ def apply(
     return Result(_rins.apply(fspath(rig), options))
 
 
-def compare(before: Pathlike, after: Pathlike) -> Result[types.CompareResult]:
+def compare(before: Pathlike, after: Pathlike) -> Result[schema.CompareResult]:
     """Compare two calibration files of one IMU: differences in units of their standard uncertainty."""
     return Result(_rins.compare(fspath(before), fspath(after)))
 
@@ -318,7 +321,7 @@ def history(
     temperature: float | None = None,
     minutes_since_power_on: float | None = None,
     progress: bool | Report = False,
-) -> Result[types.HistoryResult]:
+) -> Result[schema.HistoryResult]:
     """Test whether parameters are the same in several runs, name how they vary, and predict the next run.
 
     Parameters
@@ -425,7 +428,7 @@ def monte_carlo(
     threads: int | None = None,
     force: bool = False,
     progress: bool | Report = False,
-) -> Result[types.CampaignResult]:
+) -> Result[schema.CampaignResult]:
     """Simulate and calibrate a scenario many times to test the consistency of the covariances (NEES).
 
     Parameters
@@ -467,6 +470,6 @@ def monte_carlo(
 
 def merge(
     parts: Pathlike | Sequence[Pathlike], output: Pathlike, *, force: bool = False
-) -> Result[types.CampaignResult]:
+) -> Result[schema.CampaignResult]:
     """Merge the partial results of a Monte Carlo campaign."""
     return Result(_rins.merge(_paths(parts), fspath(output), force))

@@ -150,7 +150,9 @@ class Recording:
         return cls._of(_rins.Log.open(name, False), read_rig(name))
 
     @classmethod
-    def from_table(cls, data: object, rig: Rig | str | PathLike[str], *, name: str = "table") -> Recording:
+    def from_table(
+        cls, data: object, rig: Rig | str | PathLike[str], *, name: str = "table"
+    ) -> Recording:
         """Make a recording of a data frame or an Arrow table.
 
         Parameters
@@ -170,7 +172,9 @@ class Recording:
         """
         if not hasattr(data, "__arrow_c_stream__"):
             kind = type(data).__name__
-            raise TypeError(f"data: {kind} has no __arrow_c_stream__; for arrays use Recording(...)")
+            raise TypeError(
+                f"data: {kind} has no __arrow_c_stream__; for arrays use Recording(...)"
+            )
         rig = rig if isinstance(rig, Rig) else read_rig(rig)
         return cls._of(_rins.Log.of_stream((rig.text, rig.path), name, data), rig)
 
@@ -277,9 +281,7 @@ def _axes_of(
     return list(own)
 
 
-def _columns(
-    signal: str, array: ArrayLike, columns: list[tuple[str, Any]], name: str
-) -> list[str]:
+def _columns(signal: str, array: ArrayLike, columns: list[tuple[str, Any]], name: str) -> list[str]:
     """Append the columns of an array; their names."""
     import numpy as np
 

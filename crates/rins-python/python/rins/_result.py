@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
-from . import _rins, types
+from . import _rins
 from ._table import Table
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from . import schema
     from ._recording import Recording
 
     Floats = NDArray[np.float64]
@@ -23,10 +24,11 @@ if TYPE_CHECKING:
 D = TypeVar("D", bound=Mapping[str, Any])
 
 
+# The typed dicts are imported by type checkers only: there are many.
 class Result(Mapping[str, Any], Generic[D]):
     """The result of a command.
 
-    It is a mapping: ``res["parameters"][0]["value"]``. `data` is the same as a typed dict, whose keys `rins.types` documents.
+    It is a mapping: ``res["parameters"][0]["value"]``. `data` is the same as a typed dict, whose keys `rins.schema` documents.
 
     Attributes
     ----------
@@ -169,7 +171,7 @@ def _html_rows(rows: Sequence[object]) -> str:
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
-class CalibrateResult(Result[types.CalibrateResult]):
+class CalibrateResult(Result["schema.CalibrateResult"]):
     """The result of `rins.calibrate`: estimates with their covariance.
 
     A parameter that the data show only in a combination has the value and the uncertainty of the combination; see `table`.
@@ -225,7 +227,7 @@ class CalibrateResult(Result[types.CalibrateResult]):
         return parameters(self, ax, unit=unit)
 
 
-class DiagnoseResult(Result[types.DiagnoseResult]):
+class DiagnoseResult(Result["schema.DiagnoseResult"]):
     """The result of `rins.diagnose`: the causes with their p-values, and what is unexplained."""
 
     _rows = "causes"
@@ -236,7 +238,7 @@ class DiagnoseResult(Result[types.DiagnoseResult]):
         return self.data["verdict"]
 
     @property
-    def causes(self) -> list[types.CauseResult]:
+    def causes(self) -> list[schema.CauseResult]:
         """The effects, in order of evidence."""
         return self.data["causes"]
 
@@ -247,7 +249,7 @@ class DiagnoseResult(Result[types.DiagnoseResult]):
         return causes(self, ax)
 
 
-class AllanResult(Result[types.AllanResult]):
+class AllanResult(Result["schema.AllanResult"]):
     """The result of `rins.allan`: Allan deviations with confidence bounds and noise terms."""
 
     _rows = "channels"
@@ -259,7 +261,7 @@ class AllanResult(Result[types.AllanResult]):
         return allan(self, ax, sensor=sensor)
 
 
-class ObserveResult(Result[types.ObserveResult]):
+class ObserveResult(Result["schema.ObserveResult"]):
     """The result of `rins.observe`: what a rotation schedule shows, and the schedule to run next."""
 
     _rows = "schedules"
@@ -283,7 +285,7 @@ class ObserveResult(Result[types.ObserveResult]):
         return observability(self, ax)
 
 
-class MissionResult(Result[types.MissionResult]):
+class MissionResult(Result["schema.MissionResult"]):
     """The result of `rins.mission`: position errors after days in service."""
 
     _rows = "schemes"
@@ -295,13 +297,13 @@ class MissionResult(Result[types.MissionResult]):
         return mission(self, ax, measure=measure)
 
 
-class NavigateResult(Result[types.NavigateResult]):
+class NavigateResult(Result["schema.NavigateResult"]):
     """The result of `rins.navigate`: the errors of free inertial navigation."""
 
     _rows = "runs"
 
 
-class InitResult(Result[types.InitResult]):
+class InitResult(Result["schema.InitResult"]):
     """The result of `rins.init`: a drafted rig file, with guesses to be confirmed."""
 
     _rows = "guesses"
@@ -312,7 +314,7 @@ class InitResult(Result[types.InitResult]):
         return self.data["rig"]
 
 
-class SimulateResult(Result[types.SimulateResult]):
+class SimulateResult(Result["schema.SimulateResult"]):
     """The result of `rins.simulate`: a simulated data set."""
 
     def recording(self) -> Recording:

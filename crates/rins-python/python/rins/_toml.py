@@ -10,9 +10,7 @@ _BARE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ012345678
 def _text(value: str) -> str:
     """A basic string of TOML."""
     escaped = {'"': '\\"', "\\": "\\\\"}
-    letters = (
-        escaped.get(c, c) if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in value
-    )
+    letters = (escaped.get(c, c) if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in value)
     return '"' + "".join(letters) + '"'
 
 

@@ -5,7 +5,7 @@ Made from the JSON schemas of the results by `schema_types.py`; do not edit.
 
 from __future__ import annotations
 
-from typing import Any, NotRequired, TypedDict
+from typing import NotRequired, TypedDict
 
 
 class AboutAxes(TypedDict):
@@ -1614,17 +1614,15 @@ class NavigationResult(TypedDict):
     """The velocity error, east, north and up [m/s]."""
 
 
-class NextTestResult(TypedDict):
-    """The run that would distinguish a cause from an alternative."""
-
-    from: str
-    """The id of the alternative."""
-
-    schedule: str
-    """What the table does, and for how long."""
-
-    sigmas: float
-    """By how many sigmas the two differ then."""
+NextTestResult = TypedDict(
+    "NextTestResult",
+    {
+        "from": "str",
+        "schedule": "str",
+        "sigmas": "float",
+    },
+)
+"""The run that would distinguish a cause from an alternative."""
 
 
 class NoiseResult(TypedDict):
@@ -2135,27 +2133,18 @@ class SegmentResult(TypedDict):
     """The rate [deg/s]."""
 
 
-class SeparationResult(TypedDict):
-    """How well a schedule separates one effect from another."""
-
-    absorbed: int
-    """How many of its directions the model absorbs."""
-
-    directions: list[DirectionResult]
-    """Its directions that have a counterpart in the other, the most alike first."""
-
-    effect: NotRequired[str | None]
-    """The effect."""
-
-    from: NotRequired[str | None]
-    """The other."""
-
-    kappa: NotRequired[float | None]
-    """By what the other effect increases its 1σ in its worst direction; null if it is not
-    separated at all."""
-
-    separation_sigma: float
-    """By how many sigmas it differs from the other in its worst direction."""
+SeparationResult = TypedDict(
+    "SeparationResult",
+    {
+        "absorbed": "int",
+        "directions": "list[DirectionResult]",
+        "effect": "NotRequired[str | None]",
+        "from": "NotRequired[str | None]",
+        "kappa": "NotRequired[float | None]",
+        "separation_sigma": "float",
+    },
+)
+"""How well a schedule separates one effect from another."""
 
 
 class SeparationsResult(TypedDict):
