@@ -98,10 +98,10 @@ impl Log {
     fn of_arrays(
         py: Python<'_>,
         rig: (String, PathBuf),
-        name: String,
+        name: &str,
         arrays: Vec<(String, Bound<'_, PyAny>)>,
     ) -> PyResult<Self> {
-        let columns = log_columns(py, &name, arrays)?;
+        let columns = log_columns(py, name, arrays)?;
         Self::of_columns(py, rig, columns)
     }
 
@@ -110,10 +110,10 @@ impl Log {
     fn of_stream(
         py: Python<'_>,
         rig: (String, PathBuf),
-        name: String,
+        name: &str,
         data: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let columns = log_columns_of_stream(py, &name, data)?;
+        let columns = log_columns_of_stream(py, name, data)?;
         Self::of_columns(py, rig, columns)
     }
 

@@ -21,8 +21,8 @@ fn noise(name: &str) -> PyResult<NoiseChoice> {
     }
 }
 
-fn owned(logs: &[Py<Log>]) -> Vec<rins::Log> {
-    logs.iter().map(|log| (*log.get().log()).clone()).collect()
+fn owned(logs: Vec<Py<Log>>) -> Vec<rins::Log> {
+    logs.into_iter().map(|log| (*log.get().log()).clone()).collect()
 }
 
 /// `rins check`.
@@ -93,15 +93,15 @@ pub(crate) fn navigate(
 pub(crate) fn calibrate(
     py: Python<'_>,
     logs: Vec<Py<Log>>,
-    model: Option<String>,
+    model: Option<&str>,
     noise: &str,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
-    let choice = model.as_deref().map(ModelChoice::parse).transpose();
+    let choice = model.map(ModelChoice::parse).transpose();
     let choice = choice.map_err(|expected| argument("model", expected))?;
     let noise = self::noise(noise)?;
-    let logs = owned(&logs);
-    Outcome::run(py, Call::new(progress), model.as_deref(), move |progress| {
+    let logs = owned(logs);
+    Outcome::run(py, Call::new(progress), model, move |progress| {
         let options = CalibrateOptions { model: choice, noise, progress: progress.clone() };
         Outcome::of(rins::calibrate(logs, &options)?)
     })
@@ -134,7 +134,7 @@ pub(crate) fn diagnose(
     if bootstrap.is_some_and(|draws| !(1..=100_000).contains(&draws)) {
         return Err(argument("bootstrap", "expected 1 to 100000"));
     }
-    let logs = owned(&logs);
+    let logs = owned(logs);
     let held_out = held_out.map(|log| (*log.get().log()).clone());
     let file = hypothesis.as_ref().map(|file| file.to_string_lossy().into_owned());
     Outcome::run(py, Call::new(progress), file.as_deref().or(Some(&model)), move |progress| {

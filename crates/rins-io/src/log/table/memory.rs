@@ -107,3 +107,95 @@ pub(in crate::log) fn take(log: LogColumns, wanted: Wanted<'_>) -> Result<Column
     let stamps = time.map(|time| stamps(path, time, &mut taken)).transpose()?;
     together(path, names, taken.into_iter().map(Numbers::plain).collect(), stamps)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+    use std::path::Path;
+
+    use super::*;
+    use crate::log::{LogPolicy, read_columns, read_log};
+    use crate::rig::Rig;
+
+    const RIG: &str = r#"
+[site]
+latitude = "34.25 deg"
+height = "0 m"
+[log]
+path = "log.csv"
+time = { column = "t", unit = "ms" }
+gyro = { columns = ["gx", "gy", "gz"], unit = "deg/s", axes = ["-y", "x", "z"] }
+accel = { columns = ["ax", "ay", "az"], unit = "g" }
+table_angle = { column = "angle", unit = "deg" }
+"#;
+
+    const NAMES: [&str; 8] = ["t", "gx", "gy", "gz", "ax", "ay", "az", "angle"];
+
+    /// Rows with an angle that wraps and a row that is damaged.
+    fn rows() -> Vec<[f64; 8]> {
+        let row = |k: u32| {
+            let t = f64::from(k);
+            let damaged = if k == 77 { f64::NAN } else { 10.0 + 1e-3 * t };
+            let angle = (0.7 * t).rem_euclid(360.0);
+            [10.0 * t, 0.01 * t, -1e-3 * t, damaged, 1e-4 * t, 0.02, 1.0 + 1e-5 * t, angle]
+        };
+        (1..=600).map(row).collect()
+    }
+
+    fn columns(rows: &[[f64; 8]]) -> LogColumns {
+        let mut columns = LogColumns::new("log.csv");
+        for (place, name) in NAMES.iter().enumerate() {
+            columns.push(*name, Numbers::Real(rows.iter().map(|row| row[place]).collect()));
+        }
+        columns
+    }
+
+    #[test]
+    fn columns_in_memory_are_read_as_those_of_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("rig.toml");
+        let mut text = NAMES.join(",") + "\n";
+        for row in rows() {
+            let fields = row.map(|number| number.to_string());
+            writeln!(text, "{}", fields.join(",")).unwrap();
+        }
+        std::fs::write(folder.path().join("log.csv"), text).unwrap();
+        let of_file = read_log(Rig::parse(RIG, &path).unwrap(), LogPolicy::default()).unwrap();
+        let rig = Rig::parse(RIG, &path).unwrap();
+        let ours = read_columns(rig, columns(&rows()), LogPolicy::default()).unwrap();
+        assert_eq!(ours.recording, of_file.recording);
+        assert_eq!(ours.recording.len(), 598, "the first row starts an interval, one is damaged");
+        assert_eq!(ours.summary.left_out.len(), 1);
+    }
+
+    #[test]
+    fn errors_of_columns_name_the_row_and_the_column() {
+        let refused = |rig: &str, columns| {
+            let rig = Rig::parse(rig, Path::new("rig.toml")).unwrap();
+            read_columns(rig, columns, LogPolicy::default()).unwrap_err()
+        };
+        let mut none = LogColumns::new("arrays");
+        none.push("t", Numbers::Whole(vec![1, 2, 3]));
+        let error = refused(RIG, none);
+        assert_eq!((error.key(), error.path()), (Some("gx"), Path::new("arrays")));
+        let mut rows = rows();
+        rows.iter_mut().skip(20).take(50).for_each(|row| row[5] = f64::INFINITY);
+        let error = refused(RIG, columns(&rows));
+        assert_eq!((error.key(), error.line()), (Some("ay"), Some(21)));
+        let psins = "[site]\nlatitude = \"45 deg\"\nheight = \"0 m\"\n[log]\npath = \"log.imu\"\nformat = \"psins\"\n";
+        assert_eq!(refused(psins, LogColumns::new("arrays")).key(), Some("[log] format"));
+    }
+
+    #[test]
+    fn digest_depends_on_names_and_numbers() {
+        let digest = |name: &str, last: f64| {
+            let mut columns = LogColumns::new("arrays");
+            columns.push(name, Numbers::Real(vec![0.0, last]));
+            columns.digest().sha256
+        };
+        // sha256(b"t\0" + (2).to_bytes(8, "little") + struct.pack("<2d", 0, 1)), by Python's hashlib.
+        assert_eq!(digest("t", 1.0), "3fe63e896c7311a8d03d0cc59d1c6fd520cb23ee77ad68950d05ffa99612e7e8");
+        assert_ne!(digest("u", 1.0), digest("t", 1.0));
+        assert_ne!(digest("t", 2.0), digest("t", 1.0));
+    }
+}
