@@ -13,7 +13,7 @@ use arrow_array::{
     StringArray,
 };
 use arrow_schema::{DataType, TimeUnit};
-use pyo3::buffer::PyBuffer;
+use numpy::PyReadonlyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3_arrow::PyTable;
@@ -23,15 +23,17 @@ use crate::error::data_error;
 
 /// Columns in memory from arrays of `float64` or `int64` with one dimension, which are read where they lie.
 pub(crate) fn log_columns(
-    py: Python<'_>,
     log: &str,
     arrays: Vec<(String, Bound<'_, PyAny>)>,
 ) -> PyResult<LogColumns> {
     let mut columns = LogColumns::new(log);
     for (name, array) in arrays {
-        let numbers = match PyBuffer::<f64>::get(&array) {
-            Ok(buffer) => ColumnNumbers::Real(buffer.to_vec(py)?),
-            Err(_) => ColumnNumbers::Whole(PyBuffer::<i64>::get(&array)?.to_vec(py)?),
+        let numbers = match array.extract::<PyReadonlyArray1<'_, f64>>() {
+            Ok(array) => ColumnNumbers::Real(array.as_array().iter().copied().collect()),
+            Err(_) => {
+                let array: PyReadonlyArray1<'_, i64> = array.extract()?;
+                ColumnNumbers::Whole(array.as_array().iter().copied().collect())
+            }
         };
         columns.push(name, numbers);
     }

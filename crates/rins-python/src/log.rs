@@ -101,7 +101,7 @@ impl Log {
         name: &str,
         arrays: Vec<(String, Bound<'_, PyAny>)>,
     ) -> PyResult<Self> {
-        let columns = log_columns(py, name, arrays)?;
+        let columns = log_columns(name, arrays)?;
         Self::of_columns(py, rig, columns)
     }
 

@@ -36,7 +36,7 @@ pitch = "25 deg"
 yaw = "0 deg"
 sigma = "0.1 deg"
 [imu]
-grade = "navigation"
+grade = "fog"
 [truth]
 seed = 1
 [truth.gyro]

@@ -161,7 +161,7 @@ def test_nothing_is_guessed(columns: Columns) -> None:
     assert refused(axes=None).key == "axes"
     assert refused(axes={"gyro": "xyz"}).key == "axes['accel']"
     assert "gyro.axes" in str(refused(axes="xyx"))
-    assert "expected" in str(refused(units={**UNITS, "gyro": "furlong"}))
+    assert "unknown unit" in str(refused(units={**UNITS, "gyro": "furlong"}))
     assert refused(units={**UNITS, "table_rate": "deg/s"}).key == "units['table_rate']"
     assert refused(gyro=columns["gyro"][:, :2]).key == "gyro"
     assert "samples" in str(refused(accel=columns["accel"][:-1]))
@@ -184,7 +184,8 @@ def test_damaged_rows_are_reported(columns: Columns) -> None:
 
 
 def test_axes_are_those_that_are_stated(columns: Columns) -> None:
-    turned = columns["gyro"][:, [1, 0, 2]] * [-1.0, 1.0, 1.0]
+    # Body x is against y of the sensor, body y along x of the sensor.
+    turned = columns["gyro"][:, [1, 0, 2]] * [1.0, -1.0, 1.0]
     made = of_arrays({**columns, "gyro": turned}, axes={"gyro": ["-y", "x", "z"], "accel": "xyz"})
     np.testing.assert_array_equal(made.gyro, of_arrays(columns).gyro)
 

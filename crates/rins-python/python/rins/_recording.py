@@ -26,7 +26,7 @@ _EXPECTED = {
     "temperature": '"degC" or "K"',
 }
 
-_AXES = 'the body axes that the columns are along, such as "xyz" or ["-y", "x", "z"]'
+_AXES = 'for body x, y and z the axis of the sensor along it, such as "xyz" or ["-y", "x", "z"]'
 
 
 class Recording:
@@ -49,8 +49,8 @@ class Recording:
     units : mapping
         The unit of each given array, by the name of its argument. The unit states whether numbers are rates or increments.
     axes : str, sequence of str, or mapping
-        The body axes along which the three columns of `gyro` and `accel` are: ``"xyz"``, ``["-y", "x", "z"]``, or one for
-        each: ``{"gyro": "xyz", "accel": ["x", "-y", "-z"]}``.
+        For body x, y and z the axis of the sensor (column x, y or z) that is along it: ``"xyz"``, ``["-y", "x", "z"]``, or one
+        for each sensor: ``{"gyro": "xyz", "accel": ["x", "-y", "-z"]}``.
     stamp : {"end", "start", "middle"}
         The instant of a sample's interval that `t` refers to.
     site, attitude, imu, table, axis, run, lab : mapping, optional
@@ -108,7 +108,8 @@ class Recording:
         _ensure_stated(given, units, name)
         along = {sensor: _axes_of(axes, sensor, name) for sensor in ("gyro", "accel")}
         columns: list[tuple[str, Any]] = []
-        keys: dict[str, object] = {"path": name}
+        # The format is that of columns with names; no file is read.
+        keys: dict[str, object] = {"path": name, "format": "csv"}
         for signal, array in given.items():
             own = {"unit": units[signal]}
             names = _columns(signal, array, columns, name)

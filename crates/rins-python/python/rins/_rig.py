@@ -38,6 +38,7 @@ class Rig:
     ...     site={"latitude": "34.25 deg", "height": "400 m"},
     ...     log={
     ...         "path": "arrays",
+    ...         "format": "csv",
     ...         "time": {"column": "t", "unit": "s"},
     ...         "gyro": {"columns": ["gx", "gy", "gz"], "unit": "deg/h"},
     ...         "accel": {"columns": ["ax", "ay", "az"], "unit": "mg"},

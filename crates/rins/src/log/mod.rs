@@ -73,6 +73,7 @@ impl Log {
     /// height = "400 m"
     /// [log]
     /// path = "arrays"
+    /// format = "csv"
     /// time = { column = "t", unit = "s" }
     /// gyro = { columns = ["gx", "gy", "gz"], unit = "deg/h" }
     /// accel = { columns = ["ax", "ay", "az"], unit = "g" }
