@@ -26,7 +26,7 @@ step "mypy, stubtest"
 "$bin/python" -m mypy "$package/python/rins"
 MYPYPATH="$package/tests" "$bin/python" -m mypy "$package/tests"
 # Outside the sources, so that the installed package is compared.
-(cd "$folder" && "$bin/python" -m mypy.stubtest rins --concise --allowlist "$OLDPWD/$package/stubtest-allowlist.txt")
+(cd "$folder" && "$bin/python" -m mypy.stubtest rins --concise --mypy-config-file "$OLDPWD/pyproject.toml")
 
 step "notebooks"
 cp -r docs/notebooks "$folder/notebooks"

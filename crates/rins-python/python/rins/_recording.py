@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    Floats = NDArray[np.float64]
+    _Floats = NDArray[np.float64]
 
 _EXPECTED = {
     "t": '"s", "ms", "us" or "ns"',
@@ -205,7 +205,7 @@ class Recording:
         """The inputs: path or name, and SHA-256."""
         return self._log.inputs
 
-    def _signal(self, name: str) -> Floats | None:
+    def _signal(self, name: str) -> _Floats | None:
         import numpy as np
 
         for signal, components, memory in self._log.memory():
@@ -214,38 +214,38 @@ class Recording:
                 return values if components == 1 else values.reshape(components, -1).T
         return None
 
-    def _required(self, name: str) -> Floats:
+    def _required(self, name: str) -> _Floats:
         values = self._signal(name)
         assert values is not None, "every recording has it"
         return values
 
     @property
-    def t(self) -> Floats:
+    def t(self) -> _Floats:
         """The end of each sample's interval [s], shape (n,), read-only; a view of the recording's memory, as all arrays here."""
         return self._required("t")
 
     @property
-    def gyro(self) -> Floats:
+    def gyro(self) -> _Floats:
         """The mean angular rates over each interval [rad/s], shape (n, 3), along the body axes with z along the spin axis."""
         return self._required("gyro")
 
     @property
-    def accel(self) -> Floats:
+    def accel(self) -> _Floats:
         """The mean specific forces over each interval [m/s^2], shape (n, 3), along the same axes."""
         return self._required("accel")
 
     @property
-    def table_angle(self) -> Floats | None:
+    def table_angle(self) -> _Floats | None:
         """The table angle at the end of each interval [rad], unwrapped, shape (n,); None without one."""
         return self._signal("table_angle")
 
     @property
-    def table_rate(self) -> Floats | None:
+    def table_rate(self) -> _Floats | None:
         """The mean table rate over each interval [rad/s], shape (n,); None without one."""
         return self._signal("table_rate")
 
     @property
-    def temperature(self) -> Floats | None:
+    def temperature(self) -> _Floats | None:
         """The temperature at the end of each interval [degC], shape (n,); None without one."""
         return self._signal("temperature")
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from . import schema
     from ._recording import Recording
 
-    Floats = NDArray[np.float64]
+    _Floats = NDArray[np.float64]
 
 D = TypeVar("D", bound=Mapping[str, Any])
 
@@ -193,28 +193,28 @@ class CalibrateResult(Result["schema.CalibrateResult"]):
         return [one["unit"] for one in self.data["parameters"]]
 
     @property
-    def x(self) -> Floats:
+    def x(self) -> _Floats:
         """The estimates, shape (n,), in `units`."""
         import numpy as np
 
         return np.array([one["value"] for one in self.data["parameters"]], dtype=np.float64)
 
     @property
-    def se(self) -> Floats:
+    def se(self) -> _Floats:
         """The standard uncertainties (1 sigma), shape (n,), in `units`."""
         import numpy as np
 
         return np.array([one["sigma"] for one in self.data["parameters"]], dtype=np.float64)
 
     @property
-    def correlation(self) -> Floats:
+    def correlation(self) -> _Floats:
         """The correlation matrix, shape (n, n)."""
         import numpy as np
 
         return np.array(self.data["correlation"], dtype=np.float64)
 
     @property
-    def cov(self) -> Floats:
+    def cov(self) -> _Floats:
         """The covariance matrix, shape (n, n), in products of `units`: the correlation times the standard uncertainties."""
         import numpy as np
 

@@ -2,12 +2,38 @@ from collections.abc import Callable, Sequence
 from os import PathLike
 from typing import Any, Protocol, TypedDict, final
 
+__all__ = [
+    "Log",
+    "Outcome",
+    "VERSION",
+    "align",
+    "allan",
+    "apply",
+    "calibrate",
+    "check",
+    "check_rig",
+    "command",
+    "compare",
+    "convert",
+    "demo",
+    "diagnose",
+    "history",
+    "init",
+    "merge",
+    "mission",
+    "monte_carlo",
+    "navigate",
+    "observe",
+    "simulate",
+    "table",
+]
+
 VERSION: str
 
 _Path = str | PathLike[str]
 _Report = Callable[[str, int | None, int | None], object]
 
-class ArrowStream(Protocol):
+class _ArrowStream(Protocol):
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
     @property
     def column_names(self) -> list[str]: ...
@@ -29,7 +55,7 @@ class Log:
     @property
     def repairs(self) -> list[str]: ...
     def memory(self) -> list[tuple[str, int, Any]]: ...
-    def table(self) -> ArrowStream: ...
+    def table(self) -> _ArrowStream: ...
     def __len__(self) -> int: ...
 
 @final
@@ -83,7 +109,7 @@ class _Campaign(TypedDict):
     force: bool
 
 def check_rig(text: str, path: _Path) -> None: ...
-def table(columns: list[tuple[str, Sequence[object]]]) -> ArrowStream: ...
+def table(columns: list[tuple[str, Sequence[object]]]) -> _ArrowStream: ...
 def command(words: Sequence[str]) -> int: ...
 def check(log: Log) -> Outcome: ...
 def allan(log: Log) -> Outcome: ...

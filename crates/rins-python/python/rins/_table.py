@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import pandas
-    import polars
-    import pyarrow
+    import pandas as _pandas
+    import polars as _polars
+    import pyarrow as _pyarrow
 
-    from ._rins import ArrowStream
+    from ._rins import _ArrowStream
 
 
 class Table:
@@ -19,9 +19,9 @@ class Table:
     ``duckdb.from_arrow(t)`` share its memory.
     """
 
-    _stream: ArrowStream
+    _stream: _ArrowStream
 
-    def __init__(self, stream: ArrowStream) -> None:
+    def __init__(self, stream: _ArrowStream) -> None:
         self._stream = stream
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
@@ -40,21 +40,21 @@ class Table:
     def __len__(self) -> int:
         return self.num_rows
 
-    def to_pyarrow(self) -> pyarrow.Table:
+    def to_pyarrow(self) -> _pyarrow.Table:
         """The table as a `pyarrow.Table`, without a copy."""
         import pyarrow
 
         return pyarrow.table(self)
 
-    def to_polars(self) -> polars.DataFrame:
+    def to_polars(self) -> _polars.DataFrame:
         """The table as a `polars.DataFrame`, without a copy of numbers."""
         import polars
 
         return polars.DataFrame(self)
 
-    def to_pandas(self) -> pandas.DataFrame:
+    def to_pandas(self) -> _pandas.DataFrame:
         """The table as a `pandas.DataFrame`; it needs pyarrow."""
-        frame: pandas.DataFrame = self.to_pyarrow().to_pandas()
+        frame: _pandas.DataFrame = self.to_pyarrow().to_pandas()
         return frame
 
     def to_frame(self) -> Any:

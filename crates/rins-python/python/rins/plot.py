@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from math import log
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -78,10 +79,12 @@ def causes(result: DiagnoseResult, ax: Axes | None = None) -> Axes:
     ax = _axes(ax)
     found = result.causes
     for row, cause in enumerate(found):
-        ax.barh(row, cause["delta_log_likelihood"], color="C0")
-        ax.annotate(f" p = {cause['p_value']:.1g}", (0.0, row), va="center")
+        ax.barh(row, cause["delta_log_likelihood"], height=0.5, color="C0")
+        # The smallest p-values have no float.
+        p = f"{cause['p_value']:.1g}" if cause["p_value"] else f"1e{cause['ln_p'] / log(10):.0f}"
+        ax.annotate(f" p = {p}", (0.0, row), va="center", color="white")
     ax.set_yticks(range(len(found)), [cause["effect"] for cause in found])
-    ax.invert_yaxis()
+    ax.set_ylim(max(len(found), 3) - 0.5, -0.5)
     ax.set_xlabel("increase of the log-likelihood [nat]")
     ax.set_title(f"rins diagnose: {result.verdict}")
     return ax
