@@ -170,8 +170,8 @@ impl Log {
 
 /// Checks the content of a rig file.
 #[pyfunction]
-pub(crate) fn check_rig(py: Python<'_>, text: &str, path: PathBuf) -> PyResult<()> {
-    match Rig::parse(text, &path) {
+pub(crate) fn check_rig(py: Python<'_>, text: &str, path: &str) -> PyResult<()> {
+    match Rig::parse(text, path.as_ref()) {
         Ok(_) => Ok(()),
         Err(error) => Err(exception(py, &error.into(), None)),
     }

@@ -100,12 +100,17 @@ def test_interrupt_returns_within_a_fifth_of_a_second(
     assert 0.0 < float(run.stdout) < 0.2
 
 
-def test_progress_is_reported_and_its_exceptions_are_raised(short: Path) -> None:
+def test_progress_is_reported_and_its_exceptions_are_raised(
+    short: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     reports: list[tuple[str, int | None, int | None]] = []
     result = rins.calibrate(short, progress=lambda *report: reports.append(report))
     assert {stage for stage, _, _ in reports} == {"calibrating"}
     assert reports[0][1] == 0 and reports[-1][1] == reports[-1][2]
     assert result.to_json() == rins.calibrate(short).to_json()
+
+    rins.calibrate(short, progress=True)
+    assert "calibrating" in capsys.readouterr().err
 
     def refuse(stage: str, done: int | None, total: int | None) -> None:
         raise LookupError(stage)

@@ -112,12 +112,12 @@ class Rig:
         return tomllib.loads(self._text)
 
     def load(self) -> Recording:
-        """Read the log that the rig names.
+        """Read the log that a rig file names.
 
         Raises
         ------
         DataError
-            If the log cannot be read or is invalid.
+            If the rig was not read from a file, or the log cannot be read or is invalid.
         """
         from ._recording import Recording
 
