@@ -85,7 +85,7 @@ impl Log {
     ///     columns.push(name, ColumnNumbers::Real(times.clone().map(|t| level + 0.001 * t).collect()));
     /// }
     /// let log = rins::Log::of_columns(rig, "rig.toml", columns)?;
-    /// assert_eq!(log.loaded.recording.len(), 99); // the first sample only starts an interval
+    /// assert_eq!(log.loaded.recording.len(), 100);
     /// # Ok::<(), rins::Error>(())
     /// ```
     pub fn of_columns(text: &str, path: impl AsRef<Path>, columns: LogColumns) -> Result<Self> {
