@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
@@ -35,9 +36,9 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The command line, or the end of the program where it cannot be meant.
-    pub(crate) fn read() -> Self {
-        let arguments = Self::parse();
+    /// The command line, or why it cannot be meant; help and version are refusals with exit code 0.
+    pub(crate) fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let arguments = Self::try_parse_from(words)?;
         let refusal = match &arguments.command {
             Command::Calibrate(calibrate) => calibrate.refusal().map(|why| ("calibrate", why)),
             Command::Diagnose(diagnose) => {
@@ -49,9 +50,9 @@ impl Arguments {
             let mut command = Self::command();
             command.build();
             let of = command.find_subcommand_mut(name).expect("the command has just been read");
-            of.error(kind, message).exit();
+            return Err(of.error(kind, message));
         }
-        arguments
+        Ok(arguments)
     }
 
     pub(crate) const fn overwrite(&self) -> Overwrite {

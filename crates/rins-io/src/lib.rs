@@ -51,9 +51,9 @@ pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WritePro
 pub use input_file::InputFile;
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
-    Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
-    Overflow, PsinsHeader, Redivided, Rounded, TableClock, date_seconds, date_text, peek, read,
-    read_log,
+    ColumnNumbers, Delimiter, Gap, LeftOut, Loaded, LogColumns, LogHead, LogPolicy, LogProblem,
+    LogSummary, Omission, Overflow, PsinsHeader, Redivided, Rounded, TableClock, date_seconds,
+    date_text, peek, read, read_columns, read_log,
 };
 pub use mission::{MissionFile, RotationScheme};
 pub use model::ModelFile;
