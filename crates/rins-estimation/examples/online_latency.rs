@@ -11,7 +11,8 @@ use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
 use rins_terms::Model;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let gyro = TriadSpec::white(0.005 * DEG_PER_HOUR, 0.05 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC);
+    let gyro =
+        TriadSpec::white(0.005 * DEG_PER_HOUR, 0.05 * DEG_PER_HOUR, 500.0 * PPM, 120.0 * ARCSEC);
     let accel = TriadSpec::white(30.0 * MICRO_G, 200.0 * MICRO_G, 300.0 * PPM, 60.0 * ARCSEC);
     let imu = ImuSpec { gyro, accel };
     let site = Site { latitude: 34.25 * DEG, longitude: 0.0, height: 400.0 };

@@ -119,9 +119,8 @@ pub(crate) fn linearised(
     let is_static = matches!(run.rig.reference, Reference::Rest);
     let longest = if is_static { f64::INFINITY } else { EPOCH.1.max(duration / MOST_EPOCHS) };
     let interval = duration / (recording.len() - 1) as f64;
-    let block = run.epoch.unwrap_or_else(|| {
-        whole((duration / 1000.0).clamp(EPOCH.0, longest) / interval)
-    });
+    let block =
+        run.epoch.unwrap_or_else(|| whole((duration / 1000.0).clamp(EPOCH.0, longest) / interval));
     let track = path::track(run, surroundings, model, block);
     let readings = path::readings(run);
     let spans = spans(run, block);

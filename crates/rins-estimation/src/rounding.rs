@@ -77,8 +77,7 @@ impl AngleSteps {
         let angles = track.angles();
         let count = epochs.len() as f64;
         for epoch in epochs {
-            epoch.rounding =
-                self.rounding(count, &angles[epoch.samples.0 + 1..=epoch.samples.1]);
+            epoch.rounding = self.rounding(count, &angles[epoch.samples.0 + 1..=epoch.samples.1]);
         }
     }
 

@@ -51,7 +51,7 @@ pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WritePro
 pub use input_file::InputFile;
 pub use inputs::{ProtectedInputs, protect_inputs};
 pub use log::{
-    Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
+    Delimiter, Gap, LeftOut, LiveLog, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
     Overflow, PsinsHeader, Redivided, Rounded, TableClock, date_seconds, date_text, peek, read,
     read_log,
 };

@@ -1,6 +1,6 @@
 //! The state of an online filter as text, to the last bit.
 
-use nalgebra::{DVector, Matrix3};
+use nalgebra::Matrix3;
 use rins_frames::{Dcm, InFrame, Increments, Site};
 use rins_imu::{ImuSpec, TriadSpec};
 use rins_motion::Station;
@@ -8,8 +8,8 @@ use rins_terms::{Model, Role, TermInstance, catalogue};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::setup::{OnlineError, OnlineSetup};
 use super::linearized::Linearized;
+use super::setup::{OnlineError, OnlineSetup};
 use super::window::{EpochSamples, Held};
 use super::{OnlineFilter, Totals};
 use crate::noise_parameters::{NoiseParameters, TriadStrengths};
@@ -89,6 +89,7 @@ pub struct OnlineCheckpoint {
     next: usize,
     main: LinearizedState,
     again: Option<LinearizedState>,
+    linearized: usize,
     commanded: Bits,
     totals: Bits,
 }
@@ -153,11 +154,8 @@ fn setup_of(numbers: &[f64], model: Model) -> Result<OnlineSetup, OnlineError> {
         _ => return Err(invalid("the reference is unknown")),
     };
     let site = Site { latitude: at(0), longitude: at(1), height: at(2) };
-    let triad = |place| TriadStrengths {
-        white: at(place),
-        flicker: at(place + 1),
-        walk: at(place + 2),
-    };
+    let triad =
+        |place| TriadStrengths { white: at(place), flicker: at(place + 1), walk: at(place + 2) };
     // The sigmas of all priors are stated in the model.
     let none = TriadSpec::white(0.0, 0.0, 0.0, 0.0);
     Ok(OnlineSetup {
@@ -302,6 +300,7 @@ impl OnlineFilter {
             next: self.next,
             main: LinearizedState::of(&self.main),
             again: self.again.as_ref().map(LinearizedState::of),
+            linearized: self.linearized,
             commanded: Bits(vec![self.commanded]),
             totals: Bits(vec![samples as f64, epochs as f64, square]),
         }
@@ -340,6 +339,7 @@ impl OnlineFilter {
         }
         (filter.start, filter.next) = (checkpoint.start, checkpoint.next);
         filter.is_complete = checkpoint.is_complete;
+        filter.linearized = checkpoint.linearized;
         filter.commanded = same(&checkpoint.commanded, 1)?[0];
         filter.last = checkpoint.time();
         let totals = same(&checkpoint.totals, 3)?;

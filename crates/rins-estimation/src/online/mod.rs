@@ -30,8 +30,8 @@ const GAP: f64 = 1.5;
 /// then four orders of magnitude smaller than the priors.
 const MOVED: f64 = 0.02;
 
-/// The number of epochs that are processed again with each sample that completes no epoch.
-const AGAIN: usize = 1;
+/// The run is not linearized again before it has become longer by this factor.
+const LONGER: f64 = 1.2;
 
 /// The largest number of samples that are kept for another linearization: three hours at 100 Hz.
 const MOST_KEPT: usize = 1 << 20;
@@ -132,6 +132,8 @@ pub struct OnlineFilter {
     next: usize,
     main: Linearized,
     again: Option<Linearized>,
+    /// The number of epochs when the latest point of linearization was chosen.
+    linearized: usize,
     solution: Solution,
     /// The model with the estimates as values.
     model: Model,
@@ -185,6 +187,7 @@ impl OnlineFilter {
             next: 0,
             main: Linearized::new(&common, model.clone()),
             again: None,
+            linearized: 0,
             solution: Solution { step: DVector::zeros(sigmas.len()), sigmas: sigmas.into() },
             commanded: 0.0,
             last: None,
@@ -231,9 +234,11 @@ impl OnlineFilter {
         let count = self.common.setup.epoch;
         if self.kept.len() - self.next >= count + self.common.smoother.beside {
             update = Some(self.process(count)?);
-        } else {
-            self.catch_up(AGAIN)?;
         }
+        // Two epochs at the new point for each at the old one, at other samples than these.
+        let since = (self.kept.len() - self.next).saturating_sub(self.common.smoother.beside);
+        let due = [count / 3, 2 * count / 3].into_iter().filter(|due| *due == since).count();
+        self.catch_up(due)?;
         Ok(update)
     }
 
@@ -278,7 +283,9 @@ impl OnlineFilter {
         self.totals.square += innovation.norm_squared();
         self.totals.epochs += 1;
         self.update()?;
-        if self.is_complete && self.again.is_none() && self.has_moved() {
+        let is_longer = self.main.epochs as f64 > LONGER * self.linearized as f64;
+        if self.is_complete && self.again.is_none() && is_longer && self.has_moved() {
+            self.linearized = self.main.epochs;
             self.again = Some(Linearized::new(&self.common, self.model.clone()));
         }
         self.forget();
@@ -293,7 +300,7 @@ impl OnlineFilter {
 
     /// Processes at most this number of epochs at the new point of linearization.
     fn catch_up(&mut self, most: usize) -> Result<(), Indefinite> {
-        let Some(mut again) = self.again.take() else { return Ok(()) };
+        let Some(mut again) = self.again.take_if(|_| most > 0) else { return Ok(()) };
         let epochs = self.epochs[again.epochs..].iter().take(most);
         for &samples in epochs {
             again.process(&self.common, &self.kept, samples)?;
@@ -316,11 +323,7 @@ impl OnlineFilter {
         if !self.is_complete && unused > 0 {
             self.kept.drain(..unused);
             self.next -= unused;
-            // The first epoch after a gap has been processed, unless it is the next.
             self.start = self.start.saturating_sub(unused);
-            if self.start == 0 && self.next == 0 {
-                self.start = 0;
-            }
         }
     }
 

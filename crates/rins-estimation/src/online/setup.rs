@@ -128,7 +128,9 @@ pub enum OnlineError {
         time: f64,
     },
     /// A number of a sample is not finite, or its interval is not positive.
-    #[error("the sample at {time} s has a number that is not finite, or an interval of {interval} s")]
+    #[error(
+        "the sample at {time} s has a number that is not finite, or an interval of {interval} s"
+    )]
     NotFinite {
         /// The time \[s\].
         time: f64,

@@ -1,16 +1,19 @@
 //! The online filter ends where the batch does, and continues from a checkpoint to the same bits.
 
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use rins_estimation::{
-    NoiseKnowledge, NoiseParameters, OnlineFilter, OnlineSample, OnlineSetup,
-    Reference, Run, TriadStrengths, fit,
+    Estimate, NoiseKnowledge, NoiseParameters, OnlineCheckpoint, OnlineFilter, OnlineSample,
+    OnlineSetup, Reference, Rig, Run, TriadStrengths, fit,
 };
-use rins_frames::units::{ARCSEC, DEG, DEG_PER_HOUR, MICRO_G, PPM};
+use rins_frames::Increments;
+use rins_frames::units::{ARCSEC, DEG_PER_HOUR, MICRO_G, PPM};
 use rins_imu::{Axis, ImuError, ImuSpec, TriadError};
 use rins_motion::Recording;
-use rins_simulation::{Encoder, Scenario, TableRecord};
+use rins_simulation::{Scenario, TableRecord, simulate};
 use rins_terms::{Model, TermInstance, catalogue};
 
-use crate::support::{ENCODER, fibre, profile, run, scenario, tilted, white};
+use crate::support::{fibre, profile, run, scenario, tilted, white};
 
 /// The largest difference between the estimates of filter and batch, in sigmas, and between their sigmas, relative.
 const WITHIN: f64 = 0.01;
@@ -88,27 +91,44 @@ fn cases() -> Vec<Case> {
             "four positions",
             &simulated(
                 (45.0, 10.0),
-                &[(0.0, 10.0), (10.0, 9.0), (0.0, 10.0), (10.0, 9.0), (0.0, 10.0), (10.0, 9.0), (0.0, 10.0)],
+                &[
+                    (0.0, 10.0),
+                    (10.0, 9.0),
+                    (0.0, 10.0),
+                    (10.0, 9.0),
+                    (0.0, 10.0),
+                    (10.0, 9.0),
+                    (0.0, 10.0),
+                ],
                 errors(0.5),
                 4,
             ),
         ),
-        Case::of("slow rotation", &simulated((70.0, 0.0), &[(2.0, 30.0), (-2.0, 30.0)], errors(1.0), 5)),
+        Case::of(
+            "slow rotation",
+            &simulated((70.0, 0.0), &[(2.0, 30.0), (-2.0, 30.0)], errors(1.0), 5),
+        ),
         Case::of("errors of three sigma", &simulated((25.0, 40.0), &reversal, errors(3.0), 6)),
     ];
-    let mut coloured = Case::of("colored noise", &simulated((25.0, 40.0), &reversal, errors(1.0), 7));
-    coloured.noise.gyro = TriadStrengths { flicker: 0.02 * DEG_PER_HOUR, walk: 1e-10, ..coloured.noise.gyro };
+    let mut coloured =
+        Case::of("colored noise", &simulated((25.0, 40.0), &reversal, errors(1.0), 7));
+    coloured.noise.gyro =
+        TriadStrengths { flicker: 0.02 * DEG_PER_HOUR, walk: 1e-10, ..coloured.noise.gyro };
     coloured.noise.accel = TriadStrengths { flicker: 10.0 * MICRO_G, ..coloured.noise.accel };
     cases.push(coloured);
 
     let mut gaps = Case::of("missing samples", &simulated((25.0, 40.0), &reversal, errors(1.0), 8));
-    let kept: Vec<usize> =
-        (0..gaps.run.recording.len()).filter(|sample| !(600..650).contains(sample) && *sample != 1400).collect();
+    let kept: Vec<usize> = (0..gaps.run.recording.len())
+        .filter(|sample| !(600..650).contains(sample) && *sample != 1400)
+        .collect();
     let all = &gaps.run.recording;
     let recording = Recording {
         times: kept.iter().map(|&sample| all.times[sample]).collect(),
         increments: kept.iter().map(|&sample| all.increments[sample]).collect(),
-        table_angle: all.table_angle.as_ref().map(|list| kept.iter().map(|&one| list[one]).collect()),
+        table_angle: all
+            .table_angle
+            .as_ref()
+            .map(|list| kept.iter().map(|&one| list[one]).collect()),
         ..Recording::default()
     };
     gaps.run = Run::new(gaps.run.rig, recording).unwrap();
@@ -120,28 +140,32 @@ fn cases() -> Vec<Case> {
         .with(TermInstance::new(&catalogue::AXIS_ATTITUDE).with_values(&attitude))
         .with(arm);
     let fast = [(0.0, 5.0), (60.0, 30.0), (-30.0, 30.0)];
-    let leaning = scenario(tilted(60.0, 20.0), profile(&fast), (errors(1.0), truth), Some(white(&imu)), 9);
+    let leaning =
+        scenario(tilted(60.0, 20.0), profile(&fast), (errors(1.0), truth), Some(white(&imu)), 9);
     let mut leaning = Case::of("attitude and lever arm", &leaning);
     leaning.model = Model::full().with(TermInstance::new(&catalogue::ACCEL_LEVER_ARM).estimated());
     cases.push(leaning);
 
-    let commanded = Scenario {
-        table: TableRecord::CommandedRate,
-        ..simulated((30.0, 0.0), &reversal, errors(1.0), 10)
-    };
-    let recording = rins_simulation::simulate(&commanded).unwrap().recording;
-    let rig = rins_estimation::Rig { reference: Reference::Command { noise: 1e-7 }, ..cases[0].run.rig };
-    let rig = rins_estimation::Rig { nav_from_table: commanded.nav_from_table, ..rig };
-    let command = Run::new(rig, recording).unwrap();
-    cases.push(Case { run: command, ..Case::of("commanded rate", &simulated((30.0, 0.0), &reversal, errors(1.0), 10)) });
-    let _ = (Encoder { noise: ENCODER, resolution: None, zero: 0.0 }, DEG);
+    let read = simulated((30.0, 0.0), &reversal, errors(1.0), 10);
+    let commanded = Scenario { table: TableRecord::CommandedRate, ..read.clone() };
+    let mut command = Case::of("commanded rate", &read);
+    let rig = Rig { reference: Reference::Command { noise: 1e-7 }, ..command.run.rig };
+    command.run = Run::new(rig, simulate(&commanded).unwrap().recording).unwrap();
+    cases.push(command);
     cases
+}
+
+/// The largest difference of two lists of estimates in sigmas, and of their sigmas, relative, with the parameter.
+fn apart(one: &[Estimate], other: &[Estimate]) -> (f64, String) {
+    let of = |(one, other): (&Estimate, &Estimate)| {
+        let off = ((one.value - other.value) / other.sigma).abs();
+        (off.max((one.sigma / other.sigma - 1.0).abs()), other.parameter.id.clone())
+    };
+    one.iter().zip(other).map(of).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap()
 }
 
 #[test]
 fn online_estimates_end_where_the_batch_does() {
-    let mut report = String::new();
-    let mut worst: f64 = 0.0;
     for case in cases() {
         let setup = case.setup();
         let batch = fit(
@@ -153,29 +177,108 @@ fn online_estimates_end_where_the_batch_does() {
         )
         .unwrap();
         let mut online = OnlineFilter::new(setup).unwrap();
-        let start = std::time::Instant::now();
         for sample in samples(&case.run) {
             online.push(&sample).unwrap();
         }
-        let took = start.elapsed().as_secs_f64() / case.run.recording.len() as f64;
-        let before_finish = online.estimates();
+        let (before, _) = apart(&online.estimates(), &batch.parameters);
         let online = online.finish().unwrap();
-        let early = before_finish.iter().zip(&batch.parameters).map(|(one, other)| (one.value - other.value).abs() / other.sigma).fold(0.0, f64::max);
-        let (mut apart, mut of, mut ratio) = (0.0_f64, String::new(), 1.0_f64);
-        for (one, other) in online.estimates().iter().zip(&batch.parameters) {
-            let off = (one.value - other.value).abs() / other.sigma;
-            if off > apart {
-                (apart, of) = (off, other.parameter.id.clone());
-            }
-            let wide = one.sigma / other.sigma;
-            if (wide - 1.0).abs() > (ratio - 1.0).abs() {
-                ratio = wide;
-            }
-        }
+        let (off, id) = apart(&online.estimates(), &batch.parameters);
+        println!("{:24} {off:.6} sigma ({id}), {before:.3} before the end", case.name);
+        assert!(off < WITHIN, "{}: {id} is {off} sigma from the batch", case.name);
         let nis = online.innovation_variance().unwrap();
-        report += &format!("{:26} {apart:.5} sigma ({of}), sigmas {ratio:.6}, {:.1} us a sample, nis {nis:.3}, before finish {early:.5}\n", case.name, took * 1e6);
-        worst = worst.max(apart).max((ratio - 1.0).abs());
+        assert!((0.5..2.0).contains(&nis), "{}: {nis}", case.name);
     }
-    println!("{report}");
-    assert!(worst < WITHIN, "{report}");
+}
+
+/// A filter that is stopped after any sample and continued from the text of its checkpoint is the same to the last bit.
+#[test]
+fn resumed_filter_is_the_same_to_the_last_bit() {
+    let cases = cases();
+    for case in
+        cases.iter().filter(|case| ["colored noise", "missing samples"].contains(&case.name))
+    {
+        let samples = &samples(&case.run)[..900];
+        let mut whole = OnlineFilter::new(case.setup()).unwrap();
+        for sample in samples {
+            whole.push(sample).unwrap();
+        }
+        let whole = whole.finish().unwrap().checkpoint();
+        let mut random = Pcg64::seed_from_u64(1);
+        for _ in 0..8 {
+            let stop = random.random_range(0..samples.len());
+            let mut first = OnlineFilter::new(case.setup()).unwrap();
+            for sample in &samples[..stop] {
+                first.push(sample).unwrap();
+            }
+            let text = serde_json::to_string(&first.checkpoint()).unwrap();
+            let read: OnlineCheckpoint = serde_json::from_str(&text).unwrap();
+            assert_eq!(read.time(), stop.checked_sub(1).map(|last| samples[last].time));
+            let mut second = OnlineFilter::resume(&read).unwrap();
+            assert_eq!(second.estimates(), first.estimates());
+            assert_eq!(second.compensation(), first.compensation());
+            for sample in &samples[stop..] {
+                second.push(sample).unwrap();
+            }
+            let second = second.finish().unwrap();
+            assert!(second.checkpoint() == whole, "{}: stopped after sample {stop}", case.name);
+        }
+    }
+}
+
+#[test]
+fn sample_that_is_not_valid_changes_nothing() {
+    let case = &cases()[0];
+    let samples = samples(&case.run);
+    let mut filter = OnlineFilter::new(case.setup()).unwrap();
+    for sample in &samples[..300] {
+        filter.push(sample).unwrap();
+    }
+    let before = filter.checkpoint();
+    let good = samples[300];
+    let infinite = Increments { interval: f64::INFINITY, ..good.increments };
+    for (bad, told) in [
+        (OnlineSample { table: None, ..good }, "has no reading of the table"),
+        (OnlineSample { table: Some(f64::NAN), ..good }, "not finite"),
+        (OnlineSample { increments: infinite, ..good }, "interval of inf s"),
+        (OnlineSample { time: samples[299].time, ..good }, "does not increase"),
+    ] {
+        let refused = filter.push(&bad).unwrap_err().to_string();
+        assert!(refused.contains(told), "{refused}");
+        assert!(filter.checkpoint() == before, "{refused}");
+    }
+}
+
+#[test]
+fn setup_and_checkpoint_are_checked() {
+    let case = &cases()[0];
+    let told = |setup: OnlineSetup| OnlineFilter::new(setup).unwrap_err().to_string();
+    let rest = Rig { reference: Reference::Rest, ..case.run.rig };
+    assert!(told(OnlineSetup { rig: rest, ..case.setup() }).contains("table angle"));
+    assert!(
+        told(OnlineSetup { interval: 0.0, ..case.setup() }).contains("interval of a sample is 0")
+    );
+    assert!(told(OnlineSetup { model: Model::default(), ..case.setup() }).contains("no parameter"));
+    let drift = TermInstance::new(&catalogue::GYRO_BIAS_RAMP).estimated();
+    let model = Model::full().with(drift);
+    assert!(told(OnlineSetup { model, ..case.setup() }).contains(catalogue::GYRO_BIAS_RAMP.id));
+
+    let text =
+        serde_json::to_string(&OnlineFilter::new(case.setup()).unwrap().checkpoint()).unwrap();
+    let spoilt = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        match serde_json::from_str::<OnlineCheckpoint>(&text.replacen(from, to, 1)) {
+            Ok(read) => OnlineFilter::resume(&read).unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        }
+    };
+    for (from, to, told) in [
+        ("\"version\":1", "\"version\":2", "another version"),
+        ("gyro.bias", "gyro.bios", "a term is unknown"),
+        ("\"score\":\"0000000000000000", "\"score\":\"", "cut"),
+        ("\"score\":\"0", "\"score\":\"", "sixteen hexadecimal digits"),
+        ("\"next\":0", "\"next\":7", "cut"),
+    ] {
+        let refused = spoilt(from, to);
+        assert!(refused.contains(told), "{refused}");
+    }
 }
