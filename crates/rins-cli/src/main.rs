@@ -11,6 +11,7 @@ mod args;
 mod choices;
 mod deliver;
 mod interrupt;
+mod live;
 mod progress;
 mod run;
 
