@@ -10,11 +10,12 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use rins::ModelChoice;
 use rins::live::{LiveCalibration, LiveEnd, LiveOptions};
-use rins_io::{Rig, shown};
+use rins_io::{Rig, ensure_replaceable, open_input, shown};
 
 use crate::args::{Arguments, Calibrate, LiveSource};
 use crate::deliver::deliver;
 use crate::interrupt;
+use crate::serve::Server;
 
 /// The time after which a source without new bytes is looked at again.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -64,6 +65,17 @@ impl Source {
         Self::Stdin(receiver)
     }
 
+    /// Refuses a file that does not exist yet.
+    fn ensure_there(&self) -> anyhow::Result<()> {
+        match self {
+            Self::File { path, file: None, .. } => {
+                let opened = open_input(path);
+                opened.map(drop).with_context(|| format!("cannot read {}", shown(path)))
+            }
+            Self::File { .. } | Self::Stdin(_) => Ok(()),
+        }
+    }
+
     /// The next bytes, after a pause if there are none yet.
     fn next(&mut self) -> anyhow::Result<Portion> {
         match self {
@@ -78,7 +90,7 @@ impl Source {
             Self::File { path, file, length } => {
                 let failed = || format!("cannot read {}", shown(path));
                 if file.is_none() && path.exists() {
-                    *file = Some(File::open(&*path).with_context(failed)?);
+                    *file = Some(open_input(path).with_context(failed)?);
                 }
                 let mut bytes = vec![0; PORTION];
                 let read = match file {
@@ -110,6 +122,7 @@ struct Display<'a> {
     arguments: &'a Arguments,
     every: Duration,
     checkpoint: Option<&'a Path>,
+    server: Option<Server>,
     shown: Instant,
     stored: Instant,
     sparing: Duration,
@@ -121,6 +134,9 @@ impl Display<'_> {
         if self.shown.elapsed() >= self.every {
             self.shown = Instant::now();
             self.line(&live.line())?;
+            if let Some(server) = &self.server {
+                server.show(live);
+            }
         }
         if self.stored.elapsed() >= self.every.max(self.sparing) {
             self.store(live)?;
@@ -166,6 +182,9 @@ pub(crate) fn run_live(
         duration: own.duration,
         start: own.start,
     };
+    if let Some(checkpoint) = own.checkpoint.as_deref().filter(|_| !own.resume) {
+        ensure_replaceable(checkpoint, arguments.overwrite())?;
+    }
     let name = (source == LiveSource::Stdin).then(|| Path::new(STANDARD_INPUT));
     let mut live = match &own.checkpoint {
         Some(checkpoint) if own.resume => {
@@ -182,6 +201,7 @@ pub(crate) fn run_live(
         arguments,
         every: Duration::from_secs_f64(own.every),
         checkpoint: own.checkpoint.as_deref(),
+        server: own.serve.map(Server::start).transpose()?,
         shown: now,
         stored: now,
         sparing: Duration::ZERO,
@@ -214,7 +234,10 @@ fn follow(
                 live.feed(&bytes)?;
                 last = Instant::now();
             }
-            Portion::Nothing if last.elapsed() >= idle => return Ok(LiveEnd::Idle),
+            Portion::Nothing if last.elapsed() >= idle => {
+                source.ensure_there()?;
+                return Ok(LiveEnd::Idle);
+            }
             Portion::Nothing => {}
             Portion::End => return Ok(LiveEnd::Closed),
         }

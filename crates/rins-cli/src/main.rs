@@ -14,6 +14,7 @@ mod interrupt;
 mod live;
 mod progress;
 mod run;
+mod serve;
 
 fn main() -> ExitCode {
     let arguments = Arguments::read();

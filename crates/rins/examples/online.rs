@@ -36,14 +36,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let finished = vec![*outcome.filter().compensation(); recording.len()];
     let uncompensated = vec![none; recording.len()];
     let attitude = log.loaded.rig.attitude.ok_or("the scenario states no attitude")?;
-    println!("\n  from [s]  compensation  v_E [m/s]  v_N [m/s]  roll [deg]  pitch [deg]  yaw [deg]");
+    println!(
+        "\n  from [s]  compensation  v_E [m/s]  v_N [m/s]  roll [deg]  pitch [deg]  yaw [deg]"
+    );
     for start in STARTS {
         let first = recording.times.partition_point(|time| *time <= start);
         let part: Recording = recording.slice(first, recording.len());
         let angles = table_angles(recording, 0.0).ok_or("no table angle")?;
-        for (name, list) in
-            [("none", &uncompensated), ("online", &online), ("batch", &finished)]
-        {
+        for (name, list) in [("none", &uncompensated), ("online", &online), ("batch", &finished)] {
             let end = navigate_online(
                 &part,
                 &angles[first..],

@@ -1,7 +1,8 @@
 //! Calibration of a log while it is written.
 
 use std::fs::{self, OpenOptions};
-use std::io::Write as _;
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
 use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
@@ -93,13 +94,55 @@ fn live_log_ends_where_the_finished_one_does() {
 
     // A bad row is an error with its line; what was read before it is in the checkpoint.
     let lines: Vec<&[u8]> = log.split_inclusive(|byte| *byte == b'\n').collect();
-    let spoilt = [lines[..701].concat(), b"28.04,1,2,three,4,5,6,7\n".to_vec(), lines[702..].concat()];
+    let spoilt =
+        [lines[..701].concat(), b"28.04,1,2,three,4,5,6,7\n".to_vec(), lines[702..].concat()];
     let refused = live_of(folder, &spoilt.concat(), "--checkpoint state.json");
     assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
     assert!(refused.err.contains("standard input:702: "), "{}", refused.err);
     let resumed = live_of(folder, &log, "--checkpoint state.json --resume");
     assert_eq!(resumed.code, Some(0), "{}", resumed.err);
     assert_eq!(object(&resumed), live);
+}
+
+/// The page and the estimates of a calibration that goes on, over HTTP.
+#[test]
+fn estimates_are_served_while_the_log_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    simulate(folder);
+    let log = fs::read(folder.join("run/run.csv")).unwrap();
+    let mut command = rins();
+    let arguments = "calibrate run/rig.toml --live=- --serve=127.0.0.1:0 --every 0.05";
+    command.args(arguments.split_whitespace()).current_dir(folder);
+    command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    let mut pipe = child.stdin.take().unwrap();
+    pipe.write_all(&log).unwrap();
+    let mut told = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    told.read_line(&mut line).unwrap();
+    let address =
+        line.trim().strip_prefix("page: http://").unwrap().trim_end_matches('/').to_owned();
+    let ask = |request: &str| {
+        let mut stream = TcpStream::connect(&address).unwrap();
+        write!(stream, "{request} HTTP/1.1\r\nHost: {address}\r\n\r\n").unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        answer
+    };
+    assert!(ask("GET /").contains("Calibration while the table turns"));
+    assert!(ask("GET /etc/passwd").starts_with("HTTP/1.1 404"));
+    assert!(ask("POST /").starts_with("HTTP/1.1 405"));
+    let served = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(50));
+        let answer = ask("GET /estimates.json");
+        let (_, body) = answer.split_once("\r\n\r\n").unwrap();
+        let now: Value = serde_json::from_str(body).unwrap();
+        (list(&now, "/parameters").len() == 27 && number(&now, "/time_s") > 30.0).then_some(now)
+    });
+    assert!(number(&served.unwrap(), "/samples") > 750.0);
+    drop(pipe);
+    assert!(child.wait().unwrap().success());
 }
 
 #[test]
@@ -127,6 +170,7 @@ fn live_log_that_cannot_be_used_is_refused() {
     fs::write(&rig, text.replace("run.csv", "other.csv")).unwrap();
     let absent = rins_in(folder, "calibrate run/rig.toml --live --idle 0.2");
     told(&absent, 1, "other.csv");
-    fs::write(&rig, text.replace("table_angle = {", "table_angle = { latency = \"1 ms\",")).unwrap();
+    fs::write(&rig, text.replace("table_angle = {", "table_angle = { latency = \"1 ms\","))
+        .unwrap();
     told(&live_of(folder, &log, ""), 1, "a live log has a table angle without latency");
 }

@@ -1,5 +1,6 @@
 //! The arguments of `rins calibrate`.
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
@@ -58,6 +59,16 @@ pub(crate) struct Live {
     /// Continue from the checkpoint; rows up to its time are passed over
     #[arg(long, requires = "checkpoint")]
     pub(crate) resume: bool,
+    /// Show the estimates on a page at this address while the command runs; by default only for this computer
+    #[arg(
+        long,
+        requires = "live",
+        value_name = "ADDRESS",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "127.0.0.1:8080"
+    )]
+    pub(crate) serve: Option<SocketAddr>,
     /// Interval of the lines and of the checkpoints
     #[arg(long, requires = "live", value_name = "SECONDS", default_value_t = 1.0, value_parser = seconds)]
     pub(crate) every: f64,

@@ -8,10 +8,10 @@ use rins_terms::{Model, Role, TermInstance, catalogue};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::filter::{OnlineFilter, Totals};
 use super::linearized::Linearized;
 use super::setup::{OnlineError, OnlineSetup};
 use super::window::{EpochSamples, Held};
-use super::{OnlineFilter, Totals};
 use crate::noise_parameters::{NoiseParameters, TriadStrengths};
 use crate::rounding::AngleSteps;
 use crate::run::{Reference, Rig};
@@ -66,6 +66,7 @@ struct LinearizedState {
     columns: Bits,
     information: Bits,
     score: Bits,
+    square: Bits,
     epochs: usize,
     angle: Bits,
 }
@@ -91,7 +92,7 @@ pub struct OnlineCheckpoint {
     again: Option<LinearizedState>,
     linearized: usize,
     commanded: Bits,
-    totals: Bits,
+    totals: [usize; 2],
 }
 
 impl OnlineCheckpoint {
@@ -254,6 +255,7 @@ impl LinearizedState {
             columns: list(pass.columns.as_slice()),
             information: list(normal.information.as_slice()),
             score: list(normal.score.as_slice()),
+            square: Bits(vec![normal.square]),
             epochs: *epochs,
             angle: Bits(angle.iter().copied().collect()),
         }
@@ -278,6 +280,7 @@ impl LinearizedState {
         ] {
             to.copy_from_slice(same(from, to.len())?);
         }
+        linearized.normal.square = same(&self.square, 1)?[0];
         (linearized.epochs, linearized.angle) = (self.epochs, self.angle.0.first().copied());
         Ok(linearized)
     }
@@ -286,7 +289,7 @@ impl LinearizedState {
 impl OnlineFilter {
     /// The complete state.
     pub fn checkpoint(&self) -> OnlineCheckpoint {
-        let Totals { samples, epochs, square } = self.totals;
+        let Totals { samples, epochs } = self.totals;
         let span = |of: &EpochSamples| [of.start, of.first, of.end, of.last];
         OnlineCheckpoint {
             version: VERSION,
@@ -302,7 +305,7 @@ impl OnlineFilter {
             again: self.again.as_ref().map(LinearizedState::of),
             linearized: self.linearized,
             commanded: Bits(vec![self.commanded]),
-            totals: Bits(vec![samples as f64, epochs as f64, square]),
+            totals: [samples, epochs],
         }
     }
 
@@ -342,9 +345,8 @@ impl OnlineFilter {
         filter.linearized = checkpoint.linearized;
         filter.commanded = same(&checkpoint.commanded, 1)?[0];
         filter.last = checkpoint.time();
-        let totals = same(&checkpoint.totals, 3)?;
-        let (samples, epochs) = (count(totals[0])?, count(totals[1])?);
-        filter.totals = Totals { samples, epochs, square: totals[2] };
+        let [samples, epochs] = checkpoint.totals;
+        filter.totals = Totals { samples, epochs };
         if epochs > 0 {
             filter.update()?;
         }

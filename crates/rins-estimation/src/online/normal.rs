@@ -9,6 +9,8 @@ use crate::step::SHOWN;
 pub(super) struct Normal {
     pub(super) information: DMatrix<f64>,
     pub(super) score: DVector<f64>,
+    /// The sum of the squared whitened innovations at the point of linearization.
+    pub(super) square: f64,
     /// The sigmas of the priors.
     sigmas: DVector<f64>,
 }
@@ -28,6 +30,7 @@ impl Normal {
         Self {
             information: DMatrix::zeros(p, p),
             score: DVector::zeros(p),
+            square: 0.0,
             sigmas: DVector::from_column_slice(sigmas),
         }
     }
@@ -37,6 +40,7 @@ impl Normal {
         let p = self.score.len();
         for row in whitened.chunks_exact(whitened.len() / SHOWN) {
             let (residual, by) = (row[0], &row[1..=p]);
+            self.square += residual * residual;
             for (place, factor) in by.iter().enumerate() {
                 self.score[place] -= factor * residual;
                 // The lower triangle.
@@ -45,6 +49,13 @@ impl Normal {
                 below.for_each(|(sum, other)| *sum += factor * other);
             }
         }
+    }
+
+    /// The sum of the squared whitened innovations at an estimate relative to the point of linearization.
+    pub(super) fn square_at(&self, step: &DVector<f64>) -> f64 {
+        let mut change = DVector::zeros(step.len());
+        change.sygemv(1.0, &self.information, step, 0.0);
+        self.square + step.dot(&change) - 2.0 * self.score.dot(step)
     }
 
     /// The information with the priors, in units of their sigmas, as its Cholesky factor; `None` if it is not finite.

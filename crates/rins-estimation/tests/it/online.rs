@@ -186,7 +186,7 @@ fn online_estimates_end_where_the_batch_does() {
         println!("{:24} {off:.6} sigma ({id}), {before:.3} before the end", case.name);
         assert!(off < WITHIN, "{}: {id} is {off} sigma from the batch", case.name);
         let nis = online.innovation_variance().unwrap();
-        assert!((0.5..2.0).contains(&nis), "{}: {nis}", case.name);
+        assert!((0.9..1.1).contains(&nis), "{}: {nis}", case.name);
     }
 }
 

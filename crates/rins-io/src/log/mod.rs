@@ -62,6 +62,24 @@ pub struct Loaded {
     pub psins_header: Option<PsinsHeader>,
 }
 
+impl Loaded {
+    /// Samples of a log that is read while it is written.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig file states no site.
+    pub fn of_live(log: &LiveLog, recording: Recording) -> Result<Self, IoError> {
+        let interval = log.nominal_interval().unwrap_or_else(|| recording.mean_interval());
+        Ok(Self {
+            station: *log.rig().require_station()?,
+            rig: log.rig().clone(),
+            summary: LogSummary::even(recording.len(), interval),
+            recording,
+            rotations: Vec::new(),
+            psins_header: None,
+        })
+    }
+}
+
 /// Reads a rig file and its log.
 ///
 /// # Errors

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use rins_estimation::{OnlineFilter, OnlineSample, OnlineSetup};
 use rins_frames::SignedAxes;
-use rins_io::{InputFile, LiveLog, Rig, shown};
+use rins_io::{InputFile, LiveLog, Loaded, Rig, shown};
 use rins_motion::{Recording, whole};
 use rins_report::number::{decimal, estimate as written};
 
@@ -173,7 +173,7 @@ impl LiveCalibration {
     /// Prepares the filter from the samples at the start, and processes them.
     fn begin(&mut self) -> anyhow::Result<()> {
         let start = std::mem::take(&mut self.start);
-        let loaded = self.log.loaded(start.clone())?;
+        let loaded = Loaded::of_live(&self.log, start.clone())?;
         let log = Log { name: self.name.clone(), loaded, inputs: Vec::new() };
         let named = NamedModel::of(&self.options.model, &self.log.rig().spin)?;
         let prepared = Prepared::of(log, NoiseChoice::Given)?;

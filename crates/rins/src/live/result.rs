@@ -29,7 +29,7 @@ pub struct LiveResult {
     pub epochs: usize,
     /// The duration of an epoch \[s\].
     pub epoch_s: f64,
-    /// The mean squared whitened innovation, each at the estimate before it: 1 if the model describes the run.
+    /// The mean squared whitened innovation at the estimate: 1 if model and noise describe the run.
     pub innovation_variance: Option<f64>,
     /// The estimates.
     pub parameters: Vec<LiveParameterResult>,

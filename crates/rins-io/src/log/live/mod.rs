@@ -9,11 +9,9 @@ use std::path::{Path, PathBuf};
 use rins_motion::Recording;
 
 use self::rows::{Row, Samples};
-use super::Loaded;
 use super::instant::Instants;
 use super::lines::Lines;
 use super::problem::LogProblem;
-use super::summary::LogSummary;
 use super::table::{Head, Wanted, WantedTime, read_rows};
 use crate::error::{IoError, KeyError, KeyProblem, LogError};
 use crate::rig::{ColumnSpec, LogFormat, Rig, Stamp, Table, TimeUnit};
@@ -267,22 +265,6 @@ impl LiveLog {
     /// The rig.
     pub const fn rig(&self) -> &Rig {
         &self.rig
-    }
-
-    /// A recording of samples of this log as a finished log.
-    ///
-    /// # Errors
-    /// [`IoError::Key`] if the rig file states no site.
-    pub fn loaded(&self, recording: Recording) -> Result<Loaded, IoError> {
-        let interval = self.samples.nominal.unwrap_or_else(|| recording.mean_interval());
-        Ok(Loaded {
-            station: *self.rig.require_station()?,
-            rig: self.rig.clone(),
-            summary: LogSummary::even(recording.len(), interval),
-            recording,
-            rotations: Vec::new(),
-            psins_header: None,
-        })
     }
 }
 
