@@ -187,10 +187,8 @@ pub(crate) fn run_live(
     }
     let name = (source == LiveSource::Stdin).then(|| Path::new(STANDARD_INPUT));
     let mut live = match &own.checkpoint {
-        Some(checkpoint) if own.resume => {
-            LiveCalibration::resume(rig.clone(), name, options, checkpoint)?
-        }
-        _ => LiveCalibration::new(rig.clone(), name, options)?,
+        Some(checkpoint) if own.resume => LiveCalibration::resume(rig, name, options, checkpoint)?,
+        _ => LiveCalibration::new(rig, name, options)?,
     };
     let mut source = match source {
         LiveSource::Stdin => Source::stdin(),

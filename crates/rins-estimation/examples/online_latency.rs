@@ -1,4 +1,5 @@
 //! The time that an online filter takes for a sample with 27 parameters: `cargo run --release --example online_latency`.
+#![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use std::time::Instant;
 

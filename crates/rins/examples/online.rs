@@ -1,5 +1,6 @@
 //! The paper's simulated run, compensated while the table turns, beside the finished estimate and no compensation:
 //! `cargo run --release -p rins --example online -- scenarios/paper/simulation.toml`.
+#![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use std::path::PathBuf;
 
@@ -21,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let log = Log::open(&rig)?;
     let recording = &log.loaded.recording;
     let options = LiveOptions { start: 2.0, ..LiveOptions::default() };
-    let mut live = LiveCalibration::new(rig, None, options)?;
+    let mut live = LiveCalibration::new(&rig, None, options)?;
     // The compensation that is known before each sample, row by row.
     let none = ImuError::default().compensation()?;
     let mut online: Vec<Compensation> = Vec::new();

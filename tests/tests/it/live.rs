@@ -20,6 +20,7 @@ fn simulate(folder: &Path) {
     let demo = rins_tests::workspace().join("crates/rins/data/demo/scenario.toml");
     let scenario = fs::read_to_string(demo).unwrap();
     let short = scenario
+        .replace("\"25 Hz\"", "\"50 Hz\"")
         .replace("\"180 s\"", "\"15 s\"")
         .replace("\"20 s\"", "\"10 s\"")
         .replace("acceleration", "wobble = \"0.1 arcsec\"\nacceleration");
@@ -95,10 +96,10 @@ fn live_log_ends_where_the_finished_one_does() {
     // A bad row is an error with its line; what was read before it is in the checkpoint.
     let lines: Vec<&[u8]> = log.split_inclusive(|byte| *byte == b'\n').collect();
     let spoilt =
-        [lines[..701].concat(), b"28.04,1,2,three,4,5,6,7\n".to_vec(), lines[702..].concat()];
+        [lines[..1401].concat(), b"28.02,1,2,three,4,5,6,7\n".to_vec(), lines[1402..].concat()];
     let refused = live_of(folder, &spoilt.concat(), "--checkpoint state.json");
     assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""));
-    assert!(refused.err.contains("standard input:702: "), "{}", refused.err);
+    assert!(refused.err.contains("standard input:1402: "), "{}", refused.err);
     let resumed = live_of(folder, &log, "--checkpoint state.json --resume");
     assert_eq!(resumed.code, Some(0), "{}", resumed.err);
     assert_eq!(object(&resumed), live);
@@ -140,7 +141,7 @@ fn estimates_are_served_while_the_log_is_read() {
         let now: Value = serde_json::from_str(body).unwrap();
         (list(&now, "/parameters").len() == 27 && number(&now, "/time_s") > 30.0).then_some(now)
     });
-    assert!(number(&served.unwrap(), "/samples") > 750.0);
+    assert!(number(&served.unwrap(), "/samples") > 1500.0);
     drop(pipe);
     assert!(child.wait().unwrap().success());
 }

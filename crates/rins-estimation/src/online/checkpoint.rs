@@ -129,7 +129,7 @@ fn invalid(what: &str) -> OnlineError {
 
 /// A count that is stored as a number.
 fn count(number: f64) -> Result<usize, OnlineError> {
-    let is_count = number >= 0.0 && number < 9e15 && number.fract().abs() < f64::EPSILON;
+    let is_count = (0.0..9e15).contains(&number) && number.fract().abs() < f64::EPSILON;
     if !is_count {
         return Err(invalid("a count is not a whole number"));
     }

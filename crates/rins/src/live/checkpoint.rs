@@ -1,6 +1,6 @@
 //! The state of a live calibration in a file.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::Context;
 use rins_estimation::{OnlineCheckpoint, OnlineFilter};
@@ -56,12 +56,12 @@ impl LiveCalibration {
     /// # Errors
     /// As [`LiveCalibration::new`], and if the checkpoint cannot be read, is damaged, or belongs to another rig file or model.
     pub fn resume(
-        rig: PathBuf,
+        rig: &Path,
         source: Option<&Path>,
         options: LiveOptions,
         checkpoint: &Path,
     ) -> Result<Self> {
-        Ok(Self::resumed(&rig, source, options, checkpoint)?)
+        Ok(Self::resumed(rig, source, options, checkpoint)?)
     }
 
     fn resumed(

@@ -4,8 +4,9 @@ mod checkpoint;
 mod outcome;
 mod result;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use anyhow::Context;
 use rins_estimation::{OnlineFilter, OnlineSample, OnlineSetup};
 use rins_frames::SignedAxes;
 use rins_io::{InputFile, LiveLog, Loaded, Rig, shown};
@@ -69,7 +70,7 @@ pub enum LiveEnd {
 /// use rins::Outcome;
 /// let folder = tempfile::tempdir()?;
 /// let log = rins::demo::log(folder.path())?;
-/// let mut live = LiveCalibration::new(log.loaded.rig.path.clone(), None, LiveOptions::default())?;
+/// let mut live = LiveCalibration::new(&log.loaded.rig.path, None, LiveOptions::default())?;
 /// for part in std::fs::read(&log.loaded.rig.log.path)?.chunks(1 << 16) {
 ///     live.feed(part)?;
 /// }
@@ -119,8 +120,8 @@ impl LiveCalibration {
     ///
     /// # Errors
     /// If the rig file cannot be read or has an invalid value, or if its log cannot be read while it is written.
-    pub fn new(rig: PathBuf, source: Option<&Path>, options: LiveOptions) -> Result<Self> {
-        Ok(Self::opened(&rig, source, options)?)
+    pub fn new(rig: &Path, source: Option<&Path>, options: LiveOptions) -> Result<Self> {
+        Ok(Self::opened(rig, source, options)?)
     }
 
     fn opened(path: &Path, source: Option<&Path>, options: LiveOptions) -> anyhow::Result<Self> {
@@ -252,9 +253,12 @@ impl LiveCalibration {
         if self.filter.is_none() {
             self.begin()?;
         }
+        Ok(self.ended(end)?)
+    }
+
+    fn ended(self, end: LiveEnd) -> anyhow::Result<LiveOutcome> {
         let Self { name, model, filter, axes, notes, basis, .. } = self;
-        let filter = filter.expect("the filter has just been prepared");
-        let filter = filter.finish().map_err(anyhow::Error::from)?;
+        let filter = filter.context("the log has no samples")?.finish()?;
         Ok(LiveOutcome { name, model, filter, axes, end, notes, basis })
     }
 }

@@ -175,7 +175,7 @@ impl LiveLog {
     /// Recognizes the columns in the first lines, and processes the rows in them.
     fn begin(&mut self, complete: usize, is_end: bool) -> Result<(), IoError> {
         let bytes = self.buffer[..complete].to_vec();
-        let count = bytes.iter().filter(|byte| **byte == b'\n').count() as u64;
+        let count = bytes.split(|byte| *byte == b'\n').count() as u64 - 1;
         let skip = self.columns.text.skip.unwrap_or_default();
         if count < HEAD.0 + skip && !is_end {
             return Ok(());
@@ -242,7 +242,7 @@ impl LiveLog {
                     numbers: columns.numbers.iter().map(|list| list[row]).collect(),
                 });
                 for row in rows {
-                    if let Err(error) = self.samples.push(row, is_counter) {
+                    if let Err(error) = self.samples.push(&row, is_counter) {
                         self.failed = Some(error);
                         return;
                     }

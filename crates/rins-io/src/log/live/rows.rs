@@ -111,8 +111,8 @@ impl Samples {
     }
 
     /// Takes a row; its time is a number of samples if the column `is_counter`.
-    pub(super) fn push(&mut self, row: Row, is_counter: bool) -> Result<(), IoError> {
-        let reads = self.reads(&row, is_counter)?;
+    pub(super) fn push(&mut self, row: &Row, is_counter: bool) -> Result<(), IoError> {
+        let reads = self.reads(row, is_counter)?;
         let Some(reads) = reads else { return Ok(()) };
         self.count += 1;
         if self.nominal.is_some() {
@@ -250,9 +250,8 @@ impl Samples {
         let [angle, velocity] = [(of.gyro, increments[0]), (of.accel, increments[1])].map(
             |(value, is_increment)| match (is_increment, accumulates) {
                 (false, _) => value * interval,
-                (true, true) => value,
                 (true, false) if is_gap => value * (interval / nominal),
-                (true, false) => value,
+                (true, _) => value,
             },
         );
         self.ready.times.push(end);
