@@ -10,10 +10,12 @@ use rins_io::{LogFile, Overwrite, shown};
 
 use crate::choices::Noise;
 
+mod calibrate;
 mod history;
 mod mission;
 mod observe;
 
+pub(crate) use self::calibrate::{Calibrate, LiveSource};
 pub(crate) use self::history::History;
 pub(crate) use self::mission::Mission;
 pub(crate) use self::observe::Observe;
@@ -226,24 +228,6 @@ pub(crate) struct Navigate {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Calibrate {
-    /// The rig files: one, or several runs of one IMU
-    #[arg(required = true, value_name = "RIG")]
-    pub(crate) rigs: Vec<PathBuf>,
-    /// Folder for result.json, report.html, calibration.toml and model.toml
-    #[arg(short, long, value_name = "DIR")]
-    pub(crate) output: Option<PathBuf>,
-    /// The model: paper12 (`M_xz`, `M_yz` and `S_z` by the 12-state filter of Nie et al. (2019)), full (biases, scale errors,
-    /// misalignments, attitude of the spin axis), or a model file; by default paper12 for one run with an encoder angle
-    /// or a commanded table rate and a known attitude of the axis, and full otherwise
-    #[arg(long, value_parser = ModelChoice::parse)]
-    pub(crate) model: Option<ModelChoice>,
-    /// Source of the noise parameters; paper12 always uses the data sheet
-    #[arg(long, value_enum, default_value_t = Noise::Likely)]
-    pub(crate) noise: Noise,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct Diagnose {
     /// The rig files: one, or several runs of one IMU
     #[arg(required = true, value_name = "RIG")]
@@ -314,17 +298,6 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
     numbers
         .filter(|(shard, of)| (1..=*of).contains(shard))
         .ok_or_else(|| "expected a shard of so many, such as 2/5".into())
-}
-
-impl Calibrate {
-    /// Why this command line cannot be meant, if it cannot.
-    fn refusal(&self) -> Option<(ErrorKind, String)> {
-        if self.rigs.len() > 1 && self.model == Some(ModelChoice::Paper12) {
-            let message = "--model paper12 takes one rig; full takes several";
-            return Some((ErrorKind::ArgumentConflict, message.into()));
-        }
-        twice(self.rigs.iter())
-    }
 }
 
 /// Why rigs cannot be meant if one of them is given twice.

@@ -14,6 +14,7 @@ use crate::args::{
 };
 use crate::deliver::{deliver, print_outcome};
 use crate::interrupt;
+use crate::live::run_live;
 use crate::progress::{drawn, during};
 
 /// Does what the command line says.
@@ -125,6 +126,9 @@ fn run_navigate(arguments: &Arguments, navigate: &Navigate) -> anyhow::Result<()
 }
 
 fn run_calibrate(arguments: &Arguments, calibrate: &Calibrate) -> anyhow::Result<()> {
+    if let Some(source) = calibrate.live {
+        return run_live(arguments, calibrate, source);
+    }
     let logs = open_all(&calibrate.rigs)?;
     let options = CalibrateOptions {
         model: calibrate.model.clone(),

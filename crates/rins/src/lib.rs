@@ -8,6 +8,7 @@
 //! | what is its attitude? | [`align`](align()) | [`AlignResult`](align::AlignResult) |
 //! | which errors does free navigation reach? | [`navigate`](navigate()) | [`NavigateResult`](navigate::NavigateResult) |
 //! | which errors does the IMU have? | [`calibrate`](calibrate()) | [`CalibrateResult`](calibrate::CalibrateResult) |
+//! | which errors, while the log is written? | [`live::LiveCalibration`] | [`LiveResult`](live::LiveResult) |
 //! | which effects are unmodeled? | [`diagnose`](diagnose()) | [`DiagnoseResult`](diagnose::DiagnoseResult) |
 //! | what is observable under a schedule? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
 //! | what changed between calibrations? | [`compare`](compare()) | [`CompareResult`](compare::CompareResult) |
@@ -43,6 +44,7 @@ pub mod demo;
 pub mod diagnose;
 pub mod history;
 pub mod init;
+pub mod live;
 pub mod mission;
 pub mod navigate;
 pub mod observe;

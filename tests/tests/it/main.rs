@@ -18,6 +18,7 @@ mod in_the_hand;
 mod interrupted;
 mod level_table;
 mod library;
+mod live;
 mod measured;
 mod mission;
 mod mistakes;

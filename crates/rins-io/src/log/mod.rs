@@ -11,6 +11,7 @@ mod fields;
 mod files;
 mod instant;
 mod lines;
+mod live;
 mod overflow;
 mod problem;
 mod psins;
@@ -31,6 +32,7 @@ pub(crate) use date_time::{day, nanoseconds, time_of_day};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
 pub(crate) use lines::Lines;
+pub use live::LiveLog;
 pub use overflow::Overflow;
 pub(crate) use overflow::continued;
 pub use problem::LogProblem;
@@ -58,6 +60,24 @@ pub struct Loaded {
     pub rotations: Vec<StatedRotation>,
     /// The header of a PSINS log.
     pub psins_header: Option<PsinsHeader>,
+}
+
+impl Loaded {
+    /// Samples of a log that is read while it is written.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig file states no site.
+    pub fn of_live(log: &LiveLog, recording: Recording) -> Result<Self, IoError> {
+        let interval = log.nominal_interval().unwrap_or_else(|| recording.mean_interval());
+        Ok(Self {
+            station: *log.rig().require_station()?,
+            rig: log.rig().clone(),
+            summary: LogSummary::even(recording.len(), interval),
+            recording,
+            rotations: Vec::new(),
+            psins_header: None,
+        })
+    }
 }
 
 /// Reads a rig file and its log.

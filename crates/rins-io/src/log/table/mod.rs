@@ -17,6 +17,7 @@ use std::path::Path;
 pub(crate) use self::columns::MOST_COLUMNS;
 pub(super) use self::columns::{Columns, MOST_ROWS, Wanted, WantedTime};
 use self::text::Header;
+pub(super) use self::text::read_rows;
 pub(crate) use head::Head;
 pub use head::{LogHead, peek};
 pub use memory::LogColumns;
