@@ -128,6 +128,12 @@ impl Planned {
         self.scenario.profile.duration()
     }
 
+    /// The time constant with which the readings of the table angle settle beside the angle noise of the gyro \[s\]: the density of the
+    /// readings over that of the gyro.
+    pub(crate) fn time_constant(&self) -> f64 {
+        self.noise * self.scenario.interval.sqrt() / self.imu.gyro.noise_density
+    }
+
     /// Whether the log holds an angle reference at every tilt of the axis.
     pub(crate) fn has_table_reading(&self) -> bool {
         !matches!(self.scenario.table, TableRecord::Nothing)

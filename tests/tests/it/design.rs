@@ -27,7 +27,8 @@ fn every_criterion_has_a_small_gap_and_no_better_usual_schedule() {
     ] {
         let table = "--directions 2 --tilts 0deg,90deg";
         let table = if goal.starts_with("position") { "--directions 1" } else { table };
-        let told = result_in(&schedules(), &format!("design ii-reversal.toml --for {goal} {table}"));
+        let told =
+            result_in(&schedules(), &format!("design ii-reversal.toml --for {goal} {table}"));
         let gap = number(&told, "/gap");
         assert!((0.0..0.01).contains(&gap), "{goal}: {gap}");
         let efficiency = number(&told, "/efficiency");
@@ -69,8 +70,10 @@ fn schedule_can_be_run_and_shows_what_was_predicted() {
         scenario.display()
     );
     let told = result_in(folder.path(), &arguments);
-    let files: Vec<String> =
-        list(&told, "/files").iter().map(|file| format!("out/{}", file.as_str().unwrap())).collect();
+    let files: Vec<String> = list(&told, "/files")
+        .iter()
+        .map(|file| format!("out/{}", file.as_str().unwrap()))
+        .collect();
     assert_eq!(files, ["out/next-1.toml", "out/next-2.toml"]);
     assert!(folder.path().join("out/report.html").is_file());
     let mut whole = 0.0;

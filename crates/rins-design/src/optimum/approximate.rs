@@ -44,14 +44,20 @@ const STEPS_AT_A_TIME: usize = 12;
 /// The number of candidates that are added then.
 const NEWCOMERS: usize = 4;
 
+/// The usefulness, relative to the mean, above which a candidate with any share is kept.
+const USEFUL: f64 = 0.9;
+
 /// The share, relative to that of an even design, below which a candidate is dropped unless it is useful.
 const SLIGHT: f64 = 0.02;
 
 /// The share below which a candidate is not part of a design.
-const NEGLIGIBLE: f64 = 1e-7;
+const NEGLIGIBLE: f64 = 1e-9;
 
 /// The number of evaluations for the length of an exchange.
 const HALVINGS: usize = 6;
+
+/// The ratio of lengths that are tried first.
+const COARSE: f64 = 8.0;
 
 impl ApproximateDesign {
     /// The design of these candidates that minimizes a criterion, with the information `prior` (diagonal, p) in addition. That of the prior on
@@ -118,9 +124,12 @@ impl ApproximateDesign {
     }
 }
 
+/// How much of the parameters of each group (q × p) is estimated with those of the design.
+type Absorbed = BTreeMap<usize, DMatrix<f64>>;
+
 /// The information of a design.
 #[derive(Clone, Debug)]
-pub(super) struct State {
+struct State {
     /// That on the parameters of the design (p × p), with the prior.
     shared: DMatrix<f64>,
     /// For each group with a share, its parameters against those of the design (q × p), and its own (q × q), with the prior.
@@ -128,7 +137,7 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn of(prior: &DVector<f64>, elements: &[Element], weights: &[f64]) -> Self {
+    fn of(prior: &DVector<f64>, elements: &[Element], weights: &[f64]) -> Self {
         let mut state = Self { shared: DMatrix::from_diagonal(prior), groups: BTreeMap::new() };
         for (element, &weight) in elements.iter().zip(weights).filter(|(_, weight)| **weight > 0.0)
         {
@@ -154,7 +163,7 @@ impl State {
 
     /// The information on the parameters of the design if those of the groups are estimated too, and how much of the parameters of each group
     /// (q × p) is then estimated with them.
-    pub(super) fn marginal(&self) -> Option<(DMatrix<f64>, BTreeMap<usize, DMatrix<f64>>)> {
+    fn marginal(&self) -> Option<(DMatrix<f64>, Absorbed)> {
         let mut marginal = self.shared.clone();
         let mut absorbed = BTreeMap::new();
         for (&group, (across, inside)) in &self.groups {
@@ -167,11 +176,7 @@ impl State {
 }
 
 /// What an additional share of a candidate is worth, with the directions `Y` of the tangent.
-fn usefulness(
-    directions: &DMatrix<f64>,
-    absorbed: &BTreeMap<usize, DMatrix<f64>>,
-    element: &Element,
-) -> f64 {
+fn usefulness(directions: &DMatrix<f64>, absorbed: &Absorbed, element: &Element) -> f64 {
     let shared = directions.nrows();
     let own = element.information.nrows() - shared;
     let mut all = directions.clone().resize_vertically(shared + own, 0.0);
@@ -211,7 +216,7 @@ impl Sensitivities {
         let mean: f64 = self.each.iter().zip(weights).map(|(one, weight)| one * weight).sum();
         let slight = SLIGHT / weights.len() as f64;
         let is_kept = |place: &usize| {
-            weights[*place] > slight || weights[*place] > 0.0 && self.each[*place] > mean
+            weights[*place] > slight || weights[*place] > 0.0 && self.each[*place] > USEFUL * mean
         };
         let (mut active, mut others): (Vec<usize>, Vec<usize>) =
             (0..weights.len()).partition(is_kept);
@@ -233,14 +238,16 @@ impl Sensitivities {
 
 fn normalize(weights: &mut [f64]) {
     let all: f64 = weights.iter().sum();
-    weights.iter_mut().for_each(|weight| {
+    for weight in weights.iter_mut() {
         *weight /= all;
         if *weight < NEGLIGIBLE {
             *weight = 0.0;
         }
-    });
+    }
     let all: f64 = weights.iter().sum();
-    weights.iter_mut().for_each(|weight| *weight /= all);
+    for weight in weights {
+        *weight /= all;
+    }
 }
 
 /// Moves the share of the least useful candidate to the most useful one, as far as that improves the criterion.
@@ -272,26 +279,34 @@ fn exchange(
         })
     };
     let whole = weights[worst];
-    let mut share = 0.0;
-    if gains(whole) {
-        share = whole;
-    } else {
-        let (mut low, mut high) = (0.0, whole);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if gains(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-            share = low;
-        }
-    }
+    let share = if gains(whole) { whole } else { between(whole, gains) };
     weights[best] += share;
     weights[worst] -= share;
     if weights[worst] < NEGLIGIBLE {
         weights[worst] = 0.0;
     }
+}
+
+/// The share below `whole` up to which an exchange gains, on a logarithmic scale: where a prior is weak, a share of a millionth may count.
+fn between(whole: f64, gains: impl Fn(f64) -> bool) -> f64 {
+    let mut high = whole;
+    let mut low = whole / COARSE;
+    while !gains(low) {
+        high = low;
+        low /= COARSE;
+        if low < NEGLIGIBLE {
+            return 0.0;
+        }
+    }
+    for _ in 0..HALVINGS {
+        let middle = (low * high).sqrt();
+        if gains(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
 }
 
 #[cfg(test)]

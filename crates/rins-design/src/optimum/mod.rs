@@ -25,6 +25,7 @@ pub use self::criterion::Criterion;
 pub use self::motion::Motion;
 pub use self::objective::{LinearFunction, Objective};
 use self::pool::{Pool, PoolDesign};
+use self::rounding::Short;
 use self::selection::Selection;
 use crate::error::DesignError;
 use crate::library::Limits;
@@ -113,12 +114,14 @@ impl Optimization<'_> {
         }
         let mut best: Option<OptimalSchedule> = None;
         for design in selection.alternatives(&pool)? {
-            let Some(schedule) = self.rounded(&pool, &design)? else { continue };
-            let better = |best: &OptimalSchedule| {
-                selection.criterion.efficiency(best.value, schedule.value) < 1.0 - NEARLY
-            };
-            if best.as_ref().is_none_or(better) {
-                best = Some(schedule);
+            for short in [Short::LeftOut, Short::Extended] {
+                let Some(schedule) = self.rounded(&pool, &design, short)? else { continue };
+                let better = |best: &OptimalSchedule| {
+                    selection.criterion.efficiency(best.value, schedule.value) < 1.0 - NEARLY
+                };
+                if best.as_ref().is_none_or(better) {
+                    best = Some(schedule);
+                }
             }
         }
         best.ok_or(DesignError::NothingFits)
@@ -153,6 +156,7 @@ impl Optimization<'_> {
         &self,
         pool: &Pool<'_>,
         design: &PoolDesign,
+        short: Short,
     ) -> Result<Option<OptimalSchedule>, DesignError> {
         let Self { given, model, objective, limits, .. } = *self;
         let mut runs = Vec::new();
@@ -163,7 +167,7 @@ impl Optimization<'_> {
             let duration =
                 if is_last { left } else { (whole * limits.duration * 10.0).round() / 10.0 };
             left -= duration;
-            let Some(segments) = rounding::segments(shares, duration, limits) else {
+            let Some(segments) = rounding::segments(shares, duration, limits, short) else {
                 return Ok(None);
             };
             let profile = Profile::new(&segments, Some(limits.acceleration))?;

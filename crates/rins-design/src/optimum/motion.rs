@@ -1,6 +1,7 @@
 //! The motions that a schedule consists of, and the information of each for one second.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use rayon::prelude::*;
@@ -30,7 +31,10 @@ const RATES: [f64; 4] = [1.0, -1.0, 0.5, -0.5];
 const DWELLS: u8 = 8;
 
 /// The part of a motion before its information is counted \[s\]: attitude and table angle are known then, as where it follows another.
-const BEFORE: f64 = 20.0;
+const BEFORE: Range<f64> = 20.0..150.0;
+
+/// The same in time constants after which the gyro knows the angle of the table better than the encoder does.
+const SETTLED: f64 = 5.0;
 
 /// The longest part of a motion whose information is counted \[s\].
 const LONGEST: f64 = 720.0;
@@ -47,20 +51,20 @@ impl Motion {
     }
 
     /// The segments before the counted part of this motion, and its counted part.
-    fn segments(self, limits: &Limits) -> (Vec<Segment>, Segment) {
+    fn segments(self, limits: &Limits, lead: f64) -> (Vec<Segment>, Segment) {
         match self {
             Self::Rotation(rate) => {
-                let before = rate.abs() / limits.acceleration + BEFORE;
+                let before = rate.abs() / limits.acceleration + lead;
                 // Whole revolutions: harmonics of the table angle average out.
                 let revolution = TAU / rate.abs();
-                let duration = (revolution * (BEFORE / revolution).ceil()).min(LONGEST);
+                let duration = (revolution * (BEFORE.start / revolution).ceil()).min(LONGEST);
                 (vec![Segment { rate, duration: before }], Segment { rate, duration })
             }
             Self::Dwell(angle) => {
                 let mut before = transit(angle, limits);
                 before.push(Segment {
                     rate: 0.0,
-                    duration: DWELL + limits.rate / limits.acceleration,
+                    duration: lead + limits.rate / limits.acceleration,
                 });
                 (before, Segment { rate: 0.0, duration: DWELL })
             }
@@ -90,10 +94,11 @@ pub(super) fn informations(
     limits: &Limits,
     pieces: &[(Dcm<Nav, Table>, Motion)],
 ) -> Result<Vec<DMatrix<f64>>, DesignError> {
+    let lead = (SETTLED * given.time_constant()).clamp(BEFORE.start, BEFORE.end);
     pieces
         .par_iter()
         .map(|&(attitude, motion)| {
-            let (mut segments, counted) = motion.segments(limits);
+            let (mut segments, counted) = motion.segments(limits, lead);
             let of = |segments: &[Segment]| -> Result<Joint, DesignError> {
                 let profile = Profile::new(segments, Some(limits.acceleration))?;
                 information(&[given.moved(profile, attitude).sampled_coarsely()], model)
@@ -101,14 +106,14 @@ pub(super) fn informations(
             let before = of(&segments)?.information();
             segments.push(counted);
             let whole = of(&segments)?.information();
-            Ok(positive((whole - before) / counted.duration))
+            Ok(positive(&((whole - before) / counted.duration)))
         })
         .collect()
 }
 
 /// The nearest positive semidefinite matrix: a difference of two informations is one up to rounding.
-fn positive(matrix: DMatrix<f64>) -> DMatrix<f64> {
-    let own = SymmetricEigen::new(0.5 * (&matrix + matrix.transpose()));
+fn positive(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let own = SymmetricEigen::new(0.5 * (matrix + matrix.transpose()));
     let values = own.eigenvalues.map(|value| value.max(0.0));
     &own.eigenvectors * DMatrix::from_diagonal(&values) * own.eigenvectors.transpose()
 }

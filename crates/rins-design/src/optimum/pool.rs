@@ -122,15 +122,12 @@ impl<'a> Pool<'a> {
     }
 
     /// The same design, or a nearly equal one, with the fewest motions in each orientation.
-    ///
-    /// # Errors
-    /// As of [`design`](Self::design).
     pub(super) fn simplest(
         &self,
         objective: &Objective<'_>,
         design: PoolDesign,
         (duration, loss): (f64, f64),
-    ) -> Result<PoolDesign, DesignError> {
+    ) -> PoolDesign {
         let (criterion, _) = objective.criterion(&[]);
         for count in 1..self.motions.len() {
             let candidates: Vec<(usize, usize)> = design
@@ -150,13 +147,10 @@ impl<'a> Pool<'a> {
             if criterion.efficiency(simple.design.value, design.design.value) > 1.0 - loss {
                 let bound = criterion.bound(design.design.value, design.design.gap);
                 let gap = criterion.gap(simple.design.value, bound);
-                return Ok(PoolDesign {
-                    design: ApproximateDesign { gap, ..simple.design },
-                    ..simple
-                });
+                return PoolDesign { design: ApproximateDesign { gap, ..simple.design }, ..simple };
             }
         }
-        Ok(design)
+        design
     }
 
     fn of_candidates(

@@ -10,21 +10,42 @@ use crate::library::Limits;
 /// The shortest time for a motion, apart from its ramp \[s\].
 const SHORTEST: f64 = 4.0;
 
+/// The share in a run below which a motion is left out.
+const LEAST_SHARE: f64 = 1e-7;
+
 /// The resolution of durations \[s\].
 const RESOLUTION: f64 = 0.1;
+
+/// What becomes of a motion whose share is shorter than it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Short {
+    /// It is left out.
+    LeftOut,
+    /// It gets the time that it needs.
+    Extended,
+}
 
 /// The segments of a run of this duration \[s\] with these shares of motions; `None` if not even one of them fits.
 ///
 /// Static intervals come first, in the order of their table angles, then the rotations, the fastest first and forward before back. The
-/// rotations from one static interval to the next are part of the time of the rotations. A motion that has less time than it needs is
-/// left out, the least one first.
+/// rotations from one static interval to the next are part of the time of the rotations. If they do not fit, the motion with the least
+/// share is left out.
 pub(super) fn segments(
     shares: &[(Motion, f64)],
     duration: f64,
     limits: &Limits,
+    short: Short,
 ) -> Option<Vec<Segment>> {
+    let whole: f64 = shares.iter().map(|(_, share)| share).sum();
     let mut kept: Vec<(Motion, f64)> =
-        shares.iter().copied().filter(|(_, share)| *share > 0.0).collect();
+        shares.iter().copied().filter(|(_, share)| *share > LEAST_SHARE * whole).collect();
+    if short == Short::Extended {
+        // With a ramp from the opposite rate, and what rotations between static intervals take.
+        let needed = 2.0 * (SHORTEST + 2.0 * limits.rate / limits.acceleration) / duration * whole;
+        for (_, share) in &mut kept {
+            *share = share.max(needed);
+        }
+    }
     while !kept.is_empty() {
         if let Some(segments) = with_all(&kept, duration, limits) {
             return Some(segments);
@@ -74,7 +95,7 @@ fn with_all(kept: &[(Motion, f64)], duration: f64, limits: &Limits) -> Option<Ve
 
 /// Takes the time of the rotations between static intervals from the rotations as far as they have it, and the rest from all static
 /// intervals.
-fn take(rotations: &mut Vec<(f64, f64)>, segments: &mut [Segment], moving: f64) -> Option<()> {
+fn take(rotations: &mut [(f64, f64)], segments: &mut [Segment], moving: f64) -> Option<()> {
     let mut left = moving;
     if let Some(first) = rotations.first_mut() {
         // At least half of the fastest rotation remains.
@@ -129,7 +150,7 @@ mod tests {
             (Motion::Dwell(TAU / 2.0), 0.195),
             (Motion::Dwell(0.0), 0.005),
         ];
-        let segments = segments(&shares, 300.0, &LIMITS).unwrap();
+        let segments = segments(&shares, 300.0, &LIMITS, Short::LeftOut).unwrap();
         let profile = Profile::new(&segments, Some(LIMITS.acceleration)).unwrap();
         assert_close!(profile.duration(), 300.0, 1e-9);
         // The shortest static interval does not fit.
@@ -139,7 +160,9 @@ mod tests {
         assert_close!(profile.angle(first - 1.0), TAU / 4.0, 1e-9);
         let second = first + segments[2].duration + segments[3].duration;
         assert_close!(profile.angle(second - 1.0), TAU / 2.0, 1e-9);
-        assert_close!(segments[5].duration, 90.0, 0.1);
-        assert!(super::segments(&shares[..1], 3.0, &LIMITS).is_none());
+        assert_close!(segments[5].duration, 90.0 / 0.995, 0.1);
+        assert!(super::segments(&shares[..1], 3.0, &LIMITS, Short::LeftOut).is_none());
+        let extended = super::segments(&shares, 300.0, &LIMITS, Short::Extended).unwrap();
+        assert!(extended[0].rate == 0.0 && extended[0].duration > SHORTEST);
     }
 }

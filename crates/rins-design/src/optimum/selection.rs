@@ -112,7 +112,7 @@ impl<'a> Selection<'a> {
         let simplest = |mut subset: Vec<usize>| {
             subset.sort_unstable();
             let design = pool.design(self.objective, &subset, (duration, LOSS))?;
-            pool.simplest(self.objective, design, (duration, LOSS))
+            Ok(pool.simplest(self.objective, design, (duration, LOSS)))
         };
         subsets.into_iter().map(simplest).collect()
     }

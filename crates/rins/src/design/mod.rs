@@ -1,6 +1,7 @@
 //! The rotation schedule that a calibration gains most from, within the limits of a table and a duration.
 
 mod goal;
+mod notes;
 mod outcome;
 mod page;
 mod result;

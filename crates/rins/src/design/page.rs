@@ -2,9 +2,10 @@
 
 use rins_report::{Item, Plot, Report, Section, Series, Style};
 
+use super::notes::notes;
 use super::result::{DesignedRunResult, MotionResult};
 use super::study::DesignStudy;
-use super::words::{comparison, notes, observability, schedule_rows, summary, title};
+use super::words::{comparison, observability, schedule_rows, summary, title};
 use crate::table::captioned;
 
 pub(super) fn report(study: &DesignStudy) -> Report {

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::goal::meaning;
+use super::notes::notes;
 use super::study::{Compared, DesignStudy};
 use crate::basis::BasisResult;
 use crate::identifiability::{IdentifiabilityResult, PredictedResult};
@@ -168,7 +169,7 @@ impl DesignResult {
             identifiability: IdentifiabilityResult::of(&identifiability),
             schedules: study.compared.iter().map(|one| ComparedResult::of(one, study)).collect(),
             files: file_names(optimal.runs.len()),
-            notes: super::words::notes(study),
+            notes: notes(study),
             basis: study.basis.clone(),
         }
     }

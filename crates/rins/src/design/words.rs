@@ -5,6 +5,7 @@ use rins_frames::units::PPM;
 use rins_report::number::figure;
 
 use super::goal::{DesignGoal, meaning};
+use super::notes::notes;
 use super::result::DesignedRunResult;
 use super::study::{Compared, DesignStudy};
 use crate::identifiability::{gauge_sentences, rank_sentence};
@@ -28,6 +29,10 @@ fn factor(study: &DesignStudy, better: f64, worse: f64) -> f64 {
     if matches!(study.goal, DesignGoal::Separation(_)) { better / worse } else { worse / better }
 }
 
+fn times_in_words(times: f64) -> String {
+    if times > 1000.0 { "more than 1000 times".into() } else { format!("{} times", short(times)) }
+}
+
 /// The result in a few sentences.
 pub(super) fn summary(study: &DesignStudy) -> Vec<String> {
     let optimal = &study.optimal;
@@ -48,7 +53,7 @@ pub(super) fn summary(study: &DesignStudy) -> Vec<String> {
         .filter_map(|one| {
             let value = one.value?;
             let times = factor(study, optimal.value, value);
-            Some(format!("{} {} ({} times)", one.name, shown(study, value), short(times)))
+            Some(format!("{} {} ({})", one.name, shown(study, value), times_in_words(times)))
         })
         .collect();
     if !others.is_empty() {
@@ -89,35 +94,6 @@ fn scale_sentence(study: &DesignStudy) -> Option<String> {
         short(study.scale_bound() / PPM),
         short(own)
     ))
-}
-
-/// What else is to be known.
-pub(super) fn notes(study: &DesignStudy) -> Vec<String> {
-    let mut notes = vec![
-        "All runs are of one power-on: the turn-on biases are the same in each, also in the schedules beside it. The time for a change of \
-         the orientation is not counted."
-            .to_owned(),
-        format!(
-            "{} candidates: rotation at the fastest rate and at half of it, both ways, and eight static intervals, in {} orientations of \
-             the axis.",
-            study.optimal.candidates.0, study.optimal.candidates.1
-        ),
-    ];
-    if matches!(study.goal, DesignGoal::Position(_)) {
-        notes.push(
-            "The system in service aligns itself with its calibrated sensors, and stays on since the calibration. The white noise in service, \
-             which no calibration changes, is not included."
-                .into(),
-        );
-    }
-    if study.is_time_dependent {
-        notes.push(
-            "The model has terms with settings, such as the time of an event. Their information does not add up over motions: the gap does not \
-             hold for them; the values of the schedules do."
-                .into(),
-        );
-    }
-    notes
 }
 
 /// The schedule for a person: one row for each segment.
