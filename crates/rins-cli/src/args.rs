@@ -11,11 +11,13 @@ use rins_io::{LogFile, Overwrite, shown};
 use crate::choices::Noise;
 
 mod calibrate;
+mod design;
 mod history;
 mod mission;
 mod observe;
 
 pub(crate) use self::calibrate::{Calibrate, LiveSource};
+pub(crate) use self::design::Design;
 pub(crate) use self::history::History;
 pub(crate) use self::mission::Mission;
 pub(crate) use self::observe::Observe;
@@ -103,6 +105,15 @@ pub(crate) enum Command {
     /// Two effects are separated if the part of the signature of each, at its typical magnitude, that neither the other
     /// effect nor the model parameters can explain is at least 6 sigma, in the least favorable direction.
     Observe(Observe),
+    /// Optimize a rotation schedule for a parameter, a position error in service, a set of parameters, or two effects
+    ///
+    /// The schedule consists of rotations and static intervals in up to N orientations of the spin axis, within the limits of the table
+    /// and the duration. The share of each is optimized on the Fisher information; the gap of the equivalence theorem bounds what any
+    /// other schedule of them gains. The shares are rounded to a profile that the table can run, whose information is computed exactly.
+    /// The result compares it with the given schedule and with usual ones of the same duration.
+    ///
+    /// All runs are of one power-on: the turn-on biases are the same in each.
+    Design(Design),
     /// Simulate and calibrate a scenario many times to test the consistency of the covariances (NEES)
     MonteCarlo(MonteCarlo),
     /// Merge the partial results of a Monte Carlo campaign
@@ -356,6 +367,7 @@ impl Command {
             Self::Check(input) | Self::Allan(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),
+            Self::Design(design) => design.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.output.as_deref(),
             Self::Diagnose(diagnose) => diagnose.output.as_deref(),
             Self::Compare(compare) => compare.output.as_deref(),

@@ -8,6 +8,7 @@ mod blind;
 mod certificate;
 mod convert;
 mod demo;
+mod design;
 mod diagnose;
 mod effects;
 mod help;
