@@ -52,6 +52,8 @@ const STEPS: &[Row] = &[
     ("instructions", &[], "cargo xtask bench --instructions"),
     // With the features of the tests: with those of a single package, all dependencies would be built again.
     ("programs", &[], "cargo build --quiet --workspace --bins --examples"),
+    // A new environment: pip builds and installs the package, which is then tested.
+    ("python", &[], "bash crates/rins-python/ci.sh"),
 ];
 
 /// Programs that the step `programs` has built; running them by cargo would build more.

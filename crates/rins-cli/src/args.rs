@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
@@ -9,10 +10,14 @@ use rins_io::{LogFile, Overwrite, shown};
 
 use crate::choices::Noise;
 
+mod calibrate;
+mod design;
 mod history;
 mod mission;
 mod observe;
 
+pub(crate) use self::calibrate::{Calibrate, LiveSource};
+pub(crate) use self::design::Design;
 pub(crate) use self::history::History;
 pub(crate) use self::mission::Mission;
 pub(crate) use self::observe::Observe;
@@ -35,9 +40,9 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The command line, or the end of the program where it cannot be meant.
-    pub(crate) fn read() -> Self {
-        let arguments = Self::parse();
+    /// The command line, or why it cannot be meant; help and version are refusals with exit code 0.
+    pub(crate) fn read(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let arguments = Self::try_parse_from(words)?;
         let refusal = match &arguments.command {
             Command::Calibrate(calibrate) => calibrate.refusal().map(|why| ("calibrate", why)),
             Command::Diagnose(diagnose) => {
@@ -49,9 +54,9 @@ impl Arguments {
             let mut command = Self::command();
             command.build();
             let of = command.find_subcommand_mut(name).expect("the command has just been read");
-            of.error(kind, message).exit();
+            return Err(of.error(kind, message));
         }
-        arguments
+        Ok(arguments)
     }
 
     pub(crate) const fn overwrite(&self) -> Overwrite {
@@ -100,6 +105,15 @@ pub(crate) enum Command {
     /// Two effects are separated if the part of the signature of each, at its typical magnitude, that neither the other
     /// effect nor the model parameters can explain is at least 6 sigma, in the least favorable direction.
     Observe(Observe),
+    /// Optimize a rotation schedule for a parameter, a position error in service, a set of parameters, or two effects
+    ///
+    /// The schedule consists of rotations and static intervals in up to N orientations of the spin axis, within the limits of the table
+    /// and the duration. The share of each is optimized on the Fisher information; the gap of the equivalence theorem bounds what any
+    /// other schedule of them gains. The shares are rounded to a profile that the table can run, whose information is computed exactly.
+    /// The result compares it with the given schedule and with usual ones of the same duration.
+    ///
+    /// All runs are of one power-on: the turn-on biases are the same in each.
+    Design(Design),
     /// Simulate and calibrate a scenario many times to test the consistency of the covariances (NEES)
     MonteCarlo(MonteCarlo),
     /// Merge the partial results of a Monte Carlo campaign
@@ -225,24 +239,6 @@ pub(crate) struct Navigate {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct Calibrate {
-    /// The rig files: one, or several runs of one IMU
-    #[arg(required = true, value_name = "RIG")]
-    pub(crate) rigs: Vec<PathBuf>,
-    /// Folder for result.json, report.html, calibration.toml and model.toml
-    #[arg(short, long, value_name = "DIR")]
-    pub(crate) output: Option<PathBuf>,
-    /// The model: paper12 (`M_xz`, `M_yz` and `S_z` by the 12-state filter of Nie et al. (2019)), full (biases, scale errors,
-    /// misalignments, attitude of the spin axis), or a model file; by default paper12 for one run with an encoder angle
-    /// or a commanded table rate and a known attitude of the axis, and full otherwise
-    #[arg(long, value_parser = ModelChoice::parse)]
-    pub(crate) model: Option<ModelChoice>,
-    /// Source of the noise parameters; paper12 always uses the data sheet
-    #[arg(long, value_enum, default_value_t = Noise::Likely)]
-    pub(crate) noise: Noise,
-}
-
-#[derive(Debug, Args)]
 pub(crate) struct Diagnose {
     /// The rig files: one, or several runs of one IMU
     #[arg(required = true, value_name = "RIG")]
@@ -315,17 +311,6 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
         .ok_or_else(|| "expected a shard of so many, such as 2/5".into())
 }
 
-impl Calibrate {
-    /// Why this command line cannot be meant, if it cannot.
-    fn refusal(&self) -> Option<(ErrorKind, String)> {
-        if self.rigs.len() > 1 && self.model == Some(ModelChoice::Paper12) {
-            let message = "--model paper12 takes one rig; full takes several";
-            return Some((ErrorKind::ArgumentConflict, message.into()));
-        }
-        twice(self.rigs.iter())
-    }
-}
-
 /// Why rigs cannot be meant if one of them is given twice.
 fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, String)> {
     let mut seen = Vec::new();
@@ -382,6 +367,7 @@ impl Command {
             Self::Check(input) | Self::Allan(input) | Self::Align(input) => input.output.as_deref(),
             Self::Navigate(navigate) => navigate.input.output.as_deref(),
             Self::Observe(observe) => observe.output.as_deref(),
+            Self::Design(design) => design.output.as_deref(),
             Self::Calibrate(calibrate) => calibrate.output.as_deref(),
             Self::Diagnose(diagnose) => diagnose.output.as_deref(),
             Self::Compare(compare) => compare.output.as_deref(),

@@ -33,7 +33,7 @@ pub(crate) fn print_outcome(
     further: &str,
 ) -> anyhow::Result<()> {
     if arguments.json {
-        print(&(serde_json::to_string(&outcome.result())? + "\n"))?;
+        print(&(outcome.json()? + "\n"))?;
     } else {
         print(&format!("{outcome}{further}"))?;
     }

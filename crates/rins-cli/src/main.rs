@@ -1,28 +1,8 @@
-//! The `rins` command: simulates, checks, aligns, navigates and calibrates an IMU on a rate table.
+//! The `rins` command.
 
-use std::io::{self, Write as _};
+use std::env;
 use std::process::ExitCode;
 
-use rins_io::one_line;
-
-use crate::args::Arguments;
-
-mod args;
-mod choices;
-mod deliver;
-mod interrupt;
-mod progress;
-mod run;
-
 fn main() -> ExitCode {
-    let arguments = Arguments::read();
-    let _inputs = rins_io::protect_inputs();
-    match interrupt::listen().and_then(|()| run::run(&arguments)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // Where nobody can be told, the exit code tells.
-            let _ = writeln!(io::stderr(), "rins: {}", one_line(&format!("{error:#}")));
-            ExitCode::FAILURE
-        }
-    }
+    rins_cli::run(env::args_os()).into()
 }

@@ -3,17 +3,18 @@
 use std::path::Path;
 
 use rins::{
-    ApplyOptions, CalibrateOptions, ConvertOptions, DiagnoseOptions, HistoryOptions, Log,
-    MissionOptions, MonteCarloOptions, NavigateOptions, ObserveOptions,
+    ApplyOptions, CalibrateOptions, ConvertOptions, DesignOptions, DiagnoseOptions, HistoryOptions,
+    Log, MissionOptions, MonteCarloOptions, NavigateOptions, ObserveOptions,
 };
 use rins_io::{IoError, ensure_replaceable_folder, shown, write_file};
 
 use crate::args::{
-    Apply, Arguments, Calibrate, Command, Convert, Demo, Diagnose, Init, MonteCarlo, Navigate,
-    Observe,
+    Apply, Arguments, Calibrate, Command, Convert, Demo, Design, Diagnose, Init, MonteCarlo,
+    Navigate, Observe,
 };
 use crate::deliver::{deliver, print_outcome};
 use crate::interrupt;
+use crate::live::run_live;
 use crate::progress::{drawn, during};
 
 /// Does what the command line says.
@@ -47,6 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Command::Calibrate(calibrate) => run_calibrate(arguments, calibrate),
         Command::Diagnose(diagnose) => run_diagnose(arguments, diagnose),
         Command::Observe(observe) => run_observe(arguments, observe),
+        Command::Design(design) => run_design(arguments, design),
         Command::Apply(apply) => run_apply(arguments, apply),
         Command::Compare(compare) => {
             deliver(arguments, &rins::compare(&compare.before, &compare.after)?, "")
@@ -125,6 +127,9 @@ fn run_navigate(arguments: &Arguments, navigate: &Navigate) -> anyhow::Result<()
 }
 
 fn run_calibrate(arguments: &Arguments, calibrate: &Calibrate) -> anyhow::Result<()> {
+    if let Some(source) = calibrate.live {
+        return run_live(arguments, calibrate, source);
+    }
     let logs = open_all(&calibrate.rigs)?;
     let options = CalibrateOptions {
         model: calibrate.model.clone(),
@@ -161,6 +166,21 @@ fn run_observe(arguments: &Arguments, observe: &Observe) -> anyhow::Result<()> {
         progress: drawn(),
     };
     deliver(arguments, &rins::observe(&observe.scenarios, &options)?, "")
+}
+
+fn run_design(arguments: &Arguments, design: &Design) -> anyhow::Result<()> {
+    let options = DesignOptions {
+        goal: design.goal.clone(),
+        model: design.model.clone(),
+        duration: design.duration,
+        max_rate: design.max_rate,
+        max_acceleration: design.max_acceleration,
+        directions: design.directions,
+        tilts: design.tilts.clone(),
+        service: design.service.clone(),
+        progress: drawn(),
+    };
+    deliver(arguments, &rins::design(&design.scenarios, &options)?, "")
 }
 
 fn run_monte_carlo(arguments: &Arguments, campaign: &MonteCarlo) -> anyhow::Result<()> {

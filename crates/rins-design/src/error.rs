@@ -44,4 +44,7 @@ pub enum DesignError {
         "no schedule fits within the limits of the table: a ramp takes longer than its segment in every schedule"
     )]
     NothingFits,
+    /// No schedule determines what is asked for.
+    #[error("no motion of the table determines what the schedule is optimized for")]
+    Undetermined,
 }

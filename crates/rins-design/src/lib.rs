@@ -6,7 +6,7 @@
 //! **What it does.** A [`Planned`] run is a scenario of which only motion, site and data sheet matter. [`information`] is the
 //! joint information of several of them. [`Pair`] is the separability of two effects, [`propose`] searches a library of
 //! schedules for the shortest one that reaches a [`Goal`] within the [`Limits`] of a table, and [`next_test`] does that for
-//! two effects that a run could not distinguish. A [`Budget`] is the error budget of free inertial navigation over minutes, [`Growth`]
+//! two effects that a run could not distinguish. [`Optimization`] is the optimal schedule for a [`Criterion`], with a bound of what is possible. A [`Budget`] is the error budget of free inertial navigation over minutes, [`Growth`]
 //! that over days.
 //!
 //! **What it does not do.** It reads no files and decides nothing about measured data.
@@ -18,6 +18,7 @@ mod error;
 mod growth;
 mod library;
 mod next;
+mod optimum;
 mod pair;
 mod planned;
 mod proposal;
@@ -27,8 +28,12 @@ pub use coverage::{COVERAGE, coverage_factor};
 pub use effect::Effect;
 pub use error::DesignError;
 pub use growth::{GROWTH_STATES, Growth, GrowthError, Service};
-pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE};
+pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE, usual_schedules};
 pub use next::{Confused, NextTest, next_test};
+pub use optimum::{
+    ApproximateDesign, Criterion, Element, LinearFunction, Motion, Objective, OptimalRun,
+    OptimalSchedule, Optimization, value,
+};
 pub use pair::{ENOUGH, Pair, information};
 pub use planned::Planned;
 pub use proposal::{Goal, Proposal, propose};

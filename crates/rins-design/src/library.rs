@@ -86,6 +86,48 @@ pub(crate) fn candidates(given: &Planned, limits: &Limits) -> Vec<Candidate> {
     all
 }
 
+/// The usual schedules in runs of one power-on, each as long as the limit: four static intervals, a reversal, and a reversal in two and in
+/// three orientations of the axis. Those that a ramp does not fit are left out.
+pub fn usual_schedules(given: &Planned, limits: &Limits) -> Vec<Candidate> {
+    let Limits { rate, acceleration, duration, .. } = *limits;
+    let attitude = given.nav_from_table();
+    let yaw = attitude.euler_angles().yaw + 120.0 * DEG;
+    let tilt = attitude.matrix()[(2, 2)].clamp(-1.0, 1.0).acos();
+    let turned = |tilt: f64, yaw: f64| EulerAngles { roll: 0.0, pitch: tilt, yaw }.dcm();
+    let second = if tilt > 15.0 * DEG { 5.0 * DEG } else { 30.0 * DEG };
+    let quarter = 90.0 * DEG / rate;
+    let dwells: Vec<Segment> = (0..7)
+        .map(|place| {
+            if place % 2 == 1 {
+                Segment { rate, duration: quarter }
+            } else {
+                Segment { rate: 0.0, duration: (duration - 3.0 * quarter) / 4.0 }
+            }
+        })
+        .collect();
+    let reversal = |runs: f64| {
+        [rate, -rate].map(|rate| Segment { rate, duration: 0.5 * duration / runs }).to_vec()
+    };
+    let all = [
+        ("four dwells", dwells, vec![attitude]),
+        ("reversal", reversal(1.0), vec![attitude]),
+        ("two tilts", reversal(2.0), vec![attitude, turned(second, yaw)]),
+        (
+            "three orientations",
+            reversal(3.0),
+            vec![attitude, turned(tilt, yaw), turned(1.0 * DEG, yaw - 120.0 * DEG)],
+        ),
+    ];
+    all.into_iter()
+        .filter_map(|(words, segments, attitudes)| {
+            let profile = Profile::new(&segments, Some(acceleration)).ok()?;
+            let run = |attitude| given.moved(profile.clone(), attitude).since(0);
+            let runs = attitudes.into_iter().map(run).collect();
+            Some(Candidate { words: words.into(), runs, segments, duration })
+        })
+        .collect()
+}
+
 /// A schedule of this shape; `None` if a ramp does not fit.
 fn candidate(
     given: &Planned,

@@ -4,7 +4,7 @@ use rins_calibration::Setup;
 use rins_estimation::{Noise, Reference, Rig, Run};
 use rins_frames::{Dcm, Nav, Table};
 use rins_imu::ImuSpec;
-use rins_motion::{Profile, Segment};
+use rins_motion::{Profile, Segment, Station};
 use rins_simulation::{Encoder, Scenario, TableRecord, simulate};
 
 use crate::error::DesignError;
@@ -28,6 +28,7 @@ pub struct Planned {
     scenario: Scenario,
     noise: f64,
     wobble: f64,
+    turn_on: Option<usize>,
 }
 
 impl Planned {
@@ -43,7 +44,7 @@ impl Planned {
         if let TableRecord::Angle(encoder) = &mut scenario.table {
             *encoder = Encoder::default();
         }
-        Self { name, imu, acceleration, scenario, noise, wobble }
+        Self { name, imu, acceleration, scenario, noise, wobble, turn_on: None }
     }
 
     /// A plan with the site, attitude, duration and rate of a measured run.
@@ -73,6 +74,7 @@ impl Planned {
             ),
             noise: noise.encoder / samples.sqrt(),
             wobble: noise.wobble / samples.sqrt(),
+            turn_on: run.turn_on,
         })
     }
 
@@ -83,6 +85,39 @@ impl Planned {
         Self { scenario, ..self.clone() }
     }
 
+    /// The same as part of one power-on: all runs of the same `turn_on` have the same turn-on biases.
+    #[must_use]
+    pub fn since(mut self, turn_on: usize) -> Self {
+        self.turn_on = Some(turn_on);
+        self
+    }
+
+    /// The same with the longest sampling interval that the information allows: several samples are one, with the noise of their mean.
+    #[must_use]
+    pub(crate) fn sampled_coarsely(mut self) -> Self {
+        let within = COARSEST.min(COARSEST_TURN / self.fastest());
+        let samples = (within / self.scenario.interval).floor().max(1.0);
+        self.scenario.interval *= samples;
+        self.noise /= samples.sqrt();
+        self.wobble /= samples.sqrt();
+        self
+    }
+
+    /// The site.
+    pub fn station(&self) -> Station {
+        self.scenario.station
+    }
+
+    /// The table angle at the end of each of the segments that its motion consists of \[rad\].
+    pub fn angles(&self, segments: &[Segment]) -> Vec<f64> {
+        let mut end = 0.0;
+        let at = |segment: &Segment| {
+            end += segment.duration;
+            self.scenario.profile.angle(end)
+        };
+        segments.iter().map(at).collect()
+    }
+
     /// The attitude of the axis frame.
     pub fn nav_from_table(&self) -> Dcm<Nav, Table> {
         self.scenario.nav_from_table
@@ -91,6 +126,17 @@ impl Planned {
     /// The duration \[s\].
     pub fn duration(&self) -> f64 {
         self.scenario.profile.duration()
+    }
+
+    /// The time constant with which the readings of the table angle settle beside the angle noise of the gyro \[s\]: the density of the
+    /// readings over that of the gyro.
+    pub(crate) fn time_constant(&self) -> f64 {
+        self.noise * self.scenario.interval.sqrt() / self.imu.gyro.noise_density
+    }
+
+    /// Whether the log holds an angle reference at every tilt of the axis.
+    pub(crate) fn has_table_reading(&self) -> bool {
+        !matches!(self.scenario.table, TableRecord::Nothing)
     }
 
     /// The largest rate of the table \[rad/s\].
@@ -125,7 +171,11 @@ impl Planned {
             wobble: self.wobble,
             velocity: Setup::FIXED_TABLE_VELOCITY_NOISE,
         };
-        Run::new(rig, recording)
-            .map_err(|source| DesignError::Run { name: self.name.clone(), source })
+        let run = Run::new(rig, recording)
+            .map_err(|source| DesignError::Run { name: self.name.clone(), source })?;
+        Ok(match self.turn_on {
+            Some(turn_on) => run.since(turn_on),
+            None => run,
+        })
     }
 }

@@ -89,7 +89,7 @@ impl<'a> Build<'a> {
     /// The next epoch: residuals for each sample, columns for each piece.
     pub(crate) fn epoch(&mut self, span: &Span, ends: impl Iterator<Item = usize>) -> Epoch {
         let mut turning = Turning::default();
-        let mut duration = 0.0;
+        let (mut duration, mut rotation) = (0.0, 0.0);
         let mut first = span.samples.start;
         let recording = &self.compared.run.recording;
         for end in ends {
@@ -97,6 +97,7 @@ impl<'a> Build<'a> {
             for sample in first..end {
                 let Some(moment) = self.fine.advance() else { break };
                 let interval = recording.increments[sample].interval;
+                rotation += moment.mean.rate * interval;
                 from_body = self.compared.residual(&mut self.growing, sample, moment);
                 let of_gyros = from_body[0];
                 turning.twice += (turning.turned + of_gyros * (0.5 * interval)) * interval;
@@ -122,6 +123,7 @@ impl<'a> Build<'a> {
         Epoch {
             samples: (span.samples.start, span.samples.end),
             duration,
+            rotation,
             fresh: span.fresh,
             left_out: false,
             gains: self.growing.finish(readings),

@@ -22,6 +22,8 @@ pub(crate) struct Epoch {
     pub(crate) samples: (usize, usize),
     /// The duration \[s\].
     pub(crate) duration: f64,
+    /// The rotation of the table \[rad\].
+    pub(crate) rotation: f64,
     /// Whether samples are missing before the epoch, so that φ and v are unknown at its start.
     pub(crate) fresh: bool,
     /// Whether the epoch is excluded from the estimate: time passes without an update.

@@ -17,7 +17,7 @@ use crate::step::{CARRIED_OF, NAVIGATION, SHOWN, SHOWN_OF, Step};
 ///
 /// Its final estimate is the batch solution of the same model: each verifies the other.
 pub struct Filter<'a> {
-    space: Space<'a>,
+    space: Space,
     linear: &'a Linear,
     epoch: usize,
     state: DVector<f64>,

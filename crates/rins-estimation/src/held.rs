@@ -9,10 +9,13 @@ use crate::epoch::Epoch;
 /// The smallest number of samples on each side from which the variation of the motion is estimated.
 const FEWEST_AROUND: usize = 3;
 
-/// Sets the uncertainty due to missing samples in every epoch.
-pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
+/// The interval relative to the usual one above which samples are missing.
+const LONGEST: f64 = 1.5;
+
+/// Sets the uncertainty due to missing samples in every epoch; `usual` is the usual interval of a sample \[s\].
+pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording, usual: f64) {
     let samples = &recording.increments;
-    let (usual, longest) = (recording.mean_interval(), recording.longest_interval());
+    let longest = LONGEST * usual;
     let long = samples.iter().enumerate().filter(|(_, one)| one.interval > longest);
     for (sample, increments) in long {
         let Some(epoch) = epochs.get_mut(epochs.partition_point(|e| e.samples.1 <= sample)) else {
@@ -20,7 +23,7 @@ pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
         };
         let lasting = increments.interval - usual;
         let [angle, velocity] =
-            scatter(recording, sample, lasting / usual).map(|v| v * lasting.powi(2));
+            scatter(samples, sample, lasting / usual).map(|v| v * lasting.powi(2));
         // The readings from the end of this sample on contain it.
         let part = (epoch.samples.1 - sample) as f64 / epoch.count();
         let held = epoch.held.get_or_insert_default();
@@ -33,8 +36,7 @@ pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording) {
 
 /// The mean squared differences between the rates around a sample and its own, \[rad²/s²\] and \[m²/s⁴\], from as many samples
 /// on each side as are `missing`. The body rotates between x and y, which have a common value.
-fn scatter(recording: &Recording, sample: usize, missing: f64) -> [Vector3<f64>; 2] {
-    let samples = &recording.increments;
+fn scatter(samples: &[Increments], sample: usize, missing: f64) -> [Vector3<f64>; 2] {
     let reach = FEWEST_AROUND.max(whole(missing));
     let around = &samples[sample.saturating_sub(reach)..samples.len().min(sample + reach + 1)];
     let own = samples[sample].rates();

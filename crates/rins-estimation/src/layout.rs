@@ -8,7 +8,7 @@ use crate::run::Run;
 
 /// The largest number of parameters of a model: the time increases with their square and cube, and this number takes about
 /// ten seconds.
-const MOST_PARAMETERS: usize = 256;
+pub(crate) const MOST_PARAMETERS: usize = 256;
 
 /// The joint parameter vector of several runs of one IMU. Parameters of the sensors are shared; turn-on biases are shared
 /// by runs without a power cycle in between; all other parameters belong to single runs.

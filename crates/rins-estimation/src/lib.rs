@@ -54,6 +54,7 @@ mod fit_error;
 mod likely;
 mod named;
 mod noise_prior;
+mod online;
 mod prior_consistency;
 mod unobservable;
 
@@ -74,6 +75,9 @@ pub use layout::Layout;
 pub use linear::{Linear, linearise, linearise_coarsely};
 pub use named::InRun;
 pub use noise_parameters::{Noise, NoiseKnowledge, NoiseParameters, TriadStrengths};
+pub use online::{
+    Bits, OnlineCheckpoint, OnlineError, OnlineFilter, OnlineSample, OnlineSetup, OnlineUpdate,
+};
 pub use posterior::{Evidence, Posterior, correlation};
 pub use prediction::{EpochPrediction, ParameterPosterior};
 pub use prior_consistency::{Departure, Quantity};

@@ -118,9 +118,9 @@ pub(crate) fn linearised(
     let duration = recording.times[recording.len() - 1] - recording.times[0];
     let is_static = matches!(run.rig.reference, Reference::Rest);
     let longest = if is_static { f64::INFINITY } else { EPOCH.1.max(duration / MOST_EPOCHS) };
-    let length = (duration / 1000.0).clamp(EPOCH.0, longest);
     let interval = duration / (recording.len() - 1) as f64;
-    let block = whole(length / interval);
+    let block =
+        run.epoch.unwrap_or_else(|| whole((duration / 1000.0).clamp(EPOCH.0, longest) / interval));
     let track = path::track(run, surroundings, model, block);
     let readings = path::readings(run);
     let spans = spans(run, block);
@@ -155,7 +155,7 @@ pub(crate) fn linearised(
         },
     );
     let mut epochs = made.collect::<Vec<Vec<Epoch>>>().into_iter().flatten().collect::<Vec<_>>();
-    hold(&mut epochs, recording);
+    hold(&mut epochs, recording, recording.mean_interval());
     if let Some(steps) = &run.angle_steps {
         steps.tell(&mut epochs, &track);
     }
@@ -252,7 +252,7 @@ impl Linear {
 
     /// Whether the angle about the axis is measured.
     pub(crate) fn shows_angle(&self) -> bool {
-        self.reference != Reference::Gravity
+        self.reference.shows_angle()
     }
 
     /// The number of measurements in an epoch.

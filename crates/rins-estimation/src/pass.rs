@@ -17,10 +17,11 @@ type Square = SMatrix<f64, SHOWN, SHOWN>;
 /// The covariance of the filter, and the recursions of the columns.
 ///
 /// Everything is stored in rows of whole SIMD vectors, one for each state: the covariances of the states, and the columns.
+#[derive(Clone, Debug)]
 pub(crate) struct Pass {
     step: Step,
-    covariance: DMatrix<f64>,
-    columns: DMatrix<f64>,
+    pub(crate) covariance: DMatrix<f64>,
+    pub(crate) columns: DMatrix<f64>,
     /// The covariances of the states with the linear functions of the states in an epoch, in rows.
     of_states: Vec<f64>,
     /// `C L⁻ᵀ`, where `C` is the covariance of the next states with the measurement, in rows.
@@ -32,7 +33,7 @@ pub(crate) struct Pass {
 
 impl Pass {
     /// The filter at the start of a run.
-    pub(crate) fn new(space: &Space<'_>, columns: usize) -> Self {
+    pub(crate) fn new(space: &Space, columns: usize) -> Self {
         let (states, columns) = (space.states(), columns.next_multiple_of(WIDEST));
         let length = states.next_multiple_of(WIDEST);
         Self {
@@ -60,7 +61,7 @@ impl Pass {
     /// covariance.
     pub(crate) fn step(
         &mut self,
-        space: &Space<'_>,
+        space: &Space,
         epoch: &Epoch,
         gains: &Gains,
         anew: bool,
@@ -69,7 +70,7 @@ impl Pass {
         Arch::new().dispatch(Onward { pass: self, gains })
     }
 
-    fn begin(&mut self, space: &Space<'_>, epoch: &Epoch, gains: &Gains, anew: bool) {
+    fn begin(&mut self, space: &Space, epoch: &Epoch, gains: &Gains, anew: bool) {
         space.set(epoch, &mut self.step);
         if anew {
             space.forget_navigation(&mut self.covariance);
@@ -78,7 +79,7 @@ impl Pass {
     }
 
     /// Propagates the colored noise over an excluded epoch; navigation starts again afterwards.
-    pub(crate) fn pass_over(&mut self, space: &Space<'_>, epoch: &Epoch) {
+    pub(crate) fn pass_over(&mut self, space: &Space, epoch: &Epoch) {
         space.set(epoch, &mut self.step);
         let Step { decay, colour_noise, .. } = &self.step;
         for state in NAVIGATION..self.columns.ncols() {

@@ -75,11 +75,15 @@ impl AngleSteps {
     /// run contributes at most [`WORTH`] to the sum of squares.
     pub(crate) fn tell(&self, epochs: &mut [Epoch], track: &Track) {
         let angles = track.angles();
-        let times = epochs.len() as f64 / WORTH;
+        let count = epochs.len() as f64;
         for epoch in epochs {
-            let ends = angles[epoch.samples.0 + 1..=epoch.samples.1].iter();
-            epoch.rounding = times * self.variance_of_mean(ends.copied());
+            epoch.rounding = self.rounding(count, &angles[epoch.samples.0 + 1..=epoch.samples.1]);
         }
+    }
+
+    /// The variance of the mean of readings at these angles in a run of this number of epochs \[rad²\].
+    pub(crate) fn rounding(&self, epochs: f64, angles: &[f64]) -> f64 {
+        epochs / WORTH * self.variance_of_mean(angles.iter().copied())
     }
 
     /// The variance of the mean of readings at these angles, with an unknown origin of the quantization grid \[rad²\].

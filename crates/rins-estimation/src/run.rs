@@ -48,6 +48,13 @@ pub struct Rig {
     pub velocity: f64,
 }
 
+impl Reference {
+    /// Whether the angle about the axis is measured.
+    pub(crate) fn shows_angle(self) -> bool {
+        self != Self::Gravity
+    }
+}
+
 /// A recording with its rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -65,6 +72,8 @@ pub struct Run {
     pub axes: SignedAxes,
     /// The quantization of the encoder, if it is the reference and its LSB is large compared with its noise.
     pub angle_steps: Option<AngleSteps>,
+    /// The number of samples in an epoch, if it does not follow from the duration of the run.
+    pub epoch: Option<usize>,
 }
 
 /// The smallest number of epochs in a run: with fewer, six parameters and the noise are not distinguishable.
@@ -162,7 +171,22 @@ impl Run {
             in_sequence: None,
             axes: SignedAxes::IDENTITY,
             angle_steps,
+            epoch: None,
         })
+    }
+
+    /// A part of a run around an epoch, without any check.
+    pub(crate) fn of_window(rig: Rig, recording: Arc<Recording>) -> Self {
+        Self {
+            rig,
+            recording,
+            left_out: Vec::new(),
+            turn_on: None,
+            in_sequence: None,
+            axes: SignedAxes::IDENTITY,
+            angle_steps: None,
+            epoch: None,
+        }
     }
 
     /// The same run with these samples excluded from the estimate: disjoint spans in order.
@@ -172,6 +196,14 @@ impl Run {
     #[must_use]
     pub fn leaving_out(mut self, spans: Vec<Range<usize>>) -> Self {
         self.left_out = spans;
+        self
+    }
+
+    /// The same run in epochs of this number of samples: successive samples that are processed as one update. By default
+    /// the duration of an epoch follows from that of the run.
+    #[must_use]
+    pub fn in_epochs_of(mut self, samples: usize) -> Self {
+        self.epoch = Some(samples.max(1));
         self
     }
 

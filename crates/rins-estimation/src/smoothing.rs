@@ -135,7 +135,7 @@ impl Differences<'_> {
     }
 
     /// The minimum of `Σ (d - s)² + τ² Σ (Δs)²`.
-    fn smoothed_over(&self, constant: f64) -> Vec<f64> {
+    pub(crate) fn smoothed_over(&self, constant: f64) -> Vec<f64> {
         let link = |sample: usize| {
             if self.linked.get(sample).is_some_and(|linked| *linked) {
                 constant * constant

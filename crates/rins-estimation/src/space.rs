@@ -3,7 +3,7 @@
 //! The states are attitude and velocity, then the random-walk angles of a servo or a base, then the colored-noise processes
 //! with three states each.
 
-use nalgebra::{DMatrix, Matrix3, SMatrix};
+use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 use rins_frames::cross_matrix;
 
 use crate::colour::{Colours, Passage};
@@ -30,8 +30,9 @@ enum Of {
 }
 
 /// The states and their noise for a linear run.
-pub(crate) struct Space<'a> {
-    linear: &'a Linear,
+#[derive(Clone, Debug)]
+pub(crate) struct Space {
+    reference: Reference,
     white: [f64; 2],
     /// Random-walk angles of the reference: axis, and density \[rad/√s\].
     astray: Vec<(usize, f64)>,
@@ -39,7 +40,9 @@ pub(crate) struct Space<'a> {
     /// The transition of each process over an epoch of the usual duration, which nearly all epochs have; the duration in
     /// \[s\].
     usual: (f64, Vec<Passage>),
+    /// The cross-product matrices of the specific force and of the Earth's rate in the axis frame.
     force_cross: Matrix3<f64>,
+    turning: Matrix3<f64>,
     wobble: f64,
     encoder: f64,
     /// 1σ of the times of the encoder readings \[s\].
@@ -47,13 +50,34 @@ pub(crate) struct Space<'a> {
     velocity: f64,
 }
 
-impl<'a> Space<'a> {
-    pub(crate) fn new(linear: &'a Linear, noise: &Noise) -> Self {
+/// The durations that determine which processes of colored noise are states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Durations {
+    /// The mean duration of an epoch \[s\].
+    pub(crate) mean: f64,
+    /// The duration of nearly all epochs \[s\].
+    pub(crate) usual: f64,
+    /// The duration of the run \[s\].
+    pub(crate) run: f64,
+}
+
+impl Space {
+    pub(crate) fn new(linear: &Linear, noise: &Noise) -> Self {
+        let mean = linear.mean_epoch();
+        let usual = linear.epochs.first().map_or(mean, |epoch| epoch.duration);
+        let durations = Durations { mean, usual, run: linear.duration() };
+        let mut space = Self::of(linear.reference, durations, noise);
+        space.set_around(&linear.force, &linear.earth_rate);
+        space
+    }
+
+    /// The same for epochs of these durations, in surroundings that are yet to be set.
+    pub(crate) fn of(reference: Reference, durations: Durations, noise: &Noise) -> Self {
         let strengths = &noise.imu;
-        let (epoch, duration) = (linear.mean_epoch(), linear.duration());
-        let gyro = Colours::of(&strengths.gyro, epoch, duration);
-        let accel = Colours::of(&strengths.accel, epoch, duration);
-        let mut astray: Vec<(usize, f64)> = match linear.reference {
+        let Durations { mean, usual, run } = durations;
+        let gyro = Colours::of(&strengths.gyro, mean, run);
+        let accel = Colours::of(&strengths.accel, mean, run);
+        let mut astray: Vec<(usize, f64)> = match reference {
             Reference::Command { noise: stated } => vec![(2, stated.hypot(noise.sway[2]))],
             Reference::Encoder { .. } => Vec::new(),
             Reference::Gravity => noise.sway.into_iter().enumerate().take(2).collect(),
@@ -66,20 +90,31 @@ impl<'a> Space<'a> {
         ];
         let of = |of, colours: Colours| colours.processes.into_iter().map(move |p| (of, p));
         let colours: Vec<_> = of(Of::Gyro, gyro).chain(of(Of::Accel, accel)).collect();
-        let usual = linear.epochs.first().map_or(epoch, |epoch| epoch.duration);
         let passages = colours.iter().map(|(_, process)| process.passage(usual)).collect();
         Self {
-            linear,
+            reference,
             white,
             astray,
             colours,
             usual: (usual, passages),
-            force_cross: cross_matrix(&linear.force),
+            force_cross: Matrix3::zeros(),
+            turning: Matrix3::zeros(),
             wobble: noise.wobble,
             encoder: noise.encoder,
             jitter: strengths.jitter,
             velocity: noise.velocity,
         }
+    }
+
+    /// Sets the specific force \[m/s²\] and the Earth's rate \[rad/s\] in the axis frame.
+    pub(crate) fn set_around(&mut self, force: &Vector3<f64>, earth_rate: &Vector3<f64>) {
+        self.force_cross = cross_matrix(force);
+        self.turning = cross_matrix(earth_rate);
+    }
+
+    /// Whether the angle about the axis is measured.
+    pub(crate) fn shows_angle(&self) -> bool {
+        self.reference.shows_angle()
     }
 
     /// The number of states.
@@ -108,7 +143,7 @@ impl<'a> Space<'a> {
     pub(crate) fn forget_navigation(&self, covariance: &mut DMatrix<f64>) {
         covariance.rows_mut(0, NAVIGATION).fill(0.0);
         covariance.columns_mut(0, NAVIGATION).fill(0.0);
-        let angle = if self.linear.shows_angle() { START_ATTITUDE } else { START_ANGLE_BY_GRAVITY };
+        let angle = if self.shows_angle() { START_ATTITUDE } else { START_ANGLE_BY_GRAVITY };
         let velocity = self.velocity;
         for (place, sigma) in
             [START_ATTITUDE, START_ATTITUDE, angle, velocity, velocity, velocity].iter().enumerate()
@@ -139,7 +174,7 @@ impl<'a> Space<'a> {
             astray: self.astray.iter().map(|&(axis, _)| axis).collect(),
             gyros: of(Of::Gyro),
             accels: of(Of::Accel),
-            shows_angle: self.linear.shows_angle(),
+            shows_angle: self.shows_angle(),
             decay: vec![1.0; length],
             colour_noise: vec![0.0; length],
             shown: SMatrix::zeros(),
@@ -159,7 +194,7 @@ impl<'a> Space<'a> {
     pub(crate) fn set(&self, epoch: &Epoch, step: &mut Step) {
         let t = epoch.duration;
         let identity = Matrix3::identity();
-        let turning = cross_matrix(&self.linear.earth_rate);
+        let turning = self.turning;
         // The mean over the readings, each of which is at the end of a sample, and the integral.
         let middle = 0.5 * t * (1.0 + epoch.count().recip());
         let integral = identity * t - turning * (0.5 * t * t);
@@ -221,10 +256,10 @@ impl<'a> Space<'a> {
         set(&mut step.cross, 3, 0, &-mean_across.transpose());
         set(&mut step.cross, 3, 3, &velocity);
         let wobble = self.wobble * self.wobble / m;
-        let angle = match self.linear.reference {
+        let angle = match self.reference {
             Reference::Encoder { .. } => {
                 // A time error of a reading is an angle error in proportion to the table rate.
-                let further = self.jitter * self.linear.turned(epoch) / epoch.duration;
+                let further = self.jitter * epoch.rotation / epoch.duration;
                 (self.encoder.powi(2) + further.powi(2)) / m + epoch.rounding
             }
             Reference::Command { .. } => EXACT * EXACT,

@@ -49,6 +49,33 @@ pub enum IoError {
 }
 
 impl IoError {
+    /// The file with the error.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Key(error) => &error.path,
+            Self::Log(error) => &error.path,
+            Self::File { path, .. } | Self::Write { path, .. } | Self::Output { path, .. } => path,
+        }
+    }
+
+    /// The line of the error, from 1, if it has one.
+    pub fn line(&self) -> Option<u64> {
+        match self {
+            Self::Key(error) => error.line.map(|line| line as u64),
+            Self::Log(error) => error.line,
+            Self::File { .. } | Self::Write { .. } | Self::Output { .. } => None,
+        }
+    }
+
+    /// The section and key of a file of keys, as in `[imu.gyro] noise`, or the column of a log, if the error is of one.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Key(error) => Some(error.key.as_str()).filter(|key| !key.is_empty()),
+            Self::Log(error) => column_of(&error.problem),
+            Self::File { .. } | Self::Write { .. } | Self::Output { .. } => None,
+        }
+    }
+
     /// Wraps the operating system's error on `path`.
     pub(crate) fn file(
         action: &'static str,
@@ -56,6 +83,26 @@ impl IoError {
     ) -> impl FnOnce(std::io::Error) -> Self + use<> {
         let path = path.to_path_buf();
         move |source| Self::File { action, path, source }
+    }
+}
+
+/// The column of a log with a problem, if it is of one column.
+fn column_of(problem: &LogProblem) -> Option<&str> {
+    match problem {
+        LogProblem::NoColumn { column, .. }
+        | LogProblem::TwoColumns { column }
+        | LogProblem::EmptyField { column }
+        | LogProblem::NotANumber { column, .. }
+        | LogProblem::NotADate { column, .. }
+        | LogProblem::NotWhole { column, .. }
+        | LogProblem::BeyondPart { column, .. }
+        | LogProblem::NotFinite { column, .. }
+        | LogProblem::BeyondReason { column, .. }
+        | LogProblem::NoSuchRows { column, .. }
+        | LogProblem::PartOfASample { column, .. }
+        | LogProblem::WrongColumn { column, .. } => Some(column),
+        LogProblem::ManyDamaged { first, .. } => column_of(first),
+        _ => None,
     }
 }
 

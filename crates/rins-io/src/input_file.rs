@@ -49,12 +49,12 @@ impl InputFile {
             }
             digest.update(&portion[..length]);
         }
-        let sha256 = digest.finalize().iter().fold(String::new(), |mut text, byte| {
-            // Writing to a string cannot fail.
-            let _ = write!(text, "{byte:02x}");
-            text
-        });
-        Ok(Self { path: path.into(), sha256 })
+        Ok(Self { path: path.into(), sha256: hexadecimal(digest) })
+    }
+
+    /// The file of this name with this content, which is not read.
+    pub fn of_content(path: &Path, content: &[u8]) -> Self {
+        Self { path: path.into(), sha256: hexadecimal(Sha256::new_with_prefix(content)) }
     }
 
     /// The files at these paths, each once.
@@ -67,6 +67,15 @@ impl InputFile {
         let each = paths.iter().copied().enumerate().filter(is_first);
         each.map(|(_, path)| Self::of(path)).collect()
     }
+}
+
+/// A digest in hexadecimal digits.
+pub(crate) fn hexadecimal(digest: Sha256) -> String {
+    digest.finalize().iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }
 
 impl Rig {

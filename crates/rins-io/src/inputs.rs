@@ -32,11 +32,11 @@ impl Drop for ProtectedInputs {
     }
 }
 
-/// Opens an input file.
+/// Opens an input file, which is protected from then on ([`protect_inputs`]).
 ///
 /// # Errors
 /// System errors, and anything but a regular file: reading from a pipe without a writer would block forever.
-pub(crate) fn open(path: &Path) -> io::Result<File> {
+pub fn open(path: &Path) -> io::Result<File> {
     if let Some(kind) = special(fs::metadata(path)?.file_type()) {
         let problem = format!("is {kind}, expected a regular file");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, problem));

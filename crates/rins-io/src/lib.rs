@@ -49,11 +49,11 @@ pub use content::TomlContent;
 pub use draft::{Draft, Guess, ToFillIn, draft_rig};
 pub use error::{IoError, KeyError, KeyProblem, LogError, OutputProblem, WriteProblem};
 pub use input_file::InputFile;
-pub use inputs::{ProtectedInputs, protect_inputs};
+pub use inputs::{ProtectedInputs, open as open_input, protect_inputs};
 pub use log::{
-    Delimiter, Gap, LeftOut, Loaded, LogHead, LogPolicy, LogProblem, LogSummary, Omission,
-    Overflow, PsinsHeader, Redivided, Rounded, TableClock, date_seconds, date_text, peek, read,
-    read_log,
+    ColumnNumbers, Delimiter, Gap, LeftOut, LiveLog, Loaded, LogColumns, LogHead, LogPolicy,
+    LogProblem, LogSummary, Omission, Overflow, PsinsHeader, Redivided, Rounded, TableClock,
+    date_seconds, date_text, peek, read, read_columns, read_log,
 };
 pub use mission::{MissionFile, RotationScheme};
 pub use model::ModelFile;

@@ -8,8 +8,10 @@
 //! | what is its attitude? | [`align`](align()) | [`AlignResult`](align::AlignResult) |
 //! | which errors does free navigation reach? | [`navigate`](navigate()) | [`NavigateResult`](navigate::NavigateResult) |
 //! | which errors does the IMU have? | [`calibrate`](calibrate()) | [`CalibrateResult`](calibrate::CalibrateResult) |
+//! | which errors, while the log is written? | [`live::LiveCalibration`] | [`LiveResult`](live::LiveResult) |
 //! | which effects are unmodeled? | [`diagnose`](diagnose()) | [`DiagnoseResult`](diagnose::DiagnoseResult) |
 //! | what is observable under a schedule? | [`observe`](observe()) | [`ObserveResult`](observe::ObserveResult) |
+//! | which schedule is optimal? | [`design`](design()) | [`DesignResult`](design::DesignResult) |
 //! | what changed between calibrations? | [`compare`](compare()) | [`CompareResult`](compare::CompareResult) |
 //! | how do parameters vary between runs? | [`history`](history()) | [`HistoryResult`](history::HistoryResult) |
 //! | what position error after days in service? | [`mission`](mission()) | [`MissionResult`](mission::MissionResult) |
@@ -40,9 +42,11 @@ pub mod check;
 pub mod compare;
 pub mod convert;
 pub mod demo;
+pub mod design;
 pub mod diagnose;
 pub mod history;
 pub mod init;
+pub mod live;
 pub mod mission;
 pub mod navigate;
 pub mod observe;
@@ -86,6 +90,7 @@ pub use check::check;
 pub use compare::compare;
 pub use consistency::ConsistencyResult;
 pub use convert::{ConvertOptions, convert};
+pub use design::{DesignGoal, DesignOptions, design};
 pub use diagnose::{DiagnoseOptions, diagnose};
 pub use error::{Error, Result};
 pub use free_navigation::{BeforeAfterResult, NavigationResult};

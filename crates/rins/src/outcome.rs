@@ -24,12 +24,27 @@ pub trait Outcome: Display {
     /// The machine-readable result.
     fn result(&self) -> Self::Result;
 
+    /// The result as one line of JSON without its line feed, which `--json` prints.
+    ///
+    /// # Errors
+    /// If a map of the result has a key that is not text.
+    fn json(&self) -> Result<String> {
+        Ok(serde_json::to_string(&self.result()).map_err(anyhow::Error::from)?)
+    }
+
     /// The basis of the result: its inputs, what was repaired in them, and what was assumed.
     fn basis(&self) -> BasisResult;
 
     /// The report page, if there is one; the folder of results has it with the basis.
     fn report(&self) -> Option<Report> {
         None
+    }
+
+    /// The report as one HTML page that works offline, if there is one.
+    fn page(&self) -> Option<String> {
+        let mut report = self.report()?;
+        report.sections.push(self.basis().section());
+        Some(render(&report))
     }
 
     /// Further files for the folder of results: their names and contents.
@@ -58,10 +73,7 @@ pub trait Outcome: Display {
     /// If the folder exists and must not be overwritten, or cannot be written.
     fn write(&self, folder: &Path, overwrite: Overwrite) -> Result<Option<PathBuf>> {
         let json = serde_json::to_string_pretty(&self.result()).map_err(anyhow::Error::from)?;
-        let page = self.report().map(|mut report| {
-            report.sections.push(self.basis().section());
-            render(&report)
-        });
+        let page = self.page();
         write_folder(folder, overwrite, |folder| {
             put(folder, "result.json", json.as_bytes())?;
             if let Some(page) = &page {

@@ -4,8 +4,8 @@ use schemars::{JsonSchema, schema_for};
 use serde_json::Value;
 
 use crate::{
-    align, allan, apply, calibrate, campaign, check, compare, convert, demo, diagnose, history,
-    init, mission, navigate, observe, simulate,
+    align, allan, apply, calibrate, campaign, check, compare, convert, demo, design, diagnose,
+    history, init, live, mission, navigate, observe, simulate,
 };
 
 /// The JSON schema of every command's result, by the name of the command; the schema of `merge` is that of `monte-carlo`.
@@ -15,18 +15,20 @@ use crate::{
 /// let (_, calibrate) = schemas.iter().find(|(command, _)| *command == "calibrate").unwrap();
 /// assert!(calibrate["properties"]["parameters"]["description"].is_string());
 /// ```
-pub fn schemas() -> [(&'static str, Value); 16] {
+pub fn schemas() -> [(&'static str, Value); 18] {
     [
         ("align", schema::<align::AlignResult>()),
         ("allan", schema::<allan::AllanResult>()),
         ("apply", schema::<apply::ApplyResult>()),
         ("calibrate", schema::<calibrate::CalibrateResult>()),
+        ("calibrate-live", schema::<live::LiveResult>()),
         ("check", schema::<check::CheckResult>()),
         ("compare", schema::<compare::CompareResult>()),
         ("history", schema::<history::HistoryResult>()),
         ("mission", schema::<mission::MissionResult>()),
         ("convert", schema::<convert::ConvertResult>()),
         ("demo", schema::<demo::DemoResult>()),
+        ("design", schema::<design::DesignResult>()),
         ("diagnose", schema::<diagnose::DiagnoseResult>()),
         ("init", schema::<init::InitResult>()),
         ("monte-carlo", schema::<campaign::CampaignResult>()),

@@ -10,7 +10,7 @@ use rins_testing::{Fault, assert_rows, is, says};
 
 use crate::support::rins_in;
 
-const COMMANDS: [&str; 18] = [
+const COMMANDS: [&str; 19] = [
     "",
     "demo",
     "init",
@@ -23,6 +23,7 @@ const COMMANDS: [&str; 18] = [
     "calibrate",
     "diagnose",
     "observe",
+    "design",
     "monte-carlo",
     "merge",
     "apply",

@@ -18,6 +18,7 @@ const LAYERS: &[&[&str]] = &[
     &["rins-io"],
     &["rins", "rins-reproduction", "rins-trials"],
     &["rins-cli"],
+    &["rins-python"],
 ];
 
 /// The crate for tests only: a dev-dependency of any other, and in no layer.

@@ -67,16 +67,16 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     }
 }
 
-fn table_rate(text: &str) -> Result<f64, String> {
+pub(super) fn table_rate(text: &str) -> Result<f64, String> {
     let rate = kinds::TABLE_RATE.parse(text).map_err(|error| error.to_string())?;
     if rate > 0.0 { Ok(rate) } else { Err("a fastest rate is more than zero".into()) }
 }
 
-fn table_acceleration(text: &str) -> Result<f64, String> {
+pub(super) fn table_acceleration(text: &str) -> Result<f64, String> {
     kinds::TABLE_ACCELERATION.parse(text).map_err(|error| error.to_string())
 }
 
-fn duration(text: &str) -> Result<f64, String> {
+pub(super) fn duration(text: &str) -> Result<f64, String> {
     kinds::DURATION.parse(text).map_err(|error| error.to_string())
 }
 

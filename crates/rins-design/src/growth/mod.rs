@@ -14,6 +14,7 @@
 //! the longitude. The vertical channel is held. The sensor errors are terms of the catalogue at the table angle `ζ`: `C_b^n δω_ib` is a
 //! Fourier series in `ζ`, and `ζ` is linear in time, so that the integral over a piece is a matrix exponential.
 
+mod alignment;
 mod input;
 mod piece;
 mod service;

@@ -8,7 +8,7 @@ use rins_terms::{Model, Surroundings};
 pub const GROWTH_STATES: usize = 7;
 
 /// The place of the position error north \[m\] among the states; that east is the next one.
-const NORTH: usize = 5;
+pub(super) const NORTH: usize = 5;
 
 pub(super) type Square = SMatrix<f64, GROWTH_STATES, GROWTH_STATES>;
 

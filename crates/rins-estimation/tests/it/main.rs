@@ -7,6 +7,7 @@ mod gravity;
 mod latency;
 mod left_out;
 mod mountings;
+mod online;
 mod prior_consistency;
 mod refusals;
 mod rests;

@@ -17,7 +17,7 @@ use super::redivide::redivide;
 use super::series::{between, smoothly_between, unwrap};
 use super::sparse_angle::SparseAngle;
 use super::summary::{Gap, LogPolicy, LogSummary, Redivided, TableClock};
-use super::table::{self, Wanted, WantedTime};
+use super::table::{self, LogColumns, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
     AngleColumn, Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, StatedRotation, Table,
@@ -28,13 +28,14 @@ use crate::shown::shown;
 /// The time, in temperature intervals, over which a temperature is held before its first and after its last reading.
 const HELD_TEMPERATURES: f64 = 2.0;
 
-/// Reads the recording that a rig's columns describe.
+/// Reads the recording that a rig's columns describe, from files or with the log in memory.
 pub(super) fn read(
     rig: &Rig,
     spec: &ColumnSpec,
+    memory: Option<LogColumns>,
     policy: LogPolicy,
 ) -> Result<(Recording, LogSummary), IoError> {
-    let mut files = Files::read(rig, spec)?;
+    let mut files = Files::read(rig, spec, memory)?;
     let main = files.main();
     let stamp = spec.time.as_ref().map_or(Stamp::End, |time| time.stamp);
     let nominal = rig.log.rate.map(|rate| 1.0 / rate);

@@ -10,7 +10,7 @@ use super::instant::Instants;
 use super::overflow::{Overflow, continued};
 use super::problem::LogProblem;
 use super::summary::{LeftOut, LogPolicy, Rounded};
-use super::table::{self, Columns, Wanted, WantedTime};
+use super::table::{self, Columns, LogColumns, Wanted, WantedTime};
 use crate::error::{IoError, LogError};
 use crate::rig::{
     ColumnSpec, OwnClock, Reading, Rig, RowFilter, Stamp, Table, TextForm, TimeUnit, TriadColumns,
@@ -172,7 +172,11 @@ impl OneFile {
 }
 
 impl Files {
-    pub(super) fn read(rig: &Rig, spec: &ColumnSpec) -> Result<Self, IoError> {
+    pub(super) fn read(
+        rig: &Rig,
+        spec: &ColumnSpec,
+        mut memory: Option<LogColumns>,
+    ) -> Result<Self, IoError> {
         let mut wanted: Vec<(&Path, Asked)> = vec![(&spec.gyro.path, Asked::default())];
         let mut want = |path, name: &String| {
             let known = wanted.iter().position(|(known, _)| *known == path);
@@ -210,7 +214,10 @@ impl Files {
                 spec.table_angle.as_ref().filter(|angle| angle.file.is_none() && path == log);
             let sparse = angle.map(|angle| angle.column.as_str());
             let wanted = Wanted { names: &asked.names(), time, rows, sparse, text: spec.text };
-            let mut columns = table::read(path, spec.table, wanted)?;
+            let mut columns = match memory.take_if(|memory| memory.path == path) {
+                Some(memory) => table::take(memory, wanted)?,
+                None => table::read(path, spec.table, wanted)?,
+            };
             let all_six = together && spec.gyro.path == spec.accel.path && rig.log.is_complete();
             if all_six && path == spec.gyro.path {
                 let names = spec.gyro.names().chain(spec.accel.names());

@@ -58,6 +58,11 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
+    /// The lines after the first `number` ones of a log.
+    pub(crate) fn after(reader: R, path: &Path, number: u64) -> Self {
+        Self { number, ..Self::new(reader, path) }
+    }
+
     /// The next line's number, from 1, and its text; `None` at the end.
     ///
     /// A last line without a line end is not returned: it may be truncated.

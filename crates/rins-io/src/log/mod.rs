@@ -11,6 +11,7 @@ mod fields;
 mod files;
 mod instant;
 mod lines;
+mod live;
 mod overflow;
 mod problem;
 mod psins;
@@ -31,6 +32,7 @@ pub(crate) use date_time::{day, nanoseconds, time_of_day};
 pub use fields::Delimiter;
 pub(crate) use fields::Fields;
 pub(crate) use lines::Lines;
+pub use live::LiveLog;
 pub use overflow::Overflow;
 pub(crate) use overflow::continued;
 pub use problem::LogProblem;
@@ -38,10 +40,10 @@ pub use psins::PsinsHeader;
 pub(crate) use psins::header as psins_header;
 pub use summary::{Gap, LeftOut, LogPolicy, LogSummary, Omission, Redivided, Rounded, TableClock};
 pub(crate) use table::{BinaryColumns, Head, MOST_COLUMNS, RawImu, all as all_columns, most_rows};
-pub use table::{LogHead, peek};
+pub use table::{LogColumns, LogHead, Numbers as ColumnNumbers, peek};
 
-use crate::error::{IoError, LogError};
-use crate::rig::{LogFormat, Rig, StatedRotation};
+use crate::error::{IoError, KeyError, KeyProblem, LogError};
+use crate::rig::{ColumnSpec, LogFormat, Rig, StatedRotation, Table};
 
 /// A run: its rig and its recording, in SI units and radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +60,24 @@ pub struct Loaded {
     pub rotations: Vec<StatedRotation>,
     /// The header of a PSINS log.
     pub psins_header: Option<PsinsHeader>,
+}
+
+impl Loaded {
+    /// Samples of a log that is read while it is written.
+    ///
+    /// # Errors
+    /// [`IoError::Key`] if the rig file states no site.
+    pub fn of_live(log: &LiveLog, recording: Recording) -> Result<Self, IoError> {
+        let interval = log.nominal_interval().unwrap_or_else(|| recording.mean_interval());
+        Ok(Self {
+            station: *log.rig().require_station()?,
+            rig: log.rig().clone(),
+            summary: LogSummary::even(recording.len(), interval),
+            recording,
+            rotations: Vec::new(),
+            psins_header: None,
+        })
+    }
 }
 
 /// Reads a rig file and its log.
@@ -79,13 +99,57 @@ pub fn read(rig: &Path) -> Result<Loaded, IoError> {
 /// [`IoError::Log`] if more than one row and more than one in a hundred cannot be read,
 /// if its times do not increase, have longer or more gaps than `policy` accepts or do not agree with the stated rate, if a gyro is
 /// stuck, or if a step of the table angle is about half a turn.
-pub fn read_log(mut rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
+pub fn read_log(rig: Rig, policy: LogPolicy) -> Result<Loaded, IoError> {
+    loaded(rig, None, policy)
+}
+
+/// Reads columns in memory as the log of `rig`, whose `[log]` states their names, units and axes.
+///
+/// They are checked as the columns of a file are. The name of `columns` replaces the path of the log.
+///
+/// # Errors
+/// As [`read_log`]; [`IoError::Key`] if the format of the rig's log has no named columns, or if the rig file has a row filter or
+/// accelerometers with a clock of their own, which only files have.
+pub fn read_columns(
+    mut rig: Rig,
+    columns: LogColumns,
+    policy: LogPolicy,
+) -> Result<Loaded, IoError> {
+    let (file, name) = (rig.path.clone(), columns.path.clone());
+    let refuse = |key: &str, reason: &str| {
+        let problem = KeyProblem::Conflict { reason: reason.into() };
+        Box::new(KeyError { path: file, line: None, key: key.into(), problem })
+    };
+    let format = match &mut rig.log.format {
+        LogFormat::Columns(columns) if columns.table != Table::NovAtel => columns,
+        _ => {
+            let reason =
+                "this format defines its own columns, and columns in memory are named in [log]";
+            return Err(refuse("[log] format", reason).into());
+        }
+    };
+    let ColumnSpec { gyro, accel, accel_clock, .. } = format.as_mut();
+    if accel_clock.is_some() {
+        let reason = "accelerometers with a clock of their own are read from a file only";
+        return Err(refuse("[log] accel.time", reason).into());
+    }
+    if gyro.rows.is_some() || accel.rows.is_some() {
+        return Err(refuse("[log] where", "columns in memory have one sample in each row").into());
+    }
+    gyro.path.clone_from(&name);
+    accel.path.clone_from(&name);
+    rig.log.path = name;
+    loaded(rig, Some(columns), policy)
+}
+
+/// The recording of a log, of a file or in memory.
+fn loaded(mut rig: Rig, memory: Option<LogColumns>, policy: LogPolicy) -> Result<Loaded, IoError> {
     if !policy.incomplete && !rig.log.is_complete() {
         return Err(rig.lacks_sensors());
     }
     let (mut recording, mut summary, psins_header) = match &rig.log.format {
         LogFormat::Columns(columns) => {
-            let (recording, summary) = assemble::read(&rig, columns, policy)?;
+            let (recording, summary) = assemble::read(&rig, columns, memory, policy)?;
             (recording, summary, None)
         }
         LogFormat::Psins => {

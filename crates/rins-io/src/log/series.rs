@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 /// The largest step of an angle whose direction is accepted, in turns.
-const LARGEST_STEP: f64 = 0.4;
+pub(super) const LARGEST_STEP: f64 = 0.4;
 
 /// Removes the jumps of whole turns from `angles` \[rad\].
 ///

@@ -15,6 +15,7 @@ mod draft;
 mod faults;
 mod formats;
 mod grid;
+mod live;
 mod log_refusals;
 mod logs;
 mod lost_rows;

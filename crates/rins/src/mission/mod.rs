@@ -14,6 +14,7 @@ use rins_io::{Calibration, InputFile, MissionFile, RotationScheme};
 use rins_terms::{Model, Surroundings};
 
 use self::radial::probable_radius;
+pub(crate) use self::result::NAUTICAL_MILE;
 pub use self::result::{BudgetResult, MissionResult, SchemeResult};
 use crate::basis::BasisResult;
 use crate::error::Result;

@@ -7,7 +7,7 @@ use super::{Mission, Radial, SchemeInService};
 use crate::basis::BasisResult;
 
 /// Meters of a nautical mile.
-pub(super) const NAUTICAL_MILE: f64 = 1852.0;
+pub(crate) const NAUTICAL_MILE: f64 = 1852.0;
 
 /// The result of `rins mission`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

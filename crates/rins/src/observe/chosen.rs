@@ -19,13 +19,13 @@ pub struct Want {
 }
 
 /// The model file that `name` is, if it is one.
-pub(super) fn model_file(name: &str) -> Option<&Path> {
+pub(crate) fn model_file(name: &str) -> Option<&Path> {
     let file = Path::new(name);
     file.extension().is_some_and(|ending| ending == "toml").then_some(file)
 }
 
 /// The model of a preset, or of a file.
-pub(super) fn model(name: &str) -> anyhow::Result<Model> {
+pub(crate) fn model(name: &str) -> anyhow::Result<Model> {
     match name {
         "full" => Ok(Model::full()),
         "paper12" => Ok(Model::paper12()),
@@ -79,7 +79,7 @@ const USUAL: ImuSpec = {
 };
 
 /// The effect that a term's or a parameter's id asks for.
-pub(super) fn effect(asked: &str) -> anyhow::Result<Effect> {
+pub(crate) fn effect(asked: &str) -> anyhow::Result<Effect> {
     let whole = catalogue::term(asked);
     let parameter = || {
         let (term, name) = asked.rsplit_once('.')?;
@@ -111,7 +111,7 @@ pub(super) fn effect(asked: &str) -> anyhow::Result<Effect> {
 }
 
 /// The same model, in which an effect is sought.
-pub(super) fn with(mut model: Model, effect: &Effect) -> Model {
+pub(crate) fn with(mut model: Model, effect: &Effect) -> Model {
     let place = model.terms.iter().position(|chosen| chosen.term.is(effect.term));
     let chosen = match place {
         Some(place) => &mut model.terms[place],

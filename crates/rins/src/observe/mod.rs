@@ -1,16 +1,16 @@
 //! What a rotation schedule shows, before it is run.
 
-mod chosen;
+pub(crate) mod chosen;
 mod found;
 mod outcome;
 mod page;
 mod result;
-mod schedule;
+pub(crate) mod schedule;
 mod words;
 
 use std::path::PathBuf;
 
-use rins_design::{Limits, Pair, Planned, TYPICAL_ACCELERATION, TYPICAL_RATE, information};
+use rins_design::{Limits, Pair, information};
 use rins_io::InputFile;
 
 pub use self::chosen::Want;
@@ -36,9 +36,9 @@ pub struct ObserveOptions {
     pub separate: Option<[String; 2]>,
     /// A parameter and the 1σ that is wanted of it.
     pub want: Option<Want>,
-    /// The table's fastest rate \[rad/s\]; by default the scenario's, or [`TYPICAL_RATE`] if it does not turn.
+    /// The table's fastest rate \[rad/s\]; by default the scenario's, or [`TYPICAL_RATE`](rins_design::TYPICAL_RATE) if it does not turn.
     pub max_rate: Option<f64>,
-    /// The table's acceleration \[rad/s²\]; by default the scenario's, or [`TYPICAL_ACCELERATION`].
+    /// The table's acceleration \[rad/s²\]; by default the scenario's, or [`TYPICAL_ACCELERATION`](rins_design::TYPICAL_ACCELERATION).
     pub max_acceleration: Option<f64>,
     /// The longest that the runs of a schedule may take together \[s\]; by default an hour.
     pub max_duration: f64,
@@ -156,15 +156,6 @@ fn schedules(scenarios: &[PathBuf], compare: bool) -> anyhow::Result<Vec<Schedul
 
 /// What the options say of the table, or else the scenario, or else what is typical.
 fn limits(options: &ObserveOptions, schedule: &Schedule) -> Limits {
-    let fastest = schedule.runs.iter().map(Planned::fastest).fold(0.0, f64::max);
-    let typical = if fastest > 0.0 { fastest } else { TYPICAL_RATE };
-    Limits {
-        rate: options.max_rate.unwrap_or(typical),
-        acceleration: options
-            .max_acceleration
-            .or(schedule.runs[0].acceleration)
-            .unwrap_or(TYPICAL_ACCELERATION),
-        duration: options.max_duration,
-        directions: options.directions,
-    }
+    let (rate, acceleration) = schedule.table(options.max_rate, options.max_acceleration);
+    Limits { rate, acceleration, duration: options.max_duration, directions: options.directions }
 }

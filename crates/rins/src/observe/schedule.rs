@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use rins_design::{Limits, Planned, Proposal};
+use rins_design::{Limits, Planned, Proposal, TYPICAL_ACCELERATION, TYPICAL_RATE};
 use rins_frames::units::DEG;
+use rins_frames::{Dcm, Nav};
 use rins_io::{ScenarioFile, shown};
 use rins_motion::{Profile, Segment};
 use rins_simulation::{Scenario, simulate};
@@ -14,17 +15,28 @@ use crate::log::table_accuracy;
 
 /// One or several scenarios that are looked at together: runs of one IMU.
 #[derive(Debug)]
-pub(super) struct Schedule {
+pub(crate) struct Schedule {
     /// What it is called: the file names.
-    pub(super) name: String,
-    pub(super) paths: Vec<PathBuf>,
-    pub(super) runs: Vec<Planned>,
+    pub(crate) name: String,
+    pub(crate) paths: Vec<PathBuf>,
+    pub(crate) runs: Vec<Planned>,
 }
 
 impl Schedule {
     /// Of several runs of one IMU.
-    pub(super) fn of(paths: &[PathBuf]) -> anyhow::Result<Self> {
-        let runs = paths.iter().map(|path| planned(path)).collect::<anyhow::Result<Vec<_>>>()?;
+    pub(crate) fn of(paths: &[PathBuf]) -> anyhow::Result<Self> {
+        let planned = paths.iter().map(|path| planned(path)).collect::<anyhow::Result<Vec<_>>>()?;
+        let of_series = |series: &Option<String>| {
+            let first = planned.iter().position(|(_, other)| other.is_some() && other == series);
+            first.filter(|_| series.is_some())
+        };
+        let runs: Vec<Planned> = planned
+            .iter()
+            .map(|(run, series)| match of_series(series) {
+                Some(first) => run.clone().since(first),
+                None => run.clone(),
+            })
+            .collect();
         for run in &runs[1..] {
             anyhow::ensure!(
                 run.imu == runs[0].imu,
@@ -40,13 +52,21 @@ impl Schedule {
         Ok(Self { name, paths: paths.to_vec(), runs })
     }
 
-    pub(super) fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         self.runs.iter().map(Planned::duration).sum()
+    }
+
+    /// The largest rate \[rad/s\] and the acceleration \[rad/s²\] of its table: as stated, as in the scenario, or typical ones.
+    pub(crate) fn table(&self, rate: Option<f64>, acceleration: Option<f64>) -> (f64, f64) {
+        let fastest = self.runs.iter().map(Planned::fastest).fold(0.0, f64::max);
+        let usual = if fastest > 0.0 { fastest } else { TYPICAL_RATE };
+        let acceleration = acceleration.or(self.runs[0].acceleration);
+        (rate.unwrap_or(usual), acceleration.unwrap_or(TYPICAL_ACCELERATION))
     }
 }
 
-/// The plan of a scenario file: what the data sheets say stands in the rig file of a run that is made from it.
-fn planned(path: &Path) -> anyhow::Result<Planned> {
+/// The plan of a scenario file, and the series that it belongs to: what the data sheets say stands in the rig file of a run that is made from it.
+fn planned(path: &Path) -> anyhow::Result<(Planned, Option<String>)> {
     let file = ScenarioFile::read(path)?;
     let profile = short(&file.scenario)?;
     let scenario = Scenario { profile, ..file.scenario.clone() }.without_errors();
@@ -55,7 +75,9 @@ fn planned(path: &Path) -> anyhow::Result<Planned> {
     let imu = *rig.require_imu().context("what a schedule shows depends on the IMU's noise")?;
     let (noise, wobble) = table_accuracy(&rig);
     let acceleration = rig.table.as_ref().and_then(|table| table.acceleration);
-    Ok(Planned::new(shown(path), file.scenario.clone(), imu, (noise, wobble, acceleration)))
+    let series = rig.run.series.clone();
+    let accuracy = (noise, wobble, acceleration);
+    Ok((Planned::new(shown(path), file.scenario.clone(), imu, accuracy), series))
 }
 
 /// The first ten samples of a scenario, enough to see what its log would hold.
@@ -70,18 +92,42 @@ pub(super) fn scenarios(
     path: &Path,
     limits: &Limits,
 ) -> anyhow::Result<Vec<String>> {
-    let text = std::fs::read_to_string(path).with_context(|| shown(path))?;
-    let given: Table = text.parse().with_context(|| shown(path))?;
     let candidate = &proposal.candidate;
+    let base = ScenarioBase::read(path)?;
     let runs = candidate.runs.iter().enumerate();
     runs.map(|(place, run)| {
-        let mut scenario = given.clone();
+        let attitude = (place > 0).then(|| run.nav_from_table());
+        let title = format!("{}: run {} of {}.", candidate.words, place + 1, candidate.runs.len());
+        base.with_motion(&title, (&candidate.segments, limits.acceleration), attitude, None)
+    })
+    .collect()
+}
+
+/// A scenario file from which others are made.
+pub(crate) struct ScenarioBase(Table);
+
+impl ScenarioBase {
+    pub(crate) fn read(path: &Path) -> anyhow::Result<Self> {
+        let text = std::fs::read_to_string(path).with_context(|| shown(path))?;
+        Ok(Self(text.parse().with_context(|| shown(path))?))
+    }
+
+    /// The same scenario with these segments and this acceleration \[rad/s²\], with another attitude of the axis, and as part of a series
+    /// of runs in one power-on; with a title.
+    pub(crate) fn with_motion(
+        &self,
+        title: &str,
+        (segments, acceleration): (&[Segment], f64),
+        attitude: Option<Dcm<Nav, rins_frames::Table>>,
+        series: Option<&str>,
+    ) -> anyhow::Result<String> {
+        let mut scenario = self.0.clone();
         let table = section(&mut scenario, "table");
-        table.insert("profile".into(), Value::Array(profile(&candidate.segments)));
-        let acceleration = format!("{} deg/s^2", limits.acceleration / DEG);
+        table.insert("profile".into(), Value::Array(profile(segments)));
+        let acceleration = format!("{} deg/s^2", rounded(acceleration / DEG));
         table.insert("acceleration".into(), Value::String(acceleration));
-        if place > 0 {
-            let angles = run.nav_from_table().euler_angles();
+        if let Some(attitude) = attitude {
+            let angles = attitude.euler_angles();
             let named = [("roll", angles.roll), ("pitch", angles.pitch), ("yaw", angles.yaw)];
             section(&mut scenario, "truth").remove("attitude");
             let attitude = section(&mut scenario, "attitude");
@@ -89,11 +135,12 @@ pub(super) fn scenarios(
                 attitude.insert(name.into(), Value::String(format!("{:.6} deg", angle / DEG)));
             }
         }
+        if let Some(series) = series {
+            section(&mut scenario, "run").insert("series".into(), Value::String(series.into()));
+        }
         let written = toml::to_string(&scenario)?;
-        let (words, of) = (&candidate.words, candidate.runs.len());
-        Ok(format!("# {words}: run {} of {of}.\n{written}", place + 1))
-    })
-    .collect()
+        Ok(format!("# {title}\n{written}"))
+    }
 }
 
 fn profile(segments: &[Segment]) -> Vec<Value> {

@@ -156,6 +156,7 @@ fn preamble<R: BufRead>(
 }
 
 /// The first lines of a text log.
+#[derive(Debug)]
 pub(crate) struct Head {
     pub(crate) delimiter: Delimiter,
     pub(crate) decimal: Decimal,

@@ -4,6 +4,7 @@ mod columns;
 mod doubles;
 mod head;
 mod mat;
+mod memory;
 mod novatel;
 mod parquet;
 mod rows;
@@ -16,10 +17,13 @@ use std::path::Path;
 pub(crate) use self::columns::MOST_COLUMNS;
 pub(super) use self::columns::{Columns, MOST_ROWS, Wanted, WantedTime};
 use self::text::Header;
+pub(super) use self::text::read_rows;
 pub(crate) use head::Head;
 pub use head::{LogHead, peek};
+pub use memory::LogColumns;
 pub(crate) use novatel::RawImu;
 pub(super) use rows::RowLines;
+pub use typed::Numbers;
 pub(crate) use typed::most_rows;
 
 use super::container::{MATLAB, PARQUET};
@@ -62,6 +66,16 @@ pub(crate) fn all(path: &Path) -> Result<Option<BinaryColumns>, IoError> {
 /// The maximum time of any clock \[s\]: 300 centuries.
 const LATEST: f64 = 1e12;
 
+/// Takes the `wanted` columns of a log in memory.
+///
+/// # Errors
+/// As [`read`], except that no file is read.
+pub(super) fn take(log: LogColumns, wanted: Wanted<'_>) -> Result<Columns, IoError> {
+    let (path, time) = (log.path.clone(), wanted.time.as_ref().map(|time| time.column));
+    let columns = memory::take(log, wanted)?;
+    ensure_reasonable(&path, time, columns)
+}
+
 /// Reads the `wanted` columns from the log at `path`, whose format is `table`.
 ///
 /// # Errors
@@ -77,6 +91,15 @@ pub(super) fn read(path: &Path, table: Table, wanted: Wanted<'_>) -> Result<Colu
         Table::Doubles(count) => doubles::read(path, count, wanted),
         Table::NovAtel => novatel::read(path, wanted),
     }?;
+    ensure_reasonable(path, time, columns)
+}
+
+/// The columns, unless their time is later than any clock.
+fn ensure_reasonable(
+    path: &Path,
+    time: Option<&str>,
+    columns: Columns,
+) -> Result<Columns, IoError> {
     if let Some(row) = columns.time.iter().position(|time| time.abs() > LATEST) {
         let (column, value) = (time.unwrap_or_default().into(), columns.time[row]);
         let problem = LogProblem::BeyondReason { column, value, unit: "s" };

@@ -68,6 +68,24 @@ fn read_from<R: BufRead>(
     Ok(columns)
 }
 
+/// Reads some rows of a log whose head is known, up to the first that is damaged. The second value is the error of that row.
+pub(in crate::log) fn read_rows(
+    head: &Head,
+    path: &Path,
+    wanted: Wanted<'_>,
+    lines: &[(u64, String)],
+) -> Result<(Columns, Option<IoError>), IoError> {
+    let mut rows = Rows::new(head, path, wanted)?;
+    for (number, line) in lines {
+        rows.push(*number, line)?;
+        if let Err((line, problem)) = rows.damage.judge(0) {
+            let refused = rows.refused(line, problem);
+            return Ok((rows.columns, Some(refused)));
+        }
+    }
+    Ok((rows.columns, None))
+}
+
 /// What a field is read as.
 #[derive(Clone, Copy, Debug)]
 enum Target {

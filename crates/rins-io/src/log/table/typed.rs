@@ -21,10 +21,12 @@ pub(crate) fn most_rows(length: u64) -> u64 {
     length.clamp(ALWAYS_ROWS, MOST_ROWS)
 }
 
-/// Numbers in the representation of a file.
+/// The numbers of a column in their own representation.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Numbers {
+pub enum Numbers {
+    /// Floating-point numbers.
     Real(Vec<f64>),
+    /// Integers, such as nanoseconds since 1970, which have no exact `f64`.
     Whole(Vec<i64>),
 }
 

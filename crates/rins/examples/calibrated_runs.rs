@@ -1,0 +1,193 @@
+//! Whether a schedule calibrates as well as it is predicted to: runs are simulated with sensor errors that are drawn from the data sheet,
+//! and calibrated together.
+//!
+//! ```sh
+//! cargo run --release -p rins --example calibrated_runs -- RUNS SCENARIO...
+//! ```
+//!
+//! For each parameter of the IMU, the predicted standard deviation, the root mean square of the errors of the calibrations, and their
+//! ratio; at the end the same of the position error after 24 h of a system that turns back and forth at the fastest rate.
+
+use std::path::Path;
+
+use nalgebra::{DMatrix, DVector};
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+use rins::estimation::{
+    Fit, Joint, NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit, joint,
+};
+use rins::frames::Dcm;
+use rins::imu::{ImuSpec, Seed};
+use rins::io::ScenarioFile;
+use rins::motion::Segment;
+use rins::simulation::{Scenario, simulate};
+use rins::terms::{FreeParameter, Model, Owner, Surroundings};
+use rins_design::Service;
+
+/// The scenarios of one schedule.
+struct Schedule {
+    scenarios: Vec<Scenario>,
+    imu: ImuSpec,
+    encoder: f64,
+    wobble: f64,
+    model: Model,
+    free: Vec<FreeParameter>,
+}
+
+impl Schedule {
+    fn read(paths: &[String]) -> anyhow::Result<Self> {
+        let files = paths
+            .iter()
+            .map(|path| Ok(ScenarioFile::read(Path::new(path))?))
+            .collect::<anyhow::Result<Vec<ScenarioFile>>>()?;
+        let first = simulate(&files[0].scenario)?.recording;
+        let rig = rins::io::Rig::parse(&files[0].rig_toml(&first), Path::new(&paths[0]))?;
+        let imu = *rig.require_imu()?;
+        let encoder = rig.log.table_angle().and_then(|angle| angle.noise);
+        let encoder =
+            encoder.ok_or_else(|| anyhow::anyhow!("the scenario has no encoder noise"))?;
+        let wobble = rig.table.as_ref().and_then(|table| table.wobble).unwrap_or(encoder);
+        let model = Model::full();
+        let free = model.free(&imu);
+        let scenarios = files.into_iter().map(|file| file.scenario).collect();
+        Ok(Self { scenarios, imu, encoder, wobble, model, free })
+    }
+
+    /// The runs, with the attitudes of their axes known but for an error.
+    fn runs(&self, scenarios: &[Scenario]) -> anyhow::Result<Vec<Run>> {
+        let both = scenarios.iter().zip(&self.scenarios);
+        both.map(|(scenario, nominal)| {
+            let rig = Rig {
+                station: nominal.station,
+                nav_from_table: nominal.nav_from_table,
+                reference: Reference::Encoder { noise: self.encoder },
+                wobble: self.wobble,
+                velocity: 1e-6,
+            };
+            Ok(Run::new(rig, simulate(scenario)?.recording)?.since(0))
+        })
+        .collect()
+    }
+
+    fn predicted(&self) -> anyhow::Result<Joint> {
+        let plain: Vec<Scenario> =
+            self.scenarios.iter().map(|scenario| scenario.clone().without_errors()).collect();
+        let noise = NoiseParameters::of(&self.imu);
+        Ok(joint(&self.runs(&plain)?, &self.model, &self.imu, &noise)?)
+    }
+
+    /// The errors of one calibration, in the order of the parameters of the IMU.
+    fn calibrated(&self, seed: u64) -> anyhow::Result<Vec<f64>> {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut draw = || -> f64 { StandardNormal.sample(&mut random) };
+        let mut effects = Model::sensors();
+        let mut truth = Vec::new();
+        for free in self.of_imu() {
+            let value = free.sigma * draw();
+            effects.terms[free.term].values[free.parameter] = value;
+            truth.push(value);
+        }
+        let mut scenarios = self.scenarios.clone();
+        for (place, scenario) in scenarios.iter_mut().enumerate() {
+            let sigma = |free: &FreeParameter| free.sigma * draw();
+            let own: Vec<f64> = self.free.iter().filter(|f| !is_of_imu(f)).map(sigma).collect();
+            let off = nalgebra::Vector3::from_column_slice(&own);
+            scenario.nav_from_table = scenario.nav_from_table * Dcm::from_rotation_vector(&off);
+            scenario.effects = effects.clone();
+            scenario.seed = Seed::new(1000 * seed + place as u64);
+        }
+        let runs = self.runs(&scenarios)?;
+        let knowledge = NoiseKnowledge::Given(NoiseParameters::of(&self.imu));
+        let found: Fit = fit(&runs, &self.model, &self.imu, knowledge, |_| {})?;
+        let value = |free: &&FreeParameter| {
+            found.parameters.iter().find(|one| one.parameter.id == free.id).map(|one| one.value)
+        };
+        let values: Option<Vec<f64>> = self.of_imu().map(|free| value(&free)).collect();
+        let values = values.ok_or_else(|| anyhow::anyhow!("a parameter was not estimated"))?;
+        Ok(values.iter().zip(truth).map(|(value, truth)| value - truth).collect())
+    }
+
+    fn of_imu(&self) -> impl Iterator<Item = &FreeParameter> {
+        self.free.iter().filter(|free| is_of_imu(free))
+    }
+
+    /// The position error after 24 h (2 × n).
+    fn position(&self) -> anyhow::Result<DMatrix<f64>> {
+        let scenario = &self.scenarios[0];
+        let turn = |rate: f64| Segment { rate, duration: std::f64::consts::TAU / rate.abs() };
+        let steps = (0..1000).map(|step| scenario.profile.duration() * f64::from(step) / 1000.0);
+        let fastest = steps.map(|time| scenario.profile.rate(time).abs()).fold(0.0, f64::max);
+        let places: Vec<(usize, usize)> =
+            self.of_imu().map(|free| (free.term, free.parameter)).collect();
+        let service = Service {
+            surroundings: Surroundings::new(scenario.station, scenario.nav_from_table),
+            cycle: &[turn(fastest), turn(-fastest)],
+            model: &self.model,
+            parameters: &places,
+            noise: [0.0; 2],
+        };
+        let position = service.position_after_alignment(86400.0)?;
+        Ok(DMatrix::from_fn(2, places.len(), |row, column| position[(row, column)]))
+    }
+}
+
+fn is_of_imu(free: &FreeParameter) -> bool {
+    free.owner != Owner::Placement
+}
+
+fn main() -> anyhow::Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [runs, paths @ ..] = &arguments[..] else { anyhow::bail!("expected RUNS SCENARIO...") };
+    anyhow::ensure!(!paths.is_empty(), "expected RUNS SCENARIO...");
+    let runs: u64 = runs.parse()?;
+    let schedule = Schedule::read(paths)?;
+    let joint = schedule.predicted()?;
+    let sigmas = DVector::from_iterator(
+        joint.unknowns.len(),
+        joint.unknowns.iter().map(|unknown| unknown.sigma),
+    );
+    let mut information = joint.evidence.information.clone();
+    for (place, sigma) in sigmas.iter().enumerate() {
+        information[(place, place)] += sigma.powi(-2);
+    }
+    let scaled = information.component_mul(&(&sigmas * sigmas.transpose()));
+    let covariance = scaled.try_inverse().ok_or_else(|| anyhow::anyhow!("singular"))?;
+    let covariance = covariance.component_mul(&(&sigmas * sigmas.transpose()));
+    let place = |free: &FreeParameter| joint.unknowns.iter().position(|one| one.id == free.id);
+    let places: Option<Vec<usize>> = schedule.of_imu().map(place).collect();
+    let places = places.ok_or_else(|| anyhow::anyhow!("a parameter is not predicted"))?;
+    let covariance = covariance.select_rows(&places).select_columns(&places);
+    let errors = (1..=runs)
+        .into_par_iter()
+        .map(|seed| schedule.calibrated(seed))
+        .collect::<anyhow::Result<Vec<Vec<f64>>>>()?;
+    let position = schedule.position()?;
+    let rms = |of: &dyn Fn(&[f64]) -> f64| -> f64 {
+        (errors.iter().map(|errors| of(errors)).sum::<f64>() / errors.len() as f64).sqrt()
+    };
+    let mut lines = Vec::new();
+    for (column, free) in schedule.of_imu().enumerate() {
+        let predicted = covariance[(column, column)].sqrt() / free.unit.factor;
+        let seen = rms(&|errors: &[f64]| errors[column].powi(2)) / free.unit.factor;
+        let (id, unit) = (&free.id, free.unit.symbol);
+        lines.push(format!(
+            "{id:22} {unit:8} {predicted:12.6} {seen:12.6} {:8.4}",
+            seen / predicted
+        ));
+    }
+    let predicted = (&position * &covariance * position.transpose()).trace().sqrt() / 1852.0;
+    let seen =
+        rms(&|errors: &[f64]| (&position * DVector::from_column_slice(errors)).norm_squared())
+            / 1852.0;
+    lines.push(format!("position after 24 h [nmi] {predicted} {seen} {}", seen / predicted));
+    let mut out = std::io::stdout().lock();
+    for line in [format!("{runs} calibrations: parameter, unit, predicted, rms error, ratio")]
+        .into_iter()
+        .chain(lines)
+    {
+        std::io::Write::write_all(&mut out, (line + "\n").as_bytes())?;
+    }
+    Ok(())
+}
