@@ -6,6 +6,7 @@
 mod call;
 mod campaign;
 mod columns;
+mod design;
 mod error;
 mod files;
 mod log;
@@ -21,6 +22,8 @@ mod _rins {
     use super::campaign::{merge, monte_carlo};
     #[pymodule_export]
     use super::columns::table;
+    #[pymodule_export]
+    use super::design::design;
     #[pymodule_export]
     use super::files::{apply, compare, convert, history, init, mission, observe, simulate};
     #[pymodule_export]

@@ -44,6 +44,10 @@ CASES: dict[str, Case] = {
         ["observe", SCHEDULE, "--model", "paper12"],
         lambda _: rins.observe(SCHEDULE, model="paper12"),
     ),
+    "design": (
+        ["design", SCHEDULE, "--for", "gyro.scale.x", "--directions", "1"],
+        lambda _: rins.design(SCHEDULE, "gyro.scale.x", directions=1),
+    ),
     "mission": (["mission", MISSION], lambda _: rins.mission(MISSION)),
     "convert": (
         ["convert", RIG, "-o", "log.parquet"],

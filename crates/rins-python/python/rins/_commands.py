@@ -417,6 +417,59 @@ def observe(
     return ObserveResult(outcome)
 
 
+def design(
+    scenarios: Pathlike | Sequence[Pathlike],
+    goal: str,
+    *,
+    model: str | None = None,
+    duration: str | None = None,
+    max_rate: str | None = None,
+    max_acceleration: str | None = None,
+    directions: int = 3,
+    tilts: Sequence[str] | None = None,
+    service: Pathlike | None = None,
+    progress: bool | Report = False,
+) -> Result[schema.DesignResult]:
+    """Compute the rotation schedule that a calibration gains most from.
+
+    Parameters
+    ----------
+    scenarios : path-like or sequence of path-like
+        The scenario files: IMU, site, table and given schedule.
+    goal : str
+        A parameter (``"gyro.scale.x"``), ``"position@24h"``, ``"D"`` or ``"A"``, or two effects (``"A/B"``).
+    model : str, optional
+        ``"full"``, ``"paper12"``, ``"baseline"``, ``"all"`` or a model file.
+    duration : str, optional
+        The duration of all runs together, such as ``"10 min"``; by default that of the scenarios.
+    max_rate, max_acceleration : str, optional
+        Limits of the table, such as ``"30 deg/s"``, ``"5 deg/s^2"``.
+    directions : int
+        The maximum number of orientations of the spin axis, 1 to 6.
+    tilts : sequence of str, optional
+        The tilts of the spin axis that the table allows, such as ``["0 deg", "45 deg"]``; by default any from 0 to 90 deg.
+    service : path-like, optional
+        The mission file of the system in service, for a position error.
+    progress : bool or callable
+        As of `calibrate`.
+    """
+    outcome = _rins.design(
+        _paths(scenarios),
+        {
+            "goal": goal,
+            "model": model,
+            "duration": duration,
+            "max_rate": max_rate,
+            "max_acceleration": max_acceleration,
+            "directions": directions,
+            "tilts": None if tilts is None else list(tilts),
+            "service": _optional(service),
+        },
+        listener(progress),
+    )
+    return Result(outcome)
+
+
 def monte_carlo(
     scenario: Pathlike,
     runs: int,

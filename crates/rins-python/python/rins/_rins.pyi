@@ -16,6 +16,7 @@ __all__ = [
     "compare",
     "convert",
     "demo",
+    "design",
     "diagnose",
     "history",
     "init",
@@ -99,6 +100,16 @@ class _Observe(TypedDict):
     max_duration: str
     directions: int
 
+class _Design(TypedDict):
+    goal: str
+    model: str | None
+    duration: str | None
+    max_rate: str | None
+    max_acceleration: str | None
+    directions: int
+    tilts: list[str] | None
+    service: _Path | None
+
 class _Campaign(TypedDict):
     runs: int
     seed: int | None
@@ -128,5 +139,6 @@ def compare(before: _Path, after: _Path) -> Outcome: ...
 def history(runs: list[_Path], conditions: _Conditions, progress: _Report | None) -> Outcome: ...
 def mission(file: _Path, calibration: _Path | None, progress: _Report | None) -> Outcome: ...
 def observe(scenarios: list[_Path], options: _Observe, progress: _Report | None) -> Outcome: ...
+def design(scenarios: list[_Path], options: _Design, progress: _Report | None) -> Outcome: ...
 def monte_carlo(scenario: _Path, options: _Campaign, progress: _Report | None) -> Outcome: ...
 def merge(parts: list[_Path], output: _Path, force: bool) -> Outcome: ...

@@ -1,0 +1,73 @@
+//! Design of a rotation schedule.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use rins::io::quantity::kinds;
+use rins::{DesignGoal, DesignOptions};
+
+use crate::call::Call;
+use crate::error::argument;
+use crate::outcome::Outcome;
+
+/// The options of a design.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Design {
+    goal: String,
+    model: Option<String>,
+    duration: Option<String>,
+    max_rate: Option<String>,
+    max_acceleration: Option<String>,
+    directions: usize,
+    tilts: Option<Vec<String>>,
+    service: Option<PathBuf>,
+}
+
+impl Design {
+    fn options(self) -> PyResult<DesignOptions> {
+        if !(1..=6).contains(&self.directions) {
+            return Err(argument("directions", "expected 1 to 6"));
+        }
+        let goal = DesignGoal::parse(&self.goal).map_err(|expected| argument("goal", expected))?;
+        let positive = |name, kind: &rins::io::Kind, text: Option<String>| {
+            let parsed = text.map(|text| kind.parse(&text).map_err(|error| argument(name, error)));
+            match parsed.transpose()? {
+                Some(value) if value <= 0.0 => Err(argument(name, "expected more than zero")),
+                value => Ok(value),
+            }
+        };
+        let tilt = |text: String| kinds::TURN.parse(&text).map_err(|error| argument("tilts", error));
+        let tilts = self.tilts.map(|tilts| tilts.into_iter().map(tilt).collect()).transpose()?;
+        Ok(DesignOptions {
+            model: self.model,
+            duration: positive("duration", &kinds::DURATION, self.duration)?,
+            max_rate: positive("max_rate", &kinds::TABLE_RATE, self.max_rate)?,
+            max_acceleration: positive(
+                "max_acceleration",
+                &kinds::TABLE_ACCELERATION,
+                self.max_acceleration,
+            )?,
+            directions: self.directions,
+            tilts,
+            service: self.service,
+            ..DesignOptions::new(goal)
+        })
+    }
+}
+
+/// `rins design`.
+#[pyfunction]
+pub(crate) fn design(
+    py: Python<'_>,
+    scenarios: Vec<PathBuf>,
+    options: Design,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Outcome> {
+    let model = options.model.clone();
+    let options = options.options()?;
+    Outcome::run(py, Call::new(progress), model.as_deref(), move |progress| {
+        let options = DesignOptions { progress: progress.clone(), ..options };
+        Outcome::of(rins::design(&scenarios, &options)?)
+    })
+}
