@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use rins::ModelChoice;
-use rins_io::{LogFile, Overwrite, shown};
+use rins_io::{LogFile, Overwrite};
 
 use crate::choices::Noise;
 
@@ -15,12 +15,14 @@ mod design;
 mod history;
 mod mission;
 mod observe;
+mod repeated;
 
 pub(crate) use self::calibrate::{Calibrate, LiveSource};
 pub(crate) use self::design::Design;
 pub(crate) use self::history::History;
 pub(crate) use self::mission::Mission;
 pub(crate) use self::observe::Observe;
+use self::repeated::twice;
 
 /// Simulate, check, align, navigate and calibrate an IMU on a single-axis rate table.
 ///
@@ -309,18 +311,6 @@ fn shard(text: &str) -> Result<(u64, u64), String> {
     numbers
         .filter(|(shard, of)| (1..=*of).contains(shard))
         .ok_or_else(|| "expected a shard of so many, such as 2/5".into())
-}
-
-/// Why rigs cannot be meant if one of them is given twice.
-fn twice<'a>(rigs: impl Iterator<Item = &'a PathBuf>) -> Option<(ErrorKind, String)> {
-    let mut seen = Vec::new();
-    for rig in rigs {
-        if seen.contains(&rig) {
-            return Some((ErrorKind::ValueValidation, format!("{} is given twice", shown(rig))));
-        }
-        seen.push(rig);
-    }
-    None
 }
 
 #[derive(Debug, Args)]

@@ -29,7 +29,7 @@ const CONFINED: &[(&str, &[&str])] = &[
     ("anyhow", &["rins", "rins-cli"]),
     ("clap", &["rins-cli"]),
     ("schemars", &["rins"]),
-    ("serde", &["rins-io", "rins-report", "rins", "rins-trials"]),
+    ("serde", &["rins-io", "rins-report", "rins-estimation", "rins", "rins-trials"]),
     ("serde_json", &["rins-io", "rins-report", "rins", "rins-cli", "rins-trials"]),
     ("toml", &["rins-io", "rins"]),
 ];

@@ -212,7 +212,7 @@ fn serde_is_for_the_crates_that_read_and_write() {
     assert_eq!(
         found_with("rins-imu", serde),
         [
-            "crates/rins-imu/Cargo.toml:8: serde is for rins-io and rins-report and rins and rins-trials only"
+            "crates/rins-imu/Cargo.toml:8: serde is for rins-io and rins-report and rins-estimation and rins and rins-trials only"
         ]
     );
     assert_eq!(found_with("rins-imu", &serde.replace("dep", "dev-dep")), NOTHING);

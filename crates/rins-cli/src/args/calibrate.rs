@@ -7,7 +7,7 @@ use clap::error::ErrorKind;
 use clap::{Args, ValueEnum};
 use rins::ModelChoice;
 
-use super::twice;
+use super::repeated::twice;
 use crate::choices::Noise;
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod outcome;
+mod parameter;
 mod result;
 
 use std::path::Path;
@@ -13,7 +14,9 @@ use rins_io::{InputFile, LiveLog, Loaded, Rig, shown};
 use rins_motion::{Recording, whole};
 use rins_report::number::{decimal, estimate as written};
 
-pub use self::result::{LiveParameterResult, LiveResult};
+pub use self::parameter::LiveParameterResult;
+use self::parameter::parameters;
+pub use self::result::LiveResult;
 use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::log::Log;
@@ -217,7 +220,7 @@ impl LiveCalibration {
 
     /// The estimates so far, once the samples at the start are there.
     pub fn parameters(&self) -> Option<Vec<LiveParameterResult>> {
-        self.filter.as_ref().map(|filter| result::parameters(filter, &self.axes))
+        self.filter.as_ref().map(|filter| parameters(filter, &self.axes))
     }
 
     /// The state in a line: the time, the number of identified parameters, and those of them whose sigmas are smallest relative to
@@ -226,7 +229,7 @@ impl LiveCalibration {
         let Some(filter) = &self.filter else {
             return format!("{} samples of the start", self.start.len());
         };
-        let all = result::parameters(filter, &self.axes);
+        let all = parameters(filter, &self.axes);
         let mut identified: Vec<&LiveParameterResult> =
             all.iter().filter(|one| one.identified).collect();
         identified.sort_by(|a, b| (a.sigma / a.prior_sigma).total_cmp(&(b.sigma / b.prior_sigma)));
