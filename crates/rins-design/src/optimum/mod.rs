@@ -42,7 +42,7 @@ const AZIMUTHS: [f64; 3] = [0.0, 120.0, 240.0];
 const FINER: [(f64, f64); 2] = [(15.0, 60.0), (7.5, 30.0)];
 
 /// The loss that a schedule with fewer orientations may have, relative to a variance.
-const NEARLY: f64 = 2e-3;
+const NEARLY: f64 = 0.03;
 
 /// A schedule that is to be optimized.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,5 @@
 //! A runnable profile from the shares of motions.
 
-use std::f64::consts::TAU;
-
 use rins_motion::Segment;
 
 use super::motion::{Motion, transit};
@@ -37,6 +35,9 @@ pub(super) fn segments(
     short: Short,
 ) -> Option<Vec<Segment>> {
     let whole: f64 = shares.iter().map(|(_, share)| share).sum();
+    if duration < SHORTEST {
+        return None;
+    }
     let mut kept: Vec<(Motion, f64)> =
         shares.iter().copied().filter(|(_, share)| *share > LEAST_SHARE * whole).collect();
     if short == Short::Extended {
@@ -81,14 +82,15 @@ fn with_all(kept: &[(Motion, f64)], duration: f64, limits: &Limits) -> Option<Ve
     take(&mut rotations, &mut segments, moving)?;
     segments.extend(rotations.iter().map(|&(rate, duration)| Segment { rate, duration }));
     let mut before = 0.0;
-    for segment in &mut segments {
-        let ramp = (segment.rate - before).abs() / limits.acceleration;
-        let is_transit = segment.rate != 0.0 && segment.duration < TAU / limits.rate;
-        let least = if is_transit { ramp * (1.0 - 1e-9) } else { ramp + SHORTEST };
-        if segment.duration < least {
+    for place in 0..segments.len() {
+        let Segment { rate, duration } = segments[place];
+        let ramp = (rate - before).abs() / limits.acceleration;
+        let least =
+            if is_transit(&segments, place) { ramp * (1.0 - 1e-9) } else { ramp + SHORTEST };
+        if duration < least {
             return None;
         }
-        before = segment.rate;
+        before = rate;
     }
     Some(rounded(segments, duration))
 }
@@ -114,12 +116,15 @@ fn take(rotations: &mut [(f64, f64)], segments: &mut [Segment], moving: f64) -> 
     Some(())
 }
 
+/// Whether a segment is a rotation from one static interval to the next.
+fn is_transit(segments: &[Segment], place: usize) -> bool {
+    segments[place].rate != 0.0 && segments.get(place + 1).is_some_and(|next| next.rate == 0.0)
+}
+
 /// Durations to the resolution, except those of rotations between static intervals; the longest has what remains of the whole.
 fn rounded(mut segments: Vec<Segment>, duration: f64) -> Vec<Segment> {
     for place in 0..segments.len() {
-        let is_transit = segments[place].rate != 0.0
-            && segments.get(place + 1).is_some_and(|next| next.rate == 0.0);
-        if !is_transit {
+        if !is_transit(&segments, place) {
             segments[place].duration =
                 (segments[place].duration / RESOLUTION).round().max(1.0) * RESOLUTION;
         }
@@ -134,6 +139,8 @@ fn rounded(mut segments: Vec<Segment>, duration: f64) -> Vec<Segment> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use rins_motion::Profile;
     use rins_testing::assert_close;
 

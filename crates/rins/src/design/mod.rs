@@ -14,6 +14,7 @@ use rins_design::{Criterion, Limits, Optimization};
 use rins_frames::units::DEG;
 use rins_io::{InputFile, MissionFile};
 use rins_motion::Segment;
+use rins_report::number::figure;
 use rins_terms::Model;
 
 pub use self::goal::DesignGoal;
@@ -168,13 +169,13 @@ fn limits(options: &DesignOptions, schedule: &Schedule) -> anyhow::Result<Limits
     let (rate, acceleration) = schedule.table(options.max_rate, options.max_acceleration);
     let duration = options.duration.unwrap_or_else(|| schedule.duration());
     let ramp = rate / acceleration;
+    let least = SHORTEST + 2.0 * ramp;
     anyhow::ensure!(
-        duration >= SHORTEST + 2.0 * ramp,
-        "a duration of {duration} s is too short for a schedule: a ramp to {} deg/s at {} deg/s^2 takes {:.1} s, and at least {:.1} s are needed",
-        rate / DEG,
-        acceleration / DEG,
-        ramp,
-        SHORTEST + 2.0 * ramp
+        duration >= least,
+        "a duration of {duration} s is too short for a schedule: a ramp to {} deg/s at {} deg/s^2 takes {ramp:.1} s, and at least {least:.1} s \
+         are needed",
+        figure(rate / DEG, 3),
+        figure(acceleration / DEG, 3)
     );
     anyhow::ensure!(
         duration <= LONGEST,
@@ -209,10 +210,7 @@ fn service(
     let run = &schedule.runs[0];
     let turn = |rate: f64| Segment { rate, duration: std::f64::consts::TAU / rate.abs() };
     Ok(InService {
-        words: format!(
-            "reciprocating at {} deg/s",
-            rins_report::number::figure(limits.rate / DEG, 3)
-        ),
+        words: format!("reciprocating at {} deg/s", figure(limits.rate / DEG, 3)),
         station: run.station(),
         nav_from_table: run.nav_from_table(),
         cycle: vec![turn(limits.rate), turn(-limits.rate)],
