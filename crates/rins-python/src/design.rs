@@ -37,7 +37,8 @@ impl Design {
                 value => Ok(value),
             }
         };
-        let tilt = |text: String| kinds::TURN.parse(&text).map_err(|error| argument("tilts", error));
+        let tilt =
+            |text: String| kinds::TURN.parse(&text).map_err(|error| argument("tilts", error));
         let tilts = self.tilts.map(|tilts| tilts.into_iter().map(tilt).collect()).transpose()?;
         Ok(DesignOptions {
             model: self.model,
