@@ -100,7 +100,9 @@ fn statement_of_conformity_follows_from_tolerance_and_expanded_uncertainty() {
     let rig = fs::read_to_string(folder.join("run/rig.toml")).unwrap();
     let rig = rig.replace("[table]\n", "[table]\nrate_accuracy = \"0.0001 deg/s\"\n");
     let with = |scale: &str| {
-        let tolerance = format!("[tolerance.gyro]\nscale = [\"5 ppm\", \"0 ppm\", \"{scale}\"]\n");
+        let tolerance = format!(
+            "[tolerance.gyro]\nscale = [\"0 ppm\", \"0 ppm\", \"{scale}\"]\nmisalignment = {{ zx = \"5 arcsec\" }}\n"
+        );
         fs::write(folder.join("run/stated.toml"), format!("{rig}\n{tolerance}")).unwrap();
     };
     for (tolerance, statement) in [
@@ -113,8 +115,8 @@ fn statement_of_conformity_follows_from_tolerance_and_expanded_uncertainty() {
         let result = result_in(folder, "calibrate run/stated.toml");
         let all = list(&result, "/conformity");
         assert_eq!(all.len(), 2, "{all:#?}");
-        assert_eq!(all[0]["id"], "gyro.scale.x");
-        // A table about one axis does not show the scale error about another one.
+        assert_eq!(all[0]["id"], "gyro.misalignment.zx");
+        // It would show if the table turned about x.
         assert_eq!(all[0]["statement"], "not_determined");
         assert_eq!(all[1]["statement"], statement, "{tolerance}: {all:#?}");
     }
