@@ -5,15 +5,15 @@
 //! spectral density `P`, which is estimated from the log by Welch's method.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 use rins_blind::{Random, random};
+use rins_terms::catalogue;
 
 use crate::answer::{Analyser, Named};
 use crate::injected_log::{MeasuredLog, spectral_density, spectrum};
-use crate::injections_page::injection_page;
 use crate::trouble::Trouble;
 
 /// The amplitudes that are added, in sigmas; the smallest cannot be detected.
@@ -50,23 +50,23 @@ impl Law {
     }
 
     /// The id of the effect, for gyros or accelerometers, as the diagnosis names it.
-    const fn id(self, is_gyro: bool) -> &'static str {
-        match (self, is_gyro) {
-            (Self::Step, true) => "gyro_bias_step",
-            (Self::Step, false) => "accel_bias_step",
-            (Self::Ramp, true) => "gyro_bias_ramp",
-            (Self::Ramp, false) => "accel_bias_ramp",
-            (Self::Warmup, true) => "gyro_warmup",
-            (Self::Warmup, false) => "accel_warmup",
-            (Self::ForceSensitivity, _) => "gyro_g_sensitivity",
-            (Self::Quadratic, _) => "accel_quadratic",
-        }
+    fn id(self, is_gyro: bool) -> &'static str {
+        let [gyro, accel] = match self {
+            Self::Step => [&catalogue::GYRO_BIAS_STEP, &catalogue::ACCEL_BIAS_STEP],
+            Self::Ramp => [&catalogue::GYRO_BIAS_RAMP, &catalogue::ACCEL_BIAS_RAMP],
+            Self::Warmup => [&catalogue::GYRO_WARMUP, &catalogue::ACCEL_WARMUP],
+            Self::ForceSensitivity => [&catalogue::GYRO_G_SENSITIVITY; 2],
+            Self::Quadratic => [&catalogue::ACCEL_QUADRATIC; 2],
+        };
+        if is_gyro { gyro.id } else { accel.id }
     }
 }
 
 /// An error that was added to a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Injection {
+    /// The equation.
+    law: Law,
     /// The effect's id.
     pub id: String,
     /// The channel: 0 to 2 are the gyros, 3 to 5 the accelerometers.
@@ -113,35 +113,11 @@ impl InjectionTrial {
     }
 }
 
-/// Runs so many logs, each with an error of every strength, and writes the page; `told` receives every trial.
-///
-/// # Errors
-/// [`Trouble`] if a log cannot be read or written, or the program not be started.
-pub fn injections(
-    rigs: &[PathBuf],
-    analyser: &Analyser,
-    (seed, rounds): (u64, u64),
-    (page, revision): (&Path, &str),
-    told: impl Fn(&InjectionTrial),
-) -> Result<(), Trouble> {
-    let mut all = Vec::new();
-    for round in 0..rounds {
-        for (place, rig) in rigs.iter().enumerate() {
-            let own =
-                injection_trials(rig, analyser, (seed, round * rigs.len() as u64 + place as u64))?;
-            own.iter().for_each(&told);
-            all.extend(own);
-            fs::write(page, injection_page(&all, seed, revision))?;
-        }
-    }
-    Ok(())
-}
-
 /// A log, its diagnosis without an injection, and those with one of each strength.
 ///
 /// # Errors
 /// [`Trouble`] if the log cannot be read or written, or the program not be started.
-fn injection_trials(
+pub(crate) fn injection_trials(
     rig: &Path,
     analyser: &Analyser,
     (seed, index): (u64, u64),
@@ -224,6 +200,7 @@ fn drawn(log: &MeasuredLog, strength: f64, random: &mut Random) -> Injection {
         _ => 0.0,
     };
     let mut injection = Injection {
+        law,
         id: law.id(is_gyro).into(),
         channel,
         time: part * log.duration(),
@@ -238,16 +215,16 @@ fn drawn(log: &MeasuredLog, strength: f64, random: &mut Random) -> Injection {
 
 /// The error of each sample's rate or specific force for an amplitude of one.
 fn unit_signal(log: &MeasuredLog, injection: &Injection) -> Vec<f64> {
-    let Injection { id, channel, time, .. } = injection;
+    let Injection { law, channel, time, .. } = injection;
     let start = log.times[0];
     let of = |sample: usize| {
         let t = log.times[sample] - start;
-        match id.as_str() {
-            "gyro_bias_step" | "accel_bias_step" => f64::from(u8::from(t >= *time)),
-            "gyro_bias_ramp" | "accel_bias_ramp" => t,
-            "gyro_warmup" | "accel_warmup" => (-t / time).exp(),
-            "gyro_g_sensitivity" => log.channels[3 + (channel + 1) % 3][sample],
-            _ => log.channels[*channel][sample].powi(2),
+        match law {
+            Law::Step => f64::from(u8::from(t >= *time)),
+            Law::Ramp => t,
+            Law::Warmup => (-t / time).exp(),
+            Law::ForceSensitivity => log.channels[3 + (channel + 1) % 3][sample],
+            Law::Quadratic => log.channels[*channel][sample].powi(2),
         }
     };
     (0..log.times.len()).map(of).collect()
@@ -256,7 +233,7 @@ fn unit_signal(log: &MeasuredLog, injection: &Injection) -> Vec<f64> {
 /// The name of the parameter that the error changes.
 fn parameter(injection: &Injection) -> String {
     let axis = |of: usize| ["x", "y", "z"][of % 3];
-    if injection.id == "gyro_g_sensitivity" {
+    if injection.law == Law::ForceSensitivity {
         format!("{}{}", axis(injection.channel), axis(injection.channel + 1))
     } else {
         axis(injection.channel).into()
@@ -265,7 +242,7 @@ fn parameter(injection: &Injection) -> String {
 
 /// Whether an effect is at the time of the injection, if it is an event.
 fn is_same_time(cause: &Named, injection: &Injection, duration: f64) -> bool {
-    let is_event = injection.id.ends_with("_step");
+    let is_event = injection.law == Law::Step;
     let time = ["time", "t0"].iter().find_map(|key| cause.settings[*key]["value"].as_f64());
     !is_event || time.is_none_or(|time| (time - injection.time).abs() < SAME_TIME * duration)
 }

@@ -1,9 +1,13 @@
 //! The page of the injections into measured logs.
 
 use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use crate::injections::InjectionTrial;
+use crate::answer::Analyser;
+use crate::injections::{InjectionTrial, injection_trials};
 use crate::statistics::Share;
+use crate::trouble::Trouble;
 
 const HEAD: &str = "# Injections into measured logs
 
@@ -23,8 +27,32 @@ cannot be detected: what is named with it and not without it is a false alarm.
 
 ";
 
+/// Runs so many logs, each with an error of every strength, and writes the page; `told` receives every trial.
+///
+/// # Errors
+/// [`Trouble`] if a log cannot be read or written, or the program not be started.
+pub fn injections(
+    rigs: &[PathBuf],
+    analyser: &Analyser,
+    (seed, rounds): (u64, u64),
+    (page, revision): (&Path, &str),
+    told: impl Fn(&InjectionTrial),
+) -> Result<(), Trouble> {
+    let mut all = Vec::new();
+    for round in 0..rounds {
+        for (place, rig) in rigs.iter().enumerate() {
+            let own =
+                injection_trials(rig, analyser, (seed, round * rigs.len() as u64 + place as u64))?;
+            own.iter().for_each(&told);
+            all.extend(own);
+            fs::write(page, injection_page(&all, seed, revision))?;
+        }
+    }
+    Ok(())
+}
+
 /// The page for trials at this revision.
-pub(crate) fn injection_page(all: &[InjectionTrial], seed: u64, revision: &str) -> String {
+fn injection_page(all: &[InjectionTrial], seed: u64, revision: &str) -> String {
     let mut page = String::from(HEAD);
     let failures = all.iter().filter(|one| one.failure.is_some()).count();
     let _ = writeln!(

@@ -8,6 +8,7 @@
 
 mod approximate;
 mod criterion;
+mod element;
 mod motion;
 mod objective;
 mod pool;
@@ -20,8 +21,9 @@ use rins_frames::{Dcm, EulerAngles, Nav, Table};
 use rins_motion::{Profile, Segment};
 use rins_terms::Model;
 
-pub use self::approximate::{ApproximateDesign, Element};
+pub use self::approximate::ApproximateDesign;
 pub use self::criterion::Criterion;
+pub use self::element::Element;
 pub use self::motion::Motion;
 pub use self::objective::{LinearFunction, Objective};
 use self::pool::{Pool, PoolDesign};

@@ -5,7 +5,8 @@ use rins_estimation::Unknown;
 use rins_frames::{Dcm, Nav, Table};
 use rins_terms::{FreeParameter, Model, Owner};
 
-use super::approximate::{ApproximateDesign, Element};
+use super::approximate::ApproximateDesign;
+use super::element::Element;
 use super::motion::{Motion, informations};
 use super::objective::Objective;
 use crate::error::DesignError;

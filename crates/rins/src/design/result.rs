@@ -3,6 +3,7 @@
 use rins_design::{Motion, OptimalRun};
 use rins_estimation::Observable;
 use rins_frames::units::{DEG, PPM};
+use rins_terms::catalogue;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -141,7 +142,7 @@ impl DesignResult {
         let (value, unit) = study.figure(optimal.value);
         let identifiability = optimal.joint.identifiability();
         let sigma_ppm = identifiability
-            .find("gyro.scale.z")
+            .find(&format!("{}.z", catalogue::GYRO_SCALE.id))
             .map(|place| identifiability.parameters[place].sigma / PPM);
         let limits = &study.limits;
         Self {

@@ -3,6 +3,7 @@
 use rins_estimation::Observable;
 use rins_frames::units::PPM;
 use rins_report::number::figure;
+use rins_terms::catalogue;
 
 use super::goal::{DesignGoal, meaning};
 use super::notes::notes;
@@ -82,7 +83,7 @@ pub(super) fn summary(study: &DesignStudy) -> Vec<String> {
 /// The bound of the scale error about the spin axis.
 fn scale_sentence(study: &DesignStudy) -> Option<String> {
     let reached = |compared: &Compared| {
-        let place = compared.identifiability.find("gyro.scale.z")?;
+        let place = compared.identifiability.find(&format!("{}.z", catalogue::GYRO_SCALE.id))?;
         Some(compared.identifiability.parameters[place].sigma / PPM)
     };
     let own = reached(study.compared.last()?)?;
@@ -90,7 +91,8 @@ fn scale_sentence(study: &DesignStudy) -> Option<String> {
     let beside =
         reversal.map_or_else(String::new, |one| format!(", a reversal {} ppm", short(one)));
     Some(format!(
-        "gyro.scale.z: white noise bounds its σ by N/(ω√T) = {} ppm; this schedule has {} ppm{beside}.",
+        "{}.z: white noise bounds its σ by N/(ω√T) = {} ppm; this schedule has {} ppm{beside}.",
+        catalogue::GYRO_SCALE.id,
         short(study.scale_bound() / PPM),
         short(own)
     ))
