@@ -259,6 +259,9 @@ class CalibrateResult(TypedDict):
     compensation: str
     """How errors are compensated."""
 
+    conformity: NotRequired[list[ConformityResult]]
+    """Whether the errors are within the tolerances that the rig file states."""
+
     consistency: ConsistencyResult
     """What the innovations of all runs say of the model."""
 
@@ -657,6 +660,50 @@ class CompareResult(TypedDict):
     """All differences together; null if their covariance is singular."""
 
 
+class ComparedResult(TypedDict):
+    """A schedule beside the others."""
+
+    duration_s: float
+    """How long it takes [s]."""
+
+    name: str
+    """Its name."""
+
+    observable: int
+    """The number of parameters that are observable by themselves."""
+
+    parameters: list[PredictedResult]
+    """The parameters."""
+
+    value: NotRequired[float | None]
+    """The value of the criterion; null if the schedule leaves it undetermined."""
+
+
+Conformity = str
+
+
+class ConformityResult(TypedDict):
+    """The statement on one error, in the unit of the parameter."""
+
+    expanded: NotRequired[float | None]
+    """The expanded uncertainty of 95 %; null if the error is not determined."""
+
+    id: str
+    """The id of the parameter."""
+
+    statement: Conformity
+    """The statement."""
+
+    tolerance: float
+    """The largest magnitude that is permitted."""
+
+    unit: str
+    """The unit."""
+
+    value: NotRequired[float | None]
+    """The estimate; null if the error is not determined."""
+
+
 class ConsistencyResult(TypedDict):
     """What the innovations say of the model."""
 
@@ -810,6 +857,9 @@ class DemoResult(TypedDict):
     compensation: str
     """How errors are compensated."""
 
+    conformity: NotRequired[list[ConformityResult]]
+    """Whether the errors are within the tolerances that the rig file states."""
+
     consistency: ConsistencyResult
     """What the innovations of all runs say of the model."""
 
@@ -898,6 +948,147 @@ class DepartureResult(TypedDict):
 
     value: float
     """What was found."""
+
+
+class DesignResult(TypedDict):
+    """The result of `rins design`."""
+
+    assumptions: list[str]
+    """What was neither measured nor stated, and therefore assumed."""
+
+    better_than_prior: NotRequired[int | None]
+    """How many directions the data determine better than what was known beforehand."""
+
+    bound: float
+    """The best value that the equivalence theorem leaves possible in these orientations, in
+    runs without ramps and ends."""
+
+    candidates: int
+    """The number of candidates: motions of the table in orientations of its axis."""
+
+    combination: list[str]
+    """Those that are observable only in combinations."""
+
+    command: str
+    """`design`."""
+
+    criterion: str
+    """The criterion: `variance` (c- and A-optimal), `determinant` (D-optimal) or `distance` (of
+    two effects)."""
+
+    efficiency: float
+    """The efficiency of the schedule relative to the bound: the ratio of variances, or of
+    squared separations."""
+
+    files: list[str]
+    """The scenario files among the files."""
+
+    gap: float
+    """The gap of the approximate design: no other schedule in these orientations gains more
+    than this, relative to the variance, the geometric mean of the variances, or the squared
+    separation."""
+
+    gauges: list[GaugeResult]
+    """The gauges: combinations that no schedule shows."""
+
+    given_value: NotRequired[float | None]
+    """That of the given schedule; null if it leaves it undetermined."""
+
+    goal: str
+    """What `value` is, in words."""
+
+    least_information: NotRequired[float | None]
+    """The information that the least observable direction has for itself, in units of the
+    prior."""
+
+    limits: LimitsResult
+    """The limits of the table, and the duration of the schedule."""
+
+    model: str
+    """The model."""
+
+    notes: list[str]
+    """What else is to be known."""
+
+    null_information: NotRequired[float | None]
+    """That of the null space, which is rounding."""
+
+    null_space_dimension: NotRequired[int | None]
+    """How many dimensions the null space has."""
+
+    observable: list[str]
+    """The ids of the parameters that are observable."""
+
+    orientations: int
+    """The number of orientations among them."""
+
+    provenance: ProvenanceResult
+    """The program, its inputs, the item and its measurement."""
+
+    rank: NotRequired[int | None]
+    """The rank of the information of the data alone."""
+
+    repairs: list[str]
+    """What reading the logs has repaired or left out."""
+
+    runs: list[DesignedRunResult]
+    """The runs, one in each orientation, without switching off in between."""
+
+    scale_bound: ScaleBoundResult
+    """The bound of the standard deviation of gyro.scale.z."""
+
+    schedules: list[ComparedResult]
+    """The given schedule, the usual ones of the same duration, and the optimal one at the end."""
+
+    schema: int
+    """The version of this schema: 2."""
+
+    unit: str
+    """The unit of `value`; empty for a ratio."""
+
+    unknowns: int
+    """How many parameters there are."""
+
+    unobservable: list[str]
+    """Those that are unobservable."""
+
+    value: float
+    """The value of the optimal schedule, from the joint information of its runs."""
+
+
+class DesignedRunResult(TypedDict):
+    """A run of the schedule."""
+
+    attitude_deg: EulerDegrees
+    """The attitude of the axis frame [deg]."""
+
+    duration_s: float
+    """The duration [s]."""
+
+    profile: list[DesignedSegmentResult]
+    """What the table does."""
+
+    shares: list[MotionResult]
+    """The shares of the motions in the whole schedule, before they were rounded."""
+
+    tilt_deg: float
+    """The angle of the axis from the vertical [deg]."""
+
+
+class DesignedSegmentResult(TypedDict):
+    """A part of a profile."""
+
+    duration_s: float
+    """How long it lasts, with the ramp at its start [s]."""
+
+    end_angle_deg: float
+    """The table angle at its end [deg], not wrapped."""
+
+    rate_deg_s: float
+    """The rate [deg/s]."""
+
+    start_s: float
+    """Its start in the run [s]."""
 
 
 class DiagnoseResult(TypedDict):
@@ -1481,6 +1672,82 @@ class LineResult(TypedDict):
     """How far its frequency wanders [Hz]."""
 
 
+class LiveParameterResult(TypedDict):
+    """The estimate of a parameter by the samples so far, in its unit."""
+
+    id: str
+    """Its id, along the sensor's own axes."""
+
+    identified: bool
+    """Whether the samples determine it: its 1σ is less than half of the one known beforehand.
+    Only identified parameters are compensated."""
+
+    prior_sigma: float
+    """The 1σ known beforehand."""
+
+    sigma: float
+    """Its 1σ."""
+
+    unit: str
+    """The unit."""
+
+    value: float
+    """The value."""
+
+
+class LiveResult(TypedDict):
+    """The result of `rins calibrate --live`."""
+
+    assumptions: list[str]
+    """What was neither measured nor stated, and therefore assumed."""
+
+    command: str
+    """`calibrate --live`."""
+
+    correlation: list[list[float]]
+    """Their correlation, n by n."""
+
+    end: str
+    """Why the log ended: `closed`, `idle` or `interrupted`."""
+
+    epoch_s: float
+    """The duration of an epoch [s]."""
+
+    epochs: int
+    """In how many epochs."""
+
+    innovation_variance: NotRequired[float | None]
+    """The mean squared whitened innovation at the estimate: 1 if model and noise describe the
+    run."""
+
+    model: str
+    """The model: `full` or the name of a model file."""
+
+    notes: list[str]
+    """What else is to be known."""
+
+    parameters: list[LiveParameterResult]
+    """The estimates."""
+
+    provenance: ProvenanceResult
+    """The program, its inputs, the item and its measurement."""
+
+    repairs: list[str]
+    """What reading the logs has repaired or left out."""
+
+    rig: str
+    """The rig file."""
+
+    samples: int
+    """How many samples were processed."""
+
+    schema: int
+    """The version of this schema: 2."""
+
+    time_s: float
+    """The time of the last sample [s]."""
+
+
 class MeasurementResult(TypedDict):
     """A measurement (ISO/IEC 17025:2017, 7.8.2 and 7.8.4); what is not stated is null."""
 
@@ -1546,6 +1813,19 @@ class MissionResult(TypedDict):
 
     schemes: list[SchemeResult]
     """The schemes, as the file lists them."""
+
+
+class MotionResult(TypedDict):
+    """The share of a motion in an approximate design."""
+
+    angle_deg: NotRequired[float | None]
+    """The table angle of a static interval [deg]; null for a rotation."""
+
+    rate_deg_s: float
+    """The rate [deg/s]; zero for a static interval."""
+
+    share: float
+    """The share."""
 
 
 class NavigateResult(TypedDict):
@@ -1997,6 +2277,17 @@ class RunValueResult(TypedDict):
 
     run: int
     """The run, from zero."""
+
+
+class ScaleBoundResult(TypedDict):
+    """The smallest standard deviation of gyro.scale.z that white noise of the gyro allows."""
+
+    bound_ppm: float
+    """`N / (ω √T)` with the noise density, the fastest rate and the duration [ppm]."""
+
+    sigma_ppm: NotRequired[float | None]
+    """The standard deviation under the optimal schedule [ppm]; null if the model does not have
+    it."""
 
 
 class ScatterResult(TypedDict):
