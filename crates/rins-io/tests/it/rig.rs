@@ -106,7 +106,7 @@ const CASES: &[(&str, &str, &str)] = &[
     ("[attitude]", "[site]", "rig.toml:15: duplicate key"),
     // Sections and keys.
     ("[attitude]", "[atitude]", "rig.toml:15: atitude: unknown key; did you mean \"attitude\"?"),
-    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis, run, lab"),
+    ("[attitude]", "[colour]", "rig.toml:15: colour: unknown key, expected one of site, log, attitude, imu, table, axis, run, lab, tolerance"),
     ("[attitude]", "[axis]", "rig.toml:16: [axis] roll: unknown key, expected one of spin"),
     ("[attitude]", "[run]\nserial = \"\"\n[attitude]", "rig.toml:16: [run] serial: \"\" is not allowed, expected a serial number, such as \"FOG-0012\""),
     ("[attitude]", "[run]\nstarted = \"2026-11-26\"\n[attitude]", "rig.toml:16: [run] started: \"2026-11-26\" is not allowed, expected a date and time with its offset from UTC, such as \"2026-11-26T10:00:00Z\""),
