@@ -176,7 +176,7 @@ fn normalize(weights: &mut [f64]) {
     }
 }
 
-/// Moves the share of the least useful candidate to the most useful one, as far as that improves the criterion.
+/// Moves the share of the least useful candidate to the most useful one, as far as that improves.
 fn exchange(
     criterion: &Criterion,
     elements: &[Element],
@@ -243,7 +243,6 @@ mod tests {
 
     use super::*;
 
-    /// Readings of a polynomial of this degree on a grid of [-1, 1].
     fn polynomial(degree: i32, grid: i32) -> (Vec<f64>, Vec<Element>) {
         let points: Vec<f64> =
             (-grid..=grid).map(|step| f64::from(step) / f64::from(grid)).collect();
@@ -258,7 +257,6 @@ mod tests {
         (points, elements)
     }
 
-    /// The share near each of these points.
     fn shares(points: &[f64], weights: &[f64], at: &[f64], within: f64) -> Vec<f64> {
         let near = |center: &f64| {
             let of = points.iter().zip(weights).filter(|(x, _)| (**x - center).abs() < within);
@@ -296,16 +294,14 @@ mod tests {
             ApproximateDesign::of(&DVector::zeros(3), &elements, &Criterion::Variance(at), 1e-3)
                 .unwrap();
         assert!(design.gap < 0.005, "{}", design.gap);
-        // Shares are proportional to the Lagrange polynomials of -1, 0 and 1 at 2, which are 1, -3 and 3.
+        // Shares are proportional to the Lagrange polynomials at 2, which are 1, -3 and 3.
         let got = shares(&points, &design.weights, &[-1.0, 0.0, 1.0], 0.04);
         for (got, want) in got.iter().zip([1.0 / 7.0, 3.0 / 7.0, 3.0 / 7.0]) {
             assert_close!(*got, want, 0.01);
         }
-        // The variance is the square of the Chebyshev polynomial T₂(2) = 7.
-        assert_close!(design.value, 49.0, 0.3);
+        assert_close!(design.value, 49.0, 0.3); // the square of the Chebyshev polynomial T₂(2) = 7
     }
 
-    /// The bound holds: no other design is better than the gap of a bad one allows.
     #[test]
     fn gap_of_a_bad_design_bounds_the_best() {
         let (_, elements) = polynomial(2, 10);

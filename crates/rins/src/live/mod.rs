@@ -8,6 +8,7 @@ mod result;
 use std::path::Path;
 
 use anyhow::Context;
+use rins_calibration::CalibrationError;
 use rins_estimation::{OnlineFilter, OnlineSample, OnlineSetup};
 use rins_frames::SignedAxes;
 use rins_io::{InputFile, LiveLog, Loaded, Rig, shown};
@@ -90,6 +91,8 @@ pub struct LiveCalibration {
     log: LiveLog,
     /// The samples before the filter exists.
     start: Recording,
+    /// The duration of these samples from which the filter is prepared \[s\].
+    needed: f64,
     filter: Option<OnlineFilter>,
     /// The samples up to this time have been processed before \[s\].
     resumed: Option<f64>,
@@ -140,6 +143,7 @@ impl LiveCalibration {
             name: shown(path),
             model: NamedModel::of(&options.model, &rig.spin)?.name,
             log: LiveLog::new(rig, &source)?,
+            needed: options.start,
             options,
             start: Recording::default(),
             filter: None,
@@ -168,8 +172,14 @@ impl LiveCalibration {
         }
         append(&mut self.start, recording);
         let duration: f64 = self.start.increments.iter().map(|sample| sample.interval).sum();
-        if duration >= self.options.start {
-            self.begin()?;
+        if duration >= self.needed {
+            let start = self.start.clone();
+            match self.begin() {
+                Err(error) if is_static_so_far(&error) => {
+                    (self.start, self.needed) = (start, 2.0 * duration);
+                }
+                begun => begun?,
+            }
         }
         Ok(count)
     }
@@ -264,6 +274,12 @@ impl LiveCalibration {
         let filter = filter.context("the log has no samples")?.finish()?;
         Ok(LiveOutcome { name, model, filter, axes, end, notes, basis })
     }
+}
+
+/// Whether the attitude of the axis needs samples of a rotation that has not begun yet.
+fn is_static_so_far(error: &anyhow::Error) -> bool {
+    use CalibrationError::{NoTurn, TooShort};
+    matches!(error.downcast_ref(), Some(TooShort { .. } | NoTurn { .. }))
 }
 
 /// Appends samples to a recording.
