@@ -9,6 +9,18 @@ use crate::gains::Gains;
 /// The shortest epoch \[s\].
 pub(crate) const SHORTEST_EPOCH: f64 = 0.1;
 
+/// The longest epoch of a table that turns \[s\] ...
+const LONGEST_EPOCH: f64 = 0.5;
+
+/// ... in a run of at most this number of them: those of a run of a day last two seconds.
+const MOST_EPOCHS: f64 = 40_000.0;
+
+/// The duration of an epoch of a run of this duration \[s\]: a thousandth of it, within limits. Of a static run no signal changes faster.
+pub(crate) fn epoch_of(run: f64, is_static: bool) -> f64 {
+    let longest = if is_static { f64::INFINITY } else { LONGEST_EPOCH.max(run / MOST_EPOCHS) };
+    (run / 1000.0).clamp(SHORTEST_EPOCH, longest)
+}
+
 /// Successive samples that are processed as one update.
 ///
 /// `φ` is the attitude error of the reference trajectory, `C~ = (I - φ×) C`, and `v` the velocity error, both in the axis

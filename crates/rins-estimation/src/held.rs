@@ -9,13 +9,10 @@ use crate::epoch::Epoch;
 /// The smallest number of samples on each side from which the variation of the motion is estimated.
 const FEWEST_AROUND: usize = 3;
 
-/// The interval relative to the usual one above which samples are missing.
-const LONGEST: f64 = 1.5;
-
 /// Sets the uncertainty due to missing samples in every epoch; `usual` is the usual interval of a sample \[s\].
 pub(crate) fn hold(epochs: &mut [Epoch], recording: &Recording, usual: f64) {
     let samples = &recording.increments;
-    let longest = LONGEST * usual;
+    let longest = Recording::GAP * usual;
     let long = samples.iter().enumerate().filter(|(_, one)| one.interval > longest);
     for (sample, increments) in long {
         let Some(epoch) = epochs.get_mut(epochs.partition_point(|e| e.samples.1 <= sample)) else {

@@ -9,19 +9,12 @@ use rins_motion::whole;
 use rins_terms::{Model, SettingKind, Surroundings, Track, catalogue};
 
 use crate::build::{Build, Compared};
-use crate::epoch::{Epoch, SHORTEST_EPOCH, Span};
+use crate::epoch::{Epoch, Span, epoch_of};
 use crate::held::hold;
 use crate::latency::without_latency;
 use crate::path;
 use crate::run::{Reference, Run};
 use crate::step::SHOWN;
-
-/// The duration of an epoch is a thousandth of the run, but not less than the first of these \[s\], nor more than the second if the
-/// table turns: of a static run no signal changes faster.
-const EPOCH: (f64, f64) = (SHORTEST_EPOCH, 0.5);
-
-/// The largest number of epochs of a table that turns, for runs of any duration: those of a run of a day last two seconds.
-const MOST_EPOCHS: f64 = 40_000.0;
 
 /// The largest rotation of the table in a piece of an epoch \[rad\].
 const TURN_OF_PIECE: f64 = 0.04;
@@ -117,10 +110,8 @@ pub(crate) fn linearised(
     let recording = &run.recording;
     let duration = recording.times[recording.len() - 1] - recording.times[0];
     let is_static = matches!(run.rig.reference, Reference::Rest);
-    let longest = if is_static { f64::INFINITY } else { EPOCH.1.max(duration / MOST_EPOCHS) };
     let interval = duration / (recording.len() - 1) as f64;
-    let block =
-        run.epoch.unwrap_or_else(|| whole((duration / 1000.0).clamp(EPOCH.0, longest) / interval));
+    let block = run.epoch.unwrap_or_else(|| whole(epoch_of(duration, is_static) / interval));
     let track = path::track(run, surroundings, model, block);
     let readings = path::readings(run);
     let spans = spans(run, block);

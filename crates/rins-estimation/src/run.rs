@@ -163,20 +163,11 @@ impl Run {
             }
             Reference::Rest => {}
         }
-        Ok(Self {
-            rig,
-            recording,
-            left_out: Vec::new(),
-            turn_on: None,
-            in_sequence: None,
-            axes: SignedAxes::IDENTITY,
-            angle_steps,
-            epoch: None,
-        })
+        Ok(Self { angle_steps, ..Self::unchecked(rig, recording) })
     }
 
-    /// A part of a run around an epoch, without any check.
-    pub(crate) fn of_window(rig: Rig, recording: Arc<Recording>) -> Self {
+    /// A run, or a part of one around an epoch, without any check.
+    pub(crate) fn unchecked(rig: Rig, recording: Arc<Recording>) -> Self {
         Self {
             rig,
             recording,

@@ -4,9 +4,6 @@ use std::ops::Range;
 
 use rins_frames::Increments;
 
-/// The interval relative to the mean one above which samples are missing.
-const LONGEST: f64 = 1.5;
-
 /// The samples of one run, in order of time, all in SI units.
 ///
 /// Sample `k` covers the interval that ends at `times[k]`. Every list is as long as `times`.
@@ -25,6 +22,9 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// The interval relative to the usual one above which samples are missing.
+    pub const GAP: f64 = 1.5;
+
     /// The number of samples.
     pub fn len(&self) -> usize {
         self.times.len()
@@ -41,7 +41,8 @@ impl Recording {
     /// If there is no such sample.
     pub fn gap_before(&self, sample: usize) -> bool {
         sample > 0
-            && self.times[sample] - self.times[sample - 1] > 1.5 * self.increments[sample].interval
+            && self.times[sample] - self.times[sample - 1]
+                > Self::GAP * self.increments[sample].interval
     }
 
     /// The samples between gaps, in order.
@@ -59,7 +60,7 @@ impl Recording {
 
     /// The longest interval without missing samples \[s\].
     pub fn longest_interval(&self) -> f64 {
-        LONGEST * self.mean_interval()
+        Self::GAP * self.mean_interval()
     }
 
     /// The samples from index `first` up to, not including, `end`.

@@ -9,6 +9,7 @@ use rins::{DesignGoal, DesignOptions};
 use crate::call::Call;
 use crate::error::argument;
 use crate::outcome::Outcome;
+use crate::quantity::{positive, quantity};
 
 /// The options of a design.
 #[derive(FromPyObject)]
@@ -30,21 +31,16 @@ impl Design {
             return Err(argument("directions", "expected 1 to 6"));
         }
         let goal = DesignGoal::parse(&self.goal).map_err(|expected| argument("goal", expected))?;
-        let positive = |name, kind: &rins::io::Kind, text: Option<String>| {
-            let parsed = text.map(|text| kind.parse(&text).map_err(|error| argument(name, error)));
-            match parsed.transpose()? {
-                Some(value) if value <= 0.0 => Err(argument(name, "expected more than zero")),
-                value => Ok(value),
-            }
+        let limit = |name, kind, text: Option<String>| {
+            text.map(|text| positive(name, quantity(name, kind, &text)?)).transpose()
         };
-        let tilt =
-            |text: String| kinds::TURN.parse(&text).map_err(|error| argument("tilts", error));
+        let tilt = |text: String| quantity("tilts", &kinds::TURN, &text);
         let tilts = self.tilts.map(|tilts| tilts.into_iter().map(tilt).collect()).transpose()?;
         Ok(DesignOptions {
             model: self.model,
-            duration: positive("duration", &kinds::DURATION, self.duration)?,
-            max_rate: positive("max_rate", &kinds::TABLE_RATE, self.max_rate)?,
-            max_acceleration: positive(
+            duration: limit("duration", &kinds::DURATION, self.duration)?,
+            max_rate: limit("max_rate", &kinds::TABLE_RATE, self.max_rate)?,
+            max_acceleration: limit(
                 "max_acceleration",
                 &kinds::TABLE_ACCELERATION,
                 self.max_acceleration,

@@ -11,6 +11,7 @@ use rins::{ApplyOptions, ConvertOptions, HistoryOptions, MissionOptions, Observe
 use crate::call::Call;
 use crate::error::argument;
 use crate::outcome::{Outcome, overwrite};
+use crate::quantity::{positive, quantity};
 
 /// `rins init`; the rig file is not written.
 #[pyfunction]
@@ -162,12 +163,6 @@ impl Observe {
         if !(1..=3).contains(&self.directions) {
             return Err(argument("directions", "expected 1, 2 or 3"));
         }
-        let quantity = |name, kind: &rins::io::Kind, text: &str| {
-            kind.parse(text).map_err(|error| argument(name, error))
-        };
-        let positive = |name, value: f64| {
-            if value > 0.0 { Ok(value) } else { Err(argument(name, "expected more than zero")) }
-        };
         let want = |(id, typed): (String, String)| {
             let sigma = Quantity::parse(&typed).map_err(|error| argument("want", error))?;
             positive("want", sigma.value)?;

@@ -12,6 +12,7 @@ mod files;
 mod log;
 mod logs;
 mod outcome;
+mod quantity;
 
 /// The functions of the crate `rins`.
 #[pyo3::pymodule]

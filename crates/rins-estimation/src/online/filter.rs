@@ -3,6 +3,7 @@
 use nalgebra::{DVector, SVector};
 use rins_frames::Increments;
 use rins_imu::Compensation;
+use rins_motion::Recording;
 use rins_terms::{FreeParameter, Model, Role};
 
 use super::linearized::{Common, Linearized};
@@ -14,9 +15,6 @@ use crate::fit_error::FitError;
 use crate::layout::{MOST_PARAMETERS, attitude_of};
 use crate::run::Reference;
 use crate::step::SHOWN;
-
-/// A time step longer than this number of its own intervals is a gap, as in [`Recording`](rins_motion::Recording).
-const GAP: f64 = 1.5;
 
 /// The run is linearized again if a parameter has moved by more than this part of the sigma of its prior: what is of second order is
 /// then four orders of magnitude smaller than the priors.
@@ -204,7 +202,7 @@ impl OnlineFilter {
             return Err(OnlineError::TimeNotIncreasing { before, now: time });
         }
         let mut update = None;
-        if self.last.is_some_and(|last| time - last > GAP * interval) {
+        if self.last.is_some_and(|last| time - last > Recording::GAP * interval) {
             update = self.flush()?;
             self.start = self.kept.len();
         }

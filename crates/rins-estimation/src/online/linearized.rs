@@ -50,7 +50,7 @@ impl Linearized {
     /// Before the first epoch, at the values of `model`.
     pub(super) fn new(common: &Common, model: Model) -> Self {
         let setup = &common.setup;
-        let run = Run::of_window(setup.rig, Arc::new(Recording::default()));
+        let run = Run::unchecked(setup.rig, Arc::new(Recording::default()));
         let (surroundings, rest) = with_attitude(&run, &model);
         let epoch = setup.interval * setup.epoch as f64;
         let durations = Durations { mean: epoch, usual: epoch, run: setup.duration };

@@ -4,14 +4,12 @@ use rins_imu::ImuSpec;
 use rins_motion::whole;
 use rins_terms::{Model, Term, catalogue};
 
+use crate::epoch::{SHORTEST_EPOCH, epoch_of};
 use crate::evidence::Indefinite;
 use crate::fit_error::FitError;
 use crate::noise_parameters::NoiseParameters;
 use crate::rounding::AngleSteps;
 use crate::run::{Reference, Rig};
-
-/// The duration of an epoch unless another is stated \[s\].
-const EPOCH: f64 = 0.1;
 
 /// The duration of a run unless another is stated \[s\].
 const DURATION: f64 = 3600.0;
@@ -56,9 +54,15 @@ impl OnlineSetup {
     /// sample \[s\].
     pub fn new(rig: Rig, model: Model, imu: ImuSpec, interval: f64) -> Self {
         let noise = NoiseParameters::of(&imu).with(&model);
-        let epoch = if interval > 0.0 { whole(EPOCH / interval) } else { 1 };
+        let epoch = if interval > 0.0 { whole(SHORTEST_EPOCH / interval) } else { 1 };
         let duration = DURATION;
         Self { rig, model, imu, noise, angle_steps: None, interval, epoch, duration }
+    }
+
+    /// The same for a run of this duration \[s\], with the epochs of a finished run of it.
+    #[must_use]
+    pub fn lasting(self, duration: f64) -> Self {
+        Self { duration, epoch: whole(epoch_of(duration, false) / self.interval), ..self }
     }
 
     /// Refuses what the filter does not support.

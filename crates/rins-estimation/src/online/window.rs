@@ -122,7 +122,7 @@ pub(super) fn epoch(
         increments: window.iter().map(|sample| sample.increments).collect(),
         ..Recording::default()
     };
-    let run = Run::of_window(setup.rig, Arc::new(recording));
+    let run = Run::unchecked(setup.rig, Arc::new(recording));
     let Point { surroundings, model, free } = *point;
     let mut angles = smoother.angles(window, model, surroundings.earth_rate.z);
     if let Some(before) = before.filter(|_| !samples.is_fresh()) {

@@ -15,13 +15,13 @@ use crate::rig::Stamp;
 const RATE_WITHIN: f64 = 0.01;
 
 /// A step longer than this many nominal intervals is a gap.
-const GAP: f64 = 1.5;
+pub(super) const GAP: f64 = 1.5;
 
 /// Steps longer than this number of medians are excluded from the mean step.
 const MEAN_OVER: f64 = 2.5;
 
 /// The minimum and maximum sample interval that are plausible \[s\].
-const PACE: (f64, f64) = (1e-7, 1e4);
+pub(super) const PACE: (f64, f64) = (1e-7, 1e4);
 
 /// The intervals of a log's samples.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,26 +3,41 @@
 use std::f64::consts::TAU;
 
 /// The largest step of an angle whose direction is accepted, in turns.
-pub(super) const LARGEST_STEP: f64 = 0.4;
+const LARGEST_STEP: f64 = 0.4;
+
+/// The removal of the jumps of whole turns from an angle, reading by reading.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Unwrapping {
+    /// The reading before \[rad\].
+    before: Option<f64>,
+    /// The whole turns to be added.
+    turns: f64,
+}
+
+impl Unwrapping {
+    /// The next angle \[rad\].
+    ///
+    /// # Errors
+    /// The size \[turns\] of a step that is so close to half a turn that its direction is ambiguous.
+    pub(super) fn next(&mut self, angle: f64) -> Result<f64, f64> {
+        let step = (angle - self.before.replace(angle).unwrap_or(angle)) / TAU;
+        self.turns -= step.round();
+        let rest = (step - step.round()).abs();
+        if rest > LARGEST_STEP {
+            return Err(rest);
+        }
+        Ok(if self.turns == 0.0 { angle } else { angle + self.turns * TAU })
+    }
+}
 
 /// Removes the jumps of whole turns from `angles` \[rad\].
 ///
 /// # Errors
 /// The index and size \[turns\] of the first step that is so close to half a turn that its direction is ambiguous.
 pub(super) fn unwrap(angles: &mut [f64]) -> Result<(), (usize, f64)> {
-    let mut turns = 0.0;
-    let Some(mut before) = angles.first().copied() else { return Ok(()) };
+    let mut unwrapping = Unwrapping::default();
     for (index, angle) in angles.iter_mut().enumerate() {
-        let step = (*angle - before) / TAU;
-        before = *angle;
-        turns -= step.round();
-        let rest = (step - step.round()).abs();
-        if rest > LARGEST_STEP {
-            return Err((index, rest));
-        }
-        if turns != 0.0 {
-            *angle += turns * TAU;
-        }
+        *angle = unwrapping.next(*angle).map_err(|rest| (index, rest))?;
     }
     Ok(())
 }

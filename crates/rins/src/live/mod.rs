@@ -12,7 +12,7 @@ use rins_calibration::CalibrationError;
 use rins_estimation::{OnlineFilter, OnlineSample, OnlineSetup};
 use rins_frames::SignedAxes;
 use rins_io::{InputFile, LiveLog, Loaded, Rig, shown};
-use rins_motion::{Recording, whole};
+use rins_motion::Recording;
 use rins_report::number::{decimal, estimate as written};
 
 pub use self::parameter::LiveParameterResult;
@@ -23,11 +23,6 @@ use crate::error::Result;
 use crate::log::Log;
 use crate::options::{ModelChoice, NamedModel, NoiseChoice};
 use crate::preparation::{EstimationProblem, Prepared};
-
-/// The smallest and the largest duration of an epoch \[s\], and the number of epochs of a run of stated duration, as those of a finished
-/// run.
-const EPOCH: (f64, f64) = (0.1, 0.5);
-const EPOCHS: f64 = 1000.0;
 
 /// The time from which the attitude of the axis and the checks of units, signs and axes are derived, unless another is stated
 /// \[s\].
@@ -198,8 +193,7 @@ impl LiveCalibration {
         let mut setup = OnlineSetup::new(prepared.run.rig, model, prepared.imu, interval);
         setup.angle_steps = prepared.run.angle_steps;
         if let Some(duration) = self.options.duration {
-            let epoch = (duration / EPOCHS).clamp(EPOCH.0, EPOCH.1);
-            (setup.duration, setup.epoch) = (duration, whole(epoch / interval));
+            setup = setup.lasting(duration);
         }
         self.notes = remarks;
         let assumptions = &prepared.basis.assumptions;

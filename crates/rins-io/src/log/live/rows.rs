@@ -1,6 +1,5 @@
 //! Rows of a live log as samples.
 
-use std::f64::consts::TAU;
 use std::mem;
 use std::path::{Path, PathBuf};
 
@@ -9,20 +8,15 @@ use rins_frames::{InFrame, Increments};
 use rins_motion::{Recording, median};
 
 use crate::error::{IoError, LogError};
+use crate::log::clock::{GAP, PACE};
 use crate::log::files::BEYOND_REASON;
 use crate::log::problem::LogProblem;
-use crate::log::series::LARGEST_STEP;
+use crate::log::series::Unwrapping;
 use crate::log::summary::LogPolicy;
 use crate::rig::{Axes, ColumnSpec, Gaps, Reading, Rig, Stamp, TriadColumns};
 
 /// The number of rows whose median step is the nominal interval, if the rig file states no rate.
 const PACED: usize = 10;
-
-/// A step longer than this number of nominal intervals is a gap.
-const GAP: f64 = 1.5;
-
-/// The minimum and maximum sample interval that are plausible \[s\].
-const PACE: (f64, f64) = (1e-7, 1e4);
 
 /// A row with the numbers of its columns.
 #[derive(Clone, Debug)]
@@ -72,8 +66,7 @@ pub(super) struct Samples {
     before: Option<Reads>,
     /// The number of rows.
     count: u64,
-    /// The angle of the row before, as read, and the whole turns to be added \[rad, turns\].
-    wrapped: Option<(f64, f64)>,
+    unwrapping: Unwrapping,
     ready: Recording,
 }
 
@@ -105,7 +98,7 @@ impl Samples {
             waiting: Vec::new(),
             before: None,
             count: 0,
-            wrapped: None,
+            unwrapping: Unwrapping::default(),
             ready: Recording::default(),
         }
     }
@@ -172,22 +165,12 @@ impl Samples {
             let problem = LogProblem::BeyondReason { column: name.clone(), value: table, unit };
             return Err(self.refused(line, problem));
         }
-        let table = if self.is_angle { self.unwrapped(line, table)? } else { table };
+        let ambiguous = |turns| self.refused(line, LogProblem::AmbiguousAngle { turns });
+        let mut unwrapping = self.unwrapping;
+        let table = if self.is_angle { unwrapping.next(table).map_err(ambiguous)? } else { table };
+        self.unwrapping = unwrapping;
         let (gyro, accel) = (self.gyro.axes.apply(&gyro), self.accel.axes.apply(&accel));
         Ok(Some(Reads { line, time, gyro, accel, table }))
-    }
-
-    /// The angle without jumps of whole turns.
-    fn unwrapped(&mut self, line: u64, angle: f64) -> Result<f64, IoError> {
-        let (before, mut turns) = self.wrapped.unwrap_or((angle, 0.0));
-        let step = (angle - before) / TAU;
-        turns -= step.round();
-        let rest = (step - step.round()).abs();
-        if rest > LARGEST_STEP {
-            return Err(self.refused(line, LogProblem::AmbiguousAngle { turns: rest }));
-        }
-        self.wrapped = Some((angle, turns));
-        Ok(if turns == 0.0 { angle } else { angle + turns * TAU })
     }
 
     /// Sets the nominal interval to the median step of the rows that wait, and takes them.
