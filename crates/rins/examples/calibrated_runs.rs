@@ -26,6 +26,8 @@ use rins::simulation::{Scenario, simulate};
 use rins::terms::{FreeParameter, Model, Owner, Surroundings};
 use rins_design::Service;
 
+const USAGE: &str = "usage: calibrated_runs RUNS SCENARIO...";
+
 /// The scenarios of one schedule.
 struct Schedule {
     scenarios: Vec<Scenario>,
@@ -139,8 +141,8 @@ fn is_of_imu(free: &FreeParameter) -> bool {
 
 fn main() -> anyhow::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [runs, paths @ ..] = &arguments[..] else { anyhow::bail!("expected RUNS SCENARIO...") };
-    anyhow::ensure!(!paths.is_empty(), "expected RUNS SCENARIO...");
+    let [runs, paths @ ..] = &arguments[..] else { anyhow::bail!(USAGE) };
+    anyhow::ensure!(!paths.is_empty(), USAGE);
     let runs: u64 = runs.parse()?;
     let schedule = Schedule::read(paths)?;
     let joint = schedule.predicted()?;

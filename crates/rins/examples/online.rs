@@ -14,7 +14,7 @@ use rins_imu::{Compensation, ImuError};
 const STARTS: [f64; 3] = [0.0, 30.0, 180.0];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let scenario = std::env::args().nth(1).map(PathBuf::from).ok_or("which scenario file?")?;
+    let scenario = std::env::args().nth(1).map(PathBuf::from).ok_or("usage: online SCENARIO")?;
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("run");
     rins::simulate(&scenario, None)?.write(&run, Overwrite::Refuse)?;
