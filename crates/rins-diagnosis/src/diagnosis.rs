@@ -11,7 +11,7 @@ use crate::criticism::unexplained::{Unexplained, described};
 use crate::generic::is_generic;
 use crate::hypothesis::Hypothesis;
 use crate::proposal::lines::FastLine;
-use crate::search::{Round, State, Tried};
+use crate::search::{MOST_EFFECTS, Round, State, Tried};
 use crate::verdict::cause::Cause;
 
 /// The chance of naming anything where there is nothing, over the whole catalogue.
@@ -38,6 +38,13 @@ impl Diagnosis {
         let mut model = self.after.model().clone();
         model.terms.retain(|chosen| !is_generic(chosen.term));
         model
+    }
+
+    /// Whether the hypothesis has as many effects as the search allows, so that further ones may be hidden among what is unexplained.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        let [before, after] = [&self.before, &self.after].map(|fit| fit.model().terms.len());
+        after.saturating_sub(before) >= MOST_EFFECTS
     }
 }
 

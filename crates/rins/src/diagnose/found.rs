@@ -135,10 +135,14 @@ impl Shift {
     }
 }
 
+/// What is said of a hypothesis that has as many effects as the search allows.
+const FULL: &str = "The search ended because the hypothesis has the largest number of effects that is tried. \
+     Further effects may be hidden in the residual structure.";
+
 impl DiagnosisOutcome {
     /// Diagnoses the runs of a case.
     pub(crate) fn of(
-        case: EstimationProblem,
+        mut case: EstimationProblem,
         asked: &Request,
         progress: &Progress,
     ) -> anyhow::Result<Self> {
@@ -155,6 +159,9 @@ impl DiagnosisOutcome {
             }),
         };
         let mut diagnosis = diagnosed.with_context(|| case.names())?;
+        if diagnosis.is_full() {
+            case.remarks.push(FULL.into());
+        }
         for (run, prepared) in case.runs.iter().enumerate() {
             let all = |repeats: &Repeats| prepared.run.recording.len() + repeats.samples;
             let cause = prepared.repeats.map(|repeats| stuck(&repeats, run, all(&repeats)));
