@@ -96,7 +96,11 @@ impl MeasuredLog {
 
     /// Its duration \[s\].
     pub(crate) fn duration(&self) -> f64 {
-        self.times[self.times.len() - 1] - self.times[0]
+        self.end() - self.times[0]
+    }
+
+    fn end(&self) -> f64 {
+        self.times[self.times.len() - 1]
     }
 
     /// Adds `amplitude` times a signal to a channel.
@@ -124,8 +128,10 @@ impl MeasuredLog {
         fs::write(folder.join("log.csv"), text)?;
         let line = |line: &str| match line.split(" = ").next() {
             Some("path") => "path = \"log.csv\"\n".into(),
-            // The part has a length of its own.
-            Some("static") => format!("static = [[\"0 s\", \"{} s\"]]\n", self.duration()),
+            // The part has an interval of its own.
+            Some("static") => {
+                format!("static = [[\"{} s\", \"{} s\"]]\n", self.times[0], self.end())
+            }
             _ => format!("{line}\n"),
         };
         let rig: String = self.rig.lines().map(line).collect();
