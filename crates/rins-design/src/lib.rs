@@ -27,7 +27,7 @@ pub use budget::{Budget, Contribution, Drift, EstimatedParameter, Truth};
 pub use coverage::{COVERAGE, coverage_factor};
 pub use effect::Effect;
 pub use error::DesignError;
-pub use growth::{GROWTH_STATES, Growth, GrowthError, Service};
+pub use growth::{Draw, GROWTH_STATES, Growth, GrowthError, NOISE_INTERVAL, Service, Voyage};
 pub use library::{Candidate, Limits, TYPICAL_ACCELERATION, TYPICAL_RATE, usual_schedules};
 pub use next::{Confused, NextTest, next_test};
 pub use optimum::{

@@ -45,8 +45,8 @@ pub use allan::{
 pub use axis::{Axis, Triad};
 pub use imu::{Compensation, ImuCompensationError, ImuError};
 pub use noise::{
-    GaussMarkov, ImuNoise, ImuNoiseError, ImuNoiseSource, NoiseError, NoiseModel, NormalStream,
-    Quantisation, Seed, Sensor, Span, TriadNoise, rounded,
+    BiasProcess, BiasStep, GaussMarkov, ImuNoise, ImuNoiseError, ImuNoiseSource, NoiseError,
+    NoiseModel, NormalStream, Quantisation, Seed, Sensor, Span, TriadNoise, rounded,
 };
 pub use preset::{GRADES, Preset, SENSORS};
 pub use spec::{ImuSpec, TriadSpec};

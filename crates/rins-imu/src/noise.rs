@@ -10,6 +10,7 @@ mod source;
 
 pub use imu::{ImuNoise, ImuNoiseError, ImuNoiseSource};
 pub use model::{GaussMarkov, NoiseError, NoiseModel, Quantisation, Span};
+pub use process::{BiasProcess, BiasStep};
 pub use quantiser::rounded;
 pub use seed::{NormalStream, Seed, Sensor};
 pub use source::TriadNoise;

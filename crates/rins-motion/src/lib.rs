@@ -35,6 +35,7 @@
 )]
 
 mod alignment;
+mod carrier;
 mod cubic;
 mod fine_alignment;
 pub mod mechanism;
@@ -50,6 +51,10 @@ mod whole;
 
 pub use alignment::{
     Alignment, AlignmentError, MeanUncertainty, PlaceSeen, align, level, place_seen, residual,
+};
+pub use carrier::{
+    CarriedSample, CarriedState, CarriedTable, Carrier, CarrierError, CarrierState, Leg,
+    Oscillation, Sway,
 };
 pub use cubic::cubic;
 pub use fine_alignment::{FineAlignment, FineAlignmentError, GyroFigures, align_finely};

@@ -17,7 +17,10 @@
 mod alignment;
 mod input;
 mod piece;
+mod sensitivity;
 mod service;
+mod simulation;
+mod voyage;
 
 use std::collections::HashMap;
 
@@ -27,6 +30,8 @@ use self::input::Input;
 use self::piece::Piece;
 use self::service::{Columns, Square};
 pub use self::service::{GROWTH_STATES, Growth, Service};
+pub use self::simulation::Draw;
+pub use self::voyage::{NOISE_INTERVAL, Voyage};
 
 /// Pieces are at most so long \[s\], and at most one revolution: a matrix exponential loses accuracy with its argument.
 const LONGEST_PIECE: f64 = 600.0;
@@ -59,6 +64,15 @@ pub enum GrowthError {
     /// The site is a pole, where east is undefined.
     #[error("the latitude is that of a pole, where east and north are undefined")]
     Pole,
+    /// A term is no affine function of angular rate and specific force.
+    #[error("{term} is no affine function of angular rate and specific force")]
+    NotAffine {
+        /// Its id.
+        term: &'static str,
+    },
+    /// The noise is not as it must be.
+    #[error("the noise cannot be simulated")]
+    Noise(#[from] rins_imu::ImuNoiseError),
 }
 
 impl Service<'_> {
@@ -142,13 +156,7 @@ impl Service<'_> {
                 return Err(GrowthError::Segment { index: place + 1, rate, duration });
             }
         }
-        let mut before = 0.0;
-        for &time in times {
-            if !(time.is_finite() && time >= before) {
-                return Err(GrowthError::Time { time });
-            }
-            before = time;
-        }
+        check_times(times)?;
         let latitude = self.surroundings.station.site.latitude;
         if latitude.cos().abs() < 1e-6 { Err(GrowthError::Pole) } else { Ok(()) }
     }
@@ -158,4 +166,15 @@ impl Service<'_> {
 fn longest(rate: f64) -> f64 {
     let revolution = std::f64::consts::TAU / rate.abs();
     revolution.min(LONGEST_PIECE)
+}
+
+fn check_times(times: &[f64]) -> Result<(), GrowthError> {
+    let mut before = 0.0;
+    for &time in times {
+        if !(time.is_finite() && time >= before) {
+            return Err(GrowthError::Time { time });
+        }
+        before = time;
+    }
+    Ok(())
 }

@@ -1,5 +1,6 @@
 //! The components of the random error of a triad.
 
+use super::process::BiasProcess;
 use crate::spec::TriadSpec;
 
 /// The random errors of each sensor of a triad, all independent. The default is none.
@@ -64,6 +65,18 @@ impl NoiseModel {
         })
         .map(|correlation_time| GaussMarkov { sigma, correlation_time })
         .collect()
+    }
+
+    /// The random bias processes of one sensor, with those that approximate flicker noise over a run of the given span.
+    pub fn bias_processes(&self, span: &Span) -> Vec<BiasProcess> {
+        let mut processes = Vec::new();
+        if self.bias_random_walk > 0.0 {
+            processes.push(BiasProcess::Walk { density: self.bias_random_walk });
+        }
+        let forgetting = self.gauss_markov.iter().copied().chain(self.flicker_processes(span));
+        let forgetting = forgetting.filter(|process| process.sigma > 0.0);
+        processes.extend(forgetting.map(BiasProcess::Relaxing));
+        processes
     }
 
     /// Whether every number is valid for noise.

@@ -2,11 +2,14 @@
 
 use super::model::GaussMarkov;
 
-/// A random bias process.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Process {
-    /// The integral of white noise of this root density \[rate/√s\].
-    Walk { density: f64 },
+/// A random bias process of one sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BiasProcess {
+    /// The integral of white noise.
+    Walk {
+        /// The root density of the white noise \[rate/√s\].
+        density: f64,
+    },
     /// A Gauss-Markov process.
     Relaxing(GaussMarkov),
 }
@@ -18,28 +21,31 @@ pub(super) enum Process {
 /// Given both of its ends, the integral of such a process has the mean `weight (x₀ + x₁)`, by the
 /// time-reversal symmetry of a bridge. The remainder is independent of everything else, so that the
 /// remainders of many processes can be drawn as one number.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
-    pub(super) decay: f64,
-    pub(super) spread: f64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BiasStep {
+    /// The part of the bias that is left.
+    pub decay: f64,
+    /// The standard deviation of what is added to it \[rate\].
+    pub spread: f64,
     /// The weight of the ends in the integral \[s\].
-    pub(super) weight: f64,
+    pub weight: f64,
     /// The variance of the integral given both ends \[rate² s²\].
-    pub(super) residual: f64,
+    pub residual: f64,
 }
 
-impl Process {
+impl BiasProcess {
     /// The standard deviation of the bias at the start.
-    pub(super) fn initial_sigma(&self) -> f64 {
+    pub fn initial_sigma(&self) -> f64 {
         match self {
             Self::Walk { .. } => 0.0,
             Self::Relaxing(process) => process.sigma,
         }
     }
 
-    pub(super) fn step(&self, interval: f64) -> Step {
+    /// Its discretization over an interval \[s\].
+    pub fn step(&self, interval: f64) -> BiasStep {
         match *self {
-            Self::Walk { density } => Step {
+            Self::Walk { density } => BiasStep {
                 decay: 1.0,
                 spread: density * interval.sqrt(),
                 weight: interval / 2.0,
@@ -48,7 +54,7 @@ impl Process {
             Self::Relaxing(GaussMarkov { sigma, correlation_time }) => {
                 let h = interval / correlation_time;
                 let span = sigma * correlation_time;
-                Step {
+                BiasStep {
                     decay: libm::exp(-h),
                     spread: sigma * (-libm::expm1(-2.0 * h)).sqrt(),
                     weight: correlation_time * libm::tanh(h / 2.0),
@@ -78,8 +84,8 @@ mod tests {
     use proptest::prelude::*;
 
     /// The covariance of (end, integral) if the start has the variance `start`.
-    fn covariance(step: &Step, start: f64) -> [f64; 3] {
-        let Step { decay, spread, weight, residual } = *step;
+    fn covariance(step: &BiasStep, start: f64) -> [f64; 3] {
+        let BiasStep { decay, spread, weight, residual } = *step;
         let noise = spread * spread;
         let end = decay * decay * start + noise;
         let cross = weight * ((1.0 + decay) * decay * start + noise);
@@ -88,16 +94,16 @@ mod tests {
     }
 
     /// The gain from start to integral, `∫ E[x | x₀] dt / x₀`.
-    fn drift(step: &Step) -> f64 {
+    fn drift(step: &BiasStep) -> f64 {
         step.weight * (1.0 + step.decay)
     }
 
-    fn any_process() -> impl Strategy<Value = Process> {
+    fn any_process() -> impl Strategy<Value = BiasProcess> {
         prop_oneof![
-            (0.1..10.0_f64).prop_map(|density| Process::Walk { density }),
+            (0.1..10.0_f64).prop_map(|density| BiasProcess::Walk { density }),
             (0.1..10.0_f64, -3.0..3.0_f64).prop_map(|(sigma, exponent)| {
                 let correlation_time = 10.0_f64.powf(exponent);
-                Process::Relaxing(GaussMarkov { sigma, correlation_time })
+                BiasProcess::Relaxing(GaussMarkov { sigma, correlation_time })
             }),
         ]
     }
@@ -131,17 +137,19 @@ mod tests {
 
         #[test]
         fn stationary_process_stays_so(sigma in 0.1..10.0_f64, h in 1e-6..50.0_f64) {
-            let step = Process::Relaxing(GaussMarkov { sigma, correlation_time: 1.0 }).step(h);
+            let step = BiasProcess::Relaxing(GaussMarkov { sigma, correlation_time: 1.0 }).step(h);
             prop_assert!(close(covariance(&step, sigma * sigma)[0], sigma * sigma));
         }
     }
 
     #[test]
     fn slow_process_integrates_to_its_bias_and_a_fast_one_to_white_noise() {
-        let slow = Process::Relaxing(GaussMarkov { sigma: 2.0, correlation_time: 1e9 }).step(1.0);
+        let slow =
+            BiasProcess::Relaxing(GaussMarkov { sigma: 2.0, correlation_time: 1e9 }).step(1.0);
         assert!(close(covariance(&slow, 4.0)[2] / 4.0, 1.0 - 1e-9 / 3.0));
         // Density 2 σ² T, minus the effect of the ends: (1 - T) of it over one second.
-        let fast = Process::Relaxing(GaussMarkov { sigma: 2.0, correlation_time: 1e-4 }).step(1.0);
+        let fast =
+            BiasProcess::Relaxing(GaussMarkov { sigma: 2.0, correlation_time: 1e-4 }).step(1.0);
         assert!(close(covariance(&fast, 4.0)[2], 8e-4 * (1.0 - 1e-4)));
     }
 }

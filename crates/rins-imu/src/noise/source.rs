@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use rins_frames::{Body, InFrame};
 
 use super::model::{NoiseError, NoiseModel, Span};
-use super::process::{Process, Step};
+use super::process::{BiasProcess, BiasStep};
 use super::quantiser::Quantiser;
 use super::seed::{NormalStream, Seed, Sensor};
 use crate::axis::{Axis, Triad};
@@ -29,7 +29,7 @@ use crate::axis::{Axis, Triad};
 #[derive(Clone, Debug)]
 pub struct TriadNoise {
     streams: [NormalStream; 3],
-    processes: Vec<Process>,
+    processes: Vec<BiasProcess>,
     /// The present bias of each process on each axis.
     biases: Vec<Vector3<f64>>,
     white_variance: f64,
@@ -41,7 +41,7 @@ pub struct TriadNoise {
 #[derive(Clone, Debug)]
 struct Steps {
     interval: f64,
-    each: Vec<Step>,
+    each: Vec<BiasStep>,
     /// The standard deviation of the part of an increment that the biases do not explain \[rad or m/s\].
     remainder: f64,
 }
@@ -59,15 +59,9 @@ impl TriadNoise {
     ) -> Result<Self, NoiseError> {
         model.check()?;
         span.check()?;
-        let mut processes = Vec::new();
-        if model.bias_random_walk > 0.0 {
-            processes.push(Process::Walk { density: model.bias_random_walk });
-        }
-        let forgetting = model.gauss_markov.iter().copied().chain(model.flicker_processes(span));
-        processes.extend(forgetting.filter(|process| process.sigma > 0.0).map(Process::Relaxing));
-
+        let processes = model.bias_processes(span);
         let mut streams = Axis::ALL.map(|axis| seed.stream(Sensor::Inertial(triad, axis)));
-        let start = |process: &Process| samples(&mut streams) * process.initial_sigma();
+        let start = |process: &BiasProcess| samples(&mut streams) * process.initial_sigma();
         let biases = processes.iter().map(start).collect();
         let white_variance = model.white_density * model.white_density;
         let steps = Steps { interval: f64::NAN, each: Vec::new(), remainder: 0.0 };
