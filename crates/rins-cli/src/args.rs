@@ -138,10 +138,13 @@ pub(crate) enum Command {
     History(History),
     /// Predict the position error of a system after days in service, for several schemes of rotation
     ///
-    /// The mission file states the site, the schemes and the errors: [errors] has errors of a certain size, [imu] a data sheet. The errors
-    /// are propagated linearly, with the Schuler, Foucault and Earth-rate oscillations and the growth of the longitude. The result has the
-    /// position error east and north by the stated errors, and CEP50, CEP95 and TRMS by the uncertainties of the data sheet, or by what a
-    /// calibration leaves.
+    /// The mission file states the site, the carrier's legs and sway, the schemes and the errors: [errors] has errors of a certain size,
+    /// [imu] a data sheet. The errors are propagated linearly, with the Schuler, Foucault and Earth-rate oscillations and the growth of the
+    /// longitude. The result has the position error east and north by the stated errors, and CEP50, CEP95 and TRMS by the uncertainties of
+    /// the data sheet, or by what a calibration leaves.
+    ///
+    /// With --runs, missions with drawn errors are navigated by strapdown as well. With --want, the result states which standard deviations of
+    /// the sensor errors hold a wanted position error.
     Mission(Mission),
 }
 

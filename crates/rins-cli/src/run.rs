@@ -63,8 +63,13 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             deliver(arguments, &rins::history(&history.runs, &options)?, "")
         }
         Command::Mission(mission) => {
-            let options =
-                MissionOptions { calibration: mission.calibration.clone(), progress: drawn() };
+            let options = MissionOptions {
+                calibration: mission.calibration.clone(),
+                runs: mission.runs,
+                seed: mission.seed,
+                want: mission.want.clone(),
+                progress: drawn(),
+            };
             deliver(arguments, &rins::mission(&mission.file, &options)?, "")
         }
     }

@@ -94,7 +94,7 @@ fn voyage_at_rest_is_the_service_ashore() {
             let [one, other] =
                 [short, &exact].map(|grown| grown.by_parameter.column(column).into_owned());
             // Where a turn and back nearly cancels, to a hundredth of a meter.
-            let off = (&one - &other).norm();
+            let off = (one - other).norm();
             assert!(off < 2e-4 * other.norm() + 0.01, "{one} {other}");
         }
         let [one, other] = [short, &exact].map(|grown| Growth::radial(&grown.by_noise));

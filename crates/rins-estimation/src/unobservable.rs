@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use crate::estimate::Fit;
+use crate::estimate::{Estimate, Fit};
 use crate::identifiability::Identifiability;
 
 impl Identifiability {
@@ -16,6 +16,62 @@ impl Identifiability {
     }
 }
 
+/// The change of the estimates with this covariance if those at `places` have the means of their priors, as of
+/// [`Fit::with_prior_values_at`]; the covariance becomes that of the changed estimates. `None` if nothing changes.
+pub(crate) fn at_prior_values(
+    parameters: &[Estimate],
+    covariance: &mut DMatrix<f64>,
+    places: &[usize],
+) -> Option<DVector<f64>> {
+    if places.is_empty() {
+        return None;
+    }
+    let others: Vec<usize> =
+        (0..parameters.len()).filter(|place| !places.contains(place)).collect();
+    let block = |rows: &[usize], columns: &[usize]| {
+        DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
+            covariance[(rows[row], columns[column])]
+        })
+    };
+    // These blocks of a positive definite covariance are positive definite.
+    let own = Cholesky::new(block(places, places))?;
+    let across = block(places, &others);
+    // The change of the other estimates per unit change of these.
+    let follow = own.solve(&across).transpose();
+    let moved = DVector::from_iterator(
+        places.len(),
+        places.iter().map(|&place| parameters[place].expected - parameters[place].value),
+    );
+    let prior = DMatrix::from_diagonal(&DVector::from_iterator(
+        places.len(),
+        places.iter().map(|&place| parameters[place].parameter.sigma.powi(2)),
+    ));
+    let shared = &follow * &prior;
+    let rest = block(&others, &others) - &follow * &across + &shared * follow.transpose();
+    let mut step = DVector::zeros(parameters.len());
+    for (&place, by) in places.iter().zip(&moved) {
+        step[place] = *by;
+    }
+    for (&place, by) in others.iter().zip(&(&follow * &moved)) {
+        step[place] = *by;
+    }
+    for (row, &to_row) in places.iter().enumerate() {
+        for (column, &to_column) in places.iter().enumerate() {
+            covariance[(to_row, to_column)] = prior[(row, column)];
+        }
+    }
+    for (row, &to_row) in others.iter().enumerate() {
+        for (column, &to_column) in others.iter().enumerate() {
+            covariance[(to_row, to_column)] = rest[(row, column)];
+        }
+        for (column, &to_column) in places.iter().enumerate() {
+            covariance[(to_row, to_column)] = shared[(row, column)];
+            covariance[(to_column, to_row)] = shared[(row, column)];
+        }
+    }
+    Some(step)
+}
+
 impl Fit {
     /// The same fit with the parameters at `places` at the means of their priors, with the priors' 1σ.
     ///
@@ -27,54 +83,9 @@ impl Fit {
     /// If a place is not that of a parameter.
     #[must_use]
     pub fn with_prior_values_at(mut self, places: &[usize]) -> Self {
-        if places.is_empty() {
+        let Some(step) = at_prior_values(&self.parameters, &mut self.covariance, places) else {
             return self;
-        }
-        let others: Vec<usize> =
-            (0..self.parameters.len()).filter(|place| !places.contains(place)).collect();
-        let block = |rows: &[usize], columns: &[usize]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |row, column| {
-                self.covariance[(rows[row], columns[column])]
-            })
         };
-        // These blocks of a positive definite covariance are positive definite.
-        let Some(own) = Cholesky::new(block(places, places)) else { return self };
-        let across = block(places, &others);
-        // The change of the other estimates per unit change of these.
-        let follow = own.solve(&across).transpose();
-        let moved = DVector::from_iterator(
-            places.len(),
-            places
-                .iter()
-                .map(|&place| self.parameters[place].expected - self.parameters[place].value),
-        );
-        let prior = DMatrix::from_diagonal(&DVector::from_iterator(
-            places.len(),
-            places.iter().map(|&place| self.parameters[place].parameter.sigma.powi(2)),
-        ));
-        let shared = &follow * &prior;
-        let rest = block(&others, &others) - &follow * &across + &shared * follow.transpose();
-        let mut step = DVector::zeros(self.parameters.len());
-        for (&place, by) in places.iter().zip(&moved) {
-            step[place] = *by;
-        }
-        for (&place, by) in others.iter().zip(&(&follow * &moved)) {
-            step[place] = *by;
-        }
-        for (row, &to_row) in places.iter().enumerate() {
-            for (column, &to_column) in places.iter().enumerate() {
-                self.covariance[(to_row, to_column)] = prior[(row, column)];
-            }
-        }
-        for (row, &to_row) in others.iter().enumerate() {
-            for (column, &to_column) in others.iter().enumerate() {
-                self.covariance[(to_row, to_column)] = rest[(row, column)];
-            }
-            for (column, &to_column) in places.iter().enumerate() {
-                self.covariance[(to_row, to_column)] = shared[(row, column)];
-                self.covariance[(to_column, to_row)] = shared[(row, column)];
-            }
-        }
         self.move_by(&step);
         for &place in places {
             // Avoids the rounding error of the sum.

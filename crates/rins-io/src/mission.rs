@@ -1,11 +1,13 @@
 //! Mission files: a system in service, the schemes of its table, and its errors.
 
+mod carrier;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
 
 use rins_frames::{Dcm, Nav, Table};
 use rins_imu::{ImuError, ImuSpec, TriadError};
-use rins_motion::{Segment, Station};
+use rins_motion::{Carrier, Segment, Station};
 
 use crate::document::Document;
 use crate::error::IoError;
@@ -17,10 +19,14 @@ use crate::section::{Section, quoted, such_as};
 /// The maximum number of output times.
 const MOST_TIMES: f64 = 100_000.0;
 
+/// The sampling rate of strapdown navigation if none is stated \[Hz\].
+const SAMPLE_RATE: f64 = 50.0;
+
 /// The interval of the results if none is stated \[s\].
 const INTERVAL: f64 = 3600.0;
 
-/// The content of a mission file: `[site]`, `[attitude]`, `[imu]`, `[mission]`, `[errors]` and a `[[scheme]]` for each scheme.
+/// The content of a mission file: `[site]`, `[attitude]`, `[imu]`, `[mission]`, `[carrier]`,
+/// `[errors]` and a `[[scheme]]` for each scheme.
 ///
 /// ```
 /// # use std::path::Path;
@@ -48,14 +54,18 @@ const INTERVAL: f64 = 3600.0;
 pub struct MissionFile {
     /// The mission file.
     pub path: PathBuf,
-    /// The site, at which the carrier is at rest.
+    /// The site at which the mission begins.
     pub station: Station,
-    /// The attitude of the axis frame; upright, with x east, if none is stated.
+    /// The carrier's motion, if it is not at rest.
+    pub carrier: Option<Carrier>,
+    /// The attitude of the axis frame on a carrier that heads north; upright, with x to the right, if none is stated.
     pub nav_from_table: Dcm<Nav, Table>,
     /// The 1σ of the initial attitude error about each axis \[rad\]; zero if no attitude is stated.
     pub attitude_sigma: f64,
     /// The times of the results since the start \[s\].
     pub times: Vec<f64>,
+    /// The interval of strapdown navigation \[s\].
+    pub sample_interval: f64,
     /// The schemes.
     pub schemes: Vec<RotationScheme>,
     /// The errors of the sensors, if they are stated.
@@ -71,6 +81,8 @@ pub struct RotationScheme {
     pub name: String,
     /// One cycle of it.
     pub cycle: Vec<Segment>,
+    /// Whether the table is isolated from the carrier's heading.
+    pub stabilized: bool,
 }
 
 /// The expected form of a profile, for an error message.
@@ -97,13 +109,14 @@ impl MissionFile {
     }
 
     fn from_document(document: &Document) -> Result<Self, IoError> {
-        let known = ["site", "attitude", "imu", "mission", "scheme", "errors"];
+        let known = ["site", "attitude", "imu", "mission", "carrier", "scheme", "errors"];
         let root = Section::root(document, &known)?;
         let Some(station) = rig::station(&root)? else {
             return Err(root.missing("[site]", "latitude, longitude and height"));
         };
         let rig = Rig::without_log(document, &root)?;
-        let Some(mission) = root.section("mission", &["duration", "interval"])? else {
+        let Some(mission) = root.section("mission", &["duration", "interval", "sample_rate"])?
+        else {
             return Err(root.missing("[mission]", such_as(&kinds::DURATION)));
         };
         let duration = mission.require_quantity("duration", &kinds::DURATION)?;
@@ -120,7 +133,13 @@ impl MissionFile {
         while (times.len() as f64) < count {
             times.push(interval * (times.len() + 1) as f64);
         }
-        let keys = ["name", "rate", "dwell", "profile"];
+        let sample_rate =
+            mission.quantity("sample_rate", &kinds::SAMPLE_RATE)?.unwrap_or(SAMPLE_RATE);
+        let carrier = match root.section("carrier", &carrier::KEYS)? {
+            None => None,
+            Some(section) => Some(carrier::read(&section, duration)?),
+        };
+        let keys = ["name", "rate", "dwell", "profile", "stabilized"];
         let tables = root.tables("scheme", &keys)?.unwrap_or_default();
         if tables.is_empty() {
             return Err(root.missing("[[scheme]]", scheme_names()));
@@ -128,6 +147,9 @@ impl MissionFile {
         let mut schemes: Vec<RotationScheme> = Vec::new();
         for table in &tables {
             let scheme = scheme(table)?;
+            if scheme.stabilized && carrier.is_none() {
+                return Err(table.conflict("stabilized", "there is no [carrier] that turns"));
+            }
             if schemes.iter().any(|other| other.name == scheme.name) {
                 return Err(table.conflict("name", "another scheme has this name"));
             }
@@ -153,6 +175,8 @@ impl MissionFile {
             nav_from_table,
             attitude_sigma: rig.attitude.map_or(0.0, |attitude| attitude.sigma),
             times,
+            carrier,
+            sample_interval: 1.0 / sample_rate,
             schemes,
             errors,
             imu: rig.imu,
@@ -170,6 +194,7 @@ fn scheme(table: &Section<'_>) -> Result<RotationScheme, IoError> {
     let Some(name) = table.text("name", &expected)? else {
         return Err(table.missing("name", expected));
     };
+    let stabilized = table.flag("stabilized")?;
     if let Some(segments) = table.tables("profile", &["rate", "duration"])? {
         for key in ["rate", "dwell"] {
             if table.has(key) {
@@ -180,7 +205,7 @@ fn scheme(table: &Section<'_>) -> Result<RotationScheme, IoError> {
         if cycle.is_empty() {
             return Err(table.not_allowed("profile", PROFILE));
         }
-        return Ok(RotationScheme { name: name.into(), cycle });
+        return Ok(RotationScheme { name: name.into(), cycle, stabilized });
     }
     let refuse = |key: &str| {
         let reason = format!("the scheme {name:?} has none");
@@ -221,5 +246,5 @@ fn scheme(table: &Section<'_>) -> Result<RotationScheme, IoError> {
         }
         _ => return Err(table.missing("profile", PROFILE)),
     };
-    Ok(RotationScheme { name: name.into(), cycle })
+    Ok(RotationScheme { name: name.into(), cycle, stabilized })
 }

@@ -248,6 +248,15 @@ impl<'d> Section<'d> {
         }
     }
 
+    /// The `true` or `false` behind `key`; false if it is left out.
+    pub(crate) fn flag(&self, key: &str) -> Result<bool, IoError> {
+        match self.get(key).map(|entry| &entry.value) {
+            None => Ok(false),
+            Some(Value { node: Node::Flag(flag), .. }) => Ok(*flag),
+            Some(value) => Err(self.wrong_type(key, value, "true or false".into())),
+        }
+    }
+
     /// The one of `choices` that the text behind `key` names.
     pub(crate) fn choice<T: Copy>(
         &self,

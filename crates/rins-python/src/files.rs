@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use rins::io::quantity::kinds;
 use rins::io::{LogFile, Quantity, date_seconds};
+use rins::mission::WantedFigure;
 use rins::observe::Want;
 use rins::{ApplyOptions, ConvertOptions, HistoryOptions, MissionOptions, ObserveOptions};
 
@@ -127,16 +128,30 @@ pub(crate) fn history(
     })
 }
 
+/// The options of a mission.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Mission {
+    calibration: Option<PathBuf>,
+    runs: Option<u32>,
+    seed: u64,
+    want: Option<String>,
+}
+
 /// `rins mission`.
 #[pyfunction]
 pub(crate) fn mission(
     py: Python<'_>,
     file: PathBuf,
-    calibration: Option<PathBuf>,
+    options: Mission,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
+    let Mission { calibration, runs, seed, want } = options;
+    let want = want.as_deref().map(WantedFigure::parse).transpose();
+    let want = want.map_err(|expected| argument("want", expected))?;
     Outcome::run(py, Call::new(progress), None, move |progress| {
-        let options = MissionOptions { calibration, progress: progress.clone() };
+        let progress = progress.clone();
+        let options = MissionOptions { calibration, runs, seed, want, progress };
         Outcome::of(rins::mission(&file, &options)?)
     })
 }

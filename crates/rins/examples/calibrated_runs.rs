@@ -6,7 +6,8 @@
 //! ```
 //!
 //! For each parameter of the IMU, the predicted standard deviation, the root mean square of the errors of the calibrations, and their
-//! ratio; at the end the same of the position error after 24 h of a system that turns back and forth at the fastest rate.
+//! ratio; at the end the same of the position error after 24 h of a system that turns back and forth at the fastest rate: linearly after an
+//! alignment, and navigated by strapdown from an exact start with what each calibration leaves of the errors.
 
 use std::path::Path;
 
@@ -19,12 +20,18 @@ use rins::estimation::{
     Fit, Joint, NoiseKnowledge, NoiseParameters, Reference, Rig, Run, fit, joint,
 };
 use rins::frames::Dcm;
-use rins::imu::{ImuSpec, Seed};
+use rins::imu::{ImuSpec, NoiseModel, Seed};
 use rins::io::ScenarioFile;
-use rins::motion::Segment;
+use rins::motion::{CarriedTable, Carrier, Segment};
 use rins::simulation::{Scenario, simulate};
 use rins::terms::{FreeParameter, Model, Owner, Surroundings};
-use rins_design::Service;
+use rins_design::{Draw, Service, Voyage};
+
+/// The time in service \[s\].
+const DAY: f64 = 86_400.0;
+
+/// The interval of its navigation \[s\].
+const INTERVAL: f64 = 0.1;
 
 const USAGE: &str = "usage: calibrated_runs RUNS SCENARIO...";
 
@@ -115,23 +122,66 @@ impl Schedule {
         self.free.iter().filter(|free| is_of_imu(free))
     }
 
+    /// A turn at the fastest rate of the schedule, and back.
+    fn there_and_back(&self) -> [Segment; 2] {
+        let profile = &self.scenarios[0].profile;
+        let turn = |rate: f64| Segment { rate, duration: std::f64::consts::TAU / rate.abs() };
+        let steps = (0..1000).map(|step| profile.duration() * f64::from(step) / 1000.0);
+        let fastest = steps.map(|time| profile.rate(time).abs()).fold(0.0, f64::max);
+        [turn(fastest), turn(-fastest)]
+    }
+
+    fn places(&self) -> Vec<(usize, usize)> {
+        self.of_imu().map(|free| (free.term, free.parameter)).collect()
+    }
+
     /// The position error after 24 h (2 × n).
     fn position(&self) -> anyhow::Result<DMatrix<f64>> {
         let scenario = &self.scenarios[0];
-        let turn = |rate: f64| Segment { rate, duration: std::f64::consts::TAU / rate.abs() };
-        let steps = (0..1000).map(|step| scenario.profile.duration() * f64::from(step) / 1000.0);
-        let fastest = steps.map(|time| scenario.profile.rate(time).abs()).fold(0.0, f64::max);
-        let places: Vec<(usize, usize)> =
-            self.of_imu().map(|free| (free.term, free.parameter)).collect();
+        let places = self.places();
         let service = Service {
             surroundings: Surroundings::new(scenario.station, scenario.nav_from_table),
-            cycle: &[turn(fastest), turn(-fastest)],
+            cycle: &self.there_and_back(),
             model: &self.model,
             parameters: &places,
             noise: [0.0; 2],
         };
-        let position = service.position_after_alignment(86400.0)?;
+        let position = service.position_after_alignment(DAY)?;
         Ok(DMatrix::from_fn(2, places.len(), |row, column| position[(row, column)]))
+    }
+
+    /// The root mean square of the radial position error \[m\] after 24 h of strapdown navigation with these errors of the sensors, and of the
+    /// linear model for errors of this covariance.
+    fn navigated(
+        &self,
+        errors: &[Vec<f64>],
+        covariance: &DMatrix<f64>,
+    ) -> anyhow::Result<[f64; 2]> {
+        let scenario = &self.scenarios[0];
+        let place = (scenario.station, scenario.nav_from_table);
+        let table = CarriedTable::new(place, Carrier::at_rest(), &self.there_and_back(), false)?;
+        let places = self.places();
+        let silent = NoiseModel::default();
+        let voyage =
+            Voyage { table: &table, model: &self.model, parameters: &places, noise: [&silent; 2] };
+        let draws: Vec<Draw> = errors
+            .iter()
+            .map(|errors| Draw {
+                errors: errors.clone(),
+                attitude: nalgebra::Vector3::zeros(),
+                seed: Seed::new(1),
+            })
+            .collect();
+        let portion = draws.len().div_ceil(rayon::current_num_threads());
+        let found = draws
+            .par_chunks(portion)
+            .map(|draws| voyage.simulated(draws, INTERVAL, &[DAY], &|_| {}))
+            .collect::<Result<Vec<_>, _>>()?;
+        let squares = found.iter().flatten().map(|draw| draw[0][0].powi(2) + draw[0][1].powi(2));
+        let seen = (squares.sum::<f64>() / draws.len() as f64).sqrt();
+        let growth = voyage.growth(&[DAY])?;
+        let of_states = growth[0].covariance(covariance, &nalgebra::SMatrix::zeros());
+        Ok([seen, rins_design::Growth::radial(&of_states)])
     }
 }
 
@@ -184,6 +234,11 @@ fn main() -> anyhow::Result<()> {
         rms(&|errors: &[f64]| (&position * DVector::from_column_slice(errors)).norm_squared())
             / 1852.0;
     lines.push(format!("position after 24 h [nmi] {predicted} {seen} {}", seen / predicted));
+    // What is left after a compensation is the error of the estimate, with the opposite sign.
+    let left: Vec<Vec<f64>> =
+        errors.iter().map(|errors| errors.iter().map(|error| -error).collect()).collect();
+    let [seen, predicted] = schedule.navigated(&left, &covariance)?.map(|rms| rms / 1852.0);
+    lines.push(format!("navigated for 24 h [nmi] {predicted} {seen} {}", seen / predicted));
     let mut out = std::io::stdout().lock();
     for line in [format!("{runs} calibrations: parameter, unit, predicted, rms error, ratio")]
         .into_iter()

@@ -10,7 +10,7 @@ use std::time::Duration;
 use rins_tests::rins;
 use serde_json::Value;
 
-use crate::support::{Finished, assert_found, list, number, object, parameter, rins_in};
+use crate::support::{Finished, assert_found, list, number, object, parameter, result_in, rins_in};
 
 /// A run of 40 s with an encoder in `folder`: `run/rig.toml` and `run/run.csv`.
 fn simulate(folder: &Path) {
@@ -67,6 +67,17 @@ fn live_estimates_do_not_depend_on_how_the_log_comes() {
     }
     let variance = number(&live, "/innovation_variance");
     assert!((0.5..1.1).contains(&variance), "{variance}");
+
+    // The finished log says the same.
+    let finished = result_in(folder, "calibrate run/rig.toml --noise given");
+    for estimate in list(&finished, "/parameters") {
+        let id = estimate["id"].as_str().unwrap();
+        let here = parameter(&live, id);
+        let sigma = number(estimate, "/sigma");
+        let off = (number(here, "/value") - number(estimate, "/value")) / sigma;
+        assert!(off.abs() < 0.01, "{id}: {off} sigma");
+        assert!((number(here, "/sigma") / sigma - 1.0).abs() < 0.01, "{id}");
+    }
 
     // The log grows, and its writer breaks off within a row.
     let half = log.len() / 2;

@@ -8,7 +8,9 @@ use rins_terms::{FreeParameter, Model};
 use super::filter::{OnlineFilter, Totals};
 use super::setup::OnlineSetup;
 use crate::estimate::Estimate;
+use crate::identifiability::{Identifiability, Unknown};
 use crate::step::SHOWN;
+use crate::unobservable::at_prior_values;
 
 /// A parameter is compensated if its 1σ is less than this part of that of its prior.
 const IDENTIFIED: f64 = 0.5;
@@ -83,6 +85,36 @@ impl OnlineFilter {
         let variances = || DMatrix::from_diagonal(&self.solution.sigmas.map(|sigma| sigma * sigma));
         // The last update had the same information.
         self.main.normal.covariance().unwrap_or_else(variances)
+    }
+
+    /// The observability of the parameters by the epochs so far.
+    pub fn identifiability(&self) -> Identifiability {
+        let unknown = |parameter: &FreeParameter| Unknown {
+            id: parameter.id.clone(),
+            model_id: self.model.id(parameter.term, parameter.parameter),
+            run: None,
+            unit: parameter.unit,
+            sigma: parameter.sigma,
+        };
+        let mut information = self.main.normal.information.clone();
+        information.fill_upper_triangle_with_lower_triangle();
+        Identifiability::of(&information, self.parameters.iter().map(unknown).collect())
+    }
+
+    /// The estimates and their covariance with the parameters at `places` at the means of their priors, as
+    /// [`Fit::with_prior_values_at`](crate::Fit::with_prior_values_at) gives them.
+    ///
+    /// # Panics
+    /// If a place is not that of a parameter.
+    pub fn with_prior_values_at(&self, places: &[usize]) -> (Vec<Estimate>, DMatrix<f64>) {
+        let (mut estimates, mut covariance) = (self.estimates(), self.covariance());
+        if let Some(step) = at_prior_values(&estimates, &mut covariance, places) {
+            for (place, estimate) in estimates.iter_mut().enumerate() {
+                estimate.value += step[place];
+                estimate.sigma = covariance[(place, place)].max(0.0).sqrt();
+            }
+        }
+        (estimates, covariance)
     }
 
     /// The model with the estimates as values.

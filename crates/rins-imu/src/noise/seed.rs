@@ -27,6 +27,8 @@ pub enum Sensor {
     Inertial(Triad, Axis),
     /// The angle encoder of the table: code 6.
     Encoder,
+    /// The constant errors of a unit: code 7.
+    Unit,
 }
 
 impl Sensor {
@@ -36,6 +38,7 @@ impl Sensor {
             Self::Inertial(Triad::Gyro, axis) => axis as u8,
             Self::Inertial(Triad::Accel, axis) => 3 + axis as u8,
             Self::Encoder => 6,
+            Self::Unit => 7,
         }
     }
 }

@@ -152,6 +152,42 @@ pub const SMALL_ANGLE: Kind = Kind::new("an angle", Dimension::ANGLE, "60 arcsec
 /// The least significant bit of an angle increment.
 pub(crate) const ANGLE_BIT: Kind =
     Kind::new("an angle increment", Dimension::ANGLE, "0.1 arcsec", Range::Positive);
+/// A speed over the ground.
+pub(crate) const SPEED: Kind = Kind::new(
+    "a speed",
+    Dimension::VELOCITY,
+    "10 kn",
+    Range::Within { low: -1e3, high: 1e3, words: "a speed from -1 to 1 km/s" },
+);
+/// The acceleration of a carrier along its course.
+pub(crate) const ACCELERATION: Kind =
+    Kind::new("an acceleration", Dimension::ACCELERATION, "0.1 m/s^2", Range::Positive);
+/// The rate of a turn.
+pub(crate) const TURN_RATE: Kind =
+    Kind::new("an angular rate", Dimension::ANGULAR_RATE, "1 deg/s", Range::Positive);
+/// The amplitude of heave.
+pub(crate) const HEAVE: Kind = Kind::new(
+    "a length",
+    Dimension::LENGTH,
+    "1 m",
+    Range::Within { low: -100.0, high: 100.0, words: "an amplitude up to 100 m" },
+);
+/// The amplitude of an angular oscillation.
+pub(crate) const SWAY: Kind = Kind::new(
+    "an angle",
+    Dimension::ANGLE,
+    "5 deg",
+    Range::Within { low: -60.0 * DEG, high: 60.0 * DEG, words: "an amplitude up to 60 deg" },
+);
+/// The period of an oscillation.
+pub(crate) const PERIOD: Kind = Kind::new(
+    "a time",
+    Dimension::TIME,
+    "8 s",
+    Range::Within { low: 0.1, high: 1e5, words: "a period of 0.1 s or more" },
+);
+/// A distance.
+pub const DISTANCE: Kind = Kind::new("a distance", Dimension::LENGTH, "1 nmi", Range::Positive);
 /// The least significant bit of a velocity increment.
 pub(crate) const VELOCITY_BIT: Kind =
     Kind::new("a velocity increment", Dimension::VELOCITY, "1 ug*s", Range::Positive);

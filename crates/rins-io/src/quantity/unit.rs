@@ -38,6 +38,8 @@ const KNOWN: &[(&str, f64, Dimension)] = &[
     ("mm", 1e-3, Dimension::LENGTH),
     ("um", 1e-6, Dimension::LENGTH),
     ("km", 1e3, Dimension::LENGTH),
+    ("nmi", 1852.0, Dimension::LENGTH),
+    ("kn", 1852.0 / 3600.0, Dimension::VELOCITY),
     ("g", STANDARD_GRAVITY, Dimension::ACCELERATION),
     ("mg", 1e-3 * STANDARD_GRAVITY, Dimension::ACCELERATION),
     ("ug", 1e-6 * STANDARD_GRAVITY, Dimension::ACCELERATION),
@@ -69,6 +71,11 @@ const MEANT: &[(&str, &str)] = &[
     ("percent", "%"),
     ("mps", "m/s"),
     ("s2", "s^2"),
+    ("NM", "nmi"),
+    ("kt", "kn"),
+    ("kts", "kn"),
+    ("knot", "kn"),
+    ("knots", "kn"),
 ];
 
 impl Unit {

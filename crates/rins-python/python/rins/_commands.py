@@ -350,7 +350,13 @@ def history(
 
 
 def mission(
-    file: Pathlike, *, calibration: Pathlike | None = None, progress: bool | Report = False
+    file: Pathlike,
+    *,
+    calibration: Pathlike | None = None,
+    runs: int | None = None,
+    seed: int = 1,
+    want: str | None = None,
+    progress: bool | Report = False,
 ) -> MissionResult:
     """Predict the position error of a system after days in service, for several schemes of rotation.
 
@@ -360,10 +366,21 @@ def mission(
         The mission file.
     calibration : path-like, optional
         A calibration file: the sensor errors that are left have its covariance.
+    runs : int, optional
+        Number of missions with drawn errors that are navigated by strapdown for each scheme.
+    seed : int
+        Seed of the drawn errors.
+    want : str, optional
+        A position error that is to be held, such as ``"1 nmi / 24 h"`` (TRMS).
     progress : bool or callable
         As of `calibrate`.
     """
-    return MissionResult(_rins.mission(fspath(file), _optional(calibration), listener(progress)))
+    outcome = _rins.mission(
+        fspath(file),
+        {"calibration": _optional(calibration), "runs": runs, "seed": seed, "want": want},
+        listener(progress),
+    )
+    return MissionResult(outcome)
 
 
 def observe(

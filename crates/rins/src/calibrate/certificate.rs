@@ -161,7 +161,7 @@ impl Certificate {
         if !case.runs.iter().all(states_noise) {
             departures.retain(|departure| matches!(departure.of, Quantity::Parameter(_)));
         }
-        let held = held(&fit, &identifiability);
+        let held = held(&identifiability, |place| role(&fit, place));
         // The attitudes that are not kept change with the parameters that are left at their prior values.
         let places: Vec<usize> = held.iter().map(|&place| kept[place]).collect();
         let fit = whole.with_prior_values_at(&places).marginal(is_kept);
@@ -296,17 +296,23 @@ impl CertifiedRun {
 /// The parameters that are left at the values that were expected of them: those of which the data would tell nothing
 /// if all else were known, and those that they hardly tell better than a data sheet. What an earlier calibration said of a
 /// parameter is an estimate as good as this one.
-fn held(fit: &Fit, identifiability: &Identifiability) -> Vec<usize> {
+pub(crate) fn held(
+    identifiability: &Identifiability,
+    role: impl Fn(usize) -> Option<Role>,
+) -> Vec<usize> {
     let is_held = |&place: &usize| {
-        let role = |run: usize| {
-            let here = fit.in_run(&fit.parameters[place], run)?;
-            Some(fit.models[run].terms[here.term].roles[here.parameter])
-        };
-        let role = (0..fit.models.len()).find_map(role);
         let visible = |lost: &Unobservable| lost.unknown != place || lost.visible;
-        role == Some(Role::Free) || !identifiability.rank.lost.iter().all(visible)
+        role(place) == Some(Role::Free) || !identifiability.rank.lost.iter().all(visible)
     };
     identifiability.unobservable().into_iter().filter(is_held).collect()
+}
+
+/// The role of a parameter in the model of a run that has it.
+fn role(fit: &Fit, place: usize) -> Option<Role> {
+    (0..fit.models.len()).find_map(|run| {
+        let here = fit.in_run(&fit.parameters[place], run)?;
+        Some(fit.models[run].terms[here.term].roles[here.parameter])
+    })
 }
 
 /// How a run moved that consists of so many rests, or turns.

@@ -17,7 +17,7 @@ mod uncertainty_result;
 mod uncertainty_words;
 
 pub use self::budget::{BudgetResult, ContributionResult, DriftResult};
-pub(crate) use self::certificate::Certificate;
+pub(crate) use self::certificate::{Certificate, held};
 pub use self::conformity::{Conformity, ConformityResult};
 use self::paper::PaperCalibration;
 pub(crate) use self::result::departures;

@@ -23,8 +23,17 @@ pub struct LiveParameterResult {
     pub identified: bool,
 }
 
-/// The estimates of a filter in a run with these axes.
+/// The estimates of a filter so far, in a run with these axes.
 pub(super) fn parameters(filter: &OnlineFilter, axes: &SignedAxes) -> Vec<LiveParameterResult> {
+    along_own(filter, axes, filter.estimates())
+}
+
+/// Estimates of a filter in the units of their parameters, along the sensor's own axes.
+pub(super) fn along_own(
+    filter: &OnlineFilter,
+    axes: &SignedAxes,
+    estimates: Vec<Estimate>,
+) -> Vec<LiveParameterResult> {
     let model = filter.model();
     let of = |(place, estimate): (usize, Estimate)| {
         let Estimate { parameter, value, sigma, .. } = estimate;
@@ -38,7 +47,7 @@ pub(super) fn parameters(filter: &OnlineFilter, axes: &SignedAxes) -> Vec<LivePa
             identified: filter.is_identified(place),
         }
     };
-    filter.estimates().into_iter().enumerate().map(of).collect()
+    estimates.into_iter().enumerate().map(of).collect()
 }
 
 /// The signs that convert the parameters to the sensor's own axes.

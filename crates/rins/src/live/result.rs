@@ -1,12 +1,13 @@
 //! A live calibration, for a machine.
 
-use rins_estimation::correlation;
+use rins_estimation::{OnlineFilter, correlation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::parameter::{LiveParameterResult, parameters, signs};
+use super::parameter::{LiveParameterResult, along_own, signs};
 use super::{LiveEnd, LiveOutcome};
 use crate::basis::BasisResult;
+use crate::calibrate;
 
 /// The result of `rins calibrate --live`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,7 +57,8 @@ impl From<&LiveOutcome> for LiveResult {
     fn from(outcome: &LiveOutcome) -> Self {
         let LiveOutcome { name, model, filter, axes, end, notes, basis } = outcome;
         let (samples, epochs) = filter.counts();
-        let (signs, plain) = (signs(filter, axes), correlation(&filter.covariance()));
+        let (estimates, covariance) = filter.with_prior_values_at(&held(filter));
+        let (signs, plain) = (signs(filter, axes), correlation(&covariance));
         let row = |row: usize| {
             (0..signs.len())
                 .map(|column| signs[row] * signs[column] * plain[(row, column)])
@@ -74,10 +76,19 @@ impl From<&LiveOutcome> for LiveResult {
             epochs,
             epoch_s: setup.epoch as f64 * setup.interval,
             innovation_variance: filter.innovation_variance(),
-            parameters: parameters(filter, axes),
+            parameters: along_own(filter, axes, estimates),
             correlation: (0..signs.len()).map(row).collect(),
             notes: notes.clone(),
             basis: basis.clone(),
         }
     }
+}
+
+/// The parameters that keep the means of their priors at the end, as in the calibration of a finished log.
+fn held(filter: &OnlineFilter) -> Vec<usize> {
+    let estimates = filter.estimates();
+    calibrate::held(&filter.identifiability(), |place| {
+        let parameter = &estimates[place].parameter;
+        Some(filter.model().terms[parameter.term].roles[parameter.parameter])
+    })
 }

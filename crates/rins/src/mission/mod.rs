@@ -4,18 +4,26 @@ mod outcome;
 mod page;
 mod radial;
 mod result;
+mod scheme;
+mod simulated;
+mod uncertainty;
+mod want;
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicUsize;
 
-use nalgebra::{DMatrix, SMatrix};
-use rins_design::{GROWTH_STATES, Growth, Service};
-use rins_imu::{ImuSpec, TriadSpec};
-use rins_io::{Calibration, InputFile, MissionFile, RotationScheme};
-use rins_terms::{Model, Surroundings};
+use rayon::prelude::*;
+use rins_io::{Calibration, InputFile, MissionFile};
+use rins_terms::Model;
 
-use self::radial::probable_radius;
 pub(crate) use self::result::NAUTICAL_MILE;
-pub use self::result::{BudgetResult, MissionResult, SchemeResult};
+pub use self::result::{
+    BudgetResult, MissionResult, SchemeResult, SimulatedResult, WantResult, WantedParameterResult,
+};
+use self::scheme::{Case, SchemeInService};
+use self::simulated::{Simulated, Wish};
+use self::uncertainty::Uncertainty;
+pub use self::want::WantedFigure;
 use crate::basis::BasisResult;
 use crate::error::Result;
 use crate::progress::Progress;
@@ -25,6 +33,12 @@ use crate::progress::Progress;
 pub struct MissionOptions {
     /// A calibration file: what is left of the sensor errors after it was applied has its covariance.
     pub calibration: Option<PathBuf>,
+    /// How many missions with drawn errors are navigated beside the linear propagation; by default none.
+    pub runs: Option<u32>,
+    /// The seed of the draws.
+    pub seed: u64,
+    /// A position error that is to be held: which uncertainties hold it?
+    pub want: Option<WantedFigure>,
     /// Who hears how far it is.
     pub progress: Progress,
 }
@@ -36,39 +50,17 @@ pub struct Mission {
     /// The time of each result since the start \[s\].
     times: Vec<f64>,
     schemes: Vec<SchemeInService>,
+    /// The sampling rate of simulated navigation \[Hz\].
+    sample_rate: f64,
     remarks: Vec<String>,
     basis: BasisResult,
-}
-
-/// A scheme with its navigation errors.
-#[derive(Clone, Debug)]
-struct SchemeInService {
-    name: String,
-    /// The position error east and north by the stated errors, at each time \[m\].
-    by_errors: Option<Vec<[f64; 2]>>,
-    /// The secular growth of the error east by the stated errors \[m/s\], if a cycle is whole revolutions.
-    law: Option<f64>,
-    /// The radial position error by the uncertainties, at each time.
-    by_uncertainty: Option<Vec<Radial>>,
-    /// The radial position error at the end by each source alone, 1σ \[m\]; the largest first.
-    budget: Vec<(String, f64)>,
-}
-
-/// A random radial position error \[m\].
-#[derive(Clone, Copy, Debug)]
-struct Radial {
-    /// The root mean square.
-    rms: f64,
-    /// The radius that holds half of the cases.
-    half: f64,
-    /// The radius that holds 95 % of them.
-    most: f64,
 }
 
 /// The navigation errors of a system in service, from a mission file.
 ///
 /// # Errors
-/// If a file cannot be read, or the mission file states neither errors nor a data sheet.
+/// If a file cannot be read, the mission file states neither errors nor a data sheet, or what is asked for needs a data sheet or a
+/// calibration that is not there.
 ///
 /// ```
 /// use rins::{MissionOptions, Outcome};
@@ -100,22 +92,70 @@ fn of_file(path: &Path, options: &MissionOptions) -> anyhow::Result<Mission> {
             Some(Calibration::read(path)?)
         }
     };
+    let shown = rins_io::shown(path);
     anyhow::ensure!(
         file.errors.is_some() || file.imu.is_some() || calibration.is_some(),
-        "{}: neither [errors] nor [imu] nor a calibration: there is no error to propagate",
-        rins_io::shown(path)
+        "{shown}: neither [errors] nor [imu] nor a calibration: there is no error to propagate"
     );
     let model = Model::sensors();
+    let places: Vec<(usize, usize)> = model.places().collect();
     let uncertainty = Uncertainty::of(&model, file.imu.as_ref(), calibration.as_ref());
-    let mut remarks = vec![
-        "The carrier is at rest, and its height is known. The errors are constant from switching on to the end; white noise is that of the \
-         data sheet."
-            .to_owned(),
-    ];
-    if file.imu.as_ref().is_some_and(|imu| drifts(&imu.gyro) || drifts(&imu.accel)) {
-        remarks.push("Bias instability and random walk of the data sheet are not included.".into());
+    let before = calibration.as_ref().and(Uncertainty::of(&model, file.imu.as_ref(), None));
+    anyhow::ensure!(
+        uncertainty.is_some() || (options.runs.is_none() && options.want.is_none()),
+        "{shown}: simulated missions and a wanted figure need uncertainties: state [imu], or a calibration"
+    );
+    anyhow::ensure!(options.runs != Some(0), "at least one mission must be simulated");
+    let case = Case {
+        file: &file,
+        model: &model,
+        places: &places,
+        uncertainty: uncertainty.as_ref(),
+        before: before.as_ref(),
+        want: options.want.as_ref(),
+    };
+    let stage = options.progress.begin("propagating", None);
+    let schemes = file.schemes.par_iter().map(|scheme| SchemeInService::of(&case, scheme));
+    let mut schemes: Vec<SchemeInService> = schemes.collect::<anyhow::Result<_>>()?;
+    drop(stage);
+    if let Some(runs) = options.runs {
+        let wanted = options.want.as_ref().and_then(|want| want.place(&file.times).ok());
+        let times = file.times.len() + wanted.map_or(0, |place| place + 1);
+        let steps = Simulated::steps(runs, times) * schemes.len();
+        let stage = options.progress.begin("navigating", Some(steps));
+        let wish = Wish { runs, seed: options.seed, stage: &stage, done: &AtomicUsize::new(0) };
+        for (scheme, stated) in schemes.iter_mut().zip(&file.schemes) {
+            scheme.simulate(&case, stated, &wish)?;
+        }
     }
-    if let Some(Uncertainty { without, .. }) = &uncertainty
+    Ok(Mission {
+        name: shown,
+        schemes,
+        remarks: remarks(&case),
+        sample_rate: 1.0 / file.sample_interval,
+        times: file.times,
+        basis: BasisResult::of_files(inputs),
+    })
+}
+
+/// What else is to be known.
+fn remarks(case: &Case<'_>) -> Vec<String> {
+    let carrier = if case.file.carrier.is_some() {
+        "The carrier moves as stated"
+    } else {
+        "The carrier is at rest"
+    };
+    let mut remarks = vec![format!(
+        "{carrier}, and its height is known. The sensor errors are constant from switching on to the end, except for the noise of the data \
+         sheet: white noise, bias instability and random walk as far as it states them."
+    )];
+    let turns = case.file.schemes.iter().any(|scheme| scheme.stabilized);
+    if turns {
+        remarks.push(
+            "A stabilized table turns against the yaw of the carrier: its rates are about the local level.".into(),
+        );
+    }
+    if let Some(Uncertainty { without, .. }) = case.uncertainty
         && !without.is_empty()
     {
         remarks.push(format!(
@@ -123,156 +163,5 @@ fn of_file(path: &Path, options: &MissionOptions) -> anyhow::Result<Mission> {
             without.join(", ")
         ));
     }
-    let stage = options.progress.begin("propagating", Some(file.schemes.len()));
-    let mut schemes = Vec::with_capacity(file.schemes.len());
-    for scheme in &file.schemes {
-        schemes.push(SchemeInService::of(&file, scheme, &model, uncertainty.as_ref())?);
-        stage.done(schemes.len());
-    }
-    drop(stage);
-    Ok(Mission {
-        name: rins_io::shown(path),
-        times: file.times,
-        schemes,
-        remarks,
-        basis: BasisResult::of_files(inputs),
-    })
-}
-
-fn drifts(triad: &TriadSpec) -> bool {
-    [triad.bias_instability, triad.random_walk].iter().flatten().any(|strength| *strength > 0.0)
-}
-
-/// How uncertain the sensor errors are, in SI units.
-struct Uncertainty {
-    covariance: DMatrix<f64>,
-    noise: [f64; 2],
-    /// The parameters of which nothing states an uncertainty.
-    without: Vec<String>,
-}
-
-impl Uncertainty {
-    /// That of a data sheet, or of what is left after a calibration; `None` if there is neither.
-    fn of(model: &Model, imu: Option<&ImuSpec>, calibration: Option<&Calibration>) -> Option<Self> {
-        if imu.is_none() && calibration.is_none() {
-            return None;
-        }
-        let ids: Vec<String> = model.ids().collect();
-        let places: Vec<(usize, usize)> = model.places().collect();
-        let factor = |place: usize| {
-            let (term, parameter) = places[place];
-            model.terms[term].term.parameters[parameter].unit.factor
-        };
-        let mut covariance = DMatrix::zeros(ids.len(), ids.len());
-        let mut without = Vec::new();
-        for (place, (id, &(term, parameter))) in ids.iter().zip(&places).enumerate() {
-            let calibrated = calibration
-                .and_then(|file| file.sigmas.iter().find(|sigma| sigma.id == *id))
-                .map(|sigma| sigma.value * factor(place));
-            let stated = imu.map(|imu| model.terms[term].term.parameters[parameter].sigma(imu));
-            match calibrated.or(stated) {
-                Some(sigma) => covariance[(place, place)] = sigma * sigma,
-                None => without.push(id.clone()),
-            }
-        }
-        if let Some(known) = calibration.and_then(|file| file.covariance.as_ref()) {
-            let at = |id: &String| known.ids.iter().position(|other| other == id);
-            for (row, own) in ids.iter().enumerate() {
-                for (column, other) in ids.iter().enumerate() {
-                    if let Some((a, b)) = at(own).zip(at(other)) {
-                        covariance[(row, column)] =
-                            known.matrix[(a, b)] * factor(row) * factor(column);
-                    }
-                }
-            }
-        }
-        let noise = imu.map_or([0.0; 2], |imu| [imu.gyro.noise_density, imu.accel.noise_density]);
-        Some(Self { covariance, noise, without })
-    }
-}
-
-impl SchemeInService {
-    fn of(
-        file: &MissionFile,
-        scheme: &RotationScheme,
-        model: &Model,
-        uncertainty: Option<&Uncertainty>,
-    ) -> anyhow::Result<Self> {
-        let places: Vec<(usize, usize)> = model.places().collect();
-        let service = Service {
-            surroundings: Surroundings::new(file.station, file.nav_from_table),
-            cycle: &scheme.cycle,
-            model,
-            parameters: &places,
-            noise: uncertainty.map_or([0.0; 2], |of| of.noise),
-        };
-        let growth = service.growth(&file.times)?;
-        let errors: Option<Vec<f64>> = file.errors.as_ref().map(|errors| {
-            let stated = Model::from(errors);
-            model.ids().map(|id| stated.value(&id).unwrap_or_default()).collect()
-        });
-        let law = match (&errors, service.secular_east()?) {
-            (Some(errors), Some(by)) => {
-                Some(by.iter().zip(errors).map(|(by, error)| by * error).sum())
-            }
-            _ => None,
-        };
-        let by_errors = errors.map(|errors| growth.iter().map(|at| at.position(&errors)).collect());
-        let mut start = SMatrix::<f64, GROWTH_STATES, GROWTH_STATES>::zeros();
-        for axis in 0..3 {
-            start[(axis, axis)] = file.attitude_sigma.powi(2);
-        }
-        let by_uncertainty = uncertainty.map(|of| {
-            let radial = |at: &Growth| Radial::of(&at.covariance(&of.covariance, &start));
-            growth.iter().map(radial).collect()
-        });
-        let last = growth.last();
-        let budget = uncertainty.zip(last).map(|(of, last)| budget(model, of, last, &start));
-        Ok(Self {
-            name: scheme.name.clone(),
-            by_errors,
-            law,
-            by_uncertainty,
-            budget: budget.unwrap_or_default(),
-        })
-    }
-}
-
-/// The radial position error by each source alone, 1σ \[m\], the largest first; correlations are not in it.
-fn budget(
-    model: &Model,
-    of: &Uncertainty,
-    last: &Growth,
-    start: &SMatrix<f64, GROWTH_STATES, GROWTH_STATES>,
-) -> Vec<(String, f64)> {
-    let none = DMatrix::zeros(of.covariance.nrows(), of.covariance.ncols());
-    let mut sources: Vec<(String, f64)> = model
-        .ids()
-        .enumerate()
-        .map(|(place, id)| {
-            let mut alone = vec![0.0; of.covariance.nrows()];
-            alone[place] = of.covariance[(place, place)].max(0.0).sqrt();
-            let [east, north] = last.position(&alone);
-            (id, east.hypot(north))
-        })
-        .collect();
-    let without_noise = Growth { by_noise: SMatrix::zeros(), ..last.clone() };
-    sources
-        .push(("initial attitude".into(), Growth::radial(&without_noise.covariance(&none, start))));
-    sources.push(("white noise".into(), Growth::radial(&last.by_noise)));
-    sources.sort_by(|a, b| b.1.total_cmp(&a.1));
-    sources
-}
-
-impl Radial {
-    fn of(covariance: &SMatrix<f64, GROWTH_STATES, GROWTH_STATES>) -> Self {
-        let position = Growth::of_position(covariance);
-        let spread = position.symmetric_eigenvalues().map(|variance| variance.max(0.0).sqrt());
-        let sigmas = [spread.max(), spread.min()];
-        Self {
-            rms: Growth::radial(covariance),
-            half: probable_radius(sigmas, 0.5),
-            most: probable_radius(sigmas, 0.95),
-        }
-    }
+    remarks
 }

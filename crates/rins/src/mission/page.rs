@@ -1,10 +1,10 @@
 //! A mission as text and as a report page.
 
 use rins_report::number::figure;
-use rins_report::{Item, Plot, Report, Section, Series, Table};
+use rins_report::{Item, Plot, Report, Section, Series, Style, Table};
 
 use super::Mission;
-use super::result::{MissionResult, NAUTICAL_MILE, SchemeResult};
+use super::result::{MissionResult, NAUTICAL_MILE, SchemeResult, WantResult};
 use crate::table::{aligned, captioned};
 
 /// The times of the text: thirds of the mission.
@@ -17,13 +17,20 @@ const TOLD: usize = 8;
 pub(super) fn mission_text(mission: &Mission) -> String {
     let result = MissionResult::from(mission);
     let mut lines = vec![title(mission)];
-    let told = summary(&result).into_iter().chain(mission.remarks.iter().cloned());
+    let told = summary(&result).into_iter().chain(simulation_words(&result));
+    let told = told.chain(mission.remarks.iter().cloned());
     lines.extend(told.map(|sentence| format!("  {sentence}")));
     lines.push(String::new());
     lines.push(aligned(&rows(mission, &result)));
     for scheme in result.schemes.iter().filter(|scheme| !scheme.budget.is_empty()) {
         lines.push(format!("  {}, 1σ at the end by each source alone [nmi]", scheme.name));
         lines.push(aligned(&budget_rows(scheme)));
+    }
+    for scheme in &result.schemes {
+        if let Some(want) = &scheme.want {
+            lines.push(format!("  {}: {}", scheme.name, want_words(want)));
+            lines.push(aligned(&want_rows(want)));
+        }
     }
     // The last column of a table is empty.
     let text = lines.join("\n");
@@ -68,13 +75,16 @@ fn summary(result: &MissionResult) -> Vec<String> {
 /// The columns of the table: their names, and what they hold of a scheme.
 type ColumnOf = (&'static str, fn(&SchemeResult) -> Option<&Vec<f64>>);
 
-const COLUMNS: [ColumnOf; 6] = [
+const COLUMNS: [ColumnOf; 9] = [
     ("east", |scheme| scheme.east_nmi.as_ref()),
     ("north", |scheme| scheme.north_nmi.as_ref()),
     ("law, east", |scheme| scheme.law_nmi.as_ref()),
     ("CEP50", |scheme| scheme.cep50_nmi.as_ref()),
     ("CEP95", |scheme| scheme.cep95_nmi.as_ref()),
     ("TRMS", |scheme| scheme.trms_nmi.as_ref()),
+    ("before the calibration", |scheme| scheme.trms_before_nmi.as_ref()),
+    ("simulated CEP50", |scheme| scheme.simulated.as_ref().map(|all| &all.cep50_nmi)),
+    ("simulated TRMS", |scheme| scheme.simulated.as_ref().map(|all| &all.trms_nmi)),
 ];
 
 /// The errors at a third, two thirds and the end of the mission, or at the only times that there are.
@@ -112,6 +122,64 @@ fn rows(mission: &Mission, result: &MissionResult) -> Vec<Vec<String>> {
     rows
 }
 
+/// What the simulated missions took.
+fn simulation_words(result: &MissionResult) -> Option<String> {
+    let first = result.schemes.iter().find_map(|scheme| scheme.simulated.as_ref())?;
+    let all = result.schemes.iter().filter_map(|scheme| scheme.simulated.as_ref());
+    let seconds: f64 = all.map(|one| one.seconds).sum();
+    let hours = result.schemes[0].hours.last().copied().unwrap_or_default();
+    Some(format!(
+        "Simulated: {} missions of {} h for each scheme, strapdown at {} Hz with drawn errors (seed {}), in {} s.",
+        first.runs,
+        figure(hours, 3),
+        figure(first.sample_rate_hz, 3),
+        first.seed,
+        figure(seconds, 2)
+    ))
+}
+
+/// What holds a wanted figure, in a sentence.
+fn want_words(want: &WantResult) -> String {
+    let wanted = format!("{} nmi after {} h", figure(want.trms_nmi, 3), figure(want.hours, 3));
+    let fixed = figure(want.fixed_nmi, 3);
+    if !want.possible {
+        return format!(
+            "{wanted} cannot be held by any calibration: noise and the initial attitude alone leave {fixed} nmi."
+        );
+    }
+    if want.present_nmi <= want.trms_nmi {
+        return format!("{wanted} is held: {} nmi.", figure(want.present_nmi, 3));
+    }
+    let simulated = want
+        .simulated_nmi
+        .map(|simulated| format!(", {} nmi simulated", figure(simulated, 3)))
+        .unwrap_or_default();
+    format!(
+        "{wanted} is held by the standard deviations asked for ({} nmi{simulated}; present {} nmi; noise and initial attitude {fixed} nmi). \
+         `rins design SCENARIO --goal position@{}h` finds the calibration schedule.",
+        figure(want.reached_nmi, 3),
+        figure(want.present_nmi, 3),
+        want.hours
+    )
+}
+
+/// The parameters that must improve, and what they contribute then.
+fn want_rows(want: &WantResult) -> Vec<Vec<String>> {
+    let head = ["parameter", "present", "asked", "unit", "share, 1σ [nmi]", ""];
+    let must = want.parameters.iter().filter(|one| one.asked < one.present);
+    let rows = must.map(|one| {
+        vec![
+            one.id.clone(),
+            figure(one.present, 3),
+            figure(one.asked, 3),
+            one.unit.clone(),
+            figure(one.share_nmi, 3),
+            String::new(),
+        ]
+    });
+    std::iter::once(head.map(String::from).to_vec()).chain(rows).collect()
+}
+
 fn budget_rows(scheme: &SchemeResult) -> Vec<Vec<String>> {
     let told = scheme.budget.iter().take(TOLD);
     told.map(|one| vec![one.source.clone(), figure(one.radial_nmi, 3), String::new()]).collect()
@@ -146,7 +214,27 @@ pub(super) fn mission_report(mission: &Mission) -> Report {
             items: budgets.into_iter().map(Item::Table).collect(),
         });
     }
-    let remarks = mission.remarks.iter().cloned().map(Item::Text).collect();
+    let wanted: Vec<Item> = result
+        .schemes
+        .iter()
+        .filter_map(|scheme| scheme.want.as_ref().map(|want| (&scheme.name, want)))
+        .flat_map(|(name, want)| {
+            let words = Item::Text(format!("{name}: {}", want_words(want)));
+            let rows = want_rows(want);
+            let table = (rows.len() > 1).then(|| Item::Table(captioned(name, &rows)));
+            std::iter::once(words).chain(table)
+        })
+        .collect();
+    if !wanted.is_empty() {
+        sections.push(Section {
+            heading: "Wanted position error".into(),
+            intro: "Parameters that contribute less than an equal share keep their standard deviation; the others share what is left equally."
+                .into(),
+            items: wanted,
+        });
+    }
+    let words = simulation_words(&result).into_iter().chain(mission.remarks.iter().cloned());
+    let remarks = words.map(Item::Text).collect();
     sections.push(Section { heading: "Remarks".into(), intro: String::new(), items: remarks });
     Report {
         title: title(mission),
@@ -180,9 +268,26 @@ fn plots(result: &MissionResult) -> Vec<Plot> {
             ..Plot::default()
         })
     };
-    let all = [
+    let mut all = [
         plot("Position error east by the stated errors", |scheme| scheme.east_nmi.as_ref()),
         plot("RMS radial position error (TRMS)", |scheme| scheme.trms_nmi.as_ref()),
+        plot("RMS horizontal velocity error", |scheme| scheme.velocity_rms_m_s.as_ref()),
     ];
+    if let Some(velocity) = &mut all[2] {
+        velocity.y_label = "Velocity error [m/s]".into();
+        velocity.caption = String::new();
+    }
+    if let Some(trms) = &mut all[1] {
+        let simulated = result.schemes.iter().filter_map(|scheme| {
+            let simulated = scheme.simulated.as_ref()?;
+            Some(Series {
+                name: format!("{}, simulated", scheme.name),
+                x: scheme.hours.clone(),
+                y: simulated.trms_nmi.clone(),
+                style: Style::Points,
+            })
+        });
+        trms.series.extend(simulated);
+    }
     all.into_iter().flatten().collect()
 }
