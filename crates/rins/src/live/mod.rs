@@ -14,6 +14,7 @@ use rins_frames::SignedAxes;
 use rins_io::{InputFile, LiveLog, Loaded, Rig, shown};
 use rins_motion::Recording;
 use rins_report::number::{decimal, estimate as written};
+use rins_terms::{Model, Role};
 
 pub use self::parameter::LiveParameterResult;
 use self::parameter::parameters;
@@ -92,6 +93,8 @@ pub struct LiveCalibration {
     /// The samples up to this time have been processed before \[s\].
     resumed: Option<f64>,
     axes: SignedAxes,
+    /// The ids of the parameters of which the model states what is known.
+    stated: Vec<String>,
     notes: Vec<String>,
     basis: BasisResult,
 }
@@ -103,6 +106,7 @@ pub struct LiveOutcome {
     pub(crate) model: String,
     pub(crate) filter: OnlineFilter,
     pub(crate) axes: SignedAxes,
+    pub(crate) stated: Vec<String>,
     pub(crate) end: LiveEnd,
     pub(crate) notes: Vec<String>,
     pub(crate) basis: BasisResult,
@@ -134,9 +138,11 @@ impl LiveCalibration {
         let basis = BasisResult::of_rig(&rig, vec![InputFile::of(path)?]);
         let axes = rig.spin.into();
         let source = source.unwrap_or(&rig.log.path).to_path_buf();
+        let named = NamedModel::of(&options.model, &rig.spin)?;
         Ok(Self {
             name: shown(path),
-            model: NamedModel::of(&options.model, &rig.spin)?.name,
+            stated: stated(&named.model),
+            model: named.name,
             log: LiveLog::new(rig, &source)?,
             needed: options.start,
             options,
@@ -264,10 +270,19 @@ impl LiveCalibration {
     }
 
     fn ended(self, end: LiveEnd) -> anyhow::Result<LiveOutcome> {
-        let Self { name, model, filter, axes, notes, basis, .. } = self;
+        let Self { name, model, filter, axes, stated, notes, basis, .. } = self;
         let filter = filter.context("the log has no samples")?.finish()?;
-        Ok(LiveOutcome { name, model, filter, axes, end, notes, basis })
+        Ok(LiveOutcome { name, model, filter, axes, stated, end, notes, basis })
     }
+}
+
+/// The ids of the parameters of which a model states what is known.
+fn stated(model: &Model) -> Vec<String> {
+    let is_stated = |(term, parameter): (usize, usize)| {
+        matches!(model.terms[term].roles[parameter], Role::Within(_))
+    };
+    let all = model.ids().zip(model.places());
+    all.filter(|(_, place)| is_stated(*place)).map(|(id, _)| id).collect()
 }
 
 /// Whether the attitude of the axis needs samples of a rotation that has not begun yet.

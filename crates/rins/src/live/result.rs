@@ -1,6 +1,7 @@
 //! A live calibration, for a machine.
 
-use rins_estimation::{OnlineFilter, correlation};
+use rins_estimation::{Estimate, OnlineFilter, correlation};
+use rins_terms::Role;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,9 +56,9 @@ impl From<LiveEnd> for &'static str {
 
 impl From<&LiveOutcome> for LiveResult {
     fn from(outcome: &LiveOutcome) -> Self {
-        let LiveOutcome { name, model, filter, axes, end, notes, basis } = outcome;
+        let LiveOutcome { name, model, filter, axes, stated, end, notes, basis } = outcome;
         let (samples, epochs) = filter.counts();
-        let (estimates, covariance) = filter.with_prior_values_at(&held(filter));
+        let (estimates, covariance) = filter.with_prior_values_at(&held(filter, stated));
         let (signs, plain) = (signs(filter, axes), correlation(&covariance));
         let row = |row: usize| {
             (0..signs.len())
@@ -85,10 +86,12 @@ impl From<&LiveOutcome> for LiveResult {
 }
 
 /// The parameters that keep the means of their priors at the end, as in the calibration of a finished log.
-fn held(filter: &OnlineFilter) -> Vec<usize> {
+fn held(filter: &OnlineFilter, stated: &[String]) -> Vec<usize> {
     let estimates = filter.estimates();
     calibrate::held(&filter.identifiability(), |place| {
-        let parameter = &estimates[place].parameter;
-        Some(filter.model().terms[parameter.term].roles[parameter.parameter])
+        let Estimate { parameter, .. } = &estimates[place];
+        let id = filter.model().id(parameter.term, parameter.parameter);
+        let role = filter.model().terms[parameter.term].roles[parameter.parameter];
+        Some(if stated.contains(&id) { role } else { Role::Free })
     })
 }
