@@ -106,3 +106,87 @@ pub(super) fn drawn(model: &Model, free: &[FreeParameter], seed: Seed) -> Vec<f6
     };
     free.iter().map(draw).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use rins_io::{Rig, ScenarioFile};
+    use rins_simulation::simulate;
+
+    use super::*;
+
+    /// The demo: errors of all sensors, an attitude that differs from the stated one, and an effect.
+    fn demo() -> (Scenario, Rig) {
+        let file = ScenarioFile::parse(crate::demo::SCENARIO, Path::new("scenario.toml")).unwrap();
+        let scenario = Scenario { noise: None, ..file.scenario.clone() };
+        let recording = simulate(&scenario).unwrap().recording;
+        let rig = Rig::parse(&file.rig_toml(&recording), Path::new("rig.toml")).unwrap();
+        (scenario, rig)
+    }
+
+    #[test]
+    fn the_stated_values_simulate_the_scenario() {
+        let (scenario, rig) = demo();
+        let mut model = Model::full();
+        let latency = scenario.effects.terms[0].clone();
+        model.terms.push(latency.clone().estimated());
+        let free = model.free(rig.require_imu().unwrap());
+        let assumed = rig.attitude.unwrap().angles.dcm();
+        let truth = TrueModel::new(&scenario, &assumed, &model, &free);
+        let stated = truth.stated();
+        let of = |id: &str| stated[free.iter().position(|one| one.id == id).unwrap()];
+        assert_eq!(of("gyro.scale.z").to_bits(), 300e-6_f64.to_bits());
+        assert_eq!(of("encoder_latency.delay").to_bits(), latency.values[0].to_bits());
+        assert!(of("axis.attitude.x").abs() > 1e-5, "the attitudes differ");
+        let made = simulate(&truth.with(&stated, scenario.seed)).unwrap().recording;
+        let expected = simulate(&scenario).unwrap().recording;
+        for (one, other) in made.increments.iter().zip(&expected.increments) {
+            // The attitude is now a tilt of the table, which is applied half-way over each sample: rounding only.
+            let angle = (one.angle.components() - other.angle.components()).norm();
+            let velocity = (one.velocity.components() - other.velocity.components()).norm();
+            assert!(angle < 1e-13 && velocity < 1e-12, "{angle} rad, {velocity} m/s");
+        }
+        assert_eq!(made.table_angle, expected.table_angle);
+    }
+
+    #[test]
+    fn draws_have_the_moments_of_the_prior() {
+        let (scenario, rig) = demo();
+        let model = Model::full().with_value("gyro.bias.x", 1e-6);
+        let free = model.free(rig.require_imu().unwrap());
+        let runs = 400;
+        let draws: Vec<Vec<f64>> =
+            (0..runs).map(|run| drawn(&model, &free, Seed { run, ..scenario.seed })).collect();
+        for (place, parameter) in free.iter().enumerate() {
+            let mean = if parameter.id == "gyro.bias.x" { 1e-6 } else { 0.0 };
+            let normalized = draws.iter().map(|draw| (draw[place] - mean) / parameter.sigma);
+            let (sum, squares) =
+                normalized.fold((0.0, 0.0), |(sum, squares), x| (sum + x, squares + x * x));
+            // Five sigma of the mean and of the mean square.
+            assert!((sum / runs as f64).abs() < 5.0 / (runs as f64).sqrt(), "{}", parameter.id);
+            let excess = squares / runs as f64 - 1.0;
+            assert!(excess.abs() < 5.0 * (2.0 / runs as f64).sqrt(), "{}", parameter.id);
+        }
+        assert_eq!(draws[3], drawn(&model, &free, Seed { run: 3, ..scenario.seed }));
+    }
+
+    /// What the model does not estimate stays as in the scenario.
+    #[test]
+    fn other_errors_stay() {
+        let (scenario, rig) = demo();
+        let model = Model::paper12();
+        let free = model.free(rig.require_imu().unwrap());
+        let assumed = rig.attitude.unwrap().angles.dcm();
+        let truth = TrueModel::new(&scenario, &assumed, &model, &free);
+        let run = truth.with(&[1e-3, 2e-3, 3e-3], scenario.seed);
+        assert_eq!(run.nav_from_table, scenario.nav_from_table);
+        assert_eq!(
+            (&run.effects, run.imu_error.accel),
+            (&scenario.effects, scenario.imu_error.accel)
+        );
+        let mut matrix = scenario.imu_error.gyro.matrix;
+        (matrix[(2, 2)], matrix[(0, 2)], matrix[(1, 2)]) = (1e-3, 2e-3, 3e-3);
+        assert_eq!(run.imu_error.gyro.matrix, matrix);
+    }
+}
