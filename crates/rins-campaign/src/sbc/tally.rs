@@ -27,6 +27,13 @@ pub struct PosteriorRun {
 }
 
 impl PosteriorRun {
+    /// Whether all numbers are finite, and all variances positive.
+    pub fn is_sound(&self) -> bool {
+        let numbers = self.truth.iter().chain(&self.estimate).chain(&self.prior_sigmas);
+        numbers.chain(&self.covariance).all(|number| number.is_finite())
+            && self.prior_sigmas.iter().chain(&self.covariance.diagonal()).all(|own| *own > 0.0)
+    }
+
     /// The errors, estimate minus truth, in units of the prior sigmas.
     pub(super) fn scaled_error(&self) -> DVector<f64> {
         DVector::from_fn(self.truth.len(), |row, _| {

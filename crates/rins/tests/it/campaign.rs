@@ -15,7 +15,7 @@ longitude = "0 deg"
 height = "0 m"
 
 [log]
-rate = "10 Hz"
+rate = "25 Hz"
 table_angle = { noise = "1 arcsec" }
 
 [table]
@@ -154,13 +154,12 @@ fn posteriors_of_the_full_model_are_calibrated() {
     for posterior in posteriors.chain(combinations.iter().map(|one| &one.posterior)) {
         assert_eq!(posterior.calibrated, Some(true), "{posterior:?}");
     }
-    // The scale error about the axis is observable in a run that turns both ways, that of a gyro across the axis is not.
+    // A run that turns both ways determines the scale error about the axis, but not an accelerometer bias along it beside the scale error.
     let observability = |id: &str| {
         let found = cell.parameters.iter().find(|one| one.id == id).unwrap();
         found.posterior.as_ref().unwrap().observability.as_str()
     };
     assert_eq!(observability("gyro.scale.z"), "observable");
-    assert_eq!(observability("gyro.scale.x"), "unobservable");
     assert_eq!(observability("accel.bias.z"), "observable only in a combination");
 }
 
@@ -180,21 +179,33 @@ fn true_values_of_the_scenario_are_those_of_every_run() {
     // The pitch of the axis is 0.02 deg larger than the rig file states: 72 arcsec about x.
     let (truth, error, sigma) = value("axis.attitude.x");
     assert!((truth - 72.0).abs() < 1e-6 && error.abs() < 5.0 * sigma, "{truth} {error} {sigma}");
-    assert!(sigma < 20.0, "the attitude is observable: {sigma} arcsec");
+    assert!(sigma < 36.0, "the attitude is observable: {sigma} arcsec");
     // A parameter that the prior dominates is not calibrated for given true values, and not tested.
-    let unobservable = result.cells[0].parameters.iter().find(|one| one.id == "gyro.scale.x");
-    assert_eq!(unobservable.unwrap().posterior.as_ref().unwrap().calibrated, None);
+    let combined = result.cells[0].parameters.iter().find(|one| one.id == "accel.bias.z");
+    assert_eq!(combined.unwrap().posterior.as_ref().unwrap().calibrated, None);
 }
 
 #[test]
 fn a_model_file_adds_its_parameters_and_leaves_other_errors_as_they_are() {
     let folder = Folder::new();
-    let model = folder.model("paper12", "\n[[term]]\nid = \"encoder_latency\"\n");
+    let terms = r#"
+[[term]]
+id = "gyro.scale"
+estimate = ["x", "z"]
+sigma = { x = "1 ppm" }
+
+[[term]]
+id = "encoder_latency"
+"#;
+    let model = folder.model("paper12", terms);
     let options = MonteCarloOptions { model, ..folder.full(40, "runs.parquet") };
     let result = folder.run(&options).unwrap();
     let ids: Vec<&str> = result.cells[0].parameters.iter().map(|one| one.id.as_str()).collect();
-    let paper = ["gyro.scale.z", "gyro.misalignment.xz", "gyro.misalignment.yz"];
-    assert!(ids.starts_with(&paper) && ids[3].starts_with("encoder_latency."), "{ids:?}");
+    let first = ["gyro.scale.x", "gyro.scale.z", "gyro.misalignment.xz", "gyro.misalignment.yz"];
+    assert!(ids.starts_with(&first) && ids[4].starts_with("encoder_latency."), "{ids:?}");
+    // The Earth's rate shows the scale error across the axis to hundreds of ppm only, which a prior of 1 ppm dominates.
+    let scale = result.cells[0].parameters[0].posterior.as_ref().unwrap();
+    assert_eq!((scale.observability.as_str(), scale.prior_sigma.round()), ("unobservable", 1.0));
     assert!(result.model.as_deref().unwrap().ends_with("model.toml"));
     // The model lacks the attitude of the axis, whose error of 72 arcsec makes the estimates inconsistent.
     assert_eq!(result.cells[0].consistent, Some(false));
@@ -210,7 +221,7 @@ fn inputs_without_a_campaign_are_refused() {
         folder.run(&MonteCarloOptions { model, ..folder.full(2, "x.parquet") }).unwrap_err()
     };
     let unknown = of_file("full", "\n[[term]]\nid = \"gyro.byas\"\n");
-    assert!(unknown.contains("model.toml:4") && unknown.contains("gyro.bias"), "{unknown}");
+    assert!(unknown.contains("model.toml:5") && unknown.contains("gyro.bias"), "{unknown}");
     let nothing = of_file("none", "");
     assert!(nothing.contains("estimates 0 parameters"), "{nothing}");
     let thermal = of_file("full", "\n[[term]]\nid = \"gyro_thermal\"\n");

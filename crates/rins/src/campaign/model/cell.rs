@@ -180,7 +180,7 @@ impl ModelCell {
             estimated.eq(self.parameters.iter().map(|one| &one.id)),
             "the run has other parameters than the first one"
         );
-        Ok(to_journal(&found, &truth))
+        to_journal(&found, &truth)
     }
 }
 

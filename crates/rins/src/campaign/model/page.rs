@@ -138,6 +138,7 @@ fn of_cell(
         &statistics.band,
         names.iter().zip(&statistics.of_combinations),
     ));
+    items.push(Item::Table(coverage(statistics, &ids, &names)));
     let sentence = ranks(verdicts);
     Section {
         heading: match label(&heading.keys, cell.values) {
@@ -155,25 +156,38 @@ fn of_cell(
 }
 
 /// The cells that parameters and combinations share.
-fn shared(quantity: &QuantityStatistics) -> Vec<Cell> {
+fn shared(quantity: &QuantityStatistics) -> [Cell; 4] {
     let [low, high] = quantity.rms_ratio_interval_95;
-    let mut cells = vec![number(quantity.rms_ratio, 3), number(low, 3), number(high, 3)];
-    for one in &quantity.coverage {
-        let [low, high] = one.interval_95.map(|edge| 100.0 * edge);
-        cells.push(number(100.0 * one.fraction, 1));
-        cells.push(Cell::text(format!("{low:.1} to {high:.1}")));
-    }
-    cells.push(Cell::text(p_value(quantity.p_value)));
-    cells
+    let p_value = Cell::text(p_value(quantity.p_value));
+    [number(quantity.rms_ratio, 3), number(low, 3), number(high, 3), p_value]
 }
 
 /// The columns of these cells.
-fn shared_columns() -> impl Iterator<Item = Column> {
-    let ratio = ["RMS error/σ", "from", "to"].map(Column::number);
-    let coverage = ["68 %", "95 %", "99.7 %"]
+fn shared_columns() -> [Column; 4] {
+    ["RMS error/σ", "from", "to", "p ranks"].map(Column::number)
+}
+
+/// The coverage of the intervals of each parameter and combination.
+fn coverage(statistics: &PosteriorStatistics, ids: &[String], names: &[String]) -> Table {
+    let columns = ["68 %", "95 %", "99.7 %"]
         .into_iter()
-        .flat_map(|name| [Column::number(format!("in {name}")), Column::text("95 % interval")]);
-    ratio.into_iter().chain(coverage).chain([Column::text("p ranks")])
+        .flat_map(|name| [name, "from", "to"].map(Column::number));
+    let row = |(name, quantity): (String, &QuantityStatistics)| {
+        let cells = quantity.coverage.iter().flat_map(|one| {
+            let [low, high] = one.interval_95;
+            [one.fraction, low, high].map(|part| number(100.0 * part, 1))
+        });
+        std::iter::once(Cell::Text(name)).chain(cells).collect()
+    };
+    let parameters = ids.iter().cloned().zip(&statistics.parameters);
+    let names = names.iter().map(|name| format!("combination {name}"));
+    let combinations = names.zip(&statistics.of_combinations);
+    Table {
+        caption: "Coverage of central intervals in percent, with 95 % intervals (Clopper-Pearson)"
+            .into(),
+        columns: std::iter::once(Column::id("Parameter")).chain(columns).collect(),
+        rows: parameters.chain(combinations).map(row).collect(),
+    }
 }
 
 fn badge(calibrated: Option<bool>) -> Cell {
@@ -190,7 +204,7 @@ fn parameters(cell: &Scored<'_>, statistics: &PosteriorStatistics, verdicts: &Ve
         .chain(["Prior σ", "σ"].map(Column::number))
         .chain([Column::number("Bias")])
         .chain(shared_columns())
-        .chain([Column::text("Observability"), Column::text("Posterior")]);
+        .chain([Column::text("Posterior"), Column::text("Observability")]);
     let row = |(place, quantity): (usize, &QuantityStatistics)| {
         let parameter = &cell.parameters[place];
         let figure = |value: f64| Cell::text(rins_report::number::figure(value, 3));
@@ -207,12 +221,12 @@ fn parameters(cell: &Scored<'_>, statistics: &PosteriorStatistics, verdicts: &Ve
             Observability::Observable => Tone::Good,
             Observability::InCombination | Observability::Unobservable => Tone::Warning,
         };
-        cells.push(Cell::badge(tone, observability.words()));
         cells.push(badge(verdicts.parameters[place]));
+        cells.push(Cell::badge(tone, observability.words()));
         cells
     };
     Table {
-        caption: "Parameters: root mean squares over the runs, bias with its standard error, coverage in percent".into(),
+        caption: "Parameters: root mean squares over the runs, bias with its standard error".into(),
         columns: columns.collect(),
         rows: statistics.parameters.iter().enumerate().map(row).collect(),
     }

@@ -13,6 +13,9 @@ use crate::campaign::execution::Rows;
 /// A step of the iteration below this many sigmas is negligible: it increases the mean square error by one percent.
 const NEGLIGIBLE: f64 = 0.1;
 
+/// Why a posterior cannot be compared with true values.
+const NOT_SOUND: &str = "the covariance is not positive, or a number is not finite";
+
 /// The numbers of a run in the journal other than estimates and covariance.
 const OTHERS: usize = 5;
 
@@ -53,7 +56,7 @@ pub(super) const fn numbers(parameters: usize) -> usize {
 }
 
 /// The numbers of an estimate for the journal: values and the lower triangle of their covariance \[SI\], and those of the run.
-pub(super) fn to_journal(fit: &Fit, truth: &[f64]) -> Vec<f64> {
+pub(super) fn to_journal(fit: &Fit, truth: &[f64]) -> anyhow::Result<Vec<f64>> {
     let n = fit.parameters.len();
     let estimate: Vec<f64> = fit.parameters.iter().map(|one| one.value).collect();
     let prior_sigmas: Vec<f64> = fit.parameters.iter().map(|one| one.parameter.sigma).collect();
@@ -65,6 +68,7 @@ pub(super) fn to_journal(fit: &Fit, truth: &[f64]) -> Vec<f64> {
     let squares = fit.evidence.square + pull.sum::<f64>();
     let covariance = symmetric(n, |row, column| fit.covariance[(row, column)]);
     let run = PosteriorRun { truth: truth.into(), estimate, prior_sigmas, covariance };
+    anyhow::ensure!(run.is_sound(), NOT_SOUND);
     let nees = Nees::of(&run);
     let last = fit.iterations.last().map_or(f64::INFINITY, |iteration| iteration.step);
     let mut numbers = run.estimate;
@@ -76,7 +80,7 @@ pub(super) fn to_journal(fit: &Fit, truth: &[f64]) -> Vec<f64> {
         fit.iterations.len() as f64,
         f64::from(u8::from(last < NEGLIGIBLE)),
     ]);
-    numbers
+    Ok(numbers)
 }
 
 /// The places of the lower triangle of an n × n matrix, row by row.
@@ -210,28 +214,29 @@ impl Rows for ModelRun {
             })
             .collect();
         let truth: Vec<f64> = rows.iter().map(|row| row.record.truth).collect();
-        let result = if first.failure.is_empty() {
-            let run = of_model(first);
-            let posterior = PosteriorRun {
-                truth: truth.clone(),
-                estimate: rows.iter().map(|row| row.record.estimate).collect(),
-                prior_sigmas: parameters.iter().map(|one| one.prior_sigma).collect(),
-                covariance: DMatrix::from_fn(rows.len(), rows.len(), |row, column| {
-                    rows[row].record.covariances[column]
-                }),
-            };
+        let run = of_model(first);
+        let posterior = PosteriorRun {
+            truth: truth.clone(),
+            estimate: rows.iter().map(|row| row.record.estimate).collect(),
+            prior_sigmas: parameters.iter().map(|one| one.prior_sigma).collect(),
+            covariance: DMatrix::from_fn(rows.len(), rows.len(), |row, column| {
+                rows[row].record.covariances[column]
+            }),
+        };
+        let result = if !first.failure.is_empty() {
+            Err(RunFailure { reason: first.failure.clone() })
+        } else if !posterior.is_sound() {
+            // Only a damaged file has such numbers.
+            Err(RunFailure { reason: NOT_SOUND.into() })
+        } else {
+            let dof = usize::try_from(run.nees_dof).unwrap_or_default();
             Ok(ModelEstimate {
                 posterior,
                 nis_ratio: first.record.nis_ratio,
-                nees: Nees {
-                    value: run.nees,
-                    dof: usize::try_from(run.nees_dof).unwrap_or_default(),
-                },
+                nees: Nees { value: run.nees, dof },
                 iterations: run.iterations,
                 converged: run.converged,
             })
-        } else {
-            Err(RunFailure { reason: first.failure.clone() })
         };
         // An index beyond `usize` cannot belong to a scenario of a grid.
         let cell = usize::try_from(first.cell).unwrap_or(usize::MAX);

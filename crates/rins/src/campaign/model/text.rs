@@ -89,7 +89,7 @@ pub(super) fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Str
         }
         let _ = writeln!(
             text,
-            "    {:26} {:22} {:23} {:20} {:>8}",
+            "    {:22} {:26} {:23} {:21} {:>8}",
             "parameter", "bias (1σ)", "RMS error/σ [95 %]", "coverage 68/95/99.7 %", "p ranks"
         );
         let rows = cell.parameters.iter().zip(&statistics.parameters).enumerate();
@@ -103,7 +103,7 @@ pub(super) fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Str
             };
             let _ = writeln!(
                 text,
-                "    {:26} {bias:22} {} {observability}{verdict}",
+                "    {:22} {bias:26} {} {observability}{verdict}",
                 parameter.id,
                 figures(quantity)
             );
@@ -114,7 +114,7 @@ pub(super) fn text(heading: &Heading, scored: &[Scored<'_>], title: &str) -> Str
             let verdict = if verdicts.combinations[place] { "" } else { ", ranks not uniform" };
             let _ = writeln!(
                 text,
-                "    {:26} {:22} {} {}{verdict}",
+                "    {:<22} {:26} {} {}{verdict}",
                 place + 1,
                 format!("σ {}", figure(quantity.sigma_rms, 3)),
                 figures(quantity),
