@@ -70,7 +70,7 @@ pub(super) struct QuantityTally {
 
 /// A true value with its estimate.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Error {
+pub(super) struct Comparison {
     pub(super) truth: f64,
     /// Estimate minus truth.
     pub(super) error: f64,
@@ -78,7 +78,7 @@ pub(super) struct Error {
     pub(super) prior_sigma: f64,
 }
 
-impl Error {
+impl Comparison {
     /// The rank of the truth in the posterior, from 0 to 1: the probability integral transform (‹talts2018›).
     fn rank(&self) -> f64 {
         Normal::standard().cdf(-self.error / self.sigma)
@@ -100,7 +100,7 @@ impl QuantityTally {
         }
     }
 
-    pub(super) fn add(&mut self, one: &Error) {
+    pub(super) fn add(&mut self, one: &Comparison) {
         self.count += 1;
         let count = self.count as f64;
         self.truth += (one.truth - self.truth) / count;
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_truth_above_the_estimate_has_a_rank_above_one_half() {
-        let error = Error { truth: 3.0, error: -2.0, sigma: 2.0, prior_sigma: 9.0 };
+        let error = Comparison { truth: 3.0, error: -2.0, sigma: 2.0, prior_sigma: 9.0 };
         assert!((error.rank() - 0.841344746).abs() < 1e-9);
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::combination::{Combinations, Nees};
 use super::ecdf::EcdfBand;
 use super::interval::mean_square_bounds;
-use super::quantity::{Error, QuantityStatistics, QuantityTally};
+use super::quantity::{Comparison, QuantityStatistics, QuantityTally};
 
 /// The probability that consistent covariances are outside the bounds of [`PosteriorStatistics::nees_bounds`].
 const SIGNIFICANCE: f64 = 0.01;
@@ -120,7 +120,7 @@ impl PosteriorTally {
         });
         self.runs += 1;
         for (place, tally) in self.parameters.iter_mut().enumerate() {
-            tally.add(&Error {
+            tally.add(&Comparison {
                 truth: run.truth[place],
                 error: run.estimate[place] - run.truth[place],
                 sigma: run.covariance[(place, place)].sqrt(),
@@ -128,7 +128,7 @@ impl PosteriorTally {
             });
         }
         for ((error, sigma), tally) in combinations.errors(run).into_iter().zip(tallies) {
-            tally.add(&Error { truth: 0.0, error, sigma, prior_sigma: 1.0 });
+            tally.add(&Comparison { truth: 0.0, error, sigma, prior_sigma: 1.0 });
         }
         self.nees += nees.value;
         self.nees_dof += nees.dof as f64;

@@ -19,7 +19,7 @@ fn run(stream: &mut NormalStream, factor: f64, shift: f64) -> PosteriorRun {
     let truth = DVector::from_fn(4, |_, _| stream.sample());
     let noise = DVector::from_fn(2, |_, _| stream.sample());
     let information = DMatrix::identity(4, 4) + design.tr_mul(&design);
-    let covariance = information.try_inverse().unwrap();
+    let covariance = information.try_inverse().expect("it is positive definite");
     let mut estimate = &covariance * design.tr_mul(&(&design * &truth + noise));
     for (place, value) in estimate.iter_mut().enumerate() {
         *value += shift * covariance[(place, place)].sqrt();
@@ -42,7 +42,7 @@ fn statistics(seed: u64, runs: u64, factor: f64, shift: f64) -> PosteriorStatist
         let run = run(&mut stream, factor, shift);
         tally.add(&run, Nees::of(&run), 1.0);
     }
-    tally.statistics().unwrap()
+    tally.statistics().expect("there are runs")
 }
 
 fn least_p_value(statistics: &PosteriorStatistics) -> f64 {

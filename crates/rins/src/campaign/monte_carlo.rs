@@ -135,16 +135,15 @@ fn campaign(scenario: &Path, options: &MonteCarloOptions) -> anyhow::Result<Camp
     }
     let axes = rins_io::Axes::IDENTITY;
     let named = NamedModel::of(&options.model, &axes)?;
-    let (name, file) = (named.name.clone(), named.file.clone());
     let text = match &options.model {
         ModelChoice::File(path) => {
             std::fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?
         }
         _ => String::new(),
     };
-    let prepared = ModelRuns::of(files(scenario, &grid), named, seed, options)?;
+    let prepared = ModelRuns::of(files(scenario, &grid), &named, seed, options)?;
     let model = CampaignModel {
-        name,
+        name: named.name,
         text,
         noise: options.noise.name().into(),
         truth: options.truth.name().into(),
@@ -152,7 +151,7 @@ fn campaign(scenario: &Path, options: &MonteCarloOptions) -> anyhow::Result<Camp
     };
     let identity = Identity { model: Some(model), ..identity };
     let mut finished = Finished::of(&prepared, &identity, options)?;
-    let basis = BasisResult::of_files([input].into_iter().chain(file));
+    let basis = BasisResult::of_files([input].into_iter().chain(named.file));
     let source = (&*shown(scenario), "monte-carlo", basis);
     let heading = heading(identity, grid);
     let outcome = deliver_model(&heading, finished.runs(), output, source, *overwrite)?;

@@ -224,7 +224,7 @@ fn inputs_without_a_campaign_are_refused() {
     assert!(unknown.contains("model.toml:5") && unknown.contains("gyro.bias"), "{unknown}");
     let nothing = of_file("none", "");
     assert!(nothing.contains("estimates 0 parameters"), "{nothing}");
-    let thermal = of_file("full", "\n[[term]]\nid = \"gyro_thermal\"\n");
+    let thermal = of_file("full", "\n[[term]]\nid = \"gyro_thermal_lag\"\n");
     assert!(thermal.contains("temperature") && thermal.contains("scenario.toml"), "{thermal}");
     let missing = MonteCarloOptions {
         model: ModelChoice::File(folder.path("none.toml")),

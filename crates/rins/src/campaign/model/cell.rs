@@ -63,7 +63,7 @@ impl ModelRuns {
     /// Prepares the scenarios of a grid, each with its place in a message.
     pub(in crate::campaign) fn of<'f>(
         files: impl Iterator<Item = (&'f ScenarioFile, String)>,
-        named: NamedModel,
+        named: &NamedModel,
         seed: u64,
         options: &MonteCarloOptions,
     ) -> anyhow::Result<Self> {

@@ -1,6 +1,7 @@
 //! The calibration of posteriors, for a machine.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use rins_campaign::{Combinations, DETERMINED, EcdfBand, PosteriorStatistics, QuantityStatistics};
 use schemars::JsonSchema;
@@ -222,7 +223,8 @@ pub(super) fn in_words(combinations: &Combinations, place: usize, ids: &[String]
             (false, false) => " + ",
             (false, true) => " − ",
         };
-        words += &format!("{sign}{:.2} {id}", weight.abs());
+        // Writing to a string cannot fail.
+        let _ = write!(words, "{sign}{:.2} {id}", weight.abs());
     }
     words
 }
